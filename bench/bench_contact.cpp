@@ -1,5 +1,6 @@
 // Benchmark of viscous contact: computing time per step and per row of motions of one sphere, in
-// the units of the lecture's case. bench/run runs it.
+// the units of the lecture's case. Google Benchmark prints the times; `per_step` is in seconds. An
+// Error ends the program. bench/run runs it.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

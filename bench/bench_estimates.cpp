@@ -1,7 +1,9 @@
 // Measures how often the error of a row is at most its error estimate. The rows are random rows of
 // every geometry with an exact solution; gaps, sizes, velocity ratios and accuracies are random
-// (accuracies log-uniform from FINEST_ACCURACY to 1e-5). bench/run does not run it, because with
-// the defaults it takes hours on one core.
+// (accuracies log-uniform from FINEST_ACCURACY to 1e-5). Errors and estimates are relative, gaps
+// and sizes in radii of the sphere. A row that fails is printed with the message of its Error and
+// left out of the shares. bench/run does not run it, because with the defaults it takes hours on
+// one core.
 //
 //   bench_estimates [ROWS_PER_GEOMETRY=100 [FINEST_ACCURACY=1e-7 [SEED=1 [GEOMETRY]]]]
 //

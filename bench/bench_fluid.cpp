@@ -52,7 +52,7 @@ double error_of(const std::vector<double>& values, const std::vector<double>& ex
 
 struct Arrangement {
   std::string name;
-  double container;
+  double container;  ///< radius
   std::vector<Body> discs;
   std::vector<double> forces;
   std::vector<double> exact;  ///< velocities; empty: computed on a fine mesh
@@ -104,7 +104,7 @@ void print_errors() {
 
 struct Cost {
   int edges;
-  double error, seconds;
+  double error, seconds;  ///< relative error of velocities, CPU time [s]
 };
 
 /// One disc off the centre of a round container, pulled; the reference is exact to 12 digits.

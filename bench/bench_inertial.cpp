@@ -1,6 +1,6 @@
 // Benchmark of the model `inertial` on the lecture's case with the shipped fit: computing time, and
-// error of the gap against an oracle in long double. With STATES.csv, writes a file with which
-// radau.py compares SciPy's Radau. bench/run runs it.
+// relative error of the gap against an oracle in long double. With STATES.csv, writes a file with
+// which radau.py compares SciPy's Radau. bench/run runs it.
 //
 // usage: bench_inertial [STATES.csv]
 #include <fmt/format.h>

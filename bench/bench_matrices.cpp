@@ -6,7 +6,8 @@
 //   bench_matrices [ROWS=20 [SEED=1]]
 //
 // Prints every entry whose error is above its estimate, then sums over all entries; last, the time
-// of one row of ten spheres.
+// [s] and the peak memory of one row of ten spheres. Errors and estimates are relative. An Error of
+// a row ends the program.
 #include <fmt/format.h>
 #include <sys/resource.h>
 

@@ -1,5 +1,6 @@
 // Benchmark of the C++ parts on the shipped tables and fits: computing times of reading, fitting,
-// simulating and comparing. bench/run runs it.
+// simulating and comparing. Google Benchmark prints the times; `per_step` is in seconds. An Error
+// ends the program. bench/run runs it.
 #include <benchmark/benchmark.h>
 
 #include "viscontact/case_file/case_file.hpp"

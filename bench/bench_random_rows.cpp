@@ -123,7 +123,9 @@ RandomRow draw(Random& random, int number) {
 }
 
 struct Solved {
-  double estimate = 0, mismatch = 0, seconds = 0;
+  double estimate = 0;          ///< relative error estimate
+  double mismatch = 0;          ///< relative difference between reactions and stress
+  double seconds = 0;           ///< CPU time [s]
   std::optional<double> ratio;  ///< error over its estimate
 };
 

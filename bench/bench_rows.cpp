@@ -1,6 +1,7 @@
 // Benchmark of rows of the tabulation: error against exact solutions, error estimate, computing
 // time and memory; then the error of a textbook script (textbook.edp) in the same computing time.
-// bench/run runs it. Radius, viscosity and speed are 1.
+// Radius, viscosity and speed are 1; times are CPU times in seconds. An Error ends the program with
+// its message. bench/run runs it.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -28,6 +29,7 @@ double child_cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
+/// `estimate` is relative; the drag factor is the drag over Stokes' drag.
 struct Row {
   double drag_factor = 0, estimate = 0, unknowns = 0, cpu_seconds = 0, peak_megabytes = 0;
 };

@@ -1,4 +1,5 @@
-// Random lengths and medians for benchmarks over random rows.
+// Random lengths and medians for benchmarks over random rows. Numbers have any dimension; nothing
+// is checked or thrown. The benchmarks of this folder use it.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 
 namespace viscontact {
 
-/// A number between `from` and `to`, both > 0, of which the logarithm is uniform.
+/// A random number between `from` and `to`, both > 0, whose logarithm is uniformly distributed.
 inline double log_uniform(SplitMix64& random, double from, double to) {
   return from * std::pow(to / from, random.unit());
 }

@@ -1,9 +1,9 @@
-// Reads the case file of one sphere (case_file.hpp), for app/, pipeline/, sweep/, report/, results/
-// and python/. Numbers are in the units of the case; case_file.hpp has their dimensions and ranges.
-// A wrong value is an Error(kBadInput) with its line, a file or section that is missing one without
-// a line. A change must keep the keys and their defaults, because users have written cases with
-// them. A new key must be added to docs/case-file.md. A new parameter of a model needs no change
-// here, because reduced_model/models/ lists the parameters.
+// Reads the case file of one sphere, for app/, pipeline/, sweep/, report/, results/ and python/.
+// Numbers are in the units of the case; case_file.hpp has their dimensions and ranges. A wrong
+// value is an Error(kBadInput) that names the line; a missing file or section is an
+// Error(kBadInput) without a line. A change must keep the keys and their defaults, because users
+// have written cases with them. A new key must be added to docs/case-file.md. A new parameter of a
+// model needs no change here, because reduced_model/models/ lists the parameters.
 #include "viscontact/case_file/case_file.hpp"
 
 #include <cmath>
@@ -27,8 +27,8 @@ using lubrication::BelowInterval;
 using reduced_model::ExternalForce;
 using reduced_model::Motion;
 
-/// Reads the key `fix`, which fixes the coefficient of 1/q (q: the gap) in the force [M L^2/T^2] at
-/// a number, or with "theory" at the value of lubrication theory.
+/// Reads the key `fix`, which fixes the coefficient of 1/q in the force, with the gap q. The value
+/// of the key is the coefficient [M L^2/T^2], or "theory" for that of lubrication theory.
 void read_fix(const TomlSection& section, std::string_view key, fitting::FitSettings& settings) {
   settings.fix_leading = true;
   if (!section.is_text(key))
@@ -131,8 +131,8 @@ void force_file_keys(Keys& keys, std::string& file) {
 }
 
 /// The path of a file that the case names relative to `folder`, the folder of the case. If there is
-/// no such file, but `folder` itself contains a file of this name, returns the path of the latter,
-/// because a run copies the case and the files that it names into one folder.
+/// no such file, but `folder` itself contains a file of the same name, returns the path of that
+/// file, because a run copies the case and the files that it names into one folder.
 fs::path force_file(const fs::path& folder, const fs::path& file) {
   const auto copy = folder / file.filename();
   // exists() fails for a text that cannot be the name of a file; reading the file reports it.
@@ -406,8 +406,9 @@ std::vector<std::string_view> sections_with_defaults<Case>() {
 Case read_case(const fs::path& path) { return read_case_file<Case>(path); }
 
 std::vector<KeyTable> tables_of_sphere_case() {
-  // The page shows as example of a model's parameter its default, which can depend on the motion
-  // and the radius. Here they have the values that are the examples of their own keys.
+  // docs/case-file.md shows the default of a model's parameter as its example. The default can
+  // depend on the motion and the radius, which therefore get here the values that are the examples
+  // of their own keys.
   auto motion = empty_motion();
   motion.end_time = 4;
   motion.initial_gap = 1;

@@ -1,7 +1,7 @@
 // The parts that all kinds of cases share for sweeps: the section [sweep], and a case file that is
 // read once and from which cases with other numbers are made. Numbers have the units of the case.
-// Each kind of case (case_file.hpp, and those in particles/, rolling/ and swimmer/) takes part by a
-// function read_root(), which its own header declares; the command `sweep` and python/ make such
+// Each kind of case (case_file.hpp, and those in particles/, rolling/ and swimmer/) has a function
+// read_root() for this, which its own header declares; the command `sweep` and python/ make such
 // cases. A change must keep accepting users' cases.
 #pragma once
 

@@ -28,9 +28,9 @@ std::vector<KeyTable> tables_of_tabulation();
 void fluid_keys(Keys& keys, double& viscosity, double& density);
 
 /// Declares the keys of [sphere] that give its radius [L], > 0, and its mass [M], > 0, or its
-/// density [M/L^3], > 0, from which its mass follows; `density` stays as it is if the case gives
-/// the mass, and `mass` if it gives neither. With `needs_mass` the case must give one of the two.
-/// To give both is an error, and so is a mass that is no normal double.
+/// density [M/L^3], > 0, from which its mass follows. If the case gives the mass, `density` stays
+/// as it is; if it gives neither, `mass` stays as it is. With `needs_mass` the case must give one
+/// of the two. To give both is an error, and so is a mass that is no normal double.
 void sphere_keys(Keys& keys, double& radius, double& density, double& mass, bool needs_mass);
 
 /// The mass [M] of a sphere minus that of the fluid which it displaces: times the acceleration of

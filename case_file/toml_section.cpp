@@ -1,7 +1,8 @@
-// Reads TOML tables with toml++ (toml_section.hpp), for all readers of cases in case_file/,
-// particles/, rolling/ and swimmer/. Numbers are in the units of the file. Every fault is an
-// Error(kBadInput) with the file and, where there is one, the line. In a change, every function
-// that reads a key must note it in `asked`, because finish() reports all other keys as unknown.
+// Reads TOML tables with toml++, for all readers of cases in case_file/, particles/, rolling/ and
+// swimmer/; toml_section.hpp has the ranges and errors. Numbers are in the units of the file. Every
+// fault is an Error(kBadInput) with the file and, where there is one, the line. In a change, every
+// function that reads a key must note it in `asked`, because finish() reports all other keys as
+// unknown.
 #include "viscontact/case_file/toml_section.hpp"
 
 #include <toml++/toml.h>

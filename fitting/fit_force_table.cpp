@@ -27,12 +27,12 @@ namespace viscontact::fitting {
 namespace {
 
 /// The solved least squares problem: a row for each row of the table, a column for each fitted
-/// coefficient. `weight` is that of Equations; `loss weight` is the weight from 0 to 1 that a
-/// robust loss gives a row (1 without a robust loss).
+/// coefficient. `weight` is Equations::weight; `row weight` is RobustSolution::row_weights, the
+/// factor from 0 to 1 that a robust loss gives the square of a row (1 without a robust loss).
 struct FittedSystem {
-  /// weight * sqrt(loss weight) * term(gap).
+  /// weight * sqrt(row weight) * term(gap).
   Eigen::MatrixXd weighted_matrix;
-  /// weight * sqrt(loss weight) * (fit - table).
+  /// weight * sqrt(row weight) * (fit - table).
   Eigen::VectorXd weighted_residual;
   /// (fit - table)/(force of the row), or (fit - table)/FitSettings::row_scales if these are given.
   Eigen::VectorXd relative_residual;
@@ -189,10 +189,10 @@ void warn_of_shape(const lubrication::Fit& fit, lubrication::FittedShape shape,
   for (const double gap : lubrication::spread_gaps(fit.gap_interval)) {
     double resistance = 0, slope = 0;
     for (const auto& term : fit.terms) {
-      const double weight = -term.coefficient / fit.reference_velocity;
+      const double coefficient = -term.coefficient / fit.reference_velocity;  // in R
       const auto found = lubrication::find_term(term.name).value();
-      resistance += weight * found.value(gap);
-      slope += weight * found.log_slope(gap);
+      resistance += coefficient * found.value(gap);
+      slope += coefficient * found.log_slope(gap);
     }
     if (positive && !(resistance > 0)) {
       warnings.push_back(fmt::format("the fitted resistance is not positive: {:.4g} at gap {:.4g}",

@@ -1,7 +1,9 @@
 // Makes the command line and the environment of FreeFEM processes, and finds the scripts and the
-// Debian package of FreeFEM. Times are in seconds. Missing scripts are an Error(kExternalProgram),
-// a wrong time limit an Error(kWrongUsage). A change must keep that files in a user's folder and a
-// user's settings of FreeFEM have no effect on a script.
+// Debian package of FreeFEM. Used by freefem_axi/journal/freefem.cpp and
+// freefem_flow/freefem_solver.cpp. Times are in seconds; freefem_command.hpp has the ranges.
+// Missing scripts are an Error(kExternalProgram), a wrong time limit an Error(kWrongUsage). A
+// change must keep that files in a user's folder and a user's settings of FreeFEM have no effect on
+// a script.
 #include "viscontact/freefem/freefem_command.hpp"
 
 #include <dlfcn.h>

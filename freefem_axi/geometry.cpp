@@ -19,16 +19,25 @@ using lubrication::MotionKind;
 using Parameters = std::span<const double>;
 
 constexpr std::array kSphereParameters = {
-    GeometryParameter{"radius", "-neighbourRadius", kPositive, {}},
-    GeometryParameter{"velocity_ratio", "-velocityRatio", kFinite, 0.0},
-    GeometryParameter{"rotation_ratio", "-rotationRatio", kFinite, 0.0, true},
+    GeometryParameter{
+        .key = "radius", .flag = "-neighbourRadius", .allowed = kPositive, .fallback = {}},
+    GeometryParameter{
+        .key = "velocity_ratio", .flag = "-velocityRatio", .allowed = kFinite, .fallback = 0.0},
+    GeometryParameter{.key = "rotation_ratio",
+                      .flag = "-rotationRatio",
+                      .allowed = kFinite,
+                      .fallback = 0.0,
+                      .is_named_if_given = true},
 };
 constexpr std::array kCavityParameters = {
-    GeometryParameter{"radius", "-cavityRadius", kPositive, {}},
+    GeometryParameter{
+        .key = "radius", .flag = "-cavityRadius", .allowed = kPositive, .fallback = {}},
 };
 constexpr std::array kRoughPlaneParameters = {
-    GeometryParameter{"amplitude", "-amplitude", kPositive, {}},
-    GeometryParameter{"wavelength", "-wavelength", kPositive, {}},
+    GeometryParameter{
+        .key = "amplitude", .flag = "-amplitude", .allowed = kPositive, .fallback = {}},
+    GeometryParameter{
+        .key = "wavelength", .flag = "-wavelength", .allowed = kPositive, .fallback = {}},
 };
 
 RequiredSpace space_above_floor(double radius, double gap, Parameters) {
@@ -81,40 +90,59 @@ double flat(Parameters) { return 0; }
 double curvature_of_sphere(Parameters parameters) { return 1 / parameters[0]; }
 double curvature_of_cavity(Parameters parameters) { return -1 / parameters[0]; }
 
-// The first row is default_geometry().
+// The first row is default_geometry(). Members that a row leaves out have the values of
+// geometry.hpp.
 constexpr std::array kGeometries = {
-    Geometry{"plane",
-             "plane.edp",
-             {},
-             true,
-             nullptr,
-             leading_of_plane,
-             space_above_floor,
-             true,
-             1,
-             kAllMotions,
-             flat},
-    Geometry{"free_surface",
-             "free_surface.edp",
-             {},
-             true,
-             nullptr,
-             leading_of_free_surface,
-             space_above_floor,
-             false,
-             1,
-             kAllMotions,
-             flat,
-             true},
-    Geometry{"sphere", "sphere.edp", kSphereParameters, true, ratio_of_pair, leading_of_pair,
-             space_of_pair, false, 2.5, kAllMotions, curvature_of_sphere},
-    Geometry{"cavity", "cavity.edp", kCavityParameters, false, nullptr, leading_in_cavity,
-             space_in_cavity, false, 1, kAllMotions, curvature_of_cavity},
+    Geometry{.name = "plane",
+             .script = "plane.edp",
+             .parameters = {},
+             .takes_container = true,
+             .neighbour_ratio = nullptr,
+             .leading_factor = leading_of_plane,
+             .required_space = space_above_floor,
+             .has_exact_drag = true,
+             .motions = kAllMotions,
+             .curvature = flat},
+    Geometry{.name = "free_surface",
+             .script = "free_surface.edp",
+             .parameters = {},
+             .takes_container = true,
+             .neighbour_ratio = nullptr,
+             .leading_factor = leading_of_free_surface,
+             .required_space = space_above_floor,
+             .motions = kAllMotions,
+             .curvature = flat,
+             .is_shear_free = true},
+    Geometry{.name = "sphere",
+             .script = "sphere.edp",
+             .parameters = kSphereParameters,
+             .takes_container = true,
+             .neighbour_ratio = ratio_of_pair,
+             .leading_factor = leading_of_pair,
+             .required_space = space_of_pair,
+             .relative_cost = 2.5,
+             .motions = kAllMotions,
+             .curvature = curvature_of_sphere},
+    Geometry{.name = "cavity",
+             .script = "cavity.edp",
+             .parameters = kCavityParameters,
+             .takes_container = false,
+             .neighbour_ratio = nullptr,
+             .leading_factor = leading_in_cavity,
+             .required_space = space_in_cavity,
+             .motions = kAllMotions,
+             .curvature = curvature_of_cavity},
     // k is not known for this geometry, because R depends on the ripples even as the gap goes to 0.
     // Sliding and rolling are left out: a sphere that slides or rolls leaves the axis of the
     // circular ripples, and its resistance depends on its distance from this axis.
-    Geometry{"rough_plane", "rough_plane.edp", kRoughPlaneParameters, true, nullptr, nullptr,
-             space_above_ripples, false, 1, kAlongAndAroundTheAxis},
+    Geometry{.name = "rough_plane",
+             .script = "rough_plane.edp",
+             .parameters = kRoughPlaneParameters,
+             .takes_container = true,
+             .neighbour_ratio = nullptr,
+             .leading_factor = nullptr,
+             .required_space = space_above_ripples,
+             .motions = kAlongAndAroundTheAxis},
 };
 
 }  // namespace

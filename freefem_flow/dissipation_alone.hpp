@@ -19,8 +19,8 @@ namespace viscontact::freefem_flow {
 /// - for a box that is periodic along one axis, whose two walls move along this axis at constant
 ///   speeds that do not depend on time: plane Couette flow.
 ///
-/// It is 0 otherwise, if a pressure gradient drives fluid along a period, if the walls are at rest,
-/// and in a linear flow that is a rotation.
+/// In all other cases the result is 0. It is also 0 in three of these: if a pressure gradient
+/// drives fluid along a period, if the walls are at rest, and in a linear flow that is a rotation.
 double dissipation_alone(const particles::Fluid& fluid, const particles::Domain& domain);
 
 }  // namespace viscontact::freefem_flow

@@ -1,11 +1,11 @@
-// The commands of fluid solvers, and the units in which FreeFEM computes (freefem_solver.hpp), for
-// app/ and python/. Numbers are in the units of the case if nothing else is said; L, M and T are
-// the dimensions of length, mass and time. A solver that does not start is an
-// Error(kExternalProgram), a particle too small for its mesh or a wrong domain an Error(kBadInput),
-// a gap too narrow for it an Error(kNotConverged), a wrong time limit in the environment an
-// Error(kWrongUsage), and a requested stop an Error(kInterrupted). A change must keep units that
-// are powers of 2, because their scaling has no rounding error, and the names of the scripts in
-// scripts/.
+// The commands of fluid solvers, and the units in which FreeFEM computes, for app/ and python/.
+// Numbers are in the units of the case if nothing else is said; freefem_solver.hpp and
+// particles/fluid/fluid_solver.hpp have the dimensions and ranges; L, M and T are the dimensions of
+// length, mass and time. A solver that does not start is an Error(kExternalProgram), a particle too
+// small for its mesh or a wrong domain an Error(kBadInput), a gap too narrow for the mesh an
+// Error(kNotConverged), a wrong time limit in the environment an Error(kWrongUsage), and a
+// requested stop an Error(kInterrupted). A change must keep units that are powers of 2, because
+// their scaling has no rounding error, and the names of the scripts in scripts/.
 #include "viscontact/freefem_flow/freefem_solver.hpp"
 
 #include <fmt/format.h>

@@ -1,9 +1,10 @@
 // Puts the boundary of a mesh together from walls, periodic sides, the axis of a cylinder and the
-// surfaces of the particles (mesh_boundary.hpp), for freefem_solver.cpp. Lengths are in the unit of
-// the arguments. A gap that is too narrow, or discs of one body that overlap across a periodic
-// side, are an Error(kNotConverged), and a missing domain is a std::bad_variant_access. A change
-// must keep that opposite periodic sides get the same points, because scripts/constraints.idp
-// identifies these, and the labels, which scripts/ and docs/fluid-solver.md repeat.
+// surfaces of the particles, for freefem_solver.cpp. mesh_boundary.hpp has the labels, dimensions
+// and ranges; lengths are in the unit of the arguments. A gap that is too narrow, or discs of one
+// body that overlap across a periodic side, are an Error(kNotConverged), and a missing domain is a
+// std::bad_variant_access, which EdgeLengths throws. A change must keep that opposite periodic
+// sides get the same points, because scripts/constraints.idp identifies these, and the labels,
+// which scripts/ and docs/fluid-solver.md repeat.
 #include "viscontact/freefem_flow/mesh_boundary.hpp"
 
 #include <algorithm>
@@ -214,8 +215,9 @@ class BoundaryMaker {
   MeshBoundary boundary_;
 };
 
-/// Throws Error(kNotConverged) if discs of one body overlap across a periodic side, because an area
-/// beyond chords of discs in the box then differs from that in `fluid`.
+/// Throws Error(kNotConverged) if discs of one body overlap across a periodic side. The chords here
+/// are those of discs that overlap inside the box, so that the area that they cut off a disc then
+/// differs from that in fluid.cut_areas.
 void check_unions(const particles::Fluid& fluid, const particles::Particles& particles) {
   for (std::size_t k = 0; k < fluid.cut_areas.size(); ++k) {
     double area = 0;

@@ -82,7 +82,8 @@ struct FitDiagnostics {
   /// Allen 1974). Nothing if the coefficients cannot be determined without one of the rows.
   std::optional<double> leave_one_out_rms{},  ///< the root mean square, >= 0
       leave_one_out_largest{};                ///< the largest size, >= 0
-  /// Gap [L] of the row with the residual leave_one_out_largest; nothing if that is nothing.
+  /// Gap [L] of the row with the residual leave_one_out_largest; nothing if this residual is
+  /// nothing.
   std::optional<double> leave_one_out_gap{};
   /// The inner row and the end row with the largest of these residuals. An end row is the only row
   /// at the smallest or largest gap, to which the fit of the other rows extrapolates; to all other,

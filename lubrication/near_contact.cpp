@@ -48,7 +48,8 @@ LeadingFactors leading_factors(MotionKind motion, const NeighbourSurface& neighb
   }
   const bool moves = motion == MotionKind::kSlide;
   const auto action = across(moves ? 1 : 0, moves ? 0 : 1, neighbour);
-  // ln q = -ln(1/q), and factors are opposed to force and torque; both changes of sign cancel.
+  // ln q = -ln(1/q), and the factors have the opposite signs of force and torque; both changes of
+  // sign cancel.
   return {"ln q", action.force / kForceUnit, action.torque / kTorqueUnit};
 }
 

@@ -1,7 +1,7 @@
 // The drag factor K = drag/(6 pi mu r |u|) of a sphere near a plane, with the viscosity mu, the
 // radius r and the velocity u, as a function of eps = gap/r, by three expansions: near contact, far
 // away, and in the range between. K and eps have no dimension. For eps from 1e-300 to 1e300 errors
-// are below the bound in plane_drag.hpp; eps < 0 and NaN give NaN. Nothing is thrown. Used by
+// are below the bound that plane_drag.hpp has; eps < 0 and NaN give NaN. Nothing is thrown. Used by
 // lubrication_force.cpp. The constants are computed from Brenner's series and depend on each other,
 // so that none may be changed alone.
 #include "viscontact/lubrication/plane_drag.hpp"

@@ -80,8 +80,8 @@ struct LinearFlow {
   std::array<double, 4> gradient{};  ///< E: du/dx, du/dy, dv/dx, dv/dy [1/T]; zeros: at rest
 };
 
-/// One entry for each side of a box: left, right, bottom, top. Those of periodic sides are not
-/// used.
+/// One entry for each side of a box: left, right, bottom, top. The entries of periodic sides are
+/// not used.
 using SideVelocities = std::array<WallVelocity, 4>;
 
 /// A line across a channel: `[[probe]]` of a case. The flow through the line and the mean pressure

@@ -1,7 +1,7 @@
-// Computes rotations by quaternions, and turns particles in a step (particles.hpp, which has the
-// shapes). Turns are in radians; nothing is checked or thrown. A change must keep quaternions at
-// length 1, and the order of the operations, on which the last bits of all results depend. Used by
-// all of particles/.
+// Computes rotations by quaternions, and turns particles in a step; particles.hpp has the
+// dimensions and shapes. Turns are in radians; nothing is checked or thrown. A change must keep
+// quaternions at length 1, and the order of the operations, on which the last bits of all results
+// depend. Used by all of particles/.
 #include "viscontact/particles/particles.hpp"
 
 #include <cmath>

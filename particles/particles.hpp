@@ -42,7 +42,8 @@ struct Particles {
   std::vector<double> orientations{};
   /// Angular velocities [1/T]: one for each disc, counter-clockwise; three for each sphere.
   std::vector<double> angular_velocities{};
-  /// One for each particle: [M L^2], of discs in a fluid [M L]; > 0, in a fluid >= 0.
+  /// Moments of inertia, one for each particle: [M L^2], of discs in a fluid [M L]; > 0, in a fluid
+  /// >= 0.
   std::vector<double> inertias{};
   /// The periodic cell, which says how images of particles are shifted. A simulation takes it from
   /// its setting; the restart file does not store it.

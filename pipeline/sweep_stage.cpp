@@ -1,8 +1,9 @@
-// Computes the rows of a sweep (sweep_stage.hpp), shows its progress, and says at its end how many
-// rows failed. Times are in seconds; rows have the units of sweep/study.hpp. If all rows failed,
-// that is an Error(kNotConverged); a file that cannot be read or written is an Error(kBadInput), a
-// stop an Error(kInterrupted); sweep_stage.hpp has the other errors. Used by app/ and
-// particles/sweep. A change must keep that finished rows are never computed again.
+// Computes the rows of a sweep, shows its progress, and says at its end how many rows failed. Times
+// are in seconds; sweep_stage.hpp and sweep/study.hpp have the ranges, and who makes the study
+// states the units of its rows. If all rows failed, that is an Error(kNotConverged); a file that
+// cannot be read or written is an Error(kBadInput), a stop an Error(kInterrupted); sweep_stage.hpp
+// has the other errors. Used by app/ and particles/sweep. A change must keep that finished rows are
+// never computed again.
 #include "viscontact/pipeline/sweep_stage.hpp"
 
 #include <fmt/format.h>

@@ -143,8 +143,8 @@ motions::PairFit fit_pair_tables(const std::vector<fs::path>& paths, const std::
 }
 
 /// The tables of a case of one sphere, a rolling sphere or a swimmer. One table is the file
-/// `output`; those of several motions are files in the folder `output`. `asked` names motions in
-/// place of those of the case; empty: those of the case.
+/// `output`; those of several motions are files in the folder `output`. `asked` names the motions;
+/// if it is empty, they are those of the case.
 std::vector<pipeline::CaseTable> tables_of(const fs::path& case_file, const fs::path& output,
                                            const std::vector<std::string>& asked) {
   const auto kind = case_file::kind_of_case(case_file);

@@ -223,8 +223,9 @@ py::object columns_of(const SwumStroke& stroke) {
   return as_columns(columns, about);
 }
 
-/// The table that the case names, or that in `given`. Throws Error(kBadInput) if the latter was
-/// made from other spheres, arms or walls, and Error(kWrongUsage) if there are both or none.
+/// The table that the case names, or the table in the file `given`. Throws Error(kBadInput) if the
+/// table in `given` was made from other spheres, arms or walls, and Error(kWrongUsage) if there are
+/// two tables or none.
 swimmer::ResistanceTable table_of(const swimmer::SwimmerCase& c,
                                   const std::optional<fs::path>& given) {
   if (given.has_value() == c.table_file.has_value())

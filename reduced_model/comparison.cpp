@@ -26,7 +26,7 @@ class Interpolation {
   explicit Interpolation(const std::vector<TrajectoryRow>& rows) : rows_(rows) {}
 
   struct Value {
-    double gap, velocity;
+    double gap, velocity;  ///< [L], [L/T]
   };
 
   /// Gap and velocity at `time` [T], which must be between the first and the last row, and not

@@ -52,9 +52,9 @@ std::array<double, 2> middle_of(std::vector<double>& values) {
   return {at(0.025), at(0.975)};
 }
 
-/// The times at which gaps are computed [T]. The first is the one at which the impulse of the
-/// external force is least, and with it the gap: 0, a time at which the force jumps or changes its
-/// sign, or the end. Then follow `times` equidistant times from 0 to the end.
+/// The times at which gaps are computed [T]. At the first of them the impulse of the external force
+/// is least, and so is the gap. It is 0, a time at which the force jumps or changes its sign, or
+/// the end. Then follow `times` equidistant times from 0 to the end.
 std::vector<double> instants_of(const Motion& motion, std::size_t times) {
   auto ends = motion.external_force.jumps();
   std::erase_if(ends, [&](double t) { return t > motion.end_time; });

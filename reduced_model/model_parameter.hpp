@@ -1,8 +1,8 @@
 // Parameters of models of motion: numbers of the case file that a model declares, in the units of
 // the case. A new parameter is declared beside its model and in no other file; a parameter of
 // several models is in motion.hpp. The reader of case files, their documentation, sweeps and the
-// report find it in the table of models (models.cpp). A change must keep the keys, which users'
-// case files contain.
+// report find it in the table of models (models.cpp). Nothing is thrown. A change must keep the
+// keys, which users' case files contain.
 #pragma once
 
 #include <string_view>

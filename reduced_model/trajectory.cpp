@@ -1,8 +1,9 @@
 // Reads and writes the CSV file of a trajectory (docs/file-formats.md), and selects rows for it.
 // Numbers are in the units of the case; trajectory.hpp has their dimensions and ranges. A fault of
 // a file is an Error(kBadInput) with file and line. Used by pipeline/, sweep/, results/ and
-// python/. A change must keep the columns, which users' scripts read, their order in kColumns, by
-// which read_trajectory() finds them, and the rows that a comparison looks for.
+// python/. A change must keep three things: the names of the columns, which users' scripts read;
+// the order of kColumns, by which read_trajectory() finds the columns; and in fewer_rows() the rows
+// that a comparison looks for.
 #include "viscontact/reduced_model/trajectory.hpp"
 
 #include <fmt/format.h>

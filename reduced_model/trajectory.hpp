@@ -60,10 +60,10 @@ class OptionalDouble {
 /// outside contact dissipated -drag_work, and the solid contact dissipated -solid_work.
 ///
 /// Contact models add up the impulses and works of each step. In the other models the film stands
-/// for the whole drag. Its impulse is the change of momentum minus the impulses of the other
-/// forces. Its work is a sum over the rows, with an error of second order in their spacing, and
-/// external_work is set so that the works are balanced. In inertial_rough external_work is such a
-/// sum, and film_work is set.
+/// for the whole drag. The impulse of the film is the change of momentum minus the impulses of the
+/// other forces. The work of the film is a sum over the rows, with an error of second order in
+/// their spacing, and external_work is set so that the works are balanced. In inertial_rough
+/// external_work is such a sum, and film_work is set.
 struct MomentumEnergyBudget {
   double external_impulse = 0;  ///< of the external force [M L/T]
   /// Of the film: minus the change of gamma in contact models, else the impulse of the drag [M
@@ -111,7 +111,7 @@ struct TrajectoryRow {
 /// An impact of the sphere on the solid wall (physics.md (4.12)).
 struct Rebound {
   double time = 0;  ///< [T]
-  /// Velocity before the film acts, in inertial_rough that at the initial gap [L/T], < 0.
+  /// Velocity before the film acts (of inertial_rough: velocity at the initial gap) [L/T], < 0.
   double approach_velocity = 0;
   /// Impulse that the solids took up before they gave a part back [M L/T], > 0.
   double solid_impulse = 0;

@@ -1,5 +1,5 @@
-// Draws plots by gnuplot and writes the page around them (page.hpp). Sizes are in pixels; numbers
-// of plots have no units here. A missing gnuplot is a warning, a failing one an
+// Draws plots by gnuplot and writes the page around them. Sizes are in pixels; numbers of plots
+// have no units here; page.hpp has the ranges. A missing gnuplot is a warning, a failing one an
 // Error(kExternalProgram), a file that cannot be written or must not be replaced an
 // Error(kBadInput), a wrong SOURCE_DATE_EPOCH an Error(kWrongUsage), a requested stop an
 // Error(kInterrupted), and a path that the system refuses a std::filesystem::filesystem_error. Used
@@ -298,7 +298,7 @@ void Report::draw(std::vector<Plot> plots, const StopToken& stop) {
     drawn.assign(plots.size(), "");
   }
   for (auto& drawing : drawings)
-    if (drawing.valid()) drawing.wait();  // it refers to its plot, which is moved below
+    if (drawing.valid()) drawing.wait();  // the drawing refers to its plot, which is moved below
   for (std::size_t i = 0; i < plots.size(); ++i)
     figures_.push_back({std::move(plots[i]), std::move(drawn[i])});
 }

@@ -1,9 +1,9 @@
 // Writes report.html with plots that can be zoomed in a browser, and for each plot a still picture
 // plots/NAME.svg, for browsers without scripts and for printing. The reports of report/, rolling/
-// and swimmer/ use all of it, the page of particles/picture only the functions for pieces of HTML.
-// Numbers in plots have no units here; the labels of axes name the units. Only link_to() and the
-// class Report throw. report/page/*.js read the plots as JSON, so a change of the JSON must be made
-// there, too.
+// and swimmer/ use all of this file, the page of particles/picture only the functions for pieces of
+// HTML. Numbers in plots have no units here; the labels of axes name the units. Only link_to() and
+// the class Report throw. report/page/*.js read the plots as JSON, so a change of the JSON must be
+// made there, too.
 #pragma once
 
 #include <exception>
@@ -110,8 +110,8 @@ std::string page_head(std::string_view title, std::string_view style, bool has_i
                       std::string_view more = {});
 
 /// True if the report in the folder of a run and its pictures, those of `names`, exist and the
-/// inputs of the report have not changed since. False without still pictures, because gnuplot may
-/// be there now, and if a file cannot be read, the report included.
+/// inputs of the report have not changed since. False if there are no still pictures, because
+/// gnuplot may have been installed since, and if the report or another file cannot be read.
 bool page_is_current(const std::filesystem::path& folder, std::span<const std::string_view> names);
 
 /// A report while it is made: first its figures, then its page.

@@ -1,7 +1,8 @@
-// Writes the columns and words of the summaries, and draws their pictures (summaries.hpp). Gaps,
-// times and velocities are in the units of the case, pictures in pixels. A missing or failing
-// gnuplot is an Error(kExternalProgram), a requested stop an Error(kInterrupted), and a fit without
-// diagnostics a std::bad_optional_access. Used by pipeline/. A change must keep the JSON's keys.
+// Writes the columns and words of the summaries, and draws their pictures; summaries.hpp has the
+// dimensions and ranges. Gaps, times and velocities are in the units of the case, pictures in
+// pixels. A missing or failing gnuplot is an Error(kExternalProgram), a requested stop an
+// Error(kInterrupted), and a fit without diagnostics a std::bad_optional_access. Used by pipeline/.
+// A change must keep the JSON's keys.
 #include "viscontact/report/summaries.hpp"
 
 #include <fmt/format.h>

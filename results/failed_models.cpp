@@ -1,8 +1,8 @@
 // Reads and writes failed_models.json (docs/file-formats.md) for pipeline/ and rolling/, and
-// chooses the model with which the others are compared if models have failed. A damaged record is
-// an Error(kBadInput), except in recorded_failures(), which takes it as empty. A reference model
-// that was asked for, but has failed, is an Error(kBadInput), too. A change must keep the keys,
-// because earlier runs have such files.
+// chooses the model with which the others are compared if models have failed. Nothing here has a
+// unit. A damaged record is an Error(kBadInput), except in recorded_failures(), which takes it as
+// empty. A reference model that was asked for, but has failed, is an Error(kBadInput), too. A
+// change must keep the keys, because earlier runs have such files.
 #include "viscontact/results/failed_models.hpp"
 
 #include <fmt/format.h>

@@ -49,10 +49,10 @@ std::vector<reduced_model::ModelWithoutTrajectory> failures_without(
 std::string reference_without(const std::vector<std::string>& models,
                               const std::vector<FailedModel>& failed);
 
-/// The model with which `compare` compares the others: `asked`; if this is empty,
-/// reduced_model::usual_reference(); if the latter failed, the model of the first trajectory (at
-/// least one, not checked). Throws Error(kBadInput) with the recorded reason if the model `asked`
-/// failed; whether it has a trajectory otherwise is not checked.
+/// The model with which `compare` compares the others: `asked`, or reduced_model::usual_reference()
+/// if `asked` is empty. If the usual reference failed, it is the model of the first trajectory
+/// (there must be one, not checked). Throws Error(kBadInput) with the recorded reason if the model
+/// `asked` failed; whether it has a trajectory otherwise is not checked.
 std::string reference_among(const std::vector<reduced_model::Trajectory>& trajectories,
                             const std::vector<reduced_model::ModelWithoutTrajectory>& failed,
                             const std::string& asked);

@@ -1,10 +1,10 @@
 // Writes the line of provenance (how a file was made, as JSON) into each kind of file, and finds
-// and reads it again (provenance.hpp), for all parts that write results and for `rerun`. A damaged
-// line, or a file that cannot be read or written, is an Error(kBadInput), a wrong SOURCE_DATE_EPOCH
-// an Error(kWrongUsage), a path that the system refuses a std::filesystem::filesystem_error, and a
-// text without the mark at which its kind has the line a std::out_of_range. The beginning of the
-// JSON (kBegin) must not change, because earlier files are recognised by it; foreign_files.cpp
-// repeats kName and the key in kBegin.
+// and reads it again, for all parts that write results and for `rerun`; provenance.hpp has the
+// format. A damaged line, or a file that cannot be read or written, is an Error(kBadInput), a wrong
+// SOURCE_DATE_EPOCH an Error(kWrongUsage), a path that the system refuses a
+// std::filesystem::filesystem_error, and a text without the mark at which its kind has the line a
+// std::out_of_range. The beginning of the JSON (kBegin) must not change, because earlier files are
+// recognised by it; foreign_files.cpp repeats kName and the key in kBegin.
 #include "viscontact/results/provenance.hpp"
 
 #include <ceres/version.h>

@@ -95,7 +95,7 @@ std::optional<Provenance> read_provenance(const std::filesystem::path& path);
 /// Error(kBadInput) if the input is there but cannot be read.
 std::string change_of(const InputFile& input, const std::filesystem::path& folder);
 
-/// The folder in which the relative paths of the provenance of `file` lead to files: the one in
+/// The folder in which the relative paths of the provenance of `file` lead to files: the folder in
 /// which the command ran, unless `file` and the inputs lie in the same places below another folder,
 /// as in a copy or a clone of the project. If the provenance has no folder, it is the folder from
 /// which the output leads to `file`, or that of `file`.

@@ -1,8 +1,8 @@
 // Reads case, fit, comparison, trajectories, table and uncertainty of a run (run_folder.hpp) for
-// report/. Numbers are in the units of the case. If case, fit, comparison or all trajectories are
-// missing, or a file is damaged, an Error(kBadInput) is thrown, and for a path that the system
-// refuses a std::filesystem::filesystem_error. A change must still read the runs of earlier
-// versions.
+// report/. Numbers are in the units of the case; the headers of the parts of RunResults have their
+// dimensions. If case, fit, comparison or all trajectories are missing, or a file is damaged, an
+// Error(kBadInput) is thrown, and for a path that the system refuses a
+// std::filesystem::filesystem_error. A change must still read the runs of earlier versions.
 #include "viscontact/results/run_results.hpp"
 
 #include <utility>

@@ -4,9 +4,8 @@
 // solids touch, q0 the initial gap. Lengths, masses and times are in any consistent units;
 // rolling_motion.hpp has the dimensions and ranges. A fit that lacks a resistance and too many
 // steps are an Error(kBadInput), a number beyond any double is an Error(kNotConverged), a stop an
-// Error(kInterrupted). Used by rolling/case,
-// rolling/job, app/ and python/. A change must keep the balance of contact_step.hpp and the order
-// of the models, which gives their colours in pages.
+// Error(kInterrupted). Used by rolling/case, rolling/job, app/ and python/. A change must keep the
+// balance of contact_step.hpp and the order of the models, which gives their colours in pages.
 
 #include <algorithm>
 #include <cmath>

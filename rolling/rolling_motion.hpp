@@ -59,8 +59,8 @@ using RollingTrajectory = std::vector<RollingRow>;
 
 /// The model of smooth surfaces: lubrication at every gap, integrated by CVODE. Throws
 /// Error(kBadInput) if `fit` lacks squeeze, slide, roll or slide_roll, if its squeeze is not
-/// positive in the interval, if the sphere is at the start, or rises, above the gaps of `fit`, or
-/// if there are more than 1e8 rows; Error(kNotConverged) if CVODE gives up.
+/// positive in the interval, if the sphere starts at, or rises to, a gap above the interval of
+/// `fit`, or if there are more than 1e8 rows; Error(kNotConverged) if CVODE gives up.
 RollingTrajectory roll_smooth(const RollingMotion& motion, const motions::PairFit& fit);
 
 /// As roll_smooth(), with solid contact and Coulomb's friction at the gap `roughness`. The impact
@@ -69,11 +69,11 @@ RollingTrajectory roll_rough(const RollingMotion& motion, const motions::PairFit
 
 /// Viscous contact (physics.md (4.5)) along z with time steps: the film acts only by the impulse
 /// that it absorbs, which determines its thickness. The solids touch, with friction, when the film
-/// is as thin as the roughness. Resistances along x and to rotation are those at the film
-/// thickness, or without contact those at the gap (at gaps above the interval of the fit those at
-/// its end). The error of the trajectory is of first order in the time step. Throws
-/// Error(kBadInput) if the fit lacks squeeze, slide, roll or slide_roll, or if there are more than
-/// 1e8 steps; Error(kNotConverged) if a number leaves the range of a double.
+/// is as thin as the roughness. The resistances along x and to rotation are taken at the film
+/// thickness, or without contact at the gap, but at most at the largest gap of the fit. The error
+/// of the trajectory is of first order in the time step. Throws Error(kBadInput) if the fit lacks
+/// squeeze, slide, roll or slide_roll, or if there are more than 1e8 steps; Error(kNotConverged) if
+/// a number leaves the range of a double.
 RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
                                             const motions::PairFit& fit);
 

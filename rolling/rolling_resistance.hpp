@@ -33,13 +33,13 @@ struct RollingResistance {
 /// The resistances of the fluid as functions of the gap q, and their derivatives by ln q.
 class RollingFluid {
  public:
-  /// `fit` must outlive the object. Throws Error(kBadInput) if it lacks one of its entries squeeze,
-  /// slide, roll and slide_roll.
+  /// `fit` must outlive the object. Throws Error(kBadInput) if `fit` lacks one of the entries
+  /// squeeze, slide, roll and slide_roll.
   explicit RollingFluid(const motions::PairFit& fit);
 
-  /// The resistances at a gap [L] > 0. Below the interval of the fit its formula, which has the
-  /// terms of theory, is continued. Throws Error(kBadInput) above the interval. A gap <= 0 or NaN
-  /// is not refused: the results are NaN or infinite.
+  /// The resistances at a gap [L] > 0. Below the interval of the fit the formula of the fit is
+  /// used, too, because it has the terms of theory. Throws Error(kBadInput) above the interval. A
+  /// gap <= 0 or NaN is not refused: the results are NaN or infinite.
   RollingResistance at(double gap) const;
   RollingResistance slopes(double gap) const;  ///< d/d ln q of at(), with the same errors
 
@@ -74,8 +74,8 @@ struct Friction {
 
 /// Coulomb's friction T on the lowest point of a sphere. The slip of this point would be `slip`
 /// without friction, and is `slip` + `compliance` T with it. If |T| <= bound is enough to make the
-/// slip 0, it is 0 (kRolling); otherwise T is bound or -bound, against the slip (kSliding). The
-/// units are, by what the caller wants:
+/// slip 0, the slip is 0 (kRolling); otherwise T is bound or -bound, against the slip (kSliding).
+/// The units are, by what the caller wants:
 ///   T, bound [M L/T^2], a force;   slip [L/T^2], its rate;   compliance [1/M]
 ///   T, bound [M L/T], an impulse;  slip [L/T];               compliance [1/M]
 ///   T, bound [M L/T^2], a force;   slip [L/T] after a step;  compliance [T/M]

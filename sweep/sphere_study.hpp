@@ -37,16 +37,16 @@ SpherePlan planned_sphere(const case_file::Case& c);
 /// MODEL.l1_gap_distance [L T] and MODEL.l1_velocity_distance [L] (distances from the reference,
 /// ModelComparison), MODEL.film_ratio [1] (thinnest film or smallest gap, over that of the
 /// reference), MODEL.steps (a whole number), MODEL.solid_contact_from [T] and
-/// MODEL.solid_contact_velocity [L/T] (empty if the solids do not touch). Those of a model that
-/// fails are empty, and so are all distances and ratios if the reference fails; of the Errors of a
-/// row only Error(kInterrupted) is thrown. `version` is that of Viscontact.
+/// MODEL.solid_contact_velocity [L/T] (empty if the solids do not touch). The results of a model
+/// that fails are empty, and so are all distances and ratios if the reference fails; of the Errors
+/// of a row only Error(kInterrupted) is thrown. `version` is that of Viscontact.
 ///
-/// Reads the case. Throws Error(kBadInput) if it cannot be read, has no [motion] or a model is
-/// unknown, if the first or the last point of the plan gives no valid case, or if the fit cannot be
-/// scaled to it. Throws Error(kWrongUsage) if nothing is varied, if the grid has more than 1e12
-/// points, if there is no fit, if the reference is not one of the models, if a key or a model
-/// occurs twice, or if a key changes no row, because a sweep does not read it or none of the models
-/// depends on it.
+/// Reads the case. Throws Error(kBadInput) if the case cannot be read or has no [motion], if a
+/// model is unknown, if the first or the last point of the plan gives no valid case, or if the fit
+/// cannot be scaled to such a point. Throws Error(kWrongUsage) if nothing is varied, if the grid
+/// has more than 1e12 points, if there is no fit, if the reference is not one of the models, if a
+/// key or a model occurs twice, or if a key changes no row, because a sweep does not read it or
+/// none of the models depends on it.
 Study sphere_study(SpherePlan plan, const std::string& version);
 
 }  // namespace viscontact::sweep

@@ -46,8 +46,8 @@ void add_part(RowResults& results, const Part& part) {
 struct Study {
   Points points;                     ///< the points; their keys are the first columns
   std::vector<std::string> results;  ///< columns with results; a last column `failure` follows
-  /// Lines "# key: value" for the head of the file. Files with the same head and the same columns
-  /// must have the same rows.
+  /// Lines "# key: value" for the head of the file. These lines must contain all that the results
+  /// depend on, so that two files with the same head and the same columns have the same rows.
   std::map<std::string, std::string> comments;
   /// Computes the results of row `index`, from 0. Several threads call this function at once. It
   /// throws Error(kInterrupted) if `stop` requests a stop; any other Error that it throws ends the
@@ -61,7 +61,8 @@ struct Study {
 };
 
 /// The comments that every study has: its kind, a hash of the case file, the number of rows, a hash
-/// of `identity`, a text with what else determines the rows, and the version of Viscontact.
+/// of `identity`, and the version of Viscontact. `identity` is a text that contains everything else
+/// that determines the rows.
 std::map<std::string, std::string> head_of(const std::string& kind, const std::string& case_text,
                                            const Points& points, const std::string& identity,
                                            const std::string& version);
@@ -70,13 +71,14 @@ std::map<std::string, std::string> head_of(const std::string& kind, const std::s
 /// such as "the key".
 void refuse_doubles(const std::vector<std::string>& names, std::string_view kind);
 
-/// The grid of the ranges "KEY=RANGE" (variation.hpp) of the section [sweep] of a case, which are
-/// in this line. Throws Error(kBadInput), which names case and line, if a range is not valid.
+/// The grid of the ranges "KEY=RANGE" (variation.hpp) that the section [sweep] of a case has in
+/// line `line` > 0. Throws Error(kBadInput), which names case and line, if a range is not valid.
 Points points_of_case(const std::vector<std::string>& ranges,
                       const std::filesystem::path& case_path, int line);
 
-/// The error that tells where the ranges that caused `error` stand: "--vary: ..." or "case.toml:3:
-/// sweep.vary: ...". In a case, wrong usage is bad input; an interruption stays as it is.
+/// `error`, which was caused by the ranges, with the place of the ranges before its message:
+/// "--vary: ..." or "case.toml:3: sweep.vary: ...". If the ranges are in a case, Error(kWrongUsage)
+/// becomes Error(kBadInput). Error(kInterrupted) stays as it is.
 Error with_origin(const Points& points, const Error& error);
 
 /// Calls `check(key)` for each varied key. An Error that it throws is thrown again with_origin().
@@ -108,8 +110,9 @@ auto at_point(const Points& points, std::uint64_t index, const Make& make) {
 /// Throws Error(kWrongUsage) if nothing or a key twice is varied, or if the grid leaves out the end
 /// of a range. Then calls `make`, which makes a case, for the first and the last row, so that a
 /// range that leads to a wrong case is an Error before rows are computed; rows between are not
-/// checked. Throws the Errors of `make` and Points::rows(), with_origin(), but as it is an Error
-/// that `make` throws without varied values, too, because its cause is elsewhere, as in the fit.
+/// checked. Throws the Errors of `make` and Points::rows(), changed by with_origin(). If `make`
+/// also throws an Error without varied values, this Error is thrown unchanged, because the ranges
+/// are not its cause.
 template <class Make>
 void check_ends(const Points& points, const Make& make) {
   if (points.variations.empty() && points.draws == 0)
@@ -165,8 +168,8 @@ struct SweepOutcome {
 /// Error(kBadInput) if the file cannot be read.
 SweepOutcome read_outcome(const Study& study, const std::filesystem::path& path);
 
-/// Number of rows of this sweep that are finished, in PATH or PATH.part; 0 if neither belongs to
-/// it. Throws Error(kBadInput) if PATH exists and is not a regular file.
+/// Number of rows of this sweep that are finished, in PATH or PATH.part; 0 if neither file belongs
+/// to this sweep. Throws Error(kBadInput) if PATH exists and is not a regular file.
 std::uint64_t finished_rows(const Study& study, const std::filesystem::path& path);
 
 }  // namespace viscontact::sweep

@@ -50,8 +50,8 @@ std::vector<std::pair<std::string, double>> grid_point(const std::vector<Variati
 std::vector<std::pair<std::string, double>> random_point(const std::vector<Variation>& variations,
                                                          std::uint64_t index, std::uint64_t seed);
 
-/// Number of points of the grid, >= 1 (1 if nothing is varied). Throws Error(kWrongUsage) if it
-/// exceeds 1e12, a free limit, because so many rows take too long.
+/// Number of points of the grid, >= 1 (1 if nothing is varied). Throws Error(kWrongUsage) if the
+/// number exceeds 1e12, a free limit, because so many rows take too long.
 std::uint64_t grid_size(const std::vector<Variation>& variations);
 
 /// The place of the ranges of a sweep in a case.

@@ -1,9 +1,9 @@
-// Newton's method for the stroke of least energy (optimal_stroke.hpp), whose loop in the space of
-// arms has polynomials as coordinates (polynomial_loop.hpp). Numbers are in the units of the fit;
-// energies are those in a period of 1; optimal_stroke.hpp has the dimensions and ranges. Loops that
-// leave the table are an Error(kBadInput), a failure of Newton's method an Error(kNotConverged), a
-// stop an Error(kInterrupted). Used by swimmer/case, swimmer/job and python/. A change must keep
-// energies to the digits of docs/swimmer.md.
+// Newton's method for the stroke of least energy, whose loop in the space of arms has polynomials
+// as coordinates (polynomial_loop.hpp). Numbers are in the units of the fit; optimal_stroke.hpp has
+// the dimensions and ranges. An energy is that in a period of 1, which is
+// LoopSums::energy_times_period. Loops that leave the table are an Error(kBadInput), a failure of
+// Newton's method an Error(kNotConverged), a stop an Error(kInterrupted). Used by swimmer/case,
+// swimmer/job and python/. A change must keep energies to the digits of docs/swimmer.md.
 #include "viscontact/swimmer/optimal_stroke.hpp"
 
 #include <Eigen/Cholesky>
@@ -25,7 +25,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// A loop that satisfies the conditions of least energy at its displacement, with the multiplier of
-/// the displacement [M L/T^2] and the energy [M L^2/T^2].
+/// the displacement [M L/T^2] and the energy in a period of 1 [M L^2/T^2].
 struct Extremal {
   PolynomialLoop loop;
   double multiplier = 0;
@@ -88,7 +88,7 @@ std::optional<PolynomialLoop> LoopOptimizer::scaled_to(PolynomialLoop loop,
 std::optional<MatrixXd> LoopOptimizer::lagrangian_hessian(const PolynomialLoop& loop,
                                                           double multiplier) const {
   // The best step balances the relative rounding error of the gradients, 1e-14, with the error of
-  // the differences by third derivatives: about the cube root of the former.
+  // the differences by third derivatives. It is about the cube root of the rounding error.
   constexpr double kRelativeStep = 1e-5;
   const double step = kRelativeStep * loop.coefficients.norm();
   MatrixXd hessian(loop.coefficients.size(), loop.coefficients.size());
@@ -111,9 +111,9 @@ std::optional<VectorXd> LoopOptimizer::newton_step(const PolynomialLoop& loop, c
   const VectorXd& normal = sums.displacement_gradient;
   const auto exact = lagrangian_hessian(loop, multiplier);
   if (!exact) return {};
-  // On the plane of constant displacement the Hessian must be positive definite, or Newton's method
-  // would go to a saddle point. A multiple of the Hessian for a constant metric is added to make it
-  // so; it grows from a small value until it suffices.
+  // On the plane of constant displacement the Hessian must be positive definite; otherwise Newton's
+  // method would go to a saddle point. A multiple of the Hessian for a constant metric is added to
+  // make it so; it grows from a small value until it suffices.
   const Eigen::HouseholderQR<MatrixXd> qr(normal);
   const MatrixXd basis = MatrixXd(qr.householderQ()).rightCols(normal.size() - 1);
   MatrixXd hessian = *exact;
@@ -144,8 +144,8 @@ std::optional<Extremal> LoopOptimizer::solve(const Extremal& start, double displ
     stop.throw_if_stop_requested();
     const auto sums = functional_(*loop);
     const VectorXd gradient = sums.energy_gradient - multiplier * sums.displacement_gradient;
-    if (std::sqrt(gradient.dot(factor_.solve(gradient)) / sums.energy) < kTolerance)
-      return Extremal{*loop, multiplier, sums.energy};
+    if (std::sqrt(gradient.dot(factor_.solve(gradient)) / sums.energy_times_period) < kTolerance)
+      return Extremal{*loop, multiplier, sums.energy_times_period};
     const auto step = newton_step(*loop, sums, multiplier);
     if (!step) return {};
     const VectorXd direction = step->head(step->size() - 1);
@@ -156,8 +156,9 @@ std::optional<Extremal> LoopOptimizer::solve(const Extremal& start, double displ
     double share = 1;
     for (int halvings = 0; !next && halvings < kMostHalvings; ++halvings, share /= 2) {
       next = scaled_to(moved(*loop, direction, share), displacement);
-      // The energy may rise by 1e-13 of itself, its rounding error near the end.
-      if (next && functional_(*next).energy > sums.energy * (1 + 1e-13)) next.reset();
+      // The energy may rise by a relative 1e-13, its rounding error near the end.
+      if (next && functional_(*next).energy_times_period > sums.energy_times_period * (1 + 1e-13))
+        next.reset();
     }
     loop = next;
   }

@@ -45,12 +45,12 @@ struct OptimalStroke {
   std::vector<OptimalStrokeStep> convergence;
 };
 
-/// Finds a loop of least energy. Newton's method on the conditions of Karush, Kuhn and Tucker
-/// starts from small loops in four directions, whose displacement then grows to the wanted one; of
-/// the four results the one with the least energy is improved with more polynomials. Throws
-/// Error(kBadInput) if every such loop leaves the table, Error(kNotConverged) if Newton's method
-/// fails with `request.polynomials`, and Error(kInterrupted) if `stop` requests a stop. The members
-/// of `request` are not checked.
+/// Finds a loop of least energy. Newton's method solves the conditions of Karush, Kuhn and Tucker.
+/// The method starts from four small loops, which lie in four directions from the given shape. The
+/// displacement of each loop is then raised step by step to the wanted one. The loop with the least
+/// energy of the four is improved with more polynomials. Throws Error(kBadInput) if all four loops
+/// leave the table, Error(kNotConverged) if Newton's method fails with `request.polynomials`, and
+/// Error(kInterrupted) if `stop` requests a stop. The members of `request` are not checked.
 OptimalStroke find_optimal_stroke(const Swimmer& swimmer, const OptimalStrokeRequest& request,
                                   const StopToken& stop);
 

@@ -90,7 +90,7 @@ LoopSums LoopFunctional::operator()(const PolynomialLoop& loop) const {
     const auto mechanics = swimmer_.at(shape_at(loop, values_.col(q)), true);
     const Eigen::VectorXd rate = c * slopes_.col(q);
     const Eigen::VectorXd impulse = mechanics.metric * rate;
-    sums.energy += weights_[q] * rate.dot(impulse);
+    sums.energy_times_period += weights_[q] * rate.dot(impulse);
     sums.displacement += weights_[q] * mechanics.displacement_form.dot(rate);
     Eigen::VectorXd energy_slope(c.rows()), displacement_slope(c.rows());
     for (Index k = 0; k < c.rows(); ++k) {

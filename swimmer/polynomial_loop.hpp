@@ -29,8 +29,8 @@ struct LoopBasis {
 /// The first `count` > 0 functions of the basis at `s` from 0 to 1. Nothing is checked.
 LoopBasis loop_basis(double s, Eigen::Index count);
 
-/// The loop as a stroke of one leg, run once in `period` [T] > 0 (not checked) at a constant rate
-/// of s.
+/// The loop as a stroke of one part (StrokeLeg in stroke.hpp), run once in `period` [T] > 0 (not
+/// checked) at a constant rate of s.
 Stroke stroke_of(const PolynomialLoop& loop, double period);
 
 /// The same loop with `count` polynomials, at least as many as it has (not checked); the
@@ -40,11 +40,11 @@ PolynomialLoop with_more_polynomials(const PolynomialLoop& loop, Eigen::Index co
 /// Energy and displacement of a loop that is run once at a constant rate of s, and their gradients
 /// by the coefficients, in the order of PolynomialLoop::coefficients, column by column.
 struct LoopSums {
-  /// Energy times period [M L^2/T], >= 0, which is the same for all periods.
-  double energy = 0;
+  /// [M L^2/T], >= 0. It is the same for all periods, and so the energy in a period of 1.
+  double energy_times_period = 0;
   double displacement = 0;          ///< [L], > 0 towards the last sphere
-  Eigen::VectorXd energy_gradient,  ///< gradient of `energy` [M L/T]
-      displacement_gradient;        ///< [1]
+  Eigen::VectorXd energy_gradient,  ///< gradient of energy_times_period [M L/T]
+      displacement_gradient;        ///< gradient of the displacement [1]
 };
 
 /// Computes LoopSums by a quadrature with 2 n + 24 points for n polynomials.

@@ -2,7 +2,8 @@
 // eigenvalues of the Jacobi matrix (Golub & Welsch 1969, Math. Comp. 23, 221). Numbers are in the
 // units of the case; stroke.hpp has their dimensions and ranges. Samples that do not close the loop
 // are an Error(kBadInput). Used by swimmer_case.cpp (strokes), swim.cpp and polynomial_loop.cpp
-// (quadrature). A change must keep the times at which legs meet, because forces jump there.
+// (quadrature). A change must keep the times at which legs, the parts of a stroke, meet, because
+// forces jump there.
 #include "viscontact/swimmer/stroke.hpp"
 
 #include <Eigen/Eigenvalues>

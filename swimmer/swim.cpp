@@ -1,7 +1,8 @@
-// Integrates displacement and power along a stroke (swim.hpp). Numbers are in the units of the fit;
-// swim.hpp has their dimensions and ranges. A stroke outside the table is an Error(kBadInput); sums
-// that do not converge are an Error(kNotConverged). Used by swimmer/case, swimmer/job and python/.
-// A change may alter sums by rounding errors only; swim.hpp repeats kMost and kTolerance.
+// Integrates displacement and power along a stroke. A stroke consists of legs, parts on which the
+// arms are smooth functions of time (stroke.hpp). Numbers are in the units of the fit; swim.hpp has
+// their dimensions and ranges. A stroke outside the table is an Error(kBadInput); sums that do not
+// converge are an Error(kNotConverged). Used by swimmer/case, swimmer/job and python/. A change may
+// alter sums by rounding errors only; swim.hpp repeats kMost and kTolerance.
 #include "viscontact/swimmer/swim.hpp"
 
 #include <algorithm>
@@ -112,8 +113,8 @@ SwimErrors swim_errors(const SwimSums& sums, const Stroke& stroke,
   const auto changes = [&](const ResistanceFit& fit) -> SwimErrors {
     const auto changed = swim_sums(Swimmer(fit), stroke);
     const double displacement = changed.displacement - sums.displacement;
-    // The least energy at the wanted displacement of an optimal loop changes, to first order, by
-    // the change of the loop's energy minus the multiplier times that of its displacement.
+    // The least energy for a given displacement changes, to first order, by the change of the
+    // energy of this loop minus the multiplier times the change of its displacement.
     return {displacement, changed.energy - sums.energy - multiplier * displacement};
   };
   SwimErrors errors;

@@ -37,9 +37,9 @@ struct SwimSums {
 };
 
 /// Integrates one period of a stroke by Gauss-Legendre quadrature on each leg; the number of points
-/// is doubled until energies change by less than 1e-12 of themselves, and the displacement by less
-/// than 1e-13 of the length of the path of the arms. Throws Error(kBadInput) if the stroke leaves
-/// the table, and Error(kNotConverged) if the sums of a leg do not converge with 512 points.
+/// is doubled until energies change by a relative 1e-12 at most, and the displacement by less than
+/// 1e-13 of the length of the path of the arms. Throws Error(kBadInput) if the stroke leaves the
+/// table, and Error(kNotConverged) if the sums of a leg do not converge with 512 points.
 SwimSums swim_sums(const Swimmer& swimmer, const Stroke& stroke);
 
 /// The swimmer at about `intervals` + 1 times, or more: each leg has times at its beginning, at its

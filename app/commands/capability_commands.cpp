@@ -1,9 +1,9 @@
 // The command lines of `particles`, `rolling` and `swimmer` (docs/command-line.md). Each of these
-// commands makes all results of a case, with a page. main.cpp adds them. They throw the errors of
-// run_particles() (particles/run/particles_stage.hpp), run_rolling()
-// (rolling/job/rolling_stage.hpp) and run_swimmer() (swimmer/job/swimmer_stage.hpp), which do the
-// work, and Error(kWrongUsage) for an empty output name. A change must keep the names of the
-// options; the names of the commands are also in the list kWriting of rerun_command.cpp.
+// commands makes all results of a case, with a page; numbers are in the units of the case. main.cpp
+// adds them. They throw the errors of run_particles() (particles/run/particles_stage.hpp has them),
+// run_rolling() (rolling/job/rolling_stage.hpp) and run_swimmer() (swimmer/job/swimmer_stage.hpp),
+// which do the work, and Error(kWrongUsage) for an empty output name. A change must keep the names
+// of the options; the names of the commands are also in the list kWriting of rerun_command.cpp.
 #include <memory>
 #include <string>
 

@@ -1,6 +1,6 @@
-// The command lines of `run` (the main job) and of its last stages, `simulate`, `compare` and
-// `report` (docs/command-line.md), which main.cpp adds. pipeline/, report/, rolling/, swimmer/ and
-// particles/ do the work, and the commands throw their errors; a wrong option is an
+// The command lines of `run` (all results of one case) and of its last stages, `simulate`,
+// `compare` and `report` (docs/command-line.md), which main.cpp adds. pipeline/, report/, rolling/,
+// swimmer/ and particles/ do the work, and the commands throw their errors; a wrong option is an
 // Error(kWrongUsage), a folder that another command has locked an Error(kBadInput), and a path that
 // the system refuses a std::filesystem::filesystem_error. A command must keep the folder into which
 // it writes locked until it ends, because two commands at once would mix their files.

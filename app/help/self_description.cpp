@@ -1,7 +1,7 @@
-// Writes the completion scripts for bash and zsh, and the manual page in the language roff
-// (self_description.hpp), which main.cpp prints. Descriptions of options contain special
-// characters; before a change puts one into a script or the page, it must pass it through
-// zsh_description() and quoted(), or escaped(). kEnvironment repeats the time limits of
+// Writes the completion scripts for bash and zsh, and the manual page in the language roff, which
+// main.cpp prints; self_description.hpp says what each function returns. Descriptions of options
+// contain special characters; before a change puts one into a script or the page, it must pass it
+// through zsh_description() and quoted(), or escaped(). kEnvironment repeats the time limits of
 // freefem_axi/journal/freefem.hpp. Nothing is thrown. help2man is not used for the page, because it
 // reads one --help, and here each command has its own.
 #include "viscontact/app/help/self_description.hpp"

@@ -31,7 +31,8 @@ enum class ErrorStream { kWithOutput, kSeparate };
 struct StartedProcess {
   pid_t id = -1;        ///< -1: there is no such program, or it cannot be run
   std::string failure;  ///< why it cannot be run (words for errno); empty if it runs
-  /// Its standard input. send() with MSG_NOSIGNAL fails with EPIPE if the child no longer reads.
+  /// Standard input of the child. send() with MSG_NOSIGNAL fails with EPIPE if the child no longer
+  /// reads.
   Descriptor to_child{};
   Descriptor from_child{};    ///< its standard output, with kWithOutput its errors, too
   Descriptor errors_of_it{};  ///< its standard error; none with kWithOutput

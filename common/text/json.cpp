@@ -1,8 +1,8 @@
-// Reads JSON (json.hpp) for fits, comparisons, provenance and records of runs. A text is read
-// twice: once for errors, lines and repeated keys, and once for the values. Every fault of a text
-// becomes an Error(kBadInput) with file, line and cause; a value that the `read` of read_json()
-// misses becomes one without a line. Other exceptions of `read` pass unchanged. A change must keep
-// published files readable.
+// Reads JSON for fits, comparisons, provenance and records of runs; json.hpp and json_fields.hpp
+// have the ranges and errors. A text is read twice: once for errors, lines and repeated keys, and
+// once for the values. Every fault of a text becomes an Error(kBadInput) with file, line and cause;
+// a value that the `read` of read_json() misses becomes one without a line. Other exceptions of
+// `read` pass unchanged. A change must keep published files readable.
 #include "viscontact/common/text/json.hpp"
 
 #include <fmt/format.h>

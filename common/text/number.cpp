@@ -1,7 +1,7 @@
-// Conversion of numbers by std::to_chars and std::from_chars (number.hpp), for all text files other
-// than JSON and TOML. Numbers have any unit. A change must keep that every double is read back with
-// the same bits, that the locale has no effect, and the texts, because hashes in files are computed
-// from them. Nothing is thrown.
+// Conversion of numbers by std::to_chars and std::from_chars, for all text files other than JSON
+// and TOML. Numbers have any unit; number.hpp has the formats. A change must keep that every double
+// is read back with the same bits, that the locale has no effect, and the texts, because hashes in
+// files are computed from them. Nothing is thrown.
 #include "viscontact/common/text/number.hpp"
 
 #include <array>

@@ -1,6 +1,6 @@
-// Composes the words of units (units.hpp), such as "kg m/s²", for pages, axes and tables of
-// particles/, report/, rolling/ and swimmer/. A power beyond -9 to 9 throws std::out_of_range. A
-// change must keep the words of files, which users' scripts read.
+// Composes the words of units, such as "kg m/s²", for pages, axes and tables of particles/,
+// report/, rolling/ and swimmer/; units.hpp has the ranges of the powers. A power beyond -9 to 9
+// throws std::out_of_range. A change must keep the words of files, which users' scripts read.
 #include "viscontact/common/text/units.hpp"
 
 #include <array>

@@ -1,7 +1,7 @@
 // Sets the forces on particles in each step from C++: a spring draws nine discs to the origin,
 // where they touch and stay together by viscous contact (docs/physics.md (5.2), (5.3)). Lengths,
-// masses and times are in any consistent units. tests/package/use_installed compares the output
-// with the lines that end this comment.
+// masses and times are in any consistent units. An error ends the program with its message.
+// tests/package/use_installed compares the output with the lines that end this comment.
 //
 // The program is built with smallest_gap.cpp, whose head says how. Then type
 //

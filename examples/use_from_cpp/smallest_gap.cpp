@@ -1,7 +1,8 @@
 // Uses Viscontact from C++: reads a table of forces, fits a formula to it, and computes the motion
 // of the sphere of the lecture's case by two models (docs/physics.md (4.1), (4.4)): `inertial`
 // resolves the film between sphere and plane, `viscous_contact` does not. Units are those of the
-// table. tests/package/use_installed compares the output with the lines that end this comment.
+// table. An error ends the program with its message. tests/package/use_installed compares the
+// output with the lines that end this comment.
 //
 // Type in the source folder of Viscontact, after scripts/build (PREFIX is any folder; without
 // --prefix it is /usr/local):

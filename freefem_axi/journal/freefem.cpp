@@ -1,10 +1,10 @@
-// Runs FreeFEM processes to their end and reads what they print. Times are in seconds. A FreeFEM
-// that does not start and scripts that are not found are an Error(kExternalProgram), a wrong time
-// limit of the user an Error(kWrongUsage), a stop an Error(kInterrupted); if a script fails, the
-// caller decides. Used by tabulation.cpp, motion_row.cpp, tabulate.cpp, swimmer/tabulation/,
-// pipeline/tabulate/, results/, app/ and bench/. A change must keep each process on one thread and
-// within its time limit, and the words "viscontact-error" and "viscontact-version", which the
-// scripts print.
+// Runs FreeFEM processes to their end and reads what they print. Times are in seconds; freefem.hpp
+// has the ranges. A FreeFEM that does not start and scripts that are not found are an
+// Error(kExternalProgram), a wrong time limit of the user an Error(kWrongUsage), a stop an
+// Error(kInterrupted); if a script fails, the caller decides. Used by tabulation.cpp,
+// motion_row.cpp, tabulate.cpp, swimmer/tabulation/, pipeline/tabulate/, results/, app/ and bench/.
+// A change must keep each process on one thread and within its time limit, and the words
+// "viscontact-error" and "viscontact-version", which the scripts print.
 #include "viscontact/freefem_axi/journal/freefem.hpp"
 
 #include <fmt/format.h>

@@ -31,8 +31,8 @@ struct FreeFem {
 };
 
 /// The FreeFEM of the user: the executable is the value of the environment variable
-/// VISCONTACT_FREEFEM if it is set and not empty, else FreeFem++-nw, of which it is not checked
-/// that it exists. VISCONTACT_FREEFEM_TIME_LIMIT [s], if set, replaces both time limits. Throws
+/// VISCONTACT_FREEFEM if it is set and not empty, else FreeFem++-nw. Whether it exists is not
+/// checked. VISCONTACT_FREEFEM_TIME_LIMIT [s], if set, replaces both time limits. Throws
 /// Error(kExternalProgram) if the scripts are not found (freefem::find_script_folder()), and
 /// Error(kWrongUsage) if the limit is not a whole number from 1 to 10 million.
 FreeFem default_freefem(const StopToken& stop = {});
@@ -64,9 +64,9 @@ std::string line_after(const std::string& output, std::string_view prefix);
 
 /// The version of FreeFEM: that of the Debian package that has installed the executable, and the
 /// one that FreeFEM states, such as "4.11+dfsg1-3 (Debian package freefem++; FreeFEM says 4.9)". If
-/// there is no package, only the latter, "4.9", which may differ from the number of the release.
-/// Throws Error(kInterrupted) if freefem.stop requests a stop, and Error(kExternalProgram) if
-/// FreeFEM cannot be started, fails, or does not answer within freefem.version_limit.
+/// there is no package, only what FreeFEM states, "4.9", which may differ from the number of the
+/// release. Throws Error(kInterrupted) if freefem.stop requests a stop, and Error(kExternalProgram)
+/// if FreeFEM cannot be started, fails, or does not answer within freefem.version_limit.
 std::string freefem_version(const FreeFem& freefem);
 
 }  // namespace viscontact::freefem_axi

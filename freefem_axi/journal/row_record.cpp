@@ -1,8 +1,8 @@
 // Reads all journals of a table (files of the rows that processes have finished), merges their rows
 // with those of the table, and removes from the journals what the table contains. Numbers are in
-// the units of the table (table_plan.hpp). A damaged line counts as no row; a journal that cannot
-// be read, replaced or removed is an Error(kBadInput). Used by tabulate.cpp, pipeline/ and python/.
-// A change must keep that the table is read after the journals.
+// the units of the table; table_plan.hpp has their dimensions. A damaged line counts as no row; a
+// journal that cannot be read, replaced or removed is an Error(kBadInput). Used by tabulate.cpp,
+// pipeline/ and python/. A change must keep that the table is read after the journals.
 #include "viscontact/freefem_axi/journal/row_record.hpp"
 
 #include <fcntl.h>

@@ -19,7 +19,8 @@ namespace viscontact::freefem_axi {
 /// journal exists but cannot be read.
 RowRecord read_row_record(const std::filesystem::path& table_path, const TablePlan& plan);
 
-/// Those of `points` whose rows are not finished (failed ones included), in their order.
+/// The entries of `points` whose rows are not finished (failed ones included), in the order of
+/// `points`.
 std::vector<RowPoint> missing_points(const RowRecord& record, const std::vector<RowPoint>& points);
 
 /// The reasons why rows at `points` failed, in the order of `points`; points without a failed row

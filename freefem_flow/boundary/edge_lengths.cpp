@@ -31,8 +31,8 @@ constexpr double kNarrow = 0.3, kFurtherAt24Edges = 0.35;
 constexpr double kGrowthAt24Edges = 0.1;
 /// In a fluid with inertia the error is largest near the particles, so that edges further away may
 /// be longer: the increase per distance is multiplied by kFasterWithInertia, but not beyond
-/// kFastestWithInertia. The latter is kGrowthAt24Edges, so that meshes with 24 or fewer edges on
-/// the smallest particle are the same as without inertia.
+/// kFastestWithInertia, which equals kGrowthAt24Edges, so that meshes with 24 or fewer edges on the
+/// smallest particle are the same as without inertia.
 constexpr double kFasterWithInertia = 2, kFastestWithInertia = 0.1;
 
 }  // namespace

@@ -1,10 +1,12 @@
-// Puts the boundary of a mesh together from walls, periodic sides, rigid discs and membranes
-// (membrane_boundary.hpp), for membrane_process.cpp. Lengths have the unit of the arguments. A
-// membrane or disc that leaves the domain, a membrane that meets a disc, a period that no straight
-// line crosses between them, and an edge that is too short are an Error(kNotConverged); a domain
-// that is neither a disc nor a box is a std::bad_variant_access. A change must keep that opposite
-// periodic sides get the same points, because scripts/constraints.idp identifies these, and the
-// labels, which scripts/membranes.edp repeats.
+// Puts the boundary of a mesh together from walls, periodic sides, rigid discs and membranes, for
+// membrane_process.cpp. membrane_boundary.hpp has the dimensions and ranges, mesh_boundary.hpp the
+// labels; lengths have the unit of the arguments. In a box that is periodic along x the mesh ends
+// at two straight lines one period apart, the images of one line that no membrane or disc crosses;
+// shift_between_membranes() finds this line. There are three reasons for an Error(kNotConverged): a
+// membrane or disc leaves the domain or a membrane meets a disc; there is no such line; an edge is
+// too short. A domain that is neither a disc nor a box is a std::bad_variant_access. A change must
+// keep that opposite periodic sides get the same points, because scripts/constraints.idp identifies
+// these, and the labels, which scripts/membranes.edp repeats.
 #include "viscontact/freefem_flow/membranes/membrane_boundary.hpp"
 
 #include <algorithm>

@@ -18,8 +18,9 @@ inline constexpr int kFirstMembraneLabel = 20;
 /// The largest number of membranes: their labels must be below those of particles.
 inline constexpr int kMostMembranes = kFirstParticleLabel - kFirstMembraneLabel;
 
-/// The places of the nodes of each membrane, a matrix with 2 edges rows and two columns, (x, y)
-/// [L]: the ends and the middles of its edges in turn, beginning with an end, counter-clockwise.
+/// The places of the nodes of each membrane: a matrix with two rows for each edge and two columns,
+/// (x, y) [L]. The rows are the ends and the middles of its edges in turn, beginning with an end,
+/// counter-clockwise.
 using NodesOfMembranes = std::vector<Eigen::MatrixXd>;
 
 /// The curves inside the domain.
@@ -32,7 +33,8 @@ struct InnerCurves {
 
 /// Throws Error(kNotConverged) if a node of a membrane is outside the domain or inside a disc, or
 /// if a disc is not inside the domain; a place that is NaN counts as outside. The message
-/// multiplies lengths by `unit`, the unit of `curves` in that of the case.
+/// multiplies lengths by `unit` > 0, which is the unit of length of `curves`, measured in that of
+/// the case.
 void check_places(const particles::Domain& domain, const InnerCurves& curves, double unit);
 
 /// If the box is periodic along x: the distance [L] from its left side to the middle of the widest

@@ -15,11 +15,11 @@ namespace viscontact::freefem_flow {
 /// periodic along y; `fluid` has membranes, no inertia, and no solver of the user's own; `radii`
 /// [L], > 0, are those of all particles: the beads of the membranes, which are points of them and
 /// feel no torque, and rigid discs, free or driven. `limits` are those of FlowProcess. `unit` > 0
-/// is the unit of length of the arguments in that of the case; only messages use it. Throws
-/// Error(kExternalProgram) if FreeFEM cannot be run or is not ready in time, Error(kInterrupted) if
-/// a stop is requested, and Error(kBadInput) if there are more than kMostMembranes membranes or no
-/// domain in the plane (opening()); a period along y is not checked. The result is never null; its
-/// functions throw as FluidSolver says.
+/// is the unit of length of the arguments, measured in that of the case; only messages use it.
+/// Throws Error(kExternalProgram) if FreeFEM cannot be run or is not ready in time,
+/// Error(kInterrupted) if a stop is requested, and Error(kBadInput) if there are more than
+/// kMostMembranes membranes or no domain in the plane (opening()); a period along y is not checked.
+/// The result is never null; its functions throw as FluidSolver says.
 ///
 /// The mesh has `edges_per_particle` edges on each membrane, but at least two thirds as many as any
 /// membrane has beads. In a box that is periodic along x the mesh ends at a straight line that no

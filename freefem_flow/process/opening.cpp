@@ -129,7 +129,8 @@ std::string opening(const particles::Fluid& fluid, const particles::Domain& doma
   for (const int label : labels)
     text += wall_line(label, is_open(fluid, label) ? "open" : "moving",
                       wall_coefficients(fluid, label, {}));
-  // A mean gradient is sent for a box without walls only. Walls have it in their velocities.
+  // A mean gradient is sent for a box without walls only. If there are walls, their velocities
+  // contain the gradient.
   const bool mean_gradient = flow != nullptr && labels.empty();
   text += "gradient" + words_of(mean_gradient ? flow->gradient : std::array<double, 4>{}) + '\n';
   const bool are_outlines = !fluid.plates.empty() || !fluid.cut_areas.empty();

@@ -1,9 +1,10 @@
-// Asks a fluid solver and checks its answers, and writes numbers and boundaries for it
-// (solver_dialogue.hpp); flow_process.cpp and membranes/membrane_process.cpp use it. Numbers have
-// the units of the caller. Each fault of the solver is an Error(kExternalProgram), a number for it
-// that is not finite an Error(kNotConverged), a requested stop an Error(kInterrupted), and a system
-// without free sockets a std::system_error. A change must keep that a solver that does not answer
-// is killed at its time limit, and the messages that docs/troubleshooting.md quotes.
+// Asks a fluid solver and checks its answers, and writes numbers and boundaries for it;
+// flow_process.cpp and membranes/membrane_process.cpp use it. Numbers have the units of the caller;
+// solver_dialogue.hpp has the ranges. Each fault of the solver is an Error(kExternalProgram), a
+// number for it that is not finite an Error(kNotConverged), a requested stop an
+// Error(kInterrupted), and a system without free sockets a std::system_error. A change must keep
+// that a solver that does not answer is killed at its time limit, and the messages that
+// docs/troubleshooting.md quotes.
 #include "viscontact/freefem_flow/process/solver_dialogue.hpp"
 
 #include <fmt/format.h>

@@ -1,9 +1,8 @@
-// Reads the case file of many particles (particles_case.hpp), and its sections [space],
-// [viscous_contact], [friction], [solver], [output], [[plane]] and [sweep]; the other sections have
-// sources of their own. Numbers are in the units of the case; particles_case.hpp and setting.hpp
-// have their dimensions and ranges. A wrong value is an Error(kBadInput) with its line. A change
-// must keep keys and defaults, which users' cases rely on. Used by particles_study.cpp, run/,
-// sweep/, app/ and python/.
+// Reads the case file of many particles, and its sections [space], [viscous_contact], [friction],
+// [solver], [output], [[plane]] and [sweep]; the other sections have sources of their own. Numbers
+// are in the units of the case; particles_case.hpp and setting.hpp have their dimensions and
+// ranges. A wrong value is an Error(kBadInput) with its line. A change must keep keys and defaults,
+// which users' cases rely on. Used by particles_study.cpp, run/, sweep/, app/ and python/.
 #include "viscontact/particles/case/particles_case.hpp"
 
 #include <algorithm>

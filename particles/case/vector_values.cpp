@@ -1,8 +1,8 @@
-// Reads vectors and piecewise constant vectors from the keys of a case of many particles
-// (particles_sections.hpp). Vectors have the unit that the key says; times [T] are in the unit of
-// the case. Components of vectors are at most 1e100 in magnitude. A wrong value is an
-// Error(kBadInput) with its line. The sources in particles/case/ and membranes/membrane_keys.cpp
-// use it. A change must keep accepting users' cases.
+// Reads vectors and piecewise constant vectors from the keys of a case of many particles;
+// particles_sections.hpp declares the functions and has the ranges. Vectors have the unit that the
+// key says; times [T] are in the unit of the case. Components of vectors are at most 1e100 in
+// magnitude. A wrong value is an Error(kBadInput) with its line. The sources in particles/case/ and
+// membranes/membrane_keys.cpp use it. A change must keep accepting users' cases.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -77,8 +77,8 @@ inline Vector shift_at_start(const PeriodicCell& cell, const Periods& periods) {
   return {periods[0] * cell.lengths[0], periods[1] * cell.lengths[1], periods[2] * cell.lengths[2]};
 }
 
-/// Velocity of an image relative to its particle [L/T]. Contacts, rigid bodies and links add it to
-/// the velocity of a particle whose image takes part.
+/// Velocity of an image relative to its particle [L/T]. Contacts, rigid bodies and links that have
+/// an image in place of a particle add it to the velocity of the particle.
 inline Vector velocity_of_image(const PeriodicCell& cell, const Periods& periods) {
   return velocity_at(cell, shift_at_start(cell, periods));
 }

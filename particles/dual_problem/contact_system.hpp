@@ -17,10 +17,11 @@
 
 namespace viscontact::particles {
 
-/// Each particle that takes part is called a body here, also if it belongs to a rigid body. Bodies
-/// are numbered in the order in which the contacts name them. Bodies that contacts connect,
-/// directly or through other bodies, form an island. Contacts are only added. h is the length of
-/// the step [T], u* the velocity of a body without contacts [L/T], v with them, m its mass [M].
+/// A particle takes part in the problem if add(), connect() or the rigid body of such a particle
+/// put it there. It is then called a body here, also if it belongs to a rigid body. Bodies are
+/// numbered in the order in which the contacts name them. Bodies that contacts connect, directly or
+/// through other bodies, form an island. Contacts are only added. h is the length of the step [T],
+/// u* the velocity of a body without contacts [L/T], v with them, m its mass [M].
 template <int D>
 class ContactSystem {
  public:
@@ -39,7 +40,7 @@ class ContactSystem {
 
   /// Makes two particles take part, in one island; if `first` is -1, only `second`.
   void connect(std::int32_t first, std::int32_t second);
-  /// Tells that a rigid link holds `particle`, which must take part.
+  /// Tells that a rigid link holds `particle`, which must take part in the problem.
   void hold(std::int32_t particle) { is_held_[index_of(island(body_of(particle)))] = 1; }
 
   /// Solves the dual problem, with the impulses of `contacts` as the first guess and at most

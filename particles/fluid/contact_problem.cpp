@@ -1,9 +1,11 @@
 // Solves the contact problem of a step in a fluid (ContactProblem in fluid_contacts.hpp). W [T/M]
-// is the matrix of the changes of gaps per impulse of each contact, w its diagonal. If contacts are
-// few, W is computed, otherwise only products with it. fluid_contacts.hpp has dimensions and
-// ranges; units are any consistent ones. Errors are those of the mobility; solve() returns false if
-// it misses the tolerances. fluid_contacts.cpp uses it. A change must keep that results depend on
-// nothing but the arguments, because a run that is continued must give the same bits.
+// is the matrix of the changes of gaps per impulse of each contact, w its diagonal, and the scaled
+// W is W/(w_i w_j)^(1/2) [1]. A contact is free if its impulse is above the lowest value that is
+// allowed. If contacts are few, W is computed, otherwise only products with it. fluid_contacts.hpp
+// has dimensions and ranges; units are any consistent ones. Errors are those of the mobility;
+// solve() returns false if it misses the tolerances. fluid_contacts.cpp uses it. A change must keep
+// that results depend on nothing but the arguments, because a run that is continued must give the
+// same bits.
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <set>
@@ -19,7 +21,7 @@ namespace {
 using Eigen::Index;
 
 /// The gap at the end of the step [L] for the velocities without contact.
-double free_gap(const Contact<2>& contact, const ContactConditions& conditions) {
+double gap_without_contact(const Contact<2>& contact, const ContactConditions& conditions) {
   return gap_after(contact, conditions.free_velocities.data(), conditions.h, conditions.layout);
 }
 
@@ -78,7 +80,7 @@ class FluidDualProblem : public DualProblem {
         mobility_(mobility),
         layout_(conditions.layout) {
     for (std::size_t c = 0; c < contacts.size(); ++c)
-      set(c, contacts[c], free_gap(contacts[c], conditions));
+      set(c, contacts[c], gap_without_contact(contacts[c], conditions));
   }
 
   std::size_t displacement_count() const { return 2 * motions_; }
@@ -121,15 +123,16 @@ Eigen::MatrixXd dense_w(std::span<const Contact<2>> contacts,
                         std::span<const std::vector<double>> responses,
                         const MotionLayout& layout) {
   const auto n = std::ssize(contacts);
-  Eigen::MatrixXd w(n, n);
+  Eigen::MatrixXd matrix(n, n);
   for (std::size_t c = 0; c < contacts.size(); ++c)
     for (std::size_t other = 0; other < contacts.size(); ++other)
-      w(static_cast<Index>(other), static_cast<Index>(c)) =
+      matrix(static_cast<Index>(other), static_cast<Index>(c)) =
           opening(contacts[other], responses[c].data(), layout);
-  return w;
+  return matrix;
 }
 
-/// The same problem with the scaled matrix itself. A vector y = B z holds `w` z, and then z.
+/// The same problem with the scaled matrix itself. A vector y = B z holds the product of
+/// scaled_matrix and z, and then z.
 class DenseDualProblem : public DualProblem {
  public:
   /// The matrix of the problem is the symmetric part of `full_w`, dense_w() of the contacts. If W
@@ -145,10 +148,11 @@ class DenseDualProblem : public DualProblem {
         further += contacts[c].impulse / 2 * (full_w.col(i) - full_w.row(i).transpose());
       }
     for (std::size_t c = 0; c < contacts.size(); ++c)
-      set(c, contacts[c], free_gap(contacts[c], conditions) + further[static_cast<Index>(c)]);
+      set(c, contacts[c],
+          gap_without_contact(contacts[c], conditions) + further[static_cast<Index>(c)]);
     const Eigen::Map<const Eigen::VectorXd> scales(scale.data(), std::ssize(scale));
-    w = full_w.cwiseQuotient(scales * scales.transpose());
-    w = (w + w.transpose().eval()) / 2;
+    scaled_matrix = full_w.cwiseQuotient(scales * scales.transpose());
+    scaled_matrix = (scaled_matrix + scaled_matrix.transpose().eval()) / 2;
   }
 
   std::size_t displacement_count() const { return 2 * count(); }
@@ -158,7 +162,7 @@ class DenseDualProblem : public DualProblem {
     const auto n = static_cast<Index>(count());
     const Eigen::Map<const Eigen::VectorXd> z_of(values.data(), n);
     Eigen::Map<Eigen::VectorXd> product(y.data(), n);
-    product = w * z_of;
+    product = scaled_matrix * z_of;
     std::ranges::copy(values, y.begin() + n);
     return product.dot(z_of);
   }
@@ -170,7 +174,7 @@ class DenseDualProblem : public DualProblem {
   }
   double to_contact(std::size_t c, const double* y) const { return y[c]; }
 
-  Eigen::MatrixXd w;  ///< [1], symmetric, positive semidefinite, with the diagonal 1
+  Eigen::MatrixXd scaled_matrix;  ///< [1], symmetric, positive semidefinite, with the diagonal 1
 
  private:
   mutable ThreadPool pool_{1};
@@ -188,11 +192,11 @@ class DenseFactor {
     chosen_.clear();
     for (std::size_t c = 0; c < free.size(); ++c)
       if (free[c] != 0) chosen_.push_back(static_cast<Index>(c));
-    w_ = problem.w(chosen_, chosen_);
+    matrix_ = problem.scaled_matrix(chosen_, chosen_);
     // Redundant contacts make W singular, up to its errors. The term, which is as large as these
     // errors, bounds the impulses of redundant contacts. The refinement in solve() removes the
     // error that the term causes in all other impulses.
-    Eigen::MatrixXd regular = w_;
+    Eigen::MatrixXd regular = matrix_;
     regular.diagonal() *= 1 + error_of_w_;
     factor_.compute(regular);
     return true;
@@ -202,7 +206,7 @@ class DenseFactor {
         Eigen::Map<const Eigen::VectorXd>(gradient.data(), std::ssize(gradient))(chosen_);
     Eigen::VectorXd values = factor_.solve(right);
     constexpr int kRefinements = 2;  // a free choice
-    for (int i = 0; i < kRefinements; ++i) values += factor_.solve(right - w_ * values);
+    for (int i = 0; i < kRefinements; ++i) values += factor_.solve(right - matrix_ * values);
     std::ranges::fill(solved, 0.0);
     for (std::size_t i = 0; i < chosen_.size(); ++i)
       solved[static_cast<std::size_t>(chosen_[i])] = values[static_cast<Index>(i)];
@@ -212,7 +216,7 @@ class DenseFactor {
   double error_of_w_;
   std::vector<char> free_;
   std::vector<Index> chosen_;
-  Eigen::MatrixXd w_;
+  Eigen::MatrixXd matrix_;  // scaled W of the contacts of chosen_
   Eigen::LDLT<Eigen::MatrixXd> factor_;
 };
 

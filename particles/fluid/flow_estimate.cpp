@@ -49,9 +49,10 @@ double largest(std::span<const double> of, const Particles& particles, int power
   return result;
 }
 
-/// The changes of forces in the plane, with one value for all loads on a particle: the larger one
-/// of the change of its force and of its torque over the radius, for the torque times the radius.
-/// A load whose change is small by chance then gets no error that is too small.
+/// The changes of forces. In the plane all loads on a particle get one value: the larger one of two
+/// numbers, the change of its force and the change of its torque over its radius. The torque gets
+/// this value times the radius. A load whose change is small by chance then gets no error that is
+/// too small.
 std::vector<double> of_loads(std::span<const double> changes, const Particles& particles) {
   auto result = lengths(changes, motion_components(particles.dimension));
   if (particles.dimension == 1) return result;
@@ -74,8 +75,9 @@ double speed_of_flow(const Fluid& fluid, const Particles& particles) {
   return rate * std::ranges::max(particles.radii);
 }
 
-/// The estimates relative to `scale`, for the largest changes by the other mesh and, times its
-/// factor, by the other penalty; 0 if `scale` is 0.
+/// The estimates relative to `scale`; 0 if `scale` is 0. `by_mesh` is the largest change of a
+/// result by the other mesh, `by_penalty` the largest change by the other penalty times the factor
+/// of vary_penalty().
 RelativeErrors relative(double by_mesh, double by_penalty, const SecondMesh& mesh, double scale) {
   if (!(scale > 0)) return {0, 0, 0};
   return {(mesh.error * by_mesh + by_penalty) / scale,

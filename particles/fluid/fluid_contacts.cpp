@@ -174,7 +174,7 @@ Contact<2> contact_of_plates(const Fluid& fluid, const Particles& start, const P
   };
   const auto of_first = arm(near.first, first), of_second = arm(near.second, second);
   contact.levers = {-cross(of_first, contact.normal), cross(of_second, contact.normal)};
-  // Both arms of friction end at one point in the gap, so that it keeps the angular momentum.
+  // Both arms of friction end at one point in the gap, so that friction keeps the angular momentum.
   const double share = distance / (first.end_radius() + second.end_radius());
   place.arms = {along(of_first, contact.normal) + share * first.end_radius(),
                 share * second.end_radius() - along(of_second, contact.normal)};
@@ -264,8 +264,7 @@ Particles moved(const Particles& p, std::span<const double> velocities, double h
 
 /// Adds to the gaps of contacts of plates the amount by which the gap after the step, in which
 /// plates turn by finite angles, exceeds the linearised gap. Returns false, and changes nothing, if
-/// the amount is at
-/// most a quarter of the tolerance for each contact that may act.
+/// the amount is at most a quarter of the tolerance for each contact that may act.
 bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
                    std::span<const PlanePosition> obstacles, const ContactConditions& conditions) {
   const double h = conditions.h;
@@ -527,7 +526,7 @@ StepResiduals measure_residuals(std::span<Contact<2>> contacts, std::span<const 
     if (!contact.is_stop())
       residuals.take_gap(
           after, {contact.first >= 0 ? contact.first : -1 - contact.obstacle, contact.second});
-    // A contact that takes no part must not close.
+    // A contact that was left out of the problem (w = 0) must not close.
     const bool takes_part = contact.w > 0;
     const double residual =
         takes_part ? contact_residual(after, contact.w * (contact.impulse - contact.lowest))

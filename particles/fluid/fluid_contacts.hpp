@@ -1,10 +1,10 @@
-// The contacts of a step in a fluid, docs/physics.md (6.4): which pairs take part, and impulses
-// that keep their gaps open; and their Coulomb friction (6.14). The velocities of particles depend
-// linearly on forces. Contact is made at the threshold gap D_c (Fluid::threshold_gap): gaps of
-// contacts are D - D_c here, with the distance D of the surfaces. gamma <= 0 is minus the impulse
-// that the film of a contact has absorbed, and gamma_min the gamma at which the solids touch.
-// Lengths, masses and times are in any consistent units; masses and impulses of discs are per
-// length. Arrays of velocities, forces and loads have MotionLayout::components numbers for each
+// The contacts of a step in a fluid: which pairs make contact, the impulses that keep their gaps
+// open (docs/physics.md (6.4)), and their Coulomb friction (6.14). The velocities of particles
+// depend linearly on forces. Contact is made at the threshold gap D_c (Fluid::threshold_gap): gaps
+// of contacts are D - D_c here, with the distance D of the surfaces. gamma <= 0 is minus the
+// impulse that the film of a contact has absorbed, and gamma_min the gamma at which the solids
+// touch. Lengths, masses and times are in any consistent units; masses and impulses of discs are
+// per length. Arrays of velocities, forces and loads have MotionLayout::components numbers for each
 // particle [L/T, 1/T; M L/T^2, M L^2/T^2]. The other sources of this folder and
 // particles/membranes/ use it. Sizes and ranges of arguments are not checked; functions throw only
 // what they say. A change must keep that the film carries no friction.
@@ -94,12 +94,12 @@ struct ContactConditions {
   /// Impulse of a force in the step over h times the force: 1, except in a fluid with inertia,
   /// where it is the length of the step before over h (BlowStep::kick) [1], > 0.
   double share_of_impulse = 1;
-  /// If a unit force of a contact changes the velocity of its gap, or of its slip, by no more than
-  /// this [T/M], >= 0, hinges hold the gap or slip, which then takes no part; 0: hinges hold none.
+  /// Hinges hold a gap or a slip if a unit force of its contact changes its velocity by no more
+  /// than this [T/M], >= 0. The gap or slip is then left out of the problem. 0: hinges hold none.
   double least_w = 0;
   double least_reach = 0;  ///< pairs are listed up to this gap at least [L], >= 0
-  /// Whether the mobility is symmetric. In a fluid with inertia it is not, because moving fluid
-  /// carries the effect of a contact to those downstream.
+  /// Whether the mobility is symmetric. In a fluid with inertia it is not symmetric, because moving
+  /// fluid carries the effect of a contact to the contacts downstream.
   bool is_symmetric = true;
   /// Whether impulses that are a solution within the tolerances already stay as they are. If not,
   /// they are improved as far as the errors of the mobility allow.
@@ -115,11 +115,11 @@ inline double rounding_error_of_gaps(const ContactConditions& conditions) {
              fastest(conditions.free_velocities, conditions.layout);
 }
 
-/// Contact::w of a contact that takes no part, because hinges hold its gap.
+/// Contact::w of a contact that is left out of the problem, because hinges hold its gap.
 inline constexpr double kHeld = -1;
 
 /// Sets Contact::allowed, the allowed residual [L], from the tolerances of gaps and impulses. For
-/// contacts with w <= 0, which take no part, it is the tolerance of gaps alone.
+/// contacts with w <= 0, which are left out of the problem, it is the tolerance of gaps alone.
 ///
 /// Returns the impulses at work in each contact [M L/T]. For a particle this is the largest of the
 /// impulses of its contacts and of those that alone would keep their gaps from changing; for a
@@ -129,7 +129,8 @@ std::vector<double> set_allowed(std::span<Contact<2>> contacts,
 
 /// Measures the residuals of contacts, for their impulses and the velocities that the particles
 /// have with these. Sets Contact::allowed. StepResiduals::impulse_errors has one number for each
-/// contact, 0 if it takes no part; StepResiduals::converged says whether all are allowed.
+/// contact, 0 if the contact is left out of the problem; StepResiduals::converged says whether all
+/// residuals are allowed.
 StepResiduals measure_residuals(std::span<Contact<2>> contacts, std::span<const double> velocities,
                                 const ContactConditions& conditions);
 
@@ -159,7 +160,7 @@ class ContactProblem {
 
   /// Finds the impulses and the `w` of all contacts. Further contacts may be added afterwards; the
   /// next solution begins with the impulses found. A solution that `is_rough` has wider tolerances
-  /// and saves products: it serves to see which other contacts take part. Returns whether the
+  /// and saves products: it serves to see which other contacts must be added. Returns whether the
   /// residuals of all contacts are within the tolerances; false if they are not after
   /// SolverSettings::max_iterations or a fixed number of rounds. True if there are no contacts.
   /// Throws what the mobility throws.
@@ -178,7 +179,7 @@ class ContactProblem {
   bool is_rough() const { return is_rough_; }
 
  private:
-  // Both improve the impulses until the residuals are allowed.
+  // The next two functions improve the impulses until the residuals are allowed.
   void solve_dense();
   void solve_by_products();
   /// Sets the velocities by the responses of all contacts to their impulses.
@@ -268,10 +269,10 @@ struct StepContacts {
   double reach = 0;       ///< all pairs with a distance of surfaces below it are listed [L], > 0
 };
 
-/// Solves for `step.contacts`, whose impulses are first guesses, in rounds: after each one the
-/// contacts join whose gaps the others have closed. Sets the impulses and w of the contacts, and
-/// the loads, velocities and `is_solved` of the step, which is false if residuals are larger than
-/// allowed; adds to its iterations. Throws what the mobility throws.
+/// Solves for `step.contacts`, whose impulses are first guesses, in rounds. After each round those
+/// contacts are added whose gaps the solution has closed. Sets the impulses and w of the contacts,
+/// and the loads, velocities and `is_solved` of the step, which is false if residuals are larger
+/// than allowed; adds to its iterations. Throws what the mobility throws.
 void solve_listed(StepContacts& step, const Mobility& mobility,
                   const ContactConditions& conditions);
 

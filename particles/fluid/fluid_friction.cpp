@@ -1,11 +1,11 @@
 // Solves Coulomb's law of contacts in a fluid (docs/physics.md (6.14), fluid_contacts.hpp): the
 // friction is at most mu_s, its coefficient, times the load of the solids, and equal to this bound
 // if they slide. There are rounds of two parts. First solve_listed() finds the normal impulses that
-// keep the gaps open with the friction found so far, and which contacts take part. Then, if the law
-// does not hold yet, solve_constraints() finds the normal and tangential impulses of all these
-// contacts together, as for particles without a fluid. Impulses are in [M L/T], gaps and slips in
-// [L]. fluid_contacts.hpp has the ranges. Errors are those of the mobility; if the law is not
-// reached, StepContacts::is_solved is false. fluid_contacts.cpp, fluid_acceptance.cpp and
+// keep the gaps open with the friction found so far, and adds contacts whose gaps would close.
+// Then, if the law does not hold yet, solve_constraints() finds the normal and tangential impulses
+// of all these contacts together, as for particles without a fluid. Impulses are in [M L/T], gaps
+// and slips in [L]. fluid_contacts.hpp has the ranges. Errors are those of the mobility; if the law
+// is not reached, StepContacts::is_solved is false. fluid_contacts.cpp, fluid_acceptance.cpp and
 // fluid_simulation.cpp use it. A change must keep that the first part comes last, so that gaps are
 // exact for the friction found.
 #include <Eigen/Core>
@@ -72,7 +72,7 @@ double allowed_for(const ContactFrictionInFluid& friction, const Contact<2>& con
   return std::min(largest, contact.allowed * std::max(1.0, friction.w / contact.w));
 }
 
-/// The rows of all contacts that take part: for each contact a gap and, with friction, a slip. With
+/// The rows of all contacts of the step: for each contact a gap and, with friction, a slip. With
 /// the impulses p of the rows, gaps and slips after the step are q + W p (W: see matrix_of()).
 struct CoupledRows {
   std::vector<double> q;                            ///< gaps and slips without contact [L]
@@ -193,8 +193,8 @@ class FrictionSolver {
         of_slips_(step.frictions.size()) {}
 
   void solve() {
-    // One round is enough unless further contacts take part after it; a packing takes a few more.
-    // The limit is a free choice.
+    // One round is enough unless further contacts are added after it; a packing takes a few more
+    // rounds. The limit is a free choice.
     constexpr int kMostRounds = 30;
     double least = std::numeric_limits<double>::infinity();
     auto best = impulses();
@@ -306,7 +306,7 @@ class FrictionSolver {
     return of_slips_[f];
   }
 
-  /// Improves the normal and tangential impulses of all contacts that take part, in one problem.
+  /// Improves the normal and tangential impulses of all contacts of the step, in one problem.
   void solve_together(bool gives_loads) {
     CoupledRows rows;
     std::vector<std::size_t> contacts, frictions;  // numbers for each block; kNone: no friction

@@ -2,11 +2,11 @@
 // FluidSimulation that its solve() calls. The fluid solver keeps linear conditions on velocities,
 // the rows (held_rows.hpp). These hold bodies and links to first order in the motion only, because
 // they turn by finite angles; here velocities are changed until the remaining error is within the
-// tolerance.
-// Velocities are in [L/T, 1/T], forces of rows in [M L/T^2, M L^2/T^2]; fluid_simulation.hpp and
-// held_rows.hpp have the shapes. hold_after_step() throws Error(kNotConverged) if a length or place
-// would be off by more than a mean radius, hold_with_contacts() what solve_contacts() throws. A
-// change must keep that a continued run gives the same bits as one without a break.
+// tolerance. Velocities are in [L/T, 1/T], forces of rows in [M L/T^2, M L^2/T^2];
+// fluid_simulation.hpp and held_rows.hpp have the shapes. hold_after_step() throws
+// Error(kNotConverged) if a length or place would be off by more than a mean radius;
+// hold_with_contacts() throws what solve_contacts() throws. A change must keep that a continued run
+// gives the same bits as one without a break.
 
 #include <cmath>
 

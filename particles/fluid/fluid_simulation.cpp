@@ -221,8 +221,8 @@ std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& 
   };
   const auto& fluid = *setting_.fluid;
   const auto is_ellipse = [&](std::int32_t k) { return k >= 0 && fluid.is_ellipse(index_of(k)); };
-  // Pairs of which no particle can be moved have no contact, nor have ellipses (check_ellipses())
-  // and the two ends of an arm, which prescribes their distance.
+  // Three kinds of pairs have no contact: those of which no particle can be moved, those with an
+  // ellipse (check_ellipses()), and the two ends of an arm, which prescribes their distance.
   const auto is_left_out = [&](const Pair& pair) {
     return (!is_movable(pair.first) && !is_movable(pair.second)) || is_ellipse(pair.first) ||
            is_ellipse(pair.second) || std::ranges::any_of(setting_.links.arms, [&](const Arm& arm) {

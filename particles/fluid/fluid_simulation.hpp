@@ -72,14 +72,14 @@ class FluidSimulation {
   /// FluidSolver::load_flow().
   FluidSimulation(Setting setting, State state, std::unique_ptr<FluidSolver> solver);
 
-  /// Computes one step of length Setting::time_step, or less if `end` [T] is nearer; none, and
-  /// returns a report without contacts, if the state has reached `end`. In the first step of a
-  /// simulation and in the one that reaches `end` it estimates the errors of velocities and forces,
-  /// without inertia of the fluid. Throws the errors of FluidSolver, also Error(kInterrupted) if a
-  /// stop is requested, and Error(kNotConverged) if an overlap of more than the mean radius is
-  /// left, if links are off by more than that or contradict each other, if an ellipse or plate
-  /// touches where it must not, or if a particle moves too far for the precision of a double. The
-  /// state is then that before the step. A smaller residual that is not allowed throws nothing:
+  /// Computes one step of length Setting::time_step, or less if `end` [T] is nearer. If the state
+  /// has reached `end`, computes no step and returns a report without contacts. In a fluid without
+  /// inertia the first step of a simulation and the step that reaches `end` estimate the errors of
+  /// velocities and forces. Throws the errors of FluidSolver, also Error(kInterrupted) if a stop is
+  /// requested, and Error(kNotConverged) if an overlap of more than the mean radius is left, if
+  /// links are off by more than that or contradict each other, if an ellipse or plate touches where
+  /// it must not, or if a particle moves too far for the precision of a double. The state is then
+  /// that before the step. A smaller residual that is not allowed throws nothing:
   /// StepReport::converged is then false.
   StepReport step(double end);
 

@@ -40,19 +40,19 @@ class HeldMotion {
 
   /// By how much the sums of the rows must change, so that hinges and arms hold after a step with
   /// these velocities, in which bodies turn by finite angles, one number for each row [L/T, 1/T]; 0
-  /// for rows of bodies and of other links. For a spring of which an end accelerates it is minus
-  /// the error of the equation at HeldRow::stiffness over theta h stiffness, with the force among
-  /// `row_forces`, the finite change of the extension, and the theta among `thetas`
-  /// (HeldSolver::thetas()).
+  /// for rows of bodies and of other links. For a spring of which an end accelerates it is -(force
+  /// + stiffness (extension at the beginning + theta times its finite change in the step))/(theta h
+  /// stiffness): the error of the equation at HeldRow::stiffness, with its force in `row_forces`
+  /// and its theta in `thetas` (HeldSolver::thetas()).
   std::vector<double> missing(std::span<const double> velocities,
                               std::span<const double> row_forces,
                               std::span<const double> thetas) const;
 
   /// Changes the velocities `at_end` at the end of the step, in which particles moved with
   /// `velocities`, until bodies are rigid and hinges and arms hold for them. The extension of a
-  /// spring grows with its mean rate in the step if its row has a number other than 0 in
-  /// `is_stiff`, which has one for each row. The change is that by forces along the rows at the end
-  /// of the step, with the mobility `mobility` >= 0 of each component of each particle [T/M,
+  /// spring then grows with its mean rate in the step if its row has a number other than 0 in
+  /// `is_stiff`, which has one number for each row. Forces along the rows at the end of the step
+  /// make the change, with the mobility `mobility` >= 0 of each component of each particle [T/M,
   /// T/(M L^2)]. Returns these forces; they are 0 in rows of which no unit accelerates. If rows
   /// contradict each other, they hold as nearly as possible (least squares).
   std::vector<double> hold_at_end(std::span<const double> velocities,

@@ -87,8 +87,8 @@ double HeldSolver::theta(Index r) const {
   return std::isfinite(z) ? (1 + z) / (2 + z) : 1;
 }
 
-/// For each row without stiffness, its prescribed rate minus its sum with these velocities; for
-/// each spring, which has the rate 0, minus its sum.
+/// For each row, its prescribed rate minus its sum with these velocities. The prescribed rate of a
+/// spring is 0.
 Eigen::VectorXd HeldSolver::missing(std::span<const double> velocities) const {
   Eigen::VectorXd missing = -sums(velocities);
   for (std::size_t r = 0; r < rows_.size(); ++r)
@@ -138,9 +138,10 @@ Eigen::MatrixXd HeldSolver::solve_fixed(const Eigen::MatrixXd& right) const {
   return forces;
 }
 
-/// The forces of the rows that add `right` to the sums of the rows without stiffness. For a spring,
-/// what they add to its sum plus the compliance 1/(theta h stiffness) times its force is `right`;
-/// but if `with_springs` is false, springs have the force 0.
+/// The forces of the rows for the right side `right`. The forces change the sum of each row without
+/// stiffness by its entry of `right`. For a spring, its entry of `right` is the change of its sum
+/// plus its compliance 1/(theta h stiffness) times its force. If `with_springs` is false, springs
+/// have the force 0.
 Eigen::VectorXd HeldSolver::solve(const Eigen::VectorXd& right, bool with_springs) const {
   const Eigen::VectorXd scaled = scale_.cwiseProduct(right);
   Eigen::VectorXd of_fixed = solve_fixed(scaled(fixed_));
@@ -195,7 +196,8 @@ void HeldSolver::check(const Eigen::VectorXd& right, const Eigen::VectorXd& forc
 std::vector<double> HeldSolver::velocities(std::span<const double> forces, bool driving) {
   auto velocities = solver_->velocities(forces, driving);
   if (rows_.empty()) return velocities;
-  // The prescribed values of the rows: of the sum, for a spring of sum plus compliance times force.
+  // The values that the rows prescribe: of the sum; for a spring, of the sum plus the compliance
+  // times the force.
   Eigen::VectorXd given = Eigen::VectorXd::Zero(static_cast<Index>(rows_.size()));
   if (driving)
     for (std::size_t r = 0; r < rows_.size(); ++r) {
@@ -276,8 +278,8 @@ SecondMesh HeldSolver::vary_mesh() {
 /// Corrects `of_rows`, forces of the rows that were computed with the mobility at place(), for the
 /// other mesh or penalty that the fluid solver has after vary_mesh() or vary_penalty(). Each
 /// correction multiplies the error of the sums by about the relative difference of both mobilities,
-/// which is small; the number of corrections is a free choice. `right` are the prescribed sums, for
-/// springs those of sum and compliance times force.
+/// which is small; the number of corrections is a free choice. `right` are the prescribed values:
+/// of the sums; for springs, of the sum plus the compliance times the force.
 void HeldSolver::correct(const Eigen::VectorXd& right, std::span<const double> forces,
                          Eigen::VectorXd& of_rows) {
   constexpr int kCorrections = 2;

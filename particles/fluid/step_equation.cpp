@@ -115,10 +115,11 @@ StepEquation::Window StepEquation::window(const Setting& setting, const State& s
   const double now = state.time;
   if (!setting.fluid->has_inertia() || state.steps == 0) return {now, now, next};
   const double from = now - state.earlier_step / 2;
-  // The velocity at t^1 is found from a difference of first order, those after it from differences
-  // of second order. In the sum of all steps the latter give the change of the velocity in the
-  // first step the weight 3/2. Its forces are therefore means over the first 3/2 steps, from t^0
-  // on, so that the forces of all steps together have the whole impulse.
+  // The velocity at t^1 is found from a difference of first order, later velocities from
+  // differences of second order. The sum of the differences over all steps contains the change of
+  // the velocity in the first step with the weight 3/2. The forces of the first step are therefore
+  // means over the first 3/2 steps, from t^0 on, so that the forces of all steps together have the
+  // whole impulse.
   return {state.steps == 1 ? now - state.earlier_step : from, from, now + h / 2};
 }
 
@@ -184,7 +185,7 @@ void StepEquation::add_inertia() {
 void StepEquation::find_companions() {
   const auto& p = state_.particles;
   // Particles that move with each other form sets. set[k] is a particle of the set of k, and
-  // set_of() follows these numbers to the one that names the set.
+  // set_of() follows these numbers to the particle whose number names the set.
   std::vector<std::int32_t> set(p.count());
   std::iota(set.begin(), set.end(), 0);
   const auto set_of = [&](std::int32_t k) {

@@ -110,10 +110,10 @@ class StepEquation {
 
   /// True if the velocity of particle `k` is prescribed.
   bool is_driven(std::int32_t k) const { return driven_.contains(k); }
-  /// True if the velocity of particle `k` may jump, so that it has theta = 1. The reason may be one
-  /// of another particle that moves with it because of rigid bodies, arms and stiff springs: a
+  /// True if the velocity of particle `k` may jump, so that it has theta = 1. The reason is a
   /// contact in the step before or in put_in_contact(), an arm whose rate of length jumps, or a
-  /// link to a particle whose given velocity jumps.
+  /// link to a particle whose given velocity jumps. It may also be the reason of another particle
+  /// that moves with this one because of rigid bodies, arms and stiff springs.
   bool is_in_contact(std::int32_t k) const { return in_contact_[index_of(k)] != 0; }
 
   /// Puts the particles of contacts with an impulse in contact, except driven ones. Returns true if

@@ -341,8 +341,8 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
   const double closing = -dot(normal, approach.before - surface);
   const bool rests = gap_of(at_start, 0) <= step_.touching &&
                      (bore_load ? closing <= pulled : std::abs(closing) <= unseen);
-  // The velocity of a point by its body's true turning, without that of spin(), which is in
-  // velocity_of().
+  // The velocity of a point by the true turning of its body, minus the velocity by spin(), which
+  // velocity_of() already contains.
   const auto turning_of = [&](std::int32_t particle, const Arm& arm) {
     if (!precesses(particle)) return Vector{};
     return cross(spin_at(particle, time) - spin(particle), arm.at(time));
@@ -374,7 +374,8 @@ void Impacts<D>::expect(std::size_t k, double from) {
   for (double begin = from, end = 0; begin < step_.h; begin = end) {
     // Each pass moves on by at least this part of the step, which is above rounding errors.
     constexpr double kBeyondRounding = 1e-12;
-    // Hits that rounding errors move beyond the end of the step count as hits at its end.
+    // The end is slightly later than that of the step, so that a hit at the end of the step counts
+    // although rounding errors make it later.
     end = (1 + kSameTime) * step_.h;
     if (approach.obstacle != nullptr)
       end = std::min(end, approach.obstacle->velocity.next_end(step_.begin + begin) - step_.begin);

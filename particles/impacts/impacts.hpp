@@ -161,7 +161,7 @@ class Impacts {
   // A contact of a blow.
   struct Hit {
     std::size_t pair;
-    Vector normal;
+    Vector normal;    // unit vector
     double approach;  // velocity at which the gap closes, < 0 [L/T]
     // Velocity of the second centre relative to the first or the obstacle [L/T]. Both velocities
     // contain the turning of rigid bodies.

@@ -1,7 +1,8 @@
 // The records of a collision of two solids that rebound, for rebounds.csv, walls.csv and
 // stress.csv. Lengths, masses and times are in the units of the case file. impacts/ and fluid/ make
 // them; particles/io and run/ write them, and python/ returns rebounds. Numbers of particles and
-// obstacles count from 0. A change must keep the columns of rebounds.csv.
+// obstacles count from 0. Nothing is checked or thrown. A change must keep the columns of
+// rebounds.csv.
 #pragma once
 
 #include <cstdint>

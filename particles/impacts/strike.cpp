@@ -253,8 +253,9 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     const auto& phase = phases[c];
     const auto& block = problem.blocks[c];
     before_.push_back({hits[c].pair, of, state_.memories.of(of.memory)});
-    // remember() subtracts of.impulse from gamma. For this call it is the change of gamma; then the
-    // impulse of the last step is restored, by which hit_at() knows whether the pair bore a load.
+    // remember() subtracts of.impulse from gamma. For this call of.impulse is therefore minus the
+    // change of gamma. Then the impulse of the last step is restored, which tells hit_at() whether
+    // the pair bore a load.
     const double gamma = laws.restitution.gamma_after(block.lowest, problem.impulses[block.row],
                                                       of.gamma - phase.capacity, of.gamma);
     const double impulse = std::exchange(of.impulse, of.gamma - gamma);

@@ -37,7 +37,8 @@ void add(std::string& text, const Vector& x, int dimension) {
 }
 
 /// Names of the columns of the contact force, and of the history variables of the contact laws
-/// (kMemoryFields), which follow the columns of gamma, the impulse that its film has absorbed.
+/// (kMemoryFields), which follow the columns of gamma, minus the impulse that the film of a contact
+/// has absorbed.
 std::string force_columns(int dimension) {
   auto text = ",normal_force" + (dimension == 1 ? "" : components("tangential_force_", dimension));
   for (const auto& field : kMemoryFields)

@@ -1,7 +1,7 @@
-// Writes bodies.csv, hinges.csv, springs.csv and arms.csv, and links as VTK PolyData
-// (link_file.hpp, which has the columns). Numbers are in the units of the case. Nothing is checked
-// or thrown. A change must keep the names and the order of the columns and arrays, and the numbers
-// of Kind, which docs/file-formats.md states and users' scripts read. Used by run/.
+// Writes bodies.csv, hinges.csv, springs.csv and arms.csv, and links as VTK PolyData; link_file.hpp
+// has the columns and their dimensions. Numbers are in the units of the case. Nothing is checked or
+// thrown. A change must keep the names and the order of the columns and arrays, and the numbers of
+// Kind, which docs/file-formats.md states and users' scripts read. Used by run/.
 #include "viscontact/particles/io/link_file.hpp"
 
 #include <fmt/format.h>

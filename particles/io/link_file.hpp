@@ -26,21 +26,24 @@ struct TimeTable {
 /// The tables of a run. A table is left out if the case has nothing for it:
 ///
 /// - bodies.csv: time,id,x,y,angle,vx,vy,angular_velocity; in space
-///   time,id,x,y,z,vx,vy,vz,orientation_w,...,angular_velocity_x,...
+///   time,id,x,y,z,vx,vy,vz,orientation_w,..._x,..._y,..._z,angular_velocity_x,..._y,..._z
 /// - hinges.csv: time,id,force_x,force_y,torque,angle,angular_velocity; in space
-///   force_x,force_y,force_z
+///   time,id,force_x,force_y,force_z
 /// - springs.csv: time,id,length,force
 /// - arms.csv: time,id,length,force,power
-/// - membranes.csv: see membrane_rows()
+/// - membranes.csv: time,id, and then the members of MembraneMeasures (membranes/membrane.hpp)
 ///
 /// In a fluid springs.csv and arms.csv end with the column force_error_estimate, and hinges.csv has
 /// force_error_estimate,torque_error_estimate before angle: estimates of the errors that the mesh
 /// of the fluid causes, in the units of force and torque, and empty where they are not known.
 ///
-/// Ids are numbers from 0 in the order of the case. The force of a hinge is that on its body, and
-/// its torque that of its torsion spring and its stops. Forces of springs and arms are > 0 where
-/// they push the ends apart. Forces and powers are means over the step that ended at `time`, and 0
-/// before the first step. The power of an arm is > 0 where the arm does work on the particles.
+/// Dimensions are: time [T], positions and lengths [L], angles [rad], velocities [L/T], angular
+/// velocities [1/T], forces [M L/T^2], torques [M L^2/T^2], powers [M L^2/T^3]. Ids are numbers
+/// from 0 in the order of the case. The force of a hinge is the force of the hinge on its body, and
+/// the torque of a hinge is the torque of its torsion spring and its stops on this body. Forces of
+/// springs and arms are > 0 where they push the ends apart. Forces and powers are means over the
+/// step that ended at `time`, and 0 before the first step. The power of an arm is > 0 where the arm
+/// does work on the particles.
 std::vector<TimeTable> time_tables(const Setting& setting, const Particles& particles);
 
 /// Content of a VTK XML PolyData file (VTK's file formats, "XML file formats"; appended raw data)

@@ -53,7 +53,7 @@ struct Playback {
   std::vector<float> masses{};
   /// Semi-axes of each particle in the plane [L], the first along its angle; empty: no ellipses.
   std::vector<std::array<double, 2>> semi_axes{};
-  /// For each particle 1 if it is a plate with round ends, else 0; empty: none is.
+  /// For each particle 1 if it is a plate with round ends, else 0; empty: no particle is a plate.
   std::vector<char> plates{};
   std::vector<Frame> frames;  ///< in order of time, from the start on
   bool is_in_fluid = false;   ///< whether the case has a fluid around the particles

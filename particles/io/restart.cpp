@@ -31,8 +31,8 @@ constexpr std::string_view kHash = "# sha256 of the rest: ";
 constexpr std::string_view kOrder =
     std::endian::native == std::endian::little ? "little-endian" : "big-endian";
 
-/// A pair as files store it. Images, impulses of friction, and the parts of the impulses that the
-/// solids carried are stored in arrays of their own.
+/// A pair as files store it, with members of Pair (state.hpp). Images, impulses of friction, and
+/// the parts of the impulses that the solids carried are stored in arrays of their own.
 struct StoredPair {
   std::int32_t first, second;
   double gamma, impulse, gamma_error;

@@ -14,7 +14,7 @@ namespace {
 
 /// The energy density e = c^2 q^(-5/2) (squared curvature times |dx/ds|) at one bead, where c = x'
 /// y'' - y' x'' and q = x'^2 + y'^2, and its derivatives with respect to (x', y', x'', y''). Primes
-/// are derivatives with respect to the parameter s of the curve.
+/// are derivatives with respect to the parameter s of the curve, a number; the value is in [1/L].
 struct Density {
   double value = 0;
   Eigen::Vector4d gradient;

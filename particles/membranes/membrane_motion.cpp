@@ -1,9 +1,8 @@
 // Solves a time step of membranes in a fluid by Newton's method; membrane_motion.hpp has the
 // equations, and the shapes and dimensions of all arrays. Units are any consistent ones; M is a
-// mass per length of the third dimension.
-// membrane_simulation.cpp and membrane.cpp use it. Throws Error(kNotConverged) if it cannot solve a
-// step. A change must keep that step_matrix() is the derivative of the equations, so that the
-// method converges quadratically.
+// mass per length of the third dimension. membrane_simulation.cpp and membrane.cpp use it. Throws
+// Error(kNotConverged) if it cannot solve a step. A change must keep that step_matrix() is the
+// derivative of the equations, so that the method converges quadratically.
 #include "viscontact/particles/membranes/membrane_motion.hpp"
 
 #include <Eigen/LU>

@@ -31,8 +31,8 @@ class MembraneSimulation {
  public:
   /// `setting.fluid` has membranes, and `solver` is not null (not checked). The particles of
   /// `state` that are no beads are discs without mass, with forces or a given motion. `state` is
-  /// what read_restart returned, or a state of which only the particles are set. For the latter the
-  /// fluid solver computes the velocities at the start, and its errors are thrown. Throws
+  /// what read_restart returned, or a state of which only the particles are set. In the second case
+  /// the fluid solver computes the velocities at the start, and its errors are thrown. Throws
   /// Error(kBadInput) if membranes of a restart file have another shape than those of the case
   /// (check_shapes()).
   MembraneSimulation(Setting setting, State state, std::unique_ptr<FluidSolver> solver);

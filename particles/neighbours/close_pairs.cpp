@@ -40,7 +40,8 @@ void sort_by_cell(std::vector<Entry>& entries, std::uint64_t most) {
   }
 }
 
-/// Cells of one size that cover all particles, numbered row by row, and some of the particles.
+/// A grid: cells of one size, numbered row by row, that cover the positions of all particles, and
+/// the particles that belong to this grid.
 template <int D>
 class Grid {
  public:
@@ -316,9 +317,9 @@ std::vector<ClosePair> close_pairs_in_period(const PeriodicCell& cell,
   const auto dimension = positions.size() / extents.size();
   const auto all = copies_near_sides(dimension, cell, positions, extents);
   std::vector<ClosePair> pairs;
-  // The particles come before the copies, so that `first` of a pair is a particle, or both are
-  // copies, which is skipped. A pair with an image is found twice, once from each of its particles,
-  // of which the one with i < j is kept.
+  // The particles come before the copies. Therefore `first` of a pair is a particle, unless both
+  // are copies; pairs of two copies are skipped. A pair with an image is found twice, once from
+  // each of its particles; the pair with i < j is kept.
   for (const auto& pair :
        close_pairs(static_cast<int>(dimension), all.positions, all.extents, pool)) {
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);

@@ -1,9 +1,10 @@
-// Writes particles, planes, contacts, marks of rotation, rigid bodies and links as elements of SVG
-// (frame_picture.hpp). Points and radii are in the case's unit of length [L]; coordinates, widths
-// and sizes on the page are in page units, of which the picture is 1000 wide. Sizes that stand
-// below as numbers are free choices. Spheres must be drawn from the back to the front, because SVG
-// has no depth. Nothing is checked or thrown. Used by particles_picture.cpp. A change must agree
-// with view.js and picture.js in particles/picture/page, which draw the same on a web page.
+// Writes particles, planes, contacts, marks of rotation, rigid bodies and links as elements of SVG;
+// frame_picture.hpp has the dimensions and ranges. Points and radii are in the case's unit of
+// length [L]; coordinates, widths and sizes on the page are in page units, of which the picture is
+// 1000 wide. Sizes that stand below as numbers are free choices. Spheres must be drawn from the
+// back to the front, because SVG has no depth. Nothing is checked or thrown. Used by
+// particles_picture.cpp. A change must agree with view.js and picture.js in particles/picture/page,
+// which draw the same on a web page.
 #include "viscontact/particles/picture/frame_picture.hpp"
 
 #include <fmt/format.h>

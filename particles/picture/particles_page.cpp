@@ -76,8 +76,8 @@ FlowOfPage flow_of_page(const Scene& scene) {
   return page;
 }
 
-// Colours of gamma, at least 2. With kFrictionColours at most 256: drawContacts() of picture.js
-// numbers the colours of contacts by a byte.
+// Number of colours of gamma, at least 2. Together with kFrictionColours there may be at most 256
+// colours, because drawContacts() of picture.js numbers the colours of contacts by a byte.
 constexpr int kPageColours = 24;
 
 /// kStyle (scene.hpp) as a JSON object. A LineWidth is the list [share, least, most].

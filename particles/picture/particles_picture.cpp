@@ -1,8 +1,9 @@
 // Arranges frames of a motion of particles in an SVG, all at one scale, with the flow behind them
-// and the scales of colours below (particles_picture.hpp). Sizes and coordinates on the page are in
-// page units, of which the picture is 1000 wide; sizes without a reason are free choices. Lengths
-// [L] and speeds [L/T] of the motion are in the units of the case. A flow that cannot be read is an
-// Error(kBadInput). Used by run/particles_pages.cpp. A change must keep one complete SVG.
+// and the scales of colours below; particles_picture.hpp has the ranges. Sizes and coordinates on
+// the page are in page units, of which the picture is 1000 wide; sizes without a reason are free
+// choices. Lengths [L] and speeds [L/T] of the motion are in the units of the case. A flow that
+// cannot be read is an Error(kBadInput). Used by run/particles_pages.cpp. A change must keep one
+// complete SVG.
 #include "viscontact/particles/picture/particles_picture.hpp"
 
 #include <fmt/format.h>
@@ -286,7 +287,7 @@ std::string particles_picture(const Playback& original, const std::string& title
     bars.push_back(report::film_scale(scene.lowest_gamma, kContactColours, scene.film_words));
   const bool has_friction = scene.playback.friction_coefficient && scene.touches;
   if (has_friction) bars.push_back(report::friction_scale(kFrictionColours, kFrictionWords));
-  // What has no scale of colours is said in a line of words.
+  // A line of words explains the colours that have no scale.
   auto words = scene.force_words;
   const auto say = [&](const char* more) {
     words += (words.empty() ? "" : "; ") + std::string(more);

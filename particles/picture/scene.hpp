@@ -70,7 +70,8 @@ struct ShownFlows {
   std::vector<std::size_t> frames;  ///< indices in Playback::frames, increasing
   std::size_t points = 0;           ///< about how many points the grid has; 0 without a flow
 };
-/// These frames and points: at most 60 000, and so few that all flows fit into kFlowBytesOfPage.
+/// The frames and the number of points: at most 60 000 points, and so few that all flows fit into
+/// kFlowBytesOfPage.
 ShownFlows shown_flows(const Playback& playback);
 
 /// How wide a line is drawn: in proportion to a radius, but within limits [page units]. The still

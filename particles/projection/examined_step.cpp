@@ -23,9 +23,9 @@ bool take(double residual, const ResidualScale& scale, const SolverSettings& set
 }  // namespace
 
 /// The scale of the residual of a link: that of a contact whose change of the gap per impulse is
-/// the sum of the mobilities of the particles of the link. Its impulse at work is at least that
-/// which moves this gap by the largest change of a displacement, because a particle that a link
-/// holds may be at rest without any other force.
+/// the sum of the mobilities of the particles of the link. The impulse at work is at least the
+/// impulse that changes this gap by the largest change of a displacement, because a particle that a
+/// link holds may be at rest without any other force.
 template <int D>
 ResidualScale StepProjection<D>::scale_of_link(const LinkEquations& link,
                                                ResidualScales<D>& scales) const {
@@ -107,10 +107,11 @@ void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyo
   }
 }
 
-/// Writes the residuals of the present solution to `result`: those of the chosen contacts and of
-/// the links only if `is_final`, and those of pairs that are not chosen, whose gaps must not be
-/// closed. Returns the numbers of the latter pairs whose gap is closed by more than allowed. Pairs
-/// whose particles move freely are not tested, because free motion closes only chosen pairs.
+/// Writes the residuals of the present solution to `result`: always those of pairs that are not
+/// chosen, whose gaps must not be closed, and if `is_final` also those of the chosen contacts and
+/// of the links. Returns the numbers of the pairs that are not chosen and whose gaps are closed by
+/// more than allowed. Pairs whose particles move freely are not tested, because free motion closes
+/// only chosen pairs.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settings,
                                                     double mean_radius, bool is_final,

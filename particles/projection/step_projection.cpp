@@ -1,9 +1,11 @@
 // Solves the projection of a time step, the problem for the impulses of contacts that keeps gaps
-// open: chooses contacts, solves in rounds that add further contacts, and computes the scales with
-// which residuals are compared (step_projection.hpp, which has the shapes and ranges;
-// docs/particles.md). h [T] is the length of the step, u* are the velocities at its end without
-// contacts and links, v those with them, in any consistent units. Nothing is thrown. simulation.cpp
-// uses it. Results must not depend on the number of threads; a change of a scale alters which steps
+// open (docs/particles.md): chooses contacts, solves in rounds that add further contacts, and
+// computes the scales with which residuals are compared; step_projection.hpp has the dimensions,
+// shapes and ranges. h [T] is the length of the step, u* are the velocities at its end without
+// contacts and links, v those with them, in any consistent units. The problem has the chosen
+// contacts, the links, and the particles of both. Particles that chosen contacts or links join,
+// directly or through other particles, form an island. Nothing is thrown. simulation.cpp uses it.
+// Results must not depend on the number of threads; a change of a scale alters which steps
 // converge.
 #include "viscontact/particles/projection/step_projection.hpp"
 
@@ -71,9 +73,9 @@ void StepProjection<D>::add_constraints(const ConstraintStep& step) {
   constraints_->join_linked(system_);
 }
 
-/// The contact of two particles in a step with collisions (impacts/): its normal is that at the end
-/// of the step, where the collisions have left both particles. Its gap is the distance of the
-/// centres at the beginning along this normal, minus both radii.
+/// The contact of two particles in a step with blows, which are collisions of solids (impacts/):
+/// its normal is that at the end of the step, where the blows have left both particles. Its gap is
+/// the distance of the centres at the beginning along this normal, minus both radii.
 template <int D>
 Contact<D> StepProjection<D>::contact_at_end(std::size_t k) {
   const auto& p = state_.particles;
@@ -148,8 +150,8 @@ std::vector<std::size_t> StepProjection<D>::nearly_closed(bool are_films_only) {
 
 template <int D>
 void StepProjection<D>::choose(const std::vector<std::size_t>& pairs) {
-  // With constraints one thread solves each island by itself, in an order of its contacts that must
-  // not depend on other islands.
+  // With constraints one thread solves each island by itself. The order of the contacts of an
+  // island must therefore not depend on other islands.
   for (const auto k : constraints_ ? pairs : interleaved(pairs)) {
     is_chosen_[k] = 1;
     if (constraints_ && constraints_->is_held_apart(pair(k))) continue;
@@ -192,14 +194,15 @@ void StepProjection<D>::allow(double length, double fraction, double of_slips) {
         scale_of_link(link, scales).allowed(length / 2, fraction) / 2);
 }
 
-/// Returns `pairs` and, from the third round on, also pairs that are connected with them and whose
-/// gaps may close next: gaps up to the largest change of a displacement in an island. Otherwise
-/// each round would find only the next pair of a chain through which an impulse goes. The chain is
-/// followed over 1 pair in round 3, and over twice as many in each further round.
+/// Returns `pairs` and, from the third round on, also pairs that are connected with `pairs` and
+/// whose gaps may close next. These are the gaps that are not larger than the largest change that
+/// contacts and links have made in a displacement in the island of one of their particles.
+/// Otherwise each round would find only the next pair of a chain through which an impulse goes. The
+/// chain is followed over 1 pair in round 3, and over twice as many in each further round.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::with_connected_pairs(
     const std::vector<std::size_t>& pairs, int round) {
-  // Both are free choices; 2 to the power of kLargestDepth must be an int.
+  // Both numbers are free choices; 2 to the power of kLargestDepth must be an int.
   constexpr int kFirstRound = 3, kLargestDepth = 20;
   if (pairs.empty() || round < kFirstRound) return pairs;
   std::vector<double> farthest(system_.bodies().size());  // in each island, at its root
@@ -226,9 +229,9 @@ std::vector<std::size_t> StepProjection<D>::with_connected_pairs(
 }
 
 /// Removes pairs from `pairs` whose gaps the free motion closes by no more than the allowed
-/// residual. Pairs with a film, or with an impulse in the step before, stay. The convex relaxation
-/// (5.9) lifts each pair that takes part and slides. For a particle that slides along an obstacle
-/// without load, rounding errors would decide whether the pair takes part.
+/// residual. Pairs with a film, or with an impulse in the step before, stay. The reason is that the
+/// convex relaxation (5.9) pushes each chosen pair apart that slides. For a particle that slides
+/// along an obstacle without load, rounding errors would decide whether the pair is chosen.
 template <int D>
 void StepProjection<D>::leave_touching(std::vector<std::size_t>& pairs,
                                        const SolverSettings& settings, double mean_radius) {
@@ -254,7 +257,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   constexpr double kMargin = 5e-3;
   const bool has_friction = step_ != nullptr && step_->laws.friction;
   const bool is_convex = has_friction && step_->laws.friction->method == FrictionMethod::kConvex;
-  // The motion with links and without contacts decides which contacts take part: a free particle
+  // The motion with links and without contacts decides which contacts are chosen: a free particle
   // would meet walls that its hinge or arm takes it past.
   if (constraints_ && !constraints_->links().empty()) {
     allow(settings.tolerance / 2 * mean_radius, settings.impulse_tolerance,
@@ -314,9 +317,8 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   auto scales = residual_scales();
   for (std::size_t c = 0; c < chosen_.size(); ++c) {
     result.pairs.push_back(&pair(chosen_[c]));
-    // A pair that had an impulse in the step before takes part in the next one, and the convex
-    // relaxation may lift it. An impulse within its allowed error must not have this effect, and is
-    // none.
+    // A pair with an impulse is chosen in the next step, too, where the convex relaxation may push
+    // it apart. An impulse within its allowed error must not have this effect, and is set to 0.
     const auto& here = system_.contacts[c];
     const bool is_error =
         is_convex && here.lowest == 0 &&
@@ -392,7 +394,7 @@ typename ResidualScales<D>::ParticleScale ResidualScales<D>::of_particle(
   return scale;
 }
 
-/// The scale of a particle, with its contacts if it takes part.
+/// The scale of a particle, with its contacts if the problem has the particle.
 template <int D>
 typename ResidualScales<D>::ParticleScale ResidualScales<D>::of_particle(
     std::int32_t particle) const {

@@ -1,9 +1,10 @@
 // The projection of a time step: the problem for the impulses of contacts that keeps gaps open,
-// docs/physics.md (5.3) and (5.4). Chooses the pairs that take part in it, sets their tolerances,
-// solves it, and measures the residuals of the solution by scales that do not depend on units. h
-// [T] is the length of the step, u* are the velocities at its end without contacts and links, v
-// those with them. Units are any consistent ones. Nothing is thrown: ProjectionResult tells whether
-// the step is solved. simulation.cpp uses it. Results must not depend on the number of threads.
+// docs/physics.md (5.3) and (5.4). Chooses the contacts of the problem, sets their tolerances,
+// solves the problem, and measures the residuals of the solution by scales that do not depend on
+// units. h [T] is the length of the step, u* are the velocities at its end without contacts and
+// links, v those with them. Units are any consistent ones. Nothing is thrown: ProjectionResult
+// tells whether the step is solved. simulation.cpp uses it. Results must not depend on the number
+// of threads.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +37,7 @@ struct ResidualScale {
   double impulse = 0;
   double rounding = 0;  ///< rounding errors of the gap after the step [L], > 0
   /// Allowed residual [L], > 0: the smaller of `length` > 0 [L] and of the change of the gap by the
-  /// part `fraction` > 0 of the impulse at work, where the latter is at least `rounding`.
+  /// part `fraction` > 0 of the impulse at work, which counts as at least `rounding`.
   double allowed(double length, double fraction) const {
     return std::min(length, std::max(fraction * impulse * w, rounding));
   }
@@ -78,9 +79,10 @@ class ResidualScales {
   ResidualScale of(std::span<const std::int32_t> particles, double w, double length);
   /// Scales of a contact, from its own particles, w and gap. In a step with friction, bodies or
   /// links, rounding errors are at least the last place of the radii, because smaller displacements
-  /// of particles at rest are errors of the solutions. In an island with a rigid body or link
-  /// (ContactSystem::is_held()) they are larger, because finite turns move points of the surface,
-  /// and grow with the distance of the particles from the origin.
+  /// of particles at rest are errors of the solutions. In an island (particles that contacts or
+  /// links join) with a rigid body or link (ContactSystem::is_held()) they are larger, because
+  /// finite turns move points of the surface, and grow with the distance of the particles from the
+  /// origin.
   ResidualScale of(const Contact<D>& contact);
   /// Largest change of the displacement of a particle by its impulse at work [L], >= 0.
   double largest_change(std::span<const std::int32_t> particles) const;
@@ -111,7 +113,8 @@ inline constexpr double kBroken = 1e-3;
 
 /// Result of the projection of a step.
 struct ProjectionResult {
-  /// Number of iterations of all solutions, with constraints of the island with the most, >= 0.
+  /// Number of iterations of all solutions, >= 0. With constraints each island is solved by itself,
+  /// and this is the number of the island that needs most.
   int iterations = 0;
   StepResiduals residuals;  ///< of the last solution; impulse_errors are in the order of `pairs`
   /// Number of contacts with an impulse or a film (gamma < 0) whose particles move around each
@@ -156,9 +159,10 @@ class StepProjection {
                  std::span<const double> mobilities, ThreadPool& pool);
   /// Makes solve() treat friction, rigid bodies and links, too. `step` must outlive this object.
   void add_constraints(const ConstraintStep& step);
-  /// Makes solve() linearise contacts where collisions (impacts/) have left their particles,
-  /// because elsewhere they could stop particles that pass each other. Distances are not used then,
-  /// because the projection after blows would add energy with them. `impacts` must outlive this.
+  /// Makes solve() linearise contacts where blows (collisions of solids, impacts/) have left their
+  /// particles, because elsewhere they could stop particles that pass each other. Distances are not
+  /// used then, because the projection after blows would add energy with them. `impacts` must
+  /// outlive this.
   void follow(const Impacts<D>& impacts) {
     impacts_ = &impacts;
     system_.forbid_distances();
@@ -239,7 +243,8 @@ class StepProjection {
   std::span<const double> mobilities_;
   ThreadPool& pool_;
   // The tangent of each pair in state.walls where the motion without contacts ends; empty if no
-  // obstacle is curved. The particle cannot leave a circle in the step, because the circle is convex.
+  // obstacle is curved. The particle cannot leave a circle in the step, because the circle is
+  // convex.
   std::vector<PlanePosition> tangents_;
   double tolerated_ = 0;             // largest overlap that is left as it is [L]
   double margin_ = 0;                // gap below which a pair is nearly closed [L]

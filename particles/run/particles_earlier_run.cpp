@@ -1,9 +1,10 @@
 // Decides whether the run in a folder can be continued, and reads its state and record. It can be
 // continued if restart.bin records the same inputs and the same version of Viscontact as this call
-// has (particles_earlier_run.hpp). Times [T] are in the unit of the case, angles in [rad]. If the
-// run cannot be continued, a message says so, and a new run begins at the start; if a restart file
-// that the user names does not fit the case, it is an Error(kBadInput). A change must keep that a
-// run with other inputs is never continued. Used by run/, sweep/ and python/.
+// has. Times [T] are in the unit of the case, angles in [rad]; particles_earlier_run.hpp has the
+// ranges and errors. If the run cannot be continued, a message says so, and a new run begins at the
+// start; if a restart file that the user names does not fit the case, it is an Error(kBadInput). A
+// change must keep that a run with other inputs is never continued. Used by run/, sweep/ and
+// python/.
 #include "viscontact/particles/run/particles_earlier_run.hpp"
 
 #include <fmt/format.h>

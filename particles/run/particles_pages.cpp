@@ -1,7 +1,7 @@
-// Reads the frames of a run and draws them (particles_pages.hpp). Numbers are in the units of the
-// case. A frame that is missing or damaged, a case that has changed, and a file that cannot be
-// written are an Error(kBadInput). A change must keep the memory bounded, however long the run is.
-// Used by app/ and run/.
+// Reads the frames of a run and draws them. Numbers are in the units of the case;
+// particles_pages.hpp has the ranges and errors. A frame that is missing or damaged, a case that
+// has changed, and a file that cannot be written are an Error(kBadInput). A change must keep the
+// memory bounded, however long the run is. Used by app/ and run/.
 #include "viscontact/particles/run/particles_pages.hpp"
 
 #include <algorithm>

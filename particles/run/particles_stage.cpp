@@ -1,6 +1,6 @@
 // Runs a case of many particles (particles_stage.hpp): checks the inputs, continues an earlier run,
 // computes time steps, saves the state and writes the results. Numbers are in the units of the
-// case; errors are those of run_particles(), which particles_stage.hpp lists. A change must keep
+// case; particles_stage.hpp has their ranges and the errors of run_particles(). A change must keep
 // that restart.bin is written after all files that a run needs to continue (Run::save()), so that a
 // run that is killed at any time can be continued. Used by app/ and sweep/.
 #include "viscontact/particles/run/particles_stage.hpp"
@@ -160,7 +160,7 @@ class Run {
     return write_particles(reported, FluidForces{forces, errors, case_.setting.fluid->semi_axes});
   }
 
-  /// `record`, to whose computing time and memory those of this call are added.
+  /// A copy of `record`, to which computing time and memory of this call are added.
   RunRecord with_costs(RunRecord record) {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);

@@ -1,8 +1,8 @@
 // Writes frames (VTK), their lists (PVD) and tables (CSV), and continues them (run_log.hpp).
 // Numbers are in the units of the case; vtk.hpp, link_file.hpp and contact_file.hpp in io/ have the
-// columns and arrays. A file that cannot be written, or was changed, is an Error(kBadInput). A
-// change must keep that lists and tables only grow, because a run is continued at the ends that its
-// record states. Used by run/.
+// columns and arrays with their dimensions. A file that cannot be written, or was changed, is an
+// Error(kBadInput). A change must keep that lists and tables only grow, because a run is continued
+// at the ends that its record states. Used by run/.
 #include "viscontact/particles/run/run_log.hpp"
 
 #include <algorithm>

@@ -60,7 +60,8 @@ struct StepReport {
   std::size_t contacts = 0;  ///< number of contacts in the problem that the step solves
   std::size_t glued = 0;     ///< number of contacts with gamma < 0 after the step
   /// Iterations of the solver of this problem, summed over the parts of the step. With friction,
-  /// bodies or links the set of connected particles counts that needs most.
+  /// bodies or links each set of connected particles is solved by itself, and this is the number of
+  /// the set that needs most.
   int iterations = 0;
   /// Largest residual |min(d, w (p - gamma))| of a contact, divided by the mean radius [1].
   double residual = 0;

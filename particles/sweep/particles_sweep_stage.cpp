@@ -1,8 +1,9 @@
-// The stages of sweeps of particles (particles_sweep_stage.hpp). Computing times are in [s], others
-// in the unit of the case. If all runs fail, or some are missing, an Error(kNotConverged) is
-// thrown; particles_sweep_stage.hpp also says when Error(kInterrupted), Error(kBadInput) and
-// Error(kWrongUsage) are. A change must keep runs in their folders until the user deletes them, so
-// that a sweep to which draws are added computes the new ones only. Used by app/.
+// The stages of sweeps of particles (particles_sweep_stage.hpp). Computing times are in [s], other
+// times in the unit of the case; particles_sweep_stage.hpp has the ranges. If all runs fail, or
+// some are missing, an Error(kNotConverged) is thrown; particles_sweep_stage.hpp also says when
+// Error(kInterrupted), Error(kBadInput) and Error(kWrongUsage) are. A change must keep runs in
+// their folders until the user deletes them, so that a sweep to which draws are added computes the
+// new ones only. Used by app/.
 #include "viscontact/particles/sweep/particles_sweep_stage.hpp"
 
 #include <fmt/format.h>

@@ -1,11 +1,13 @@
-// Tabulates several cases in one process, computes the rows of one task of a cluster, or gathers
-// the rows of all tasks. Rows that fail do not stop the others; the error that names them comes
-// last: Error(kExternalProgram) if rows failed, else Error(kNotConverged). A file that cannot be
-// read or written is an Error(kBadInput), a wrong VISCONTACT_FREEFEM_TIME_LIMIT an
-// Error(kWrongUsage), a stop an Error(kInterrupted). Numbers are in the units of each case;
-// freefem_axi/journal/table_plan.hpp has their dimensions. Used by app/, pipeline/, python/,
-// rolling/ and swimmer/. A change must keep that the journals, files beside a table to which each
-// row is added when it is finished, are removed only after the table is written.
+// Tabulates several cases in one process, computes the rows of one task of a job on a cluster, or
+// gathers the rows of all tasks. Rows that fail do not stop the others. At the end an error names
+// the rows that are missing: it is an Error(kExternalProgram) if some of them failed, and otherwise
+// an Error(kNotConverged). A file that cannot be read or written is an Error(kBadInput), a wrong
+// VISCONTACT_FREEFEM_TIME_LIMIT an Error(kWrongUsage), a stop an Error(kInterrupted). Numbers are
+// in the units of each case; tabulate_stage.hpp has the ranges, freefem_axi/journal/table_plan.hpp
+// the dimensions, and slurm/array_job.hpp the Share of a task. A table may have a companion, a file
+// with the same rows and other columns. Used by app/, pipeline/, python/, rolling/ and swimmer/. A
+// change must keep that the journals, files beside a table to which each row is added when it is
+// finished, are removed only after the table is written.
 #include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
 
 #include <fmt/format.h>
@@ -47,10 +49,9 @@ bool is_up_to_date(const CaseTable& one) {
   return true;
 }
 
-/// Writes the table and its companions from a record of rows of which none is missing but those
-/// that failed. Returns the error that names the failed rows, if there are any; it ends with
-/// `remedy`, what the user can do. Throws that error if all rows failed or the table needs all its
-/// rows.
+/// Writes the table and its companions from a record that lacks no rows but those that failed.
+/// Returns the error that names the failed rows, if there are any; it ends with `remedy`, what the
+/// user can do. Throws that error if all rows failed or the table needs all its rows.
 RowFailure finish_table(const CaseTable& one, const freefem_axi::RowRecord& record,
                         const results::Provenance& provenance, const std::string& remedy) {
   const auto failures = freefem_axi::failures_of(record, one.plan.points);

@@ -56,8 +56,8 @@ inline constexpr std::array kInertialRoughParameters = {kReferenceTimeStep, kRel
 /// roughness this is simulate_inertial().
 ///
 /// The velocities of Trajectory::rebounds are those that the sphere would have at the initial gap
-/// without external force, before and after the impact; the latter is 0 if the film stops the
-/// sphere before it gets there.
+/// without external force, before and after the impact; the velocity after it is 0 if the film
+/// stops the sphere before it gets to the initial gap.
 ///
 /// Throws the errors of simulate_inertial() and of check_start_outside_roughness(), and with
 /// roughness Error(kNotConverged) if f_ext has too many periods (ExternalForce::sign_changes()).

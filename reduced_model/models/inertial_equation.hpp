@@ -55,8 +55,9 @@ class InertialEquation {
   /// The velocity is (P - Gamma)/m. In a film so thin that m/R is much shorter than all other
   /// times, this difference loses its digits. The velocity then follows from the balance of drag
   /// and force with its first correction for inertia, u = v - (m/R) dv/dt with v = f_ext/R,
-  /// provided that both values agree within four times the error bound of the former. `force_time`
-  /// is t, or a time just before t if f_ext jumps at t, because the velocity does not jump.
+  /// provided that both values agree within four times the error bound of the difference.
+  /// `force_time` is t, or a time just before t if f_ext jumps at t, because the velocity does not
+  /// jump.
   InertialInstant instant(double t, double gap, double force_time) const;
 
   /// The first step [T] that CVODE should try after a restart at time t and gap q; 0 leaves the

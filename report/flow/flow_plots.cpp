@@ -1,9 +1,9 @@
-// Draws the pictures of a row of a table of lubrication forces (flow_plots.hpp) in the half-plane
-// (rho, z) of the distance rho from the axis and the height z, and its mirror image. Numbers are in
-// the units of the case, sizes on the picture in pixels; sizes, ratios and numbers of lines without
-// a reason are free choices. A missing or failing gnuplot is an Error(kExternalProgram), a
-// requested stop an Error(kInterrupted). Used by pipeline/tabulate. A change must keep the title
-// true where heights are drawn larger than widths.
+// Draws the pictures of a row of a table of lubrication forces in the half-plane (rho, z) of the
+// distance rho from the axis and the height z, and its mirror image. Numbers are in the units of
+// the case (flow_plots.hpp has the ranges), sizes on the picture in pixels; sizes, ratios and
+// numbers of lines without a reason are free choices. A missing or failing gnuplot is an
+// Error(kExternalProgram), a requested stop an Error(kInterrupted). Used by pipeline/tabulate. A
+// change must keep the title true where heights are drawn larger than widths.
 #include "viscontact/report/flow/flow_plots.hpp"
 
 #include <fmt/format.h>

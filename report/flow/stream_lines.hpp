@@ -53,9 +53,9 @@ class StreamLines {
 
   /// About `count` > 0 lines at equal steps of psi, with arrows outside the particles. There are
   /// none if nothing moves. `is_body` is 1 for each point of the grid in a particle, which hides
-  /// it, otherwise 0; it and the lists of `flow` have grid.size() numbers, in its order. Flows
-  /// should be given in order of time, because the factor of the matrix is used again as long as
-  /// the fluid covers about the same points.
+  /// it, otherwise 0; `is_body` and the lists of `flow` have grid.size() numbers, in the order of
+  /// the grid. Flows should be given in order of time, because the factor of the matrix is used
+  /// again as long as the fluid covers about the same points.
   StreamLineSet of(const FlowOnGrid& flow, const std::vector<char>& is_body, int count);
 
  private:

@@ -4,9 +4,13 @@
 // logarithm of a value on a logarithmic axis; on a linear axis the value divided by a power of ten,
 // so that the largest is from 1 to 10. This file places and labels the ticks. Outer values are
 // those of the report's files, in the units that the labels of the axes say. Nothing is thrown: a
-// missing value is null and has no point. report/page.cpp writes axes and curves as JSON, and a
-// change must agree with its json_of(). report/CMakeLists.txt joins this file and panels.js into
-// one script, so panels.js uses all its names.
+// missing value is null and has no point. A `curve` has these members: legend (text), colour
+// ("#rrggbb"), width (of its line [pixels], 0: points only), dash (lengths [pixels]; empty: solid),
+// point ('', 'circle', 'disc', 'square' or 'cross'), pointSize (> 0, 1 is about 7 pixels), x and y
+// (outer values, x not decreasing), and inner: {x, y} (inner values, x increasing), which panels.js
+// adds. report/page.cpp writes axes and curves as JSON, and a change must agree with its json_of().
+// report/CMakeLists.txt joins this file and panels.js into one script, so panels.js uses all its
+// names.
 
 const kBlank = '\u2013';  // a dash, shown in place of a missing number
 

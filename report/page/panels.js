@@ -2,9 +2,10 @@
 // or finger: one finger reads values, two fingers zoom, a double tap resets the axes. One finger
 // that moves up or down still scrolls the page. Each figure contains its plot as JSON, which
 // report/page.cpp writes; a change must agree with its json_of(). Without scripts, and in print, a
-// figure shows its still picture. Inner and outer values are those of axes.js, the first file of
-// the same script. Sizes are in CSS pixels, and those without a reason are free choices. This file
-// ends the script and draws all plots.
+// figure shows its still picture. axes.js, the first file of the same script, has the members of
+// curves and axes and says what inner and outer values are. Nothing is checked or thrown. Sizes are
+// in CSS pixels, and those without a reason are free choices. This file ends the script and draws
+// all plots.
 
 // Lets fingers read values and zoom in uPlot's object u. A second tap within 300 ms calls reset().
 function addTouch(u, reset) {

@@ -1,8 +1,8 @@
 // Interpolates colours between the nodes of a scale, and chooses the ends, numbers and words of
-// scales (colours.hpp). Pressures and speeds are in the units of the case. Nothing is thrown. Used
-// by the pictures and pages of report/, rolling/, swimmer/ and particles/picture. gnuplot gets
-// PressureColours::at(pressure) in place of the pressure, so a change of at() must agree with the
-// commands of settings().
+// scales. Pressures and speeds are in the units of the case; colours.hpp has the ranges. Nothing is
+// thrown. Used by the pictures and pages of report/, rolling/, swimmer/ and particles/picture.
+// gnuplot gets PressureColours::at(pressure) in place of the pressure, so a change of at() must
+// agree with the commands of settings().
 #include "viscontact/report/pictures/colours.hpp"
 
 #include <fmt/format.h>

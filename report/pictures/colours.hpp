@@ -93,7 +93,8 @@ struct PressureColours {
   /// `unit` is that of the pressure in words. A number that would touch another is left out.
   ColourScale scale(int colours, const std::string& unit = "viscosity/time") const;
 
-  /// Where a pressure is on the scale: 0 at `low`, 1 at `high`, outside of both beyond.
+  /// Where a pressure is on the scale: 0 at `low`, 1 at `high`; below 0 or above 1 for pressures
+  /// outside.
   double share_of(double pressure) const;
 
   /// Commands of gnuplot for the palette, range, numbers and words of the scale. Its words give the
@@ -106,11 +107,11 @@ struct PressureColours {
 PressureColours proportional_colours(const std::vector<double>& pressures);
 
 /// A scale for the pressures of pixels [M/(L T^2)], of which a few may be much larger than all
-/// others, and those that are not finite do not count. If the largest is more than three times the
-/// largest that remains without the highest 0.5 %, the scale ends at the latter, rounded up;
-/// likewise for the lowest. If such an end is cut, or if an end is more than ten times the pressure
-/// `usual` >= 0, the scale is linear below about `usual` and logarithmic beyond it. The limits are
-/// free choices.
+/// others. Pressures that are not finite do not count. The highest 0.5 % are cut off if the largest
+/// pressure is more than three times the largest of the others: the scale then ends at the largest
+/// of the others, rounded up. The lowest 0.5 % are treated in the same way. If such an end is cut,
+/// or if an end is more than ten times the pressure `usual` >= 0, the scale is linear below about
+/// `usual` and logarithmic beyond it. The limits are free choices.
 PressureColours robust_colours(const std::vector<double>& pixels, double usual);
 
 }  // namespace viscontact::report

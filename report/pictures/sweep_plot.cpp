@@ -1,6 +1,6 @@
-// Reads the columns to draw from a sweep's CSV file and draws them (sweep_plot.hpp). Values are in
-// the units of the case, sizes in pixels; heights and margins are free choices. A column that is
-// missing or has no number is an Error(kBadInput), a missing or failing gnuplot an
+// Reads the columns to draw from a sweep's CSV file and draws them; sweep_plot.hpp has the ranges.
+// Values are in the units of the case, sizes in pixels; heights and margins are free choices. A
+// column that is missing or has no number is an Error(kBadInput), a missing or failing gnuplot an
 // Error(kExternalProgram), and a requested stop an Error(kInterrupted). Used by `sweep`
 // (app/commands/sweep/). Files larger than the memory must be read row by row. kMean and kError
 // must be the ends of names in particles/case/particles_study.cpp.

@@ -15,7 +15,8 @@
 namespace viscontact::rolling {
 namespace {
 
-/// Index of the colour of a model: its place among all models, so that it is the same in all runs.
+/// Index of the colour of a model: the place of the model among all models, so that its colour is
+/// the same in all runs.
 std::size_t place_of(const std::string& model) {
   const auto& models = rolling_models();
   const auto found = std::ranges::find(models, model, [](const auto& m) { return m.name; });

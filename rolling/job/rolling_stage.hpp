@@ -23,13 +23,13 @@ struct RollingRequest {
 /// Files that were made from the same inputs and would be the same are left alone. Throws
 /// Error(kBadInput) before anything is written if the case is wrong or a file of the user would be
 /// replaced, and the errors of pipeline::tabulate_stage() and motions::fit_pair_stage(). If a model
-/// fails, the results of the others are written before an Error that names it is thrown; if all
-/// fail, nothing more is.
+/// fails, the results of the others are written before an Error that names the model is thrown; if
+/// all models fail, only tables and fit are written.
 void run_rolling(const RollingRequest& request);
 
 /// Writes the report again from the files that run_rolling() wrote into `folder`, and from the case
 /// and the fit that they name, which must not have changed since. Throws Error(kBadInput) if one of
-/// them is missing, changed or damaged, and Error(kInterrupted) if `stop` requests a stop.
+/// these files is missing, changed or damaged, and Error(kInterrupted) if `stop` requests a stop.
 void report_rolling(const std::filesystem::path& folder, const StopToken& stop);
 
 }  // namespace viscontact::rolling

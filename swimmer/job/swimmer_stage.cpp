@@ -134,7 +134,8 @@ void compute_strokes(SwimmerResults& results, const StopToken& stop) {
   terminal::show_progress("swimmer: searching for the optimal stroke");
   results.optimal = with_place(place + ": [optimal]", [&] {
     const auto search = find_optimal_stroke(Swimmer(results.fit), *results.c.optimal, stop);
-    // The search is for a period of 1. An energy in another period is that divided by the period.
+    // The search is for a period of 1. The energy in another period is the energy in a period of 1
+    // divided by the period.
     const double period = results.c.optimal_period;
     results.energy_per_displacement = search.multiplier / period;
     results.convergence = search.convergence;

@@ -32,9 +32,9 @@ inline constexpr int kLubricationTerms = 3;
 ///   6 pi a [ g1/xi + g2 ln(1 + 1/xi) + g3 xi ln(1 + 1/xi) ],   xi = 2 gap/(a + b),
 ///
 /// with g1, g2, g3 of Jeffrey & Onishi 1984 (J. Fluid Mech. 139, 261, equation (3.17) for X11A).
-/// Their ln(1/xi) is replaced by ln(1 + 1/xi), which has the same singularity and stays positive.
-/// The value is symmetric in a and b. It is the sum of the first `terms` of the three terms, 0 to
-/// kLubricationTerms. No argument of this function and the next two is checked.
+/// The ln(1/xi) of that equation is replaced by ln(1 + 1/xi), which has the same singularity and
+/// stays positive. The value is symmetric in a and b. It is the sum of the first `terms` of the
+/// three terms, 0 to kLubricationTerms. No argument of this function and the next two is checked.
 double pair_lubrication(double a, double b, double gap, int terms);
 
 /// The resistance matrix over the viscosity [L] of a line of spheres of which only neighbours

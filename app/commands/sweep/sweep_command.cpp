@@ -1,8 +1,9 @@
 // The command `sweep` (docs/command-line.md), which main.cpp adds: its command line, and what its
-// picture shows. Numbers have the units of the case. A wrong option is an Error(kWrongUsage); other
-// errors are those of command_options.hpp, sweep_options.hpp, pipeline/sweep_stage.hpp and, for the
-// picture, report/pictures/sweep_plot.hpp. A change must keep that an option of the command line
-// takes precedence over the section [sweep] of the case.
+// picture shows. Numbers have the units of the case; sweep_options.hpp has the ranges of options. A
+// wrong option is an Error(kWrongUsage); other errors are those of command_options.hpp,
+// sweep_options.hpp, pipeline/sweep_stage.hpp and, for the picture, report/pictures/sweep_plot.hpp.
+// A change must keep that an option of the command line takes precedence over the section [sweep]
+// of the case.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -3,7 +3,8 @@
 // under the picture, and keys, change the time of the motion and what is drawn. Places of pointers
 // are in device pixels of the canvas, times in the unit of the case. Speeds of pointers and the
 // wheel are free choices. particles/picture/particles_page.cpp writes the elements with these ids.
-// This file ends the script and starts the page. Tests use window.viscontactPlayer.
+// Nothing is checked or thrown. This file ends the script and starts the page. A change must keep
+// window.viscontactPlayer, which tests use.
 
 const readout = document.getElementById('readout');
 const pointer = {x: 0, y: 0, inside: false};

@@ -1,8 +1,9 @@
 // Draws the flow behind the particles: its speed or pressure as an image of a grid, and its
 // streamlines. Points of the flow and times are in the units of the case, places on the canvas in
 // device pixels. particles/picture/particles_page.cpp writes the settings, and flow_blocks() of
-// page_data.cpp the blocks of numbers; a change of their layout must be made there and here.
-// Nothing is checked or thrown. particles/picture/page/picture.js calls viscontactFlow.
+// page_data.cpp the blocks of numbers, whose formats page_data.hpp has; a change of their layout
+// must be made there and here. Nothing is checked or thrown. particles/picture/page/picture.js
+// calls viscontactFlow.
 'use strict';
 const viscontactFlow = (() => {
   const kNothing = 255, kLevels = 254;  // level of a point without flow; highest level of a flow

@@ -2,9 +2,10 @@
 // contacts at any time. Lengths and times are in the units of the case, angles in radians. A frame
 // is the state at one of the times `times`. Frames, particles, pairs of particles and coordinates
 // are counted from 0. particles/picture/particles_page.cpp writes the settings as JSON, and
-// page_data.cpp the arrays as blocks of base64. Nothing is checked; a change of their layout must
-// be made there and here. This file is the first of those that particles/picture/CMakeLists.txt
-// joins into one script, so the others use all its names.
+// page_data.cpp the arrays as blocks of base64. particles/picture/page_data.hpp has the formats and
+// dimensions of the blocks. Nothing is checked or thrown; a change of their layout must be made
+// there and here. This file is the first of those that particles/picture/CMakeLists.txt joins into
+// one script, so the others use all its names.
 
 // A number as a text with four significant digits.
 const number = x => String(Number(x.toPrecision(4))).replace('-', '\u2212');

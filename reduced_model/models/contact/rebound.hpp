@@ -87,8 +87,8 @@ inline double time_of_fall(double gap, double velocity, double acceleration, dou
   const double discriminant = velocity * velocity - 2 * acceleration * gap;
   if (discriminant < 0) return kNever;
   const double root = std::sqrt(discriminant);
-  // At the root the velocity is -sqrt(discriminant). Of the two forms of each root of the quadratic
-  // equation, these lose no digits by cancellation.
+  // At the root the velocity is -sqrt(discriminant). Each root of the quadratic equation can be
+  // written in two forms; the form used here loses no digits by cancellation.
   double time = kNever;
   if (velocity < 0)
     time = 2 * gap / (root - velocity);

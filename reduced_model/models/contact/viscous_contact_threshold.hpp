@@ -1,8 +1,8 @@
-// Viscous contact at a threshold gap q_c, with the whole fitted resistance R(q) at gaps q above it
-// (physics.md (4.7)). Gamma is the primitive of R, gamma minus the impulse that the film below q_c
-// has absorbed, gamma_min its value at which the solids touch, m the mass, u the velocity. Lengths,
-// masses and times are in any consistent units. models.cpp lists the model. A change of results
-// must raise kModelsRevision.
+// Viscous contact at a threshold gap q_c, with the whole fitted resistance R(q) at gaps q > q_c
+// (physics.md (4.7)). Gamma is the primitive of R. gamma is minus the impulse that the film below
+// q_c has absorbed, and gamma_min is the value of gamma at which the solids touch. m is the mass, u
+// the velocity. Lengths, masses and times are in any consistent units. models.cpp lists the model.
+// A change of results must raise kModelsRevision.
 #pragma once
 
 #include <algorithm>
@@ -32,8 +32,9 @@ inline constexpr std::array kThresholdParameters = {kContactTimeStep, kThreshold
 /// that in every step m u + Gamma(q) + gamma is the impulse of the external force plus a constant,
 /// and the film of a sphere at rest is exact for every step length. `force` must outlive the model.
 /// Throws Error(kBadInput) unless r1 + r2 < q_c < initial gap, or if q_c or the roughness is
-/// outside the fit's interval. A run throws it if the sphere goes above this interval or the film
-/// thickness below, and Error(kNotConverged) if this thickness is too small for a double.
+/// outside the fit's interval. A run throws Error(kBadInput) if the sphere goes above this interval
+/// or the film thickness goes below it, and Error(kNotConverged) if the film thickness is too small
+/// for a double.
 ContactModel viscous_contact_threshold(const Motion& motion,
                                        const lubrication::LubricationForce& force);
 
