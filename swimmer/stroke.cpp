@@ -5,12 +5,12 @@
 // (quadrature). A change must keep the times at which legs meet, because forces jump there.
 #include "viscontact/swimmer/stroke.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/matrices/decompositions.hpp"
 
 namespace viscontact::swimmer {
 namespace {

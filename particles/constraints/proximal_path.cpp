@@ -7,11 +7,11 @@
 // slipping). Units are any consistent ones; proximal_step.hpp and constraint_problem.hpp have the
 // ranges. Nothing is thrown. proximal_step.cpp uses it. A change of the order of sums changes
 // results by rounding errors.
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "viscontact/common/matrices/decompositions.hpp"
 #include "viscontact/particles/constraints/proximal_step.hpp"
 
 namespace viscontact::particles {
