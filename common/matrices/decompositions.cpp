@@ -3,11 +3,10 @@
 // decompositions.hpp, because the program cannot be linked without a definition.
 #include "viscontact/common/matrices/decompositions.hpp"
 
-template class Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
-template class Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;
-template class Eigen::HouseholderQR<Eigen::MatrixXd>;
-template class Eigen::PartialPivLU<Eigen::MatrixXd>;
-
+template void Eigen::ColPivHouseholderQR<Eigen::MatrixXd>::computeInPlace();
+template void Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>::computeInPlace();
+template void Eigen::HouseholderQR<Eigen::MatrixXd>::computeInPlace();
+template void Eigen::PartialPivLU<Eigen::MatrixXd>::compute();
 template Eigen::JacobiSVD<Eigen::MatrixXd>& Eigen::JacobiSVD<Eigen::MatrixXd>::compute(
     const Eigen::MatrixXd&, unsigned int);
 template Eigen::LDLT<Eigen::MatrixXd>& Eigen::LDLT<Eigen::MatrixXd>::compute(

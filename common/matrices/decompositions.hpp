@@ -15,12 +15,11 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
-extern template class Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
-extern template class Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;
-extern template class Eigen::HouseholderQR<Eigen::MatrixXd>;
-extern template class Eigen::PartialPivLU<Eigen::MatrixXd>;
-
-// Of these classes only some members are used.
+// Only the members that take time to compile. Whole classes would have members that nobody calls.
+extern template void Eigen::ColPivHouseholderQR<Eigen::MatrixXd>::computeInPlace();
+extern template void Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>::computeInPlace();
+extern template void Eigen::HouseholderQR<Eigen::MatrixXd>::computeInPlace();
+extern template void Eigen::PartialPivLU<Eigen::MatrixXd>::compute();
 extern template Eigen::JacobiSVD<Eigen::MatrixXd>& Eigen::JacobiSVD<Eigen::MatrixXd>::compute(
     const Eigen::MatrixXd&, unsigned int);
 extern template Eigen::LDLT<Eigen::MatrixXd>& Eigen::LDLT<Eigen::MatrixXd>::compute(

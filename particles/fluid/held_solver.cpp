@@ -134,7 +134,8 @@ void HeldSolver::factorise() {
 Eigen::MatrixXd HeldSolver::solve_fixed(const Eigen::MatrixXd& right) const {
   if (fixed_.empty()) return right;
   Eigen::MatrixXd forces = factor_.solve(right);
-  forces += factor_.solve(right - fixed_matrix_ * forces);
+  const Eigen::MatrixXd missing = right - fixed_matrix_ * forces;
+  forces += factor_.solve(missing);
   return forces;
 }
 
