@@ -10,8 +10,9 @@
 #          through find_package(viscontact COMPONENTS NAME)
 # PUBLIC   external libraries whose headers the public headers include
 # PRIVATE  external libraries that only the sources of the part use
-# COMPUTES_LITTLE  the part prints, draws and calls the parts that compute, so it needs no -O3: in
-#          the preset release it is compiled with -O1, which takes two thirds of the time
+# COMPUTES_LITTLE  the part reads cases, waits for FreeFEM, prints, draws and calls the parts that
+#          compute, so it needs no -O3: in the preset release it is compiled with -O1, which takes
+#          two thirds of the time
 #
 # A part without HEADERS is used by the program alone and is not installed.
 function(viscontact_library name)

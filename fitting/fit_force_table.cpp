@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
@@ -20,6 +19,7 @@
 #include <set>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/matrices/decompositions.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/fitting/robust_least_squares.hpp"
 

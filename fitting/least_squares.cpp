@@ -8,8 +8,6 @@
 
 #include <ceres/ceres.h>
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -17,6 +15,7 @@
 #include <vector>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/matrices/decompositions.hpp"
 
 namespace viscontact::fitting {
 namespace {

@@ -8,7 +8,6 @@
 // random numbers, so that the same case gives the same file.
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -16,6 +15,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/common/matrices/decompositions.hpp"
 #include "viscontact/common/text/json_fields.hpp"
 
 namespace viscontact::reduced_model {
@@ -32,8 +32,8 @@ Eigen::MatrixXd root_of(const std::vector<std::vector<double>>& covariance) {
       matrix(i, j) = covariance[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
   const Eigen::VectorXd deviation = matrix.diagonal().cwiseMax(0).cwiseSqrt();
   const Eigen::VectorXd over = (deviation.array() > 0).select(deviation.cwiseInverse(), 0);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(over.asDiagonal() * matrix *
-                                                             over.asDiagonal());
+  const Eigen::MatrixXd correlations = over.asDiagonal() * matrix * over.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlations);
   return deviation.asDiagonal() * eigen.eigenvectors() *
          eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
 }

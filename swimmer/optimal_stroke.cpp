@@ -6,16 +6,12 @@
 // swimmer/job and python/. A change must keep energies to the digits of docs/swimmer.md.
 #include "viscontact/swimmer/optimal_stroke.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/matrices/decompositions.hpp"
 
 namespace viscontact::swimmer {
 namespace {
@@ -117,10 +113,11 @@ std::optional<VectorXd> LoopOptimizer::newton_step(const PolynomialLoop& loop, c
   const Eigen::HouseholderQR<MatrixXd> qr(normal);
   const MatrixXd basis = MatrixXd(qr.householderQ()).rightCols(normal.size() - 1);
   MatrixXd hessian = *exact;
-  for (double shift = 1e-4;
-       Eigen::LLT<MatrixXd>(basis.transpose() * hessian * basis).info() != Eigen::Success;
-       shift *= 4)
-    hessian = *exact + shift * scale_;
+  const auto is_positive = [&] {
+    const MatrixXd on_plane = basis.transpose() * hessian * basis;
+    return Eigen::LLT<MatrixXd>(on_plane).info() == Eigen::Success;
+  };
+  for (double shift = 1e-4; !is_positive(); shift *= 4) hessian = *exact + shift * scale_;
   MatrixXd conditions = MatrixXd::Zero(normal.size() + 1, normal.size() + 1);
   conditions.topLeftCorner(normal.size(), normal.size()) = hessian;
   conditions.topRightCorner(normal.size(), 1) = -normal;

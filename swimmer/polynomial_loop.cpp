@@ -6,8 +6,9 @@
 // polynomial_loop.hpp repeats.
 #include "viscontact/swimmer/polynomial_loop.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
+
+#include "viscontact/common/matrices/decompositions.hpp"
 
 namespace viscontact::swimmer {
 namespace {

@@ -6,12 +6,12 @@
 // forces jump there.
 #include "viscontact/swimmer/stroke.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/matrices/decompositions.hpp"
 
 namespace viscontact::swimmer {
 namespace {

@@ -9,13 +9,13 @@
 #include <fmt/format.h>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/matrices/decompositions.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/freefem_flow/dissipation_alone.hpp"
 #include "viscontact/freefem_flow/membranes/membrane_boundary.hpp"

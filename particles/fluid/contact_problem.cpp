@@ -6,11 +6,11 @@
 // solve() returns false if it misses the tolerances. fluid_contacts.cpp uses it. A change must keep
 // that results depend on nothing but the arguments, because a run that is continued must give the
 // same bits.
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <set>
 #include <utility>
 
+#include "viscontact/common/matrices/decompositions.hpp"
 #include "viscontact/particles/dual_problem/active_set_newton.hpp"
 #include "viscontact/particles/dual_problem/mprgp.hpp"
 #include "viscontact/particles/fluid/fluid_contacts.hpp"

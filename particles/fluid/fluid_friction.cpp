@@ -9,7 +9,6 @@
 // fluid_simulation.cpp use it. A change must keep that the first part comes last, so that gaps are
 // exact for the friction found.
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+#include "viscontact/common/matrices/decompositions.hpp"
 #include "viscontact/particles/constraints/constraint_solver.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/fluid/fluid_contacts.hpp"
@@ -91,8 +91,8 @@ struct MovedDirections {
   Eigen::VectorXd scales;   ///< roots of W_rr
 
   MovedDirections(const Eigen::MatrixXd& w, double error) : scales(w.diagonal().cwiseSqrt()) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(
-        w.cwiseQuotient(scales * scales.transpose()));
+    const Eigen::MatrixXd scaled = w.cwiseQuotient(scales * scales.transpose());
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(scaled);
     const double least = error * modes.eigenvalues().maxCoeff();
     const auto count = (modes.eigenvalues().array() <= least).count();  // they come first
     unmoved = modes.eigenvectors().leftCols(count);

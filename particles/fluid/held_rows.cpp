@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "viscontact/common/matrices/decompositions.hpp"
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 

@@ -8,11 +8,11 @@
 // beside stiff ones.
 #include "viscontact/particles/fluid/held_solver.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/matrices/decompositions.hpp"
 
 namespace viscontact::particles {
 
@@ -120,8 +120,8 @@ void HeldSolver::factorise() {
   // If the other rows hold both ends of a spring, its mobility should be 0, but consists of errors.
   // Eigenvalues as small as these errors are set to 0: beside the small compliance of a stiff
   // spring they would count as a mobility.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(
-      (spring_matrix_ + spring_matrix_.transpose()) / 2);
+  const Eigen::MatrixXd symmetric = (spring_matrix_ + spring_matrix_.transpose()) / 2;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(symmetric);
   const Eigen::VectorXd kept =
       modes.eigenvalues().unaryExpr([&](double x) { return x > noise ? 1.0 : 0.0; });
   const Eigen::MatrixXd projection =
@@ -134,7 +134,8 @@ void HeldSolver::factorise() {
 Eigen::MatrixXd HeldSolver::solve_fixed(const Eigen::MatrixXd& right) const {
   if (fixed_.empty()) return right;
   Eigen::MatrixXd forces = factor_.solve(right);
-  forces += factor_.solve(right - fixed_matrix_ * forces);
+  const Eigen::MatrixXd missing = right - fixed_matrix_ * forces;
+  forces += factor_.solve(missing);
   return forces;
 }
 
@@ -147,7 +148,7 @@ Eigen::VectorXd HeldSolver::solve(const Eigen::VectorXd& right, bool with_spring
   Eigen::VectorXd of_fixed = solve_fixed(scaled(fixed_));
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(right.size());
   if (with_springs && !springs_.empty()) {
-    const Eigen::VectorXd rest = scaled(springs_) - coupling_ * of_fixed;
+    Eigen::VectorXd rest = scaled(springs_) - coupling_ * of_fixed;
     Eigen::MatrixXd matrix = spring_matrix_;
     for (std::size_t i = 0; i < springs_.size(); ++i) {
       const Index r = springs_[i];
@@ -157,8 +158,9 @@ Eigen::VectorXd HeldSolver::solve(const Eigen::VectorXd& right, bool with_spring
     // Scaled again to the diagonal 1, so that soft and stiff springs have entries of one size.
     const Eigen::VectorXd own = matrix.diagonal().cwiseSqrt().cwiseInverse();
     matrix = own.asDiagonal() * matrix * own.asDiagonal();
+    rest = own.cwiseProduct(rest);
     const Eigen::VectorXd of_springs =
-        own.cwiseProduct(matrix.completeOrthogonalDecomposition().solve(own.cwiseProduct(rest)));
+        own.cwiseProduct(matrix.completeOrthogonalDecomposition().solve(rest));
     of_fixed -= spring_responses_ * of_springs;
     forces(springs_) = of_springs;
   }

@@ -6,7 +6,6 @@
 // but rows that contradict each other are.
 #pragma once
 
-#include <Eigen/QR>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -14,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "viscontact/common/matrices/decompositions.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 
 namespace viscontact::particles {

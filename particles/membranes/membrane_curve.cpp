@@ -5,9 +5,10 @@
 // A change must keep that all derivatives are exact.
 #include "viscontact/particles/membranes/membrane_curve.hpp"
 
-#include <Eigen/Cholesky>
 #include <array>
 #include <cmath>
+
+#include "viscontact/common/matrices/decompositions.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -185,8 +186,8 @@ bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, doub
     Eigen::MatrixXd rows(n + 1, 2 * n);
     rows.topRows(n) = curve.speed_rows(positions);
     rows.row(n) = curve.area_row(positions).transpose() / speed;
-    const Eigen::VectorXd change =
-        rows.transpose() * (rows * rows.transpose()).ldlt().solve(missing);
+    const Eigen::MatrixXd products = rows * rows.transpose();
+    const Eigen::VectorXd change = rows.transpose() * products.ldlt().solve(missing);
     if (!change.allFinite()) return false;
     positions += speed * change;
     // Newton's method is quadratic, so that its next residual would be a rounding error.

@@ -5,12 +5,11 @@
 // derivative of the equations, so that the method converges quadratically.
 #include "viscontact/particles/membranes/membrane_motion.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/matrices/decompositions.hpp"
 #include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {
@@ -119,8 +118,9 @@ MembraneMotion Membranes::motion_at(const Eigen::VectorXd& positions,
   const Eigen::MatrixXd answers = answer.mobility * rows.transpose();
   // The tension of a circle is not unique, because a constant tension acts like a pressure inside.
   // This decomposition then finds the tension with the least sum of squares.
-  const Eigen::VectorXd tension =
-      (rows * answers).completeOrthogonalDecomposition().solve(rows * free);
+  const Eigen::MatrixXd rates = rows * answers;
+  const Eigen::VectorXd of_free = rows * free;
+  const Eigen::VectorXd tension = rates.completeOrthogonalDecomposition().solve(of_free);
   motion.forces -= rows.transpose() * tension;
   motion.velocities = free - answers * tension;
   return motion;

@@ -4,9 +4,9 @@
 // use it. A change must keep that area_gradient() is the derivative of area_of().
 #include "viscontact/particles/membranes/necklace.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
+#include "viscontact/common/matrices/decompositions.hpp"
 #include "viscontact/particles/domain/periods.hpp"
 #include "viscontact/particles/membranes/membrane_curve.hpp"
 
@@ -132,8 +132,8 @@ bool restore_necklace(const Eigen::VectorXd& lengths, double area, Eigen::Vector
       rows(k, n + next) = along.y();
     }
     rows.row(n) = area_gradient(necklace).transpose() / size;
-    const Eigen::VectorXd change =
-        rows.transpose() * (rows * rows.transpose()).ldlt().solve(missing);
+    const Eigen::MatrixXd products = rows * rows.transpose();
+    const Eigen::VectorXd change = rows.transpose() * products.ldlt().solve(missing);
     if (!change.allFinite()) return false;
     necklace += size * change;
     if (largest < kNearlyExact) return true;

@@ -7,13 +7,13 @@
 // signs of change_by_estimates(), on which the error estimates depend.
 #include "viscontact/swimmer/fit/fit_resistance.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/matrices/decompositions.hpp"
 #include "viscontact/common/splitmix.hpp"
 #include "viscontact/swimmer/resistance/tensor_polynomial.hpp"
 

@@ -6,10 +6,10 @@
 // the rest.
 #include "viscontact/swimmer/resistance/resistance_fit.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/matrices/decompositions.hpp"
 
 namespace viscontact::swimmer {
 namespace {

@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "viscontact/common/equal_up_to_rounding.hpp"
+#include "viscontact/common/matrices/decompositions.hpp"
 #include "viscontact/lubrication/scaling.hpp"
 #include "viscontact/lubrication/table_codec.hpp"
 

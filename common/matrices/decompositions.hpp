@@ -1,0 +1,46 @@
+// The decompositions of dense matrices by Eigen, compiled once. A source that decomposes an
+// Eigen::MatrixXd includes this header in place of Eigen/Cholesky, Eigen/Eigenvalues, Eigen/LU,
+// Eigen/QR and Eigen/SVD. Otherwise each such source compiles the decomposition again, which takes
+// 1 to 5 s. Numbers have any units; errors are those that Eigen documents.
+//
+// The declarations below fit only if the argument is an Eigen::MatrixXd: a product or a sum must be
+// stored in a matrix before it is decomposed. Any other argument is right, too, but is compiled
+// with the source. Sources of fitting, reduced_model, swimmer, particles and freefem_flow use this
+// header. A change must keep that each declaration has its definition in decompositions.cpp.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+// Only the members that take time to compile. Whole classes would have members that nobody calls.
+extern template void Eigen::ColPivHouseholderQR<Eigen::MatrixXd>::computeInPlace();
+extern template void Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>::computeInPlace();
+extern template void Eigen::HouseholderQR<Eigen::MatrixXd>::computeInPlace();
+extern template void Eigen::PartialPivLU<Eigen::MatrixXd>::compute();
+extern template Eigen::JacobiSVD<Eigen::MatrixXd>& Eigen::JacobiSVD<Eigen::MatrixXd>::compute(
+    const Eigen::MatrixXd&, unsigned int);
+extern template Eigen::LDLT<Eigen::MatrixXd>& Eigen::LDLT<Eigen::MatrixXd>::compute(
+    const Eigen::EigenBase<Eigen::MatrixXd>&);
+extern template Eigen::LLT<Eigen::MatrixXd>& Eigen::LLT<Eigen::MatrixXd>::compute(
+    const Eigen::EigenBase<Eigen::MatrixXd>&);
+extern template Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>&
+Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>::compute(const Eigen::EigenBase<Eigen::MatrixXd>&,
+                                                        int);
+extern template Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>&
+Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>::computeFromTridiagonal(const Eigen::VectorXd&,
+                                                                       const Eigen::VectorXd&, int);
+
+// solve() calls these members, which are public, with the right-hand side and the solution.
+extern template void Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>::_solve_impl(
+    const Eigen::MatrixXd&, Eigen::MatrixXd&) const;
+extern template void Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>::_solve_impl(
+    const Eigen::VectorXd&, Eigen::VectorXd&) const;
+extern template void Eigen::HouseholderQR<Eigen::MatrixXd>::_solve_impl(const Eigen::MatrixXd&,
+                                                                        Eigen::MatrixXd&) const;
+extern template void Eigen::LDLT<Eigen::MatrixXd>::_solve_impl(const Eigen::VectorXd&,
+                                                               Eigen::VectorXd&) const;
+extern template void Eigen::LLT<Eigen::MatrixXd>::_solve_impl(const Eigen::VectorXd&,
+                                                              Eigen::VectorXd&) const;
