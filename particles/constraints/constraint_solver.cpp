@@ -66,36 +66,7 @@ class Iteration {
     if (residual_ <= 1 || best_.result.iterations >= max_iterations) return finish();
     proximal_.emplace(problem_, w_, matrix());
     proximal_->set_epsilon(epsilon_);
-    // Proximal steps solve easy problems in fewer iterations than a path takes. Near a solution,
-    // where a path ends, 0 to 20 iterations are the rule.
-    constexpr int kMostBeforePath = 50, kMostAfterPath = 200;
-    int paths = 0, next = best_.result.iterations + kMostBeforePath;
-    bool is_after_path = false;
-    auto before = problem_.impulses;
-    double epsilon_before = epsilon_;
-    const auto use = [&](const std::vector<double>& impulses, double epsilon) {
-      problem_.impulses = impulses;
-      update();
-      epsilon_ = epsilon;
-      proximal_->set_epsilon(epsilon);
-    };
-    while (residual_ > 1 && best_.result.iterations < max_iterations && !is_stagnant()) {
-      if (best_.result.iterations < next || (!is_after_path && paths == CoulombPath<D>::kPaths)) {
-        take_proximal_step(max_iterations);
-      } else {
-        // After a path that does not help, proximal steps go on where they were.
-        if (is_after_path) {
-          use(before, epsilon_before);
-        } else {
-          before = problem_.impulses;
-          epsilon_before = epsilon_;
-          use(end_of_path(paths++, max_iterations), kFirstEpsilon);
-        }
-        is_after_path = !is_after_path;
-        next = best_.result.iterations + kMostAfterPath;
-      }
-      note_progress();
-    }
+    solve_with_paths(max_iterations);
     return finish();
   }
 
@@ -135,14 +106,64 @@ class Iteration {
     return best_.result.iterations - gained_at_ > (has_cones_ ? kPatienceOfCones : kPatience);
   }
 
-  /// Follows path number `number` of smoothed problems. Returns the impulses at its end.
-  std::vector<double> end_of_path(int number, int max_iterations) {
-    constexpr double kAccuracy = 1e-7;
+  /// Takes proximal steps of a problem with Coulomb's law. Where they need many iterations, follows
+  /// paths of smoothed problems to points near a solution, and takes proximal steps from there.
+  void solve_with_paths(int max_iterations) {
+    // Proximal steps solve easy problems in fewer iterations than a path takes. From the end of a
+    // path 0 to 20 are the rule. With kLeastImpulses paths are the last resort, because their ends
+    // do not depend on the guess.
+    constexpr int kMostAfterPath = 200;
+    const int most_before = start_ == ConstraintStart::kLeastImpulses ? 500 : 50;
+    int paths = 0, next = best_.result.iterations + most_before;
+    bool is_after_path = false;
+    auto before = problem_.impulses;
+    double epsilon_before = epsilon_, halved = 0;
+    const auto begin_at = [&](const std::vector<double>& impulses, double epsilon) {
+      problem_.impulses = impulses;
+      update();
+      epsilon_ = epsilon;
+      proximal_->set_epsilon(epsilon);
+      halved = residual_;
+      gained_at_ = best_.result.iterations;
+      next = best_.result.iterations + kMostAfterPath;
+    };
+    while (residual_ > 1 && best_.result.iterations < max_iterations && !is_stagnant()) {
+      const bool has_paths = is_after_path || paths < CoulombPath<D>::kPaths;
+      if (best_.result.iterations < next || !has_paths) {
+        take_proximal_step(max_iterations);
+        // Steps go on from the end of a path while they halve the residual.
+        if (is_after_path && residual_ < halved / 2) {
+          halved = residual_;
+          next = best_.result.iterations + kMostAfterPath;
+        }
+      } else if (is_after_path) {
+        is_after_path = false;
+        begin_at(before, epsilon_before);
+      } else {
+        before = problem_.impulses;
+        epsilon_before = epsilon_;
+        if (const auto end = end_of_path(paths++, max_iterations)) {
+          is_after_path = true;
+          begin_at(*end, kFirstEpsilon);
+        }
+      }
+      note_progress();
+    }
+  }
+
+  /// Follows path number `number` of smoothed problems. Returns the impulses at its end, or nothing
+  /// if it ends far from a solution.
+  std::optional<std::vector<double>> end_of_path(int number, int max_iterations) {
+    // Accuracies relative to the violations without impulses. Most of the factorisations are made
+    // at errors of 1e-3 to 1e-5; from there to 1e-7 there are about ten.
+    constexpr double kRough = 1e-4, kAccurate = 1e-7, kFar = 1e-3;
     // A long path is left for another one, which seldom is as long.
     const int longest = number + 1 < CoulombPath<D>::kPaths ? 400 : 2000;
     const int most = std::clamp(max_iterations - best_.result.iterations, 1, longest);
     CoulombPath<D> path(problem_, w_, matrix());
-    best_.result.iterations += path.follow(number, kAccuracy, most);
+    best_.result.iterations += path.follow(number, problem_.is_rough ? kRough : kAccurate, most);
+    proximal_->set_epsilon(epsilon_);  // because the path has overwritten its matrix
+    if (path.reached() > kFar) return {};
     return path.impulses();
   }
 

@@ -18,14 +18,17 @@ namespace {
 /// entries of the matrix at 1e10 times the masses, as in interior_points.cpp.
 constexpr double kRegularisation = 1e-10;
 
-/// The product of `bound` and `spare` over tau, and that of the points of the friction cone. A
-/// larger first one smooths the bound of the friction more, which removes folds of the path. With
-/// 1, 3 and 10, 88 problems of 300 to 1900 contacts took 9100, 7300 and 7600 factorisations.
-constexpr std::array<double, 3> kSmoothing = {10, 100, 30};
+/// The product of `bound` and `spare` on each path over tau. A larger one smooths the bound of the
+/// friction more. The second and third path are for problems on which the one before fails or is
+/// long. The numbers are free choices: on 88 problems of 300 to 1900 contacts the first path took
+/// 10900, 9300 and 9900 factorisations with 3, 9 and 20, and each of these was the best choice for
+/// some of them.
+constexpr std::array<double, CoulombPath<2>::kPaths> kSmoothing = {10, 100, 30};
+/// The product (bound, p) o (z, v) over tau. With 1 and 0.6 runs of bench/box2d.cpp took longer.
 constexpr double kOfFriction = 2;
 
-/// The products stay between kNear and 1/kNear times their values on the path. With 0.2 and 0.5 the
-/// problems above took 7600 and 8800 factorisations.
+/// The products stay between kNear and 1/kNear times their values on the path. On the problems
+/// above, 0.2 and 0.5 took as many factorisations and a fifth more.
 constexpr double kNear = 0.3;
 
 template <std::size_t N>
@@ -97,14 +100,11 @@ void CoulombPath<D>::set_parts() {
       part.scale = 1 / std::sqrt(w_[block.row]);
       part.base = block.is_contact ? block.lowest : 0;
       part.compliance = block.compliance * part.scale * part.scale;
-      part.is_bound_given = block.friction_bound == FrictionBound::kGiven;
-      // Friction with a given bound is left out if it moves nothing by half of what is allowed.
       part.rubs =
-          block.is_contact && block.rows > 1 &&
-          !(part.is_bound_given && block.bound(0) * w_[block.row + 1] <= block.allowed_slip / 2);
+          block.is_contact && block.rows > 1 && block.friction > 0 && std::isfinite(block.capacity);
       if (part.rubs) {
         part.of_slip = 1 / std::sqrt(w_[block.row + 1]);
-        part.factor = block.friction * part.scale / part.of_slip;
+        part.bound_per_impulse = block.friction * part.scale / part.of_slip;
       }
       parts_.push_back(part);
     }
@@ -160,11 +160,13 @@ void CoulombPath<D>::start() {
   measure();
   size_ = degree_ = 0;
   for (const auto& part : parts_) {
-    size_ = std::max(size_, std::abs(part.error));
-    if (part.rubs) size_ = std::max(size_, std::sqrt(inner(part.slip_error, part.slip_error)));
+    size_ = largest_or_nan(size_, std::abs(part.error));
+    if (part.rubs)
+      size_ = largest_or_nan(size_, std::sqrt(inner(part.slip_error, part.slip_error)));
     degree_ += part.is_equation ? 0 : part.rubs ? 4 : 1;
   }
   const double tau = state_.tau = size_ * size_;
+  if (!(size_ > 0) || degree_ == 0) return;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const auto& part = parts_[i];
     const auto& block = problem_.blocks[part.block];
@@ -172,23 +174,19 @@ void CoulombPath<D>::start() {
     if (part.is_equation) continue;
     point.u = point.r = size_;
     if (!part.rubs) continue;
-    if (part.is_bound_given) {
-      point.bound = block.bound(0) / part.of_slip;
-    } else {
-      const double unused = part.factor * (point.r - (block.capacity - block.lowest) / part.scale);
-      point.bound = positive_root(unused, smoothing_ * tau);
-      point.spare = smoothing_ * tau / point.bound;
-    }
+    const double beyond_film = point.r - (block.capacity - block.lowest) / part.scale;
+    point.bound = positive_root(part.bound_per_impulse * beyond_film, smoothing_ * tau);
+    point.spare = smoothing_ * tau / point.bound;
     point.z = kOfFriction * tau / point.bound;
   }
   measure();
-  error_of_tau_ = error_;
-  for (auto& error : error_of_tau_)
+  error_per_tau_ = error_;
+  for (auto& error : error_per_tau_)
     for (double& number : error) number /= tau;
   for (auto& part : parts_) {
-    part.error_of_tau = part.error / tau;
+    part.error_per_tau = part.error / tau;
     for (std::size_t k = 0; k < kTangents; ++k)
-      part.slip_error_of_tau[k] = part.slip_error[k] / tau;
+      part.slip_error_per_tau[k] = part.slip_error[k] / tau;
   }
 }
 
@@ -205,26 +203,24 @@ bool CoulombPath<D>::factorise() {
     part.weight = 1 / ((part.is_equation ? part.compliance : point.u / point.r) + kRegularisation);
     matrix_.add_product(part.block, part.row, part.row, part.weight * part.scale * part.scale);
     if (!part.rubs) continue;
-    const auto of_slip = matrix_of(point.bound, -1 / point.bound, point.p, point.p);
+    const auto cone = matrix_of(point.bound, -1 / point.bound, point.p, point.p);
     auto left = matrix_of(point.z, -1 / point.bound, point.p, point.v);
-    for (std::size_t k = 0; k < left.size(); ++k) left[k] += kRegularisation * of_slip[k];
+    for (std::size_t k = 0; k < left.size(); ++k) left[k] += kRegularisation * cone[k];
     part.inverse = inverse_of(left);
     Tangent right;
     for (std::size_t k = 0; k < kTangents; ++k)
       right[k] = point.z * point.p[k] / point.bound - point.v[k];
     part.by_bound = times(part.inverse, right);
-    const double of_r =
-        part.is_bound_given ? 0 : part.factor * point.bound / (point.bound + point.spare);
+    const double of_r = part.bound_per_impulse * point.bound / (point.bound + point.spare);
     for (std::size_t l = 0; l < kTangents; ++l) {
       Tangent column;
-      for (std::size_t k = 0; k < kTangents; ++k) column[k] = of_slip[k * kTangents + l];
+      for (std::size_t k = 0; k < kTangents; ++k) column[k] = cone[k * kTangents + l];
       const auto by_slip = times(part.inverse, column);
       for (std::size_t k = 0; k < kTangents; ++k)
         matrix_.add_product(part.block, part.row + 1 + k, part.row + 1 + l,
                             by_slip[k] * part.of_slip * part.of_slip);
-      if (of_r != 0)
-        matrix_.add_product(part.block, part.row + 1 + l, part.row,
-                            part.by_bound[l] * of_r * part.weight * part.of_slip * part.scale);
+      matrix_.add_product(part.block, part.row + 1 + l, part.row,
+                          part.by_bound[l] * of_r * part.weight * part.of_slip * part.scale);
     }
   }
   return matrix_.factorise();
@@ -241,7 +237,7 @@ void CoulombPath<D>::find_changes(double of_errors, double of_tau, const State* 
   changes.points.resize(parts_.size());
   for (std::size_t u = 0; u < error_.size(); ++u)
     for (std::size_t k = 0; k < kMotion; ++k)
-      changes.y[u][k] = of_errors * error_[u][k] - of_tau * error_of_tau_[u][k];
+      changes.y[u][k] = of_errors * error_[u][k] - of_tau * error_per_tau_[u][k];
   // In a first pass v and u hold their own errors, r and p their changes without a motion. The
   // second pass, with the motions, computes the changes.
   const auto find = [&](std::size_t i, bool is_moved) {
@@ -249,7 +245,7 @@ void CoulombPath<D>::find_changes(double of_errors, double of_tau, const State* 
     const auto& at = state_.points[i];
     const Point second = tangent ? tangent->points[i] : Point{};
     Point change;
-    change.u = of_errors * part.error - of_tau * part.error_of_tau;
+    change.u = of_errors * part.error - of_tau * part.error_per_tau;
     if (is_moved) change.u += value(part, changes.y);
     if (part.is_equation) {
       change.r = -part.weight * change.u;
@@ -260,18 +256,16 @@ void CoulombPath<D>::find_changes(double of_errors, double of_tau, const State* 
         part.weight * ((of_tau - of_errors * at.u * at.r - second.u * second.r) / at.r - change.u);
     change.u += kRegularisation * change.r;
     if (!part.rubs) return change;
-    if (!part.is_bound_given) {
-      const double of_r = part.factor * change.r;
-      change.bound = (smoothing_ * of_tau - of_errors * at.bound * at.spare -
-                      second.bound * second.spare + at.bound * of_r) /
-                     (at.bound + at.spare);
-      change.spare = change.bound - of_r;
-    }
+    const double of_r = part.bound_per_impulse * change.r;
+    change.bound = (smoothing_ * of_tau - of_errors * at.bound * at.spare -
+                    second.bound * second.spare + at.bound * of_r) /
+                   (at.bound + at.spare);
+    change.spare = change.bound - of_r;
     if (is_moved) change.v = slip(part, changes.y);
     const double goal = kOfFriction * of_tau - of_errors * (at.bound * at.z + inner(at.p, at.v)) -
                         second.bound * second.z - inner(second.p, second.v);
     for (std::size_t k = 0; k < kTangents; ++k)
-      change.v[k] += of_errors * part.slip_error[k] - of_tau * part.slip_error_of_tau[k];
+      change.v[k] += of_errors * part.slip_error[k] - of_tau * part.slip_error_per_tau[k];
     const double along = inner(at.p, change.v);
     Tangent right;
     for (std::size_t k = 0; k < kTangents; ++k)
@@ -309,8 +303,7 @@ double CoulombPath<D>::product(const State& a, const State& b) const {
     if (part.is_equation) continue;
     sum += x.u * y.u / (at.u * at.u) + x.r * y.r / (at.r * at.r);
     if (!part.rubs) continue;
-    if (!part.is_bound_given)
-      sum += x.bound * y.bound / (at.bound * at.bound) + x.spare * y.spare / (at.spare * at.spare);
+    sum += x.bound * y.bound / (at.bound * at.bound) + x.spare * y.spare / (at.spare * at.spare);
     sum += relative_product(at.bound, at.p, x.bound, x.p, y.bound, y.p) +
            relative_product(at.z, at.v, x.z, x.v, y.z, y.v);
   }
@@ -342,9 +335,7 @@ bool CoulombPath<D>::is_inside(const Step& step, double length) const {
     if (!(u > 0 && r > 0 && is_near(u * r, tau))) return false;
     if (!part.rubs) continue;
     const double bound = number(&Point::bound), spare = number(&Point::spare);
-    if (!part.is_bound_given &&
-        !(bound > 0 && spare > 0 && is_near(bound * spare, smoothing_ * tau)))
-      return false;
+    if (!(bound > 0 && spare > 0 && is_near(bound * spare, smoothing_ * tau))) return false;
     const double z = number(&Point::z);
     Tangent p, v, across;
     for (std::size_t k = 0; k < kTangents; ++k) {
@@ -388,20 +379,21 @@ typename CoulombPath<D>::State CoulombPath<D>::end_of(const Step& step, double l
   return end;
 }
 
-/// Sets the tangent of the path and the correction at right angles to it, at state_. Returns false
-/// if the matrix is singular, or if the correction does not lead to a point near the path.
+/// Sets the tangent of the path and the correction at right angles to it, at state_. The tangent is
+/// the change with ln(tau) or -ln(tau). Returns false if the matrix is singular, or if the correction
+/// does not lead to a point near the path. A bound on the angle between this tangent and the end of
+/// the last step would take 2 to 9 % more factorisations.
 template <int D>
 bool CoulombPath<D>::find_direction(Step& step) {
   measure();
   if (!factorise()) return false;
-  const double tau = state_.tau;
-  find_changes(0, tau, nullptr, step.tangent);
-  find_changes(1, tau, nullptr, step.correction);
-  step.tangent.tau = tau;
+  // tau falls along the path where the determinant is positive, as it is at the start.
+  const double sign = matrix_.sign_of_determinant() > 0 ? -1 : 1;
+  find_changes(0, sign * state_.tau, nullptr, step.tangent);
+  step.tangent.tau = sign * state_.tau;
+  find_changes(1, state_.tau, nullptr, step.correction);
   add(-product(step.correction, step.tangent) / product(step.tangent, step.tangent), step.tangent,
       step.correction);
-  // tau falls along the path where the determinant is positive, as it is at the start.
-  if (matrix_.sign_of_determinant() > 0) add(-2, State(step.tangent), step.tangent);
   step.second.tau = 0;
   step.second.points.assign(parts_.size(), Point{});
   step.at = state_;
@@ -418,30 +410,35 @@ void CoulombPath<D>::find_second(Step& step) {
 
 template <int D>
 int CoulombPath<D>::follow(int number, double accuracy, int max_iterations) {
-  // Lengths of steps are changes of ln(tau) far from folds. A step may be kGrowth times as long as
+  // Lengths of steps are changes of ln(tau) at their start. A step may be kGrowth times as long as
   // the one before, and is shortened by kLess until it ends near the path. All numbers are free
   // choices.
   constexpr double kLongest = 0.9, kGrowth = 4, kLess = 0.7;
-  // If the end of a step cannot be corrected, it is taken again with kShorter times its length,
-  // and after kMostTries the same is done with the step before. kKept steps are kept for this.
+  // If the end of a step cannot be corrected, the step is taken again with kShorter times its
+  // length, and after kMostTries the same is done with the one before. kKept steps are kept.
   constexpr double kShorter = 0.3;
   constexpr int kMostTries = 3;
   constexpr std::size_t kKept = 8;
-  // Rounding errors stop the path after kMostWithoutStep points at which no length of kShortest or
-  // more leads to a point near the path. The length after such a point is kAfterNone.
+  // If no length of kShortest or more leads to a point near the path, only the correction is made,
+  // and kAfterNone is the next length.
   constexpr double kShortest = 1e-5, kAfterNone = 1e-3;
-  constexpr int kMostWithoutStep = 20;
+  // Only rounding errors are left if the root of tau is below kSmall times its size at the start,
+  // and kPatience factorisations do not halve tau.
+  constexpr double kSmall = 1e-6;
+  constexpr int kPatience = 30;
   smoothing_ = kSmoothing[static_cast<std::size_t>(number)];
   set_parts();
   start();
+  best_ = state_;
   std::deque<Step> kept;
   Step step;
-  double length = kLongest;
-  int iterations = 0, without_step = 0, tries = 0;
-  while (size_ > 0 && iterations < max_iterations) {
+  double length = kLongest, halved = state_.tau;
+  int iterations = 0, halved_at = 0, tries = 0;
+  while (size_ > 0 && degree_ > 0 && iterations < max_iterations) {
     ++iterations;
     if (!find_direction(step)) {
-      if (++tries > kMostTries && !kept.empty()) {
+      ++tries;
+      while (!kept.empty() && (tries > kMostTries || kShorter * kept.back().length < kShortest)) {
         kept.pop_back();
         tries = 1;
       }
@@ -451,13 +448,16 @@ int CoulombPath<D>::follow(int number, double accuracy, int max_iterations) {
       continue;
     }
     tries = 0;
+    if (state_.tau < best_.tau) best_ = state_;
+    if (best_.tau < halved / 2) {
+      halved = best_.tau;
+      halved_at = iterations;
+    }
+    if (std::sqrt(best_.tau) < kSmall * size_ && iterations - halved_at > kPatience) break;
     find_second(step);
     length = std::min(kLongest, kGrowth * length);
     while (length >= kShortest && !is_inside(step, length)) length *= kLess;
-    if (length < kShortest) {
-      if (++without_step > kMostWithoutStep) break;
-      length = 0;
-    }
+    if (length < kShortest) length = 0;
     state_ = end_of(step, length);
     step.length = length;
     kept.push_back(std::move(step));
@@ -467,23 +467,30 @@ int CoulombPath<D>::follow(int number, double accuracy, int max_iterations) {
       kept.pop_front();
     }
     if (length == 0) length = kAfterNone;
-    if (std::sqrt(state_.tau) <= accuracy * size_) break;
+    if (std::sqrt(state_.tau) > accuracy * size_) continue;
+    best_ = state_;
+    break;
   }
   take_impulses();
   return iterations;
 }
 
-/// Sets impulses_ from state_. Contacts that seem to open, because u > r, get their lowest impulse
+/// Sets impulses_ from best_. Contacts that seem to open, because u > r, get their lowest impulse
 /// exactly, so that no film absorbs a small remainder.
 template <int D>
 void CoulombPath<D>::take_impulses() {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const auto& part = parts_[i];
-    const auto& point = state_.points[i];
+    const auto& point = best_.points[i];
     const bool is_open = !part.is_equation && point.u > point.r;
     impulses_[part.row] = part.base + (is_open ? 0 : part.scale * point.r);
-    for (std::size_t k = 0; part.rubs && k < kTangents; ++k)
-      impulses_[part.row + 1 + k] = is_open && !part.is_bound_given ? 0 : part.of_slip * point.p[k];
+    if (!part.rubs) continue;
+    // A blow may have a lowest impulse that the solids carry, so that the contact has friction.
+    const double friction = part.of_slip * std::sqrt(inner(point.p, point.p));
+    const double bound = problem_.blocks[part.block].bound(impulses_[part.row]);
+    const double share = friction > bound ? bound / friction : 1;
+    for (std::size_t k = 0; k < kTangents; ++k)
+      impulses_[part.row + 1 + k] = share * part.of_slip * point.p[k];
   }
 }
 

@@ -252,9 +252,9 @@ double ProximalStep<D>::rounding_error() const {
 }
 
 template <int D>
-void ProximalStep<D>::move(double length, std::span<const Motion<D>> direction) {
+void ProximalStep<D>::move(double length) {
   for (std::size_t u = 0; u < y_.size(); ++u)
-    for (std::size_t k = 0; k < y_[u].size(); ++k) y_[u][k] += length * direction[u][k];
+    for (std::size_t k = 0; k < y_[u].size(); ++k) y_[u][k] += length * direction_[u][k];
   for (std::size_t r = 0; r < values_.size(); ++r) values_[r] += length * changes_[r];
 }
 
@@ -282,11 +282,10 @@ int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<
     const double length = length_of_step(before);
     const auto last = factored_;
     if (length == 0) {
-      if (before <= rounding_error()) break;
-      failed_ = true;
+      failed_ = !(before <= rounding_error());
       break;
     }
-    move(length, direction_);
+    move(length);
     const double here = error_at(0, true);
     // For discs the equation is linear as long as no branch changes, so that a step of length 1
     // without a change of a branch ends at the solution, but for rounding errors. For spheres it

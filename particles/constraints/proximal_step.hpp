@@ -57,8 +57,6 @@ class ProximalStep {
   bool failed() const { return failed_; }
   /// Impulses that the last solve() found, one for each row [M L/T].
   const std::vector<double>& impulses() const { return projected_; }
-  /// Motions that the last solve() found, one for each unit [L, rad].
-  const std::vector<Motion<D>>& motions() const { return y_; }
 
  private:
   // The branch of the projection in which a block is: open or closed; no friction, sticking, or
@@ -76,7 +74,7 @@ class ProximalStep {
   double error_at(double t, bool is_kept);
   bool factorise();
   void add_block(std::size_t b);
-  void move(double length, std::span<const Motion<D>> direction);
+  void move(double length);
   void find_direction();
   double length_to_minimum();
   double rounding_error() const;
