@@ -205,7 +205,8 @@ void add_step_report(py::module_& module) {
       .def_readonly("iterations", &StepReport::iterations, "of the projection")
       .def_readonly("converged", &StepReport::converged,
                     "whether all residuals are within the tolerances of the case")
-      .def_readonly("residual", &StepReport::residual, "of the gaps, over the mean radius")
+      .def_readonly("residual", &StepReport::residual,
+                    "of gaps, friction and links, over the mean radius")
       .def_readonly("impulse_residual", &StepReport::impulse_residual,
                     "of the impulses, over those at work")
       .def_readonly("largest_overlap", &StepReport::largest_overlap, "over the mean radius")

@@ -162,7 +162,10 @@ void solver_keys(case_file::Keys& keys, SolverSettings& settings) {
                  "work](particles.md#the-projection)"});
   keys.optional("max_iterations",
                 case_file::count(settings.max_iterations, 1, std::numeric_limits<int>::max()),
-                {"for each step", {}, "whole number >= 1"});
+                {"for each step; in a fluid for each [solution of its "
+                 "contacts](fluid.md#contact)",
+                 {},
+                 "whole number >= 1"});
   keys.optional("method", case_file::custom("`\"conjugate_gradients\"`", read_method),
                 {"the only method; `\"accelerated_gradient\"` and `\"gauss_seidel\"` are read and "
                  "have no effect",

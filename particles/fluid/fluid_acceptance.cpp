@@ -16,6 +16,17 @@
 
 namespace viscontact::particles {
 
+/// The residuals of contacts and their friction, for the velocities with which particles move.
+StepResiduals FluidSimulation::residuals_of(StepContacts& contact,
+                                            std::span<const double> velocities,
+                                            const ContactConditions& conditions) const {
+  auto residuals = measure_residuals(contact.contacts, velocities, conditions);
+  if (setting_.laws.friction)
+    take_residuals_of_friction(contact, setting_.laws.friction->coefficient, velocities, conditions,
+                               residuals);
+  return residuals;
+}
+
 /// Throws Error(kNotConverged) if a particle moves too far for the precision of a double, or if the
 /// solution leaves too deep an overlap. Otherwise sets the residuals in the report and
 /// Motion::impulse_errors.
@@ -33,14 +44,12 @@ void FluidSimulation::examine(Motion& motion, double h, StepReport& report) cons
   if (blow)
     for (auto& contact : motion.contact.contacts) contact.w = std::min(contact.w, 0.0);
   const auto conditions = contact_conditions(motion.free, h);
-  auto residuals = measure_residuals(motion.contact.contacts, motion.moved, conditions);
-  if (setting_.laws.friction)
-    take_residuals_of_friction(motion.contact, setting_.laws.friction->coefficient, motion.moved,
-                               conditions, residuals);
+  auto residuals = residuals_of(motion.contact, motion.moved, conditions);
   refuse_deep_overlap(residuals, state_.particles, setting_, mean_radius_, report.time, [] {
     return "is the time step too long for the forces, or do particles with given motions leave the "
            "others too little room?";
   });
+  report.has_given_loads = motion.contact.has_given_loads;
   report.converged = motion.contact.is_solved && motion.links_hold && (!blow || blow->is_solved);
   if (!motion.links_hold || (blow && !blow->is_solved))
     report.excess = std::numeric_limits<double>::infinity();

@@ -266,7 +266,8 @@ struct StepContacts {
   std::vector<double> velocities;  ///< with these forces [L/T, 1/T]
   int iterations = 0;     ///< products with the mobility, and iterations of a dense problem, >= 0
   bool is_solved = true;  ///< ContactProblem::solve() reached the tolerances
-  double reach = 0;       ///< all pairs with a distance of surfaces below it are listed [L], > 0
+  bool has_given_loads = false;  ///< given loads bound the friction (solve_with_friction())
+  double reach = 0;  ///< all pairs with a distance of surfaces below it are listed [L], > 0
 };
 
 /// Solves for `step.contacts`, whose impulses are first guesses, in rounds. After each round those
@@ -339,8 +340,9 @@ ContactFrictionInFluid friction_of_contact(const FrictionOfStep& step, const Par
 
 /// Solves for contacts as solve_listed(), with the friction of `step.frictions` and its coefficient
 /// `mu_s` >= 0 [1]. If Coulomb's law is not reached within the tolerances, `step.is_solved` is
-/// false, and the friction is bounded by mu_s times loads from an earlier iteration,
-/// docs/physics.md (5.17); gaps and films are exact for it. Throws what the mobility throws.
+/// false, `step.has_given_loads` is true, and the friction is bounded by mu_s times the loads of an
+/// earlier iteration or of a solution without friction, docs/physics.md (5.17); gaps and films are
+/// exact for it. Throws what the mobility throws.
 void solve_with_friction(StepContacts& step, double mu_s, const Mobility& mobility,
                          const ContactConditions& conditions);
 

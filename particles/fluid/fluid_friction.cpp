@@ -157,19 +157,16 @@ int improve(const Eigen::MatrixXd& w, double error, double rounding, bool gives_
   // friction.
   constexpr int kRounds = 40;
   int iterations = 0;
-  for (int round = 0; round < kRounds && iterations < most; ++round) {
+  for (int round = 0; round < kRounds && (gives_loads || iterations < most); ++round) {
     const Eigen::VectorXd before = Eigen::Map<const Eigen::VectorXd>(rows.p.data(), n);
     const auto offsets = directions.consistent(
         Eigen::Map<const Eigen::VectorXd>(rows.q.data(), n) + skew * before, rounding);
     ConstraintProblem<2> problem;
     problem.blocks = rows.blocks;
     add_rows(directions.root, {offsets.data(), rows.q.size()}, rows.p, problem);
-    if (gives_loads) {
-      give_loads(problem);
-      problem.keeps_loads = true;
-    }
-    const auto solution =
-        solve_constraints(problem, most - iterations, ConstraintStart::kLeastImpulses);
+    const auto solution = gives_loads ? solve_with_given_loads(problem, false)
+                                      : solve_constraints(problem, most - iterations,
+                                                          ConstraintStart::kLeastImpulses);
     iterations += solution.result.iterations;
     rows.p = problem.impulses;
     const Eigen::VectorXd change =
@@ -198,6 +195,7 @@ class FrictionSolver {
     constexpr int kMostRounds = 30;
     double least = std::numeric_limits<double>::infinity();
     auto best = impulses();
+    step_.has_given_loads = false;
     for (int round = 0; round < kMostRounds; ++round) {
       solve_gaps(round > 0);
       const double excess = excess_of_coulomb();
@@ -209,16 +207,53 @@ class FrictionSolver {
       if (step_.iterations >= conditions_.solver.max_iterations) break;
       solve_together(false);
     }
-    // The rounds have not converged. As without a fluid, the friction is then bounded by the loads
-    // of the solids in the best round, (5.17), which is a convex problem.
-    take(best);
-    solve_together(true);
-    solve_gaps(true);
-    excess_of_coulomb();
+    give_up(best);
     step_.is_solved = false;
   }
 
  private:
+  /// Normal and tangential impulses of all contacts [M L/T].
+  using Impulses = std::pair<std::vector<double>, std::vector<double>>;
+
+  /// Bounds the friction by given loads, (5.17), after the rounds have not converged. These are the
+  /// loads of the solids in the best round, if the solution with them nearly obeys Coulomb's law.
+  /// Otherwise they are those of a solution without friction: where friction locks particles that
+  /// must move, the loads of the rounds, which begin with those of the step before, grow without
+  /// bound.
+  void give_up(const Impulses& best) {
+    // A free choice, which is that of constraint_system.cpp for solutions that are near.
+    constexpr double kNear = 100;
+    step_.has_given_loads = true;
+    for (auto& contact : step_.contacts) contact.impulse = 0;
+    for (auto& friction : step_.frictions) friction.impulse = 0;
+    solve_gaps(false);
+    const auto without_friction = impulses();
+    const double load = largest_load();
+    take(best);
+    solve_with_given_loads_of_step();
+    // Residuals are allowed in proportion to the impulses. The excess is therefore multiplied by
+    // the ratio of the loads, so that no residual counts as small because the impulses are large.
+    const double excess = excess_of_coulomb() * std::max(1.0, largest_load() / load);
+    if (step_.is_solved && excess <= kNear) return;
+    take(without_friction);
+    solve_with_given_loads_of_step();
+    excess_of_coulomb();
+  }
+
+  /// Solves the problem in which the loads of the present impulses bound the friction.
+  void solve_with_given_loads_of_step() {
+    solve_together(true);
+    solve_gaps(true);
+  }
+
+  /// The largest impulse that solids carry [M L/T].
+  double largest_load() const {
+    double largest = 0;
+    for (const auto& friction : step_.frictions)
+      largest = largest_or_nan(largest, friction.carried(contact_of(friction)));
+    return largest;
+  }
+
   const Contact<2>& contact_of(const ContactFrictionInFluid& friction) const {
     return step_.contacts[friction.contact];
   }
@@ -249,14 +284,13 @@ class FrictionSolver {
     set_allowed(step_.contacts, conditions_);
   }
 
-  /// Normal and tangential impulses of all contacts [M L/T].
-  std::pair<std::vector<double>, std::vector<double>> impulses() const {
-    std::pair<std::vector<double>, std::vector<double>> found;
+  Impulses impulses() const {
+    Impulses found;
     for (const auto& contact : step_.contacts) found.first.push_back(contact.impulse);
     for (const auto& friction : step_.frictions) found.second.push_back(friction.impulse);
     return found;
   }
-  void take(const std::pair<std::vector<double>, std::vector<double>>& found) {
+  void take(const Impulses& found) {
     for (std::size_t c = 0; c < found.first.size(); ++c) step_.contacts[c].impulse = found.first[c];
     for (std::size_t f = 0; f < found.second.size(); ++f)
       step_.frictions[f].impulse = found.second[f];
@@ -349,7 +383,7 @@ class FrictionSolver {
     const double rounding = rounding_error_of_gaps(conditions_);
     const int most = conditions_.solver.max_iterations;
     step_.iterations += improve(matrix_of(rows, contacts, frictions), error, rounding, gives_loads,
-                                gives_loads ? most : most - step_.iterations, rows);
+                                most - step_.iterations, rows);
     for (std::size_t b = 0; b < rows.blocks.size(); ++b) {
       const auto row = rows.blocks[b].row;
       step_.contacts[contacts[b]].impulse = rows.p[row];

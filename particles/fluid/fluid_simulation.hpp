@@ -139,6 +139,8 @@ class FluidSimulation {
   ContactConditions contact_conditions(std::span<const double> free, double h) const;
   double kick_length(double h) const;
   bool is_computed_twice() const;
+  StepResiduals residuals_of(StepContacts& contact, std::span<const double> velocities,
+                             const ContactConditions& conditions) const;
   void examine(Motion& motion, double h, StepReport& report) const;
   void remember_friction(const StepContacts& step, double share);
   void accept(Motion motion, double h, double next, StepReport& report);

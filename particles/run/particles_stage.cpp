@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -133,17 +134,20 @@ class Run {
   /// Adds the flow around the particles at the end of the run, which no step computes. An
   /// interrupted run adds nothing, because the next step computes this flow when the run continues.
   /// Nor does a run in a sheared cell: for the fluid solver the cell keeps its shape, so that it
-  /// would compute the flow around images that have not moved.
+  /// would compute the flow around images that have not moved. All steps are done before, so that a
+  /// flow that cannot be computed is a warning.
   void add_last_flow() {
     if (cell_of(case_.setting).is_sheared()) return;
     if (!is_at_end() || stop_.stop_requested() || !log_.lacks_flow()) return;
+    std::optional<FlowField> flow;
     try {
-      log_.add_flow(simulation_.flow_at_present());
+      flow = simulation_.flow_at_present();
     } catch (const Error& error) {
-      if (error.kind() != ErrorKind::kExternalProgram) throw;
+      if (error.kind() == ErrorKind::kInterrupted) throw;
       terminal::warn("particles: warning: the flow at the end of the run is missing ({})",
                      error.what());
     }
+    if (flow) log_.add_flow(*flow);
   }
 
   void add_frame() {
@@ -249,9 +253,10 @@ void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State&
         count, source, radius);
   if (record.failed > 0)
     throw Error(ErrorKind::kNotConverged,
-                "{}: {} of {} steps did not converge: residuals are up to {:.2g} (of the gaps; "
-                "solver.tolerance is {}) and {:.2g} (of the impulses; solver.impulse_tolerance is "
-                "{}). All results are written, and steps.csv says which steps; raise "
+                "{}: {} of {} steps did not converge: residuals are up to {:.2g} (of gaps, "
+                "friction and links; solver.tolerance is {}) and {:.2g} (of the impulses; "
+                "solver.impulse_tolerance is {}). All results are written, and steps.csv says "
+                "which steps; raise "
                 "solver.max_iterations ({}) or the tolerances",
                 c.path.string(), record.failed, record.steps, record.largest_residual,
                 c.setting.solver.tolerance, record.largest_impulse_residual,

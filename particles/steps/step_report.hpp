@@ -82,7 +82,7 @@ struct StepReport {
   /// the smallest parts of the step (kLargestTurn in contact.hpp).
   std::size_t unresolved = 0;
   /// True if in a part of the step given loads bounded the friction, because the problem with the
-  /// loads of its solution was not solved, docs/physics.md (5.17). Always false in a fluid.
+  /// loads of its solution was not solved, docs/physics.md (5.17).
   bool has_given_loads = false;
   FluidStepReport fluid{};  ///< defaults without a fluid
 };

@@ -95,5 +95,86 @@ TEST_F(ParticlesCommand, PictureOfATitleThatNoXmlMayHoldIsWellFormed) {
   EXPECT_THAT(read_file(out() / "particles.svg"), HasSubstr("Three\uFFFD &lt;discs&gt;"));
 }
 
+/// A disc between two others on arms, of which one moves away from the time 1 on. No motion keeps
+/// both arms then.
+TEST_F(ParticlesCommand, KeepsAllStepsIfTheNextOneAfterTheEndHasNoSolution) {
+  const auto text = [](const std::string& end) {
+    return R"(title = "Arms that part"
+[space]
+dimension = 2
+[fluid]
+viscosity = 1.0
+solver = ["python3", ")" VISCONTACT_SOURCE_FOLDER R"(/examples/stokes_drag.py"]
+[domain]
+disc = { radius = 8.0 }
+[viscous_contact]
+time_step = 0.1
+end_time = )" +
+           end + R"(
+[output]
+every = 0.1
+[[particle]]
+centre = [-3.0, 0.0]
+radius = 1.0
+velocity_given = { value = [0.0, 0.0] }
+[[particle]]
+centre = [3.0, 0.0]
+radius = 1.0
+velocity_given = { value = [ { until = 1.0, value = [0.0, 0.0] }, { until = 3.0, value = [1.0, 0.0] } ] }
+[[particle]]
+centre = [0.0, 0.0]
+radius = 1.0
+[[arm]]
+between = [0, 2]
+length = 3.0
+[[arm]]
+between = [1, 2]
+length = 3.0
+)";
+  };
+  const auto at_end = run(put_case(text("1.0")), out());
+  expect_done(at_end);
+  EXPECT_THAT(at_end.errors, HasSubstr("the flow at the end of the run is missing"));
+  EXPECT_EQ(column("steps.csv", "step").size(), 10U);
+  EXPECT_TRUE(fs::exists(out() / "particles.html"));
+  EXPECT_EQ(nlohmann::json::parse(read_file(out() / "run.json"))["steps"], 10);
+
+  const auto later = run(put_case(text("1.5")), out());
+  EXPECT_EQ(later.exit_status, 4);
+  EXPECT_THAT(later.errors, HasSubstr("contradict each other"));
+  EXPECT_EQ(column("steps.csv", "step").size(), 10U);
+}
+
+/// A disc in the corner of a wall and a floor that moves towards it. With mu_s > 1 friction locks
+/// the disc between both, so that Coulomb's law has no solution.
+TEST_F(ParticlesCommand, SaysHowManyStepsInAFluidHadGivenLoads) {
+  const auto result = run(put_case(R"(title = "A disc that jams"
+[space]
+dimension = 2
+[fluid]
+viscosity = 1.0
+threshold_gap = 0.05
+velocity = { bottom = [1.0, 0.0] }
+solver = ["python3", ")" VISCONTACT_SOURCE_FOLDER R"(/examples/stokes_drag.py"]
+[domain]
+box = { from = [-4.0, 0.0], to = [4.0, 7.0] }
+[viscous_contact]
+gamma_min = 0.0
+time_step = 0.1
+end_time = 0.5
+[friction]
+coefficient = 1.5
+[[particle]]
+centre = [2.95, 1.05]
+radius = 1.0
+force = [1.0, -5.0]
+)"),
+                          out());
+  EXPECT_EQ(result.exit_status, 4);
+  EXPECT_THAT(result.errors, HasSubstr("in 5 of 5 steps given loads bound the friction"));
+  EXPECT_THAT(result.errors, HasSubstr("(of gaps, friction and links; "));
+  EXPECT_EQ(nlohmann::json::parse(read_file(out() / "run.json"))["steps_with_given_loads"], 5);
+}
+
 }  // namespace
 }  // namespace viscontact
