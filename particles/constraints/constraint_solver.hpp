@@ -27,7 +27,8 @@ enum class ConstraintStart {
   /// problem, the result depends on the order of the rows.
   kSweeps,
   /// A step of the proximal method from the guess in problem.impulses. If rows are redundant, the
-  /// result is near the solution with the least squares of differences from the guess.
+  /// result is near the solution with the least squares of differences from the guess, unless it
+  /// takes more than 500 iterations.
   kLeastImpulses,
 };
 
@@ -37,7 +38,8 @@ enum class ConstraintStart {
 /// changed, too (below).
 ///
 /// With Coulomb's law, Gauss-Seidel sweeps are made first, as long as they reduce the residual
-/// fast, and steps of the proximal method (proximal_step.hpp) follow. A convex problem (is_convex)
+/// fast, and steps of the proximal method (proximal_step.hpp) follow. If these are many, paths of
+/// smoothed problems (coulomb_path.hpp) lead to points near a solution. A convex problem (is_convex)
 /// is solved by interior points (interior_points.hpp), and proximal steps make the solution
 /// accurate. If it is_rough, interior points stop early, and the residual may be several times the
 /// allowed one.

@@ -88,14 +88,15 @@ class ConstraintSystem {
   /// after finite turns and their linear values, until this difference is below half of what is
   /// allowed. If the links of an island were solved before it had contacts, and their motion leaves
   /// all contacts open, that motion is the solution. Equations about the beginning of the step
-  /// would stop a particle that a hinge or arm takes past an obstacle. Gaps are at first taken along
-  /// the normals at the beginning of the step. If the corrected problem is not solved, or
+  /// would stop a particle that a hinge or arm takes past an obstacle. Gaps are at first taken
+  /// along the normals at the beginning of the step. If the corrected problem is not solved, or
   /// corrections diverge, ContactSystem::use_distances() applies, and the solution begins anew.
   ///
   /// If Coulomb's law is not solved in `max_iterations`, the friction of the island is bounded by
-  /// the loads of the best iterate, so that at least gaps, films and links are exact. The
-  /// given loads remain in all later calls. If these loads are so large that this fails, too, the friction is
-  /// bounded by the loads of a solution without friction. residual() remains that of Coulomb's law.
+  /// the loads of the best iterate, so that at least gaps, films and links are exact. The given
+  /// loads remain in all later calls. If these loads are so large that this fails, too, the friction
+  /// is bounded by the loads of a solution without friction. residual() remains that of Coulomb's
+  /// law.
   ///
   /// The convex relaxation (5.9) has no solution where friction locks particles that must move. If
   /// iterations no longer reduce its residual, the friction is bounded by the loads of a solution

@@ -44,10 +44,10 @@ class CoulombPath {
   /// friction. On nearly all problems the first one suffices.
   static constexpr int kPaths = 3;
 
-  /// Follows path `number`, from 0 to kPaths - 1, until the root of tau, which is a violation, is at most `accuracy`, in (0,
-  /// 1), times the largest scaled value of a row with the least impulses. Stops before if the path is
-  /// lost, if rounding errors prevent progress, or after `max_iterations` factorisations. Returns
-  /// their number.
+  /// Follows path `number`, from 0 to kPaths - 1, until the root of tau, which is a violation, is
+  /// at most `accuracy`, in (0, 1), times the largest scaled value of a row with the least impulses.
+  /// Stops before if the path is lost, if rounding errors prevent progress, or after
+  /// `max_iterations` factorisations. Returns their number.
   int follow(int number, double accuracy, int max_iterations);
 
   /// The root of the least tau of the last follow(), over its value at the start [1].
@@ -60,8 +60,8 @@ class CoulombPath {
   static constexpr std::size_t kTangents = static_cast<std::size_t>(D - 1);
   using Tangent = std::array<double, kTangents>;
   // The value of a row is multiplied by a scale, its impulse divided by it. With the scale
-  // 1/w^(1/2) of the first row of its block both are in the unit L (M/T)^(1/2), as all numbers below
-  // without another unit.
+  // 1/w^(1/2) of the first row of its block both are in the unit L (M/T)^(1/2), as all numbers
+  // below without another unit.
   //
   // What is unknown of a contact or a row of a link, or its change.
   struct Point {

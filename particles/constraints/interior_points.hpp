@@ -23,10 +23,10 @@ namespace viscontact::particles {
 ///
 ///     A dry contact with friction, FrictionBound::kCone (5.9): u = (gap, mu_s slip) is in the
 ///     cone. Its dual point r = (p_n, p_t/mu_s) is in the cone, and u.r = 0.
-///     Any other contact: gap >= 0, p_n >= its lowest value, and one of them with equality. If the magnitude
-///     of its friction has a given bound (5.17), also u = (z, slip) is in the cone, with an unknown
-///     z >= |slip| that adds bound times z to the minimised function. Its dual point r = (bound, p_t) is
-///     in the cone, and u.r = 0.
+///     Any other contact: gap >= 0, p_n >= its lowest value, and one of them with equality. If the
+///     magnitude of its friction has a given bound (5.17), also u = (z, slip) is in the cone, with
+///     an unknown z >= |slip| that adds bound times z to the minimised function. Its dual point
+///     r = (bound, p_t) is in the cone, and u.r = 0.
 ///     A row of a link: its equation.
 ///
 /// The method is the predictor-corrector method of Mehrotra (1992), scaled after Nesterov & Todd

@@ -39,7 +39,7 @@ class ProximalStep {
  public:
   /// All arguments must outlive this object. `w` are the row_mobilities() of the problem, W_rr
   /// [T/M], > 0. `matrix` is made for the problem, with is_symmetric if the problem is convex.
-  /// While this object is used nothing else may change it, because its factors are used again.
+  /// Its factors are used again: after another object has changed it, set_epsilon() must be called.
   ProximalStep(const ConstraintProblem<D>& problem, const std::vector<double>& w,
                UnitMatrix<D>& matrix);
 

@@ -94,7 +94,8 @@ ConstraintProblem<2> disc_on_a_floor(double along, double friction, double capac
 TEST(CoulombPath, FindsSlidingAndRollingOfADisc) {
   for (const double capacity : {0.0, 0.3, 2.0}) {
     SCOPED_TRACE(capacity);
-    // The disc rolls after the impulse 1/3 of its velocity along the floor, if friction can give it.
+    // The disc rolls after the impulse 1/3 of its velocity along the floor, if friction can give
+    // it.
     const double load = std::max(1 - capacity, 0.0);
     for (const double along : {0.5, 3.0})
       for (const double friction : {0.3, 2.0}) {
