@@ -1,6 +1,6 @@
 // Decides which methods solve the problem of contacts with friction and links of a time step, in
 // which order and with which parameters (constraint_solver.hpp): Gauss-Seidel sweeps, proximal
-// steps and interior points. Units are any consistent ones; constraint_problem.hpp has dimensions
+// steps, paths of smoothed problems and interior points. Units are any consistent ones; constraint_problem.hpp has dimensions
 // and ranges. A residual [L] is allowed if it is at most ConstraintBlock::allowed or allowed_slip.
 // Nothing is thrown; an unsolved problem has SolverResult::residual > 1. Used by
 // constraint_system.cpp, impacts/ and fluid/fluid_friction.cpp. A change must keep that one thread
@@ -109,11 +109,17 @@ class Iteration {
   /// Takes proximal steps of a problem with Coulomb's law. Where they need many iterations, follows
   /// paths of smoothed problems to points near a solution, and takes proximal steps from there.
   void solve_with_paths(int max_iterations) {
-    // Proximal steps solve easy problems in fewer iterations than a path takes. From the end of a
-    // path 0 to 20 are the rule. With kLeastImpulses paths are the last resort, because their ends
-    // do not depend on the guess.
-    constexpr int kMostAfterPath = 200;
-    const int most_before = start_ == ConstraintStart::kLeastImpulses ? 500 : 50;
+    // Proximal steps solve easy problems in less time than a path takes, and with loads that are
+    // nearer to the guess. Their share of the time is about the same for all numbers of contacts.
+    // From the end of a path 0 to 20 iterations are the rule. With kLeastImpulses paths are the last
+    // resort, because their ends do not depend on the guess.
+    constexpr double kBeforePath = 1e5;  // iterations times contacts
+    constexpr int kMostAfterPath = 200, kLeastBeforePath = 50, kMostBeforePath = 2000;
+    const double contacts = static_cast<double>(problem_.blocks.size());
+    const int most_before = start_ == ConstraintStart::kLeastImpulses
+                                ? kMostBeforePath
+                                : static_cast<int>(std::clamp<double>(
+                                      kBeforePath / contacts, kLeastBeforePath, kMostBeforePath));
     int paths = 0, next = best_.result.iterations + most_before;
     bool is_after_path = false;
     auto before = problem_.impulses;
@@ -138,12 +144,16 @@ class Iteration {
         }
       } else if (is_after_path) {
         is_after_path = false;
+        most_impulse_ = std::numeric_limits<double>::infinity();
         begin_at(before, epsilon_before);
       } else {
         before = problem_.impulses;
         epsilon_before = epsilon_;
         if (const auto end = end_of_path(paths++, max_iterations)) {
+          // Where particles are jammed, impulses that balance each other may be as large as one
+          // likes. A solution with larger ones than are at work has no meaning.
           is_after_path = true;
+          most_impulse_ = impulses_at_work();
           begin_at(*end, kFirstEpsilon);
         }
       }
@@ -165,6 +175,28 @@ class Iteration {
     proximal_->set_epsilon(epsilon_);  // because the path has overwritten its matrix
     if (path.reached() > kFar) return {};
     return path.impulses();
+  }
+
+  /// The sum of the impulses that stop the free motion of each unit, and of those that close each
+  /// contact, remove the violation of each contact and link, and hold each film [M L/T].
+  double impulses_at_work() const {
+    double sum = 0;
+    std::vector<Motion<D>> free;
+    for (const auto& unit : problem_.units) {
+      free.push_back(unit.free);
+      const auto impulse = unit.impulse_of(unit.free);
+      double square = 0;
+      for (std::size_t k = 0; k < D; ++k) square += impulse[k] * impulse[k];
+      sum += std::sqrt(square);
+    }
+    for (const auto& block : problem_.blocks) {
+      if (block.is_contact) sum += std::abs(block.lowest);
+      for (std::size_t r = block.row; r < block.row + (block.is_contact ? 1 : block.rows); ++r) {
+        const double value = problem_.rows[r].offset + problem_.product(r, free);
+        if (!block.is_contact || value < 0) sum += std::abs(value) / w_[r];
+      }
+    }
+    return sum;
   }
 
   /// Takes a proximal step of a problem with Coulomb's law. Between jammed particles that stick,
@@ -197,6 +229,7 @@ class Iteration {
       if (close_gaps(center, max_iterations)) return;
       next_try_ = steps_ + steps_ / kShareOfSteps;
     }
+    if (proximal_->followed_path()) return;
     epsilon_ /= taken <= kFewIterations ? kLargeFactor : kFactor;
     epsilon_ = std::max(kLeastEpsilon, epsilon_);
     proximal_->set_epsilon(epsilon_);
@@ -407,6 +440,8 @@ class Iteration {
           residual_of(block, &values_[block.row], &problem_.impulses[block.row], &w_[block.row]);
       const double share = residuals_[b].share(block);
       residual_ = largest_or_nan(residual_, share);
+      if (block.is_contact && problem_.impulses[block.row] > most_impulse_)
+        residual_ = std::numeric_limits<double>::infinity();
     }
     if (!(residual_ < best_.result.residual)) return;
     best_.result.residual = residual_;
@@ -440,6 +475,8 @@ class Iteration {
   bool is_rising_ = false, has_given_loads_ = false, has_cones_ = false;
   int steps_ = 0, next_try_ = 0;  // proximal steps so far; the one after which to try close_gaps()
   double residual_ = 0, epsilon_ = kFirstEpsilon;  // residual_: largest over allowed one [1]
+  // Normal impulse beyond which iterates do not count [M L/T].
+  double most_impulse_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace

@@ -252,21 +252,17 @@ double ProximalStep<D>::rounding_error() const {
 }
 
 template <int D>
-void ProximalStep<D>::move(double length) {
-  for (std::size_t u = 0; u < y_.size(); ++u)
-    for (std::size_t k = 0; k < y_[u].size(); ++k) y_[u][k] += length * direction_[u][k];
-  for (std::size_t r = 0; r < values_.size(); ++r) values_[r] += length * changes_[r];
-}
-
-template <int D>
 int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<Motion<D>>& start,
                            int max_iterations) {
   constexpr double kSlow = 0.1, kExact = 1e-10;
+  constexpr int kMostPaths = 3;
+  constexpr double kLeastShare = 0.05;
   center_ = center;
   y_ = start;
   for (std::size_t r = 0; r < problem_.rows.size(); ++r)
     values_[r] = problem_.rows[r].offset + problem_.product(r, y_);
   failed_ = false;
+  paths_ = 0;
   int iterations = 0;
   const double first = error_at(0, true);
   double before = first;
@@ -282,10 +278,19 @@ int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<
     const double length = length_of_step(before);
     const auto last = factored_;
     if (length == 0) {
-      failed_ = !(before <= rounding_error());
-      break;
+      if (before <= rounding_error()) break;
+      failed_ = D == 3 || paths_ == kMostPaths;
+      if (failed_) break;
+      ++paths_;
+      error_at(0, true);
+      const double share = follow_path(iterations);
+      before = error_at(0, true);
+      if (share == 1) break;
+      failed_ = share < kLeastShare;
+      if (failed_) break;
+      continue;
     }
-    move(length);
+    move(length, direction_);
     const double here = error_at(0, true);
     // For discs the equation is linear as long as no branch changes, so that a step of length 1
     // without a change of a branch ends at the solution, but for rounding errors. For spheres it

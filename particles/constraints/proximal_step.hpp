@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,13 @@ namespace viscontact::particles {
 /// The matrix of Newton's method (Alart & Curnier 1991, "A mixed formulation for frictional contact
 /// problems prone to Newton like solution methods") is a UnitMatrix. Its factors are used again as
 /// long as no contact changes its branch, that is, opens, closes, sticks or slips.
+///
+/// For discs the equation is linear as long as no contact changes its branch. If no step in the
+/// direction of Newton's method reduces its error, solve() follows the path of motions on which the
+/// error is a multiple of that at its start, from one change of a branch to the next, also where
+/// the multiple grows as it may with Coulomb's law (Katzenelson 1965, "An algorithm for solving
+/// nonlinear resistor networks"; Chien & Kuh 1976, "Solving piecewise-linear equations for
+/// resistive networks").
 template <int D>
 class ProximalStep {
  public:
@@ -55,10 +63,15 @@ class ProximalStep {
 
   /// True if the last solve() gave up: a matrix was singular, or no step reduced the error.
   bool failed() const { return failed_; }
+  /// True if the last solve() followed a path: no step of Newton's method reduced the error.
+  bool followed_path() const { return paths_ > 0; }
   /// Impulses that the last solve() found, one for each row [M L/T].
   const std::vector<double>& impulses() const { return projected_; }
 
  private:
+  // Largest number of changes of branches on a path. Each one needs a solution with factors, and
+  // makes the next ones more expensive. The value is a free choice.
+  static constexpr int kMostCrossings = 30;
   // The branch of the projection in which a block is: open or closed; no friction, sticking, or
   // slipping with friction > 0 (kSlips) or < 0 (kSlipsBack) in the first tangential row.
   enum class Friction : unsigned char { kNone, kSticks, kSlips, kSlipsBack };
@@ -74,7 +87,21 @@ class ProximalStep {
   double error_at(double t, bool is_kept);
   bool factorise();
   void add_block(std::size_t b);
-  void move(double length);
+  struct Crossing;
+  // Where a block leaves its branch, as a multiple of direction_, and its next branch.
+  struct Exit {
+    double length = std::numeric_limits<double>::infinity();
+    Branch branch;
+  };
+  std::array<double, 4> derivatives(std::size_t b, Branch branch) const;
+  Crossing crossing_to(std::size_t b, Branch branch) const;
+  double product(const Crossing& crossing, std::span<const Motion<D>> motions) const;
+  Exit exit_of(std::size_t b, double sign) const;
+  // Follows the path from y_ through at most kMostCrossings changes of branches, and adds their
+  // number to `iterations`. Moves y_ to the point with the least error on it. Returns the share of
+  // the error at the start that is removed there, 0 to 1.
+  double follow_path(int& iterations);
+  void move(double length, std::span<const Motion<D>> direction);
   void find_direction();
   double length_to_minimum();
   double rounding_error() const;
@@ -89,6 +116,7 @@ class ProximalStep {
   std::vector<Motion<D>> y_, direction_, error_;  // direction_: the step of Newton's method
   UnitMatrix<D>& matrix_;
   bool has_factor_ = false, failed_ = false;
+  int paths_ = 0;  // number of paths that the last solve() has followed
 };
 
 }  // namespace viscontact::particles

@@ -1,6 +1,8 @@
 // The path of smoothed problems to a solution with Coulomb's law, docs/physics.md (5.20): its end
 // against the conditions of the law and closed forms, in the plane and in space, in other units, in
 // another order, with another choice of the tangents and from another guess.
+#include "viscontact/particles/constraints/coulomb_path.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +12,6 @@
 #include <vector>
 
 #include "tests/particles/constraints/random_constraints.hpp"
-#include "viscontact/particles/constraints/coulomb_path.hpp"
 
 namespace viscontact::particles {
 namespace {
