@@ -177,8 +177,8 @@ class Iteration {
     return path.impulses();
   }
 
-  /// The sum of the impulses that stop the free motion of each unit, and of those that close each
-  /// contact, remove the violation of each contact and link, and hold each film [M L/T].
+  /// The sum of the impulses that stop the free motion of each unit, remove the violation of each
+  /// contact with friction and rigid link by the free motion, and hold each film [M L/T].
   double impulses_at_work() const {
     double sum = 0;
     std::vector<Motion<D>> free;
@@ -190,6 +190,8 @@ class Iteration {
       sum += std::sqrt(square);
     }
     for (const auto& block : problem_.blocks) {
+      // Springs and stops may have rows of angles, whose impulses are moments.
+      if (block.is_contact ? block.rows == 1 : block.compliance > 0) continue;
       if (block.is_contact) sum += std::abs(block.lowest);
       for (std::size_t r = block.row; r < block.row + (block.is_contact ? 1 : block.rows); ++r) {
         const double value = problem_.rows[r].offset + problem_.product(r, free);
@@ -440,7 +442,7 @@ class Iteration {
           residual_of(block, &values_[block.row], &problem_.impulses[block.row], &w_[block.row]);
       const double share = residuals_[b].share(block);
       residual_ = largest_or_nan(residual_, share);
-      if (block.is_contact && problem_.impulses[block.row] > most_impulse_)
+      if (block.is_contact && block.rows > 1 && problem_.impulses[block.row] > most_impulse_)
         residual_ = std::numeric_limits<double>::infinity();
     }
     if (!(residual_ < best_.result.residual)) return;
