@@ -130,7 +130,6 @@ class Iteration {
       epsilon_ = epsilon;
       proximal_->set_epsilon(epsilon);
       halved = residual_;
-      gained_at_ = best_.result.iterations;
       next = best_.result.iterations + kMostAfterPath;
     };
     while (residual_ > 1 && best_.result.iterations < max_iterations && !is_stagnant()) {
@@ -169,9 +168,14 @@ class Iteration {
     constexpr double kRough = 1e-4, kAccurate = 1e-7, kFar = 1e-3;
     // A long path is left for another one, which seldom is as long.
     const int longest = number + 1 < CoulombPath<D>::kPaths ? 400 : 2000;
-    const int most = std::clamp(max_iterations - best_.result.iterations, 1, longest);
+    // A factorisation and three solutions with factors for each point of the path.
+    constexpr int kForPoint = 4;
+    const int left = max_iterations - best_.result.iterations;
     CoulombPath<D> path(problem_, w_, matrix());
-    best_.result.iterations += path.follow(number, problem_.is_rough ? kRough : kAccurate, most);
+    best_.result.iterations +=
+        kForPoint * path.follow(number, problem_.is_rough ? kRough : kAccurate,
+                                std::clamp(left / kForPoint, 1, longest));
+    gained_at_ = best_.result.iterations;
     proximal_->set_epsilon(epsilon_);  // because the path has overwritten its matrix
     if (path.reached() > kFar) return {};
     return path.impulses();

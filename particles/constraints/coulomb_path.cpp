@@ -293,7 +293,7 @@ void CoulombPath<D>::find_changes(double of_errors, double of_tau, const State* 
 }
 
 /// The inner product of two changes, each relative to state_: for positive numbers that of the
-/// quotients.
+/// quotients. Motions and links do not count. No direction is without length, because tau counts.
 template <int D>
 double CoulombPath<D>::product(const State& a, const State& b) const {
   double sum = degree_ * a.tau * b.tau / (state_.tau * state_.tau);
