@@ -1,7 +1,7 @@
 // Decides which methods solve the problem of contacts with friction and links of a time step, in
 // which order and with which parameters (constraint_solver.hpp): Gauss-Seidel sweeps, proximal
-// steps, paths of smoothed problems and interior points. Units are any consistent ones; constraint_problem.hpp has dimensions
-// and ranges. A residual [L] is allowed if it is at most ConstraintBlock::allowed or allowed_slip.
+// steps, paths of smoothed problems and interior points. Units are any consistent ones;
+// constraint_problem.hpp has dimensions and ranges. A residual [L] is allowed if it is at most ConstraintBlock::allowed or allowed_slip.
 // Nothing is thrown; an unsolved problem has SolverResult::residual > 1. Used by
 // constraint_system.cpp, impacts/ and fluid/fluid_friction.cpp. A change must keep that one thread
 // computes the solution, so that results do not depend on the number of threads. Constants without
@@ -111,8 +111,8 @@ class Iteration {
   void solve_with_paths(int max_iterations) {
     // Proximal steps solve easy problems in less time than a path takes, and with loads that are
     // nearer to the guess. Their share of the time is about the same for all numbers of contacts.
-    // From the end of a path 0 to 20 iterations are the rule. With kLeastImpulses paths are the last
-    // resort, because their ends do not depend on the guess.
+    // From the end of a path 0 to 20 iterations are the rule. With kLeastImpulses paths are the
+    // last resort, because their ends do not depend on the guess.
     constexpr double kBeforePath = 1e5;  // iterations times contacts
     constexpr int kMostAfterPath = 200, kLeastBeforePath = 50, kMostBeforePath = 2000;
     const double contacts = static_cast<double>(problem_.blocks.size());

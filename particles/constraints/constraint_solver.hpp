@@ -28,7 +28,7 @@ enum class ConstraintStart {
   kSweeps,
   /// A step of the proximal method from the guess in problem.impulses. If rows are redundant, the
   /// result is near the solution with the least squares of differences from the guess, unless it
-  /// takes more than 500 iterations.
+  /// takes more than 2000 iterations.
   kLeastImpulses,
 };
 
@@ -39,8 +39,8 @@ enum class ConstraintStart {
 ///
 /// With Coulomb's law, Gauss-Seidel sweeps are made first, as long as they reduce the residual
 /// fast, and steps of the proximal method (proximal_step.hpp) follow. If these are many, paths of
-/// smoothed problems (coulomb_path.hpp) lead to points near a solution. A convex problem (is_convex)
-/// is solved by interior points (interior_points.hpp), and proximal steps make the solution
+/// smoothed problems (coulomb_path.hpp) lead to points near a solution. A convex problem
+/// (is_convex) is solved by interior points (interior_points.hpp), and proximal steps make the solution
 /// accurate. If it is_rough, interior points stop early, and the residual may be several times the
 /// allowed one.
 /// If contacts have given loads (FrictionBound::kGiven), these are replaced by the loads of a first

@@ -381,8 +381,8 @@ typename CoulombPath<D>::State CoulombPath<D>::end_of(const Step& step, double l
 
 /// Sets the tangent of the path and the correction at right angles to it, at state_. The tangent is
 /// the change with ln(tau) or -ln(tau). Returns false if the matrix is singular, or if the
-/// correction does not lead to a point near the path. A bound on the angle between this tangent and the end of
-/// the last step would take 2 to 9 % more factorisations.
+/// correction does not lead to a point near the path. A bound on the angle between this tangent and
+/// the end of the last step would take 2 to 9 % more factorisations.
 template <int D>
 bool CoulombPath<D>::find_direction(Step& step) {
   measure();

@@ -45,8 +45,8 @@ class CoulombPath {
   static constexpr int kPaths = 3;
 
   /// Follows path `number`, from 0 to kPaths - 1, until the root of tau, which is a violation, is
-  /// at most `accuracy`, in (0, 1), times the largest scaled value of a row with the least impulses.
-  /// Stops before if the path is lost, if rounding errors prevent progress, or after
+  /// at most `accuracy`, in (0, 1), times the largest scaled value of a row with the least
+  /// impulses. Stops before if the path is lost, if rounding errors prevent progress, or after
   /// `max_iterations` factorisations. Returns their number.
   int follow(int number, double accuracy, int max_iterations);
 
