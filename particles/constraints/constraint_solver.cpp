@@ -1,11 +1,11 @@
 // Decides which methods solve the problem of contacts with friction and links of a time step, in
 // which order and with which parameters (constraint_solver.hpp): Gauss-Seidel sweeps, proximal
 // steps, paths of smoothed problems and interior points. Units are any consistent ones;
-// constraint_problem.hpp has dimensions and ranges. A residual [L] is allowed if it is at most ConstraintBlock::allowed or allowed_slip.
-// Nothing is thrown; an unsolved problem has SolverResult::residual > 1. Used by
-// constraint_system.cpp, impacts/ and fluid/fluid_friction.cpp. A change must keep that one thread
-// computes the solution, so that results do not depend on the number of threads. Constants without
-// another reason are free choices.
+// constraint_problem.hpp has dimensions and ranges. A residual [L] is allowed if it is at most
+// ConstraintBlock::allowed or allowed_slip. Nothing is thrown; an unsolved problem has
+// SolverResult::residual > 1. Used by constraint_system.cpp, impacts/ and fluid/fluid_friction.cpp.
+// A change must keep that one thread computes the solution, so that results do not depend on the
+// number of threads. Constants without another reason are free choices.
 //
 // `epsilon` [1] is the parameter of a proximal step: the impulse of a row with the value v and the
 // mobility w is center - v/(epsilon w), projected on the allowed impulses. A smaller epsilon brings

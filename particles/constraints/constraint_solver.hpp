@@ -40,11 +40,10 @@ enum class ConstraintStart {
 /// With Coulomb's law, Gauss-Seidel sweeps are made first, as long as they reduce the residual
 /// fast, and steps of the proximal method (proximal_step.hpp) follow. If these are many, paths of
 /// smoothed problems (coulomb_path.hpp) lead to points near a solution. A convex problem
-/// (is_convex) is solved by interior points (interior_points.hpp), and proximal steps make the solution
-/// accurate. If it is_rough, interior points stop early, and the residual may be several times the
-/// allowed one.
-/// If contacts have given loads (FrictionBound::kGiven), these are replaced by the loads of a first
-/// solution, and a second solution follows, unless problem.keeps_loads.
+/// (is_convex) is solved by interior points (interior_points.hpp), and proximal steps make the
+/// solution accurate. If it is_rough, interior points stop early, and the residual may be several
+/// times the allowed one. If contacts have given loads (FrictionBound::kGiven), these are replaced
+/// by the loads of a first solution, and a second solution follows, unless problem.keeps_loads.
 template <int D>
 ConstraintSolution<D> solve_constraints(ConstraintProblem<D>& problem, int max_iterations,
                                         ConstraintStart start = ConstraintStart::kSweeps);

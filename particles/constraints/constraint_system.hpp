@@ -95,8 +95,8 @@ class ConstraintSystem {
   /// If Coulomb's law is not solved in `max_iterations`, the friction of the island is bounded by
   /// the loads of the best iterate, so that at least gaps, films and links are exact. The given
   /// loads remain in all later calls. If these loads are so large that this fails, too, the
-  /// friction is bounded by the loads of a solution without friction. residual() remains that of Coulomb's
-  /// law.
+  /// friction is bounded by the loads of a solution without friction. residual() remains that of
+  /// Coulomb's law.
   ///
   /// The convex relaxation (5.9) has no solution where friction locks particles that must move. If
   /// iterations no longer reduce its residual, the friction is bounded by the loads of a solution
