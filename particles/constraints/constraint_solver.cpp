@@ -120,7 +120,7 @@ class Iteration {
                                 ? kMostBeforePath
                                 : static_cast<int>(std::clamp<double>(
                                       kBeforePath / contacts, kLeastBeforePath, kMostBeforePath));
-    int paths = 0, next = best_.result.iterations + most_before;
+    int paths = 0, path_ended_at = 0, next = best_.result.iterations + most_before;
     bool is_after_path = false;
     auto before = problem_.impulses;
     double epsilon_before = epsilon_, halved = 0;
@@ -142,7 +142,9 @@ class Iteration {
           next = best_.result.iterations + kMostAfterPath;
         }
       } else if (is_after_path) {
+        // As many steps as without the path may then be made without progress.
         is_after_path = false;
+        gained_at_ += best_.result.iterations - path_ended_at;
         most_impulse_ = std::numeric_limits<double>::infinity();
         begin_at(before, epsilon_before);
       } else {
@@ -152,6 +154,7 @@ class Iteration {
           // Where particles are jammed, impulses that balance each other may be as large as one
           // likes. A solution with larger ones than are at work has no meaning.
           is_after_path = true;
+          path_ended_at = best_.result.iterations;
           most_impulse_ = impulses_at_work();
           begin_at(*end, kFirstEpsilon);
         }
@@ -172,10 +175,10 @@ class Iteration {
     constexpr int kForPoint = 4;
     const int left = max_iterations - best_.result.iterations;
     CoulombPath<D> path(problem_, w_, matrix());
-    best_.result.iterations +=
-        kForPoint * path.follow(number, problem_.is_rough ? kRough : kAccurate,
-                                std::clamp(left / kForPoint, 1, longest));
-    gained_at_ = best_.result.iterations;
+    const int taken = kForPoint * path.follow(number, problem_.is_rough ? kRough : kAccurate,
+                                              std::clamp(left / kForPoint, 1, longest));
+    best_.result.iterations += taken;
+    gained_at_ += taken;
     proximal_->set_epsilon(epsilon_);  // because the path has overwritten its matrix
     if (path.reached() > kFar) return {};
     return path.impulses();
