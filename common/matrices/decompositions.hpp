@@ -16,6 +16,8 @@
 #include <Eigen/SVD>
 
 // Only the members that take time to compile. Whole classes would have members that nobody calls.
+// Doxygen does not understand these declarations.
+/// @cond
 extern template void Eigen::ColPivHouseholderQR<Eigen::MatrixXd>::computeInPlace();
 extern template void Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>::computeInPlace();
 extern template void Eigen::HouseholderQR<Eigen::MatrixXd>::computeInPlace();
@@ -44,3 +46,4 @@ extern template void Eigen::LDLT<Eigen::MatrixXd>::_solve_impl(const Eigen::Vect
                                                                Eigen::VectorXd&) const;
 extern template void Eigen::LLT<Eigen::MatrixXd>::_solve_impl(const Eigen::VectorXd&,
                                                               Eigen::VectorXd&) const;
+/// @endcond
