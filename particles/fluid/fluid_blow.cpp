@@ -181,8 +181,8 @@ StepContacts Blow::problem() const {
   return problem;
 }
 
-/// Sets Part::load of the contacts that are closed or hit: the impulses that would keep the gaps
-/// of particles at rest under the forces of the step.
+/// Sets Part::load of the contacts that are closed or hit: the impulses that would keep these gaps
+/// from closing if the particles were at rest and the forces of the step acted on them.
 void Blow::take_load() {
   auto load = problem();
   std::vector<Contact<2>> contacts;
@@ -287,7 +287,8 @@ void Blow::move(FluidBlow& blow) {
   for (std::size_t i = 0; i < blow.moved.size(); ++i)
     blow.moved[i] += conditions_.free_velocities[i];
   // Because hits have different times, some particles may now overlap, or a gap may be open
-  // although its film still pulls. Contact forces then change the displacements until no gap does.
+  // although its film still pulls. Contact forces then change the displacements until neither is
+  // so.
   StepContacts gaps;
   gaps.contacts = ordinary_.contacts;
   const double allowed = conditions_.solver.tolerance * conditions_.mean_radius / 2;

@@ -45,8 +45,8 @@ inline constexpr FrameKind kFrameFile{"particles", ".vtp"}, kFlowFile{"flow", ".
 std::string frame_name(const FrameKind& kind, std::uint64_t number);
 
 /// Throws Error(kBadInput) if a file in the folder has the name of a result or of a frame, but
-/// Viscontact did not write it. The folder must exist, here and below; otherwise
-/// std::filesystem::filesystem_error is thrown.
+/// Viscontact did not write it. The folder must exist, for this function and for those declared
+/// after it; otherwise they throw std::filesystem::filesystem_error.
 void check_results(const std::filesystem::path& folder);
 
 /// Throws Error(kBadInput) if a run into `folder` would overwrite one of its inputs: the case, its

@@ -2,8 +2,8 @@
 // neighbouring spheres), and strokes given by corners, an ellipse or a file of samples. Numbers are
 // in the units of the case; swimmer_case.hpp and collinear_spheres.hpp have their dimensions and
 // ranges. A wrong value is an Error(kBadInput) with its line. Used by swimmer/, app/ and python/. A
-// change must keep the arms of a table bit for bit, because its finished rows are found by their
-// gaps.
+// change must keep that users' cases are accepted, and the arms of a table bit for bit, because its
+// finished rows are found by their gaps. Keys are read in an order: some depend on those before.
 #include "viscontact/swimmer/case/swimmer_case.hpp"
 
 #include <algorithm>
