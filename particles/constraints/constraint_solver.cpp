@@ -97,10 +97,10 @@ class Iteration {
     gained_residual_ = best_.result.residual;
     gained_at_ = best_.result.iterations;
   }
-  /// True if the best residual was not halved in the last iterations. With 2000 in place of 3000
-  /// and Coulomb's law, three more of the 200 steps of bench/box2d.cpp ended without a solution.
-  /// Convex problems whose loads are not given take 20 to 70 iterations, unless they have no
-  /// solution.
+  /// True if the best residual was not halved in the last iterations, without those of paths. With
+  /// 2000 in place of 3000 and Coulomb's law, three more of the 200 steps of bench/box2d.cpp ended
+  /// without a solution when there were no paths. Convex problems whose loads are not given take 20
+  /// to 70 iterations, unless they have no solution.
   bool is_stagnant() const {
     constexpr int kPatience = 3000, kPatienceOfCones = 300;
     return best_.result.iterations - gained_at_ > (has_cones_ ? kPatienceOfCones : kPatience);
@@ -155,7 +155,7 @@ class Iteration {
           // likes. A solution with larger ones than are at work has no meaning.
           is_after_path = true;
           path_ended_at = best_.result.iterations;
-          most_impulse_ = impulses_at_work();
+          most_impulse_ = sum_of_impulses_at_work();
           begin_at(*end, kFirstEpsilon);
         }
       }
@@ -186,7 +186,7 @@ class Iteration {
 
   /// The sum of the impulses that stop the free motion of each unit, remove the violation of each
   /// contact with friction and rigid link by the free motion, and hold each film [M L/T].
-  double impulses_at_work() const {
+  double sum_of_impulses_at_work() const {
     double sum = 0;
     std::vector<Motion<D>> free;
     for (const auto& unit : problem_.units) {

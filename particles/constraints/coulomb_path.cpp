@@ -226,9 +226,9 @@ bool CoulombPath<D>::factorise() {
   return matrix_.factorise();
 }
 
-/// Sets `changes` with which, to first order, all errors change by `of_errors` times the opposite
-/// of what they are at state_, plus `of_tau` times what they are on the path per tau. With
-/// `tangent`, the products also change by the opposite of those of these changes.
+/// Sets `changes` by which, to first order, each error of a linear equation and each product of
+/// (5.20) loses `of_errors` times its value at state_ and gains `of_tau` times its value on the
+/// path over tau. With `tangent`, each product also loses the product of these changes.
 template <int D>
 void CoulombPath<D>::find_changes(double of_errors, double of_tau, const State* tangent,
                                   State& changes) {
@@ -462,10 +462,7 @@ int CoulombPath<D>::follow(int number, double accuracy, int max_iterations) {
     step.length = length;
     kept.push_back(std::move(step));
     step = {};
-    if (kept.size() > kKept) {
-      step = std::move(kept.front());
-      kept.pop_front();
-    }
+    if (kept.size() > kKept) kept.pop_front();
     if (length == 0) length = kAfterNone;
     if (std::sqrt(state_.tau) > accuracy * size_) continue;
     best_ = state_;

@@ -221,7 +221,7 @@ class FrictionSolver {
   /// must move, the loads of the rounds, which begin with those of the step before, grow without
   /// bound.
   void give_up(const Impulses& best) {
-    // A free choice, which is that of constraint_system.cpp for solutions that are near.
+    // A residual of this many times what is allowed still counts as near the law; a free choice.
     constexpr double kNear = 100;
     step_.has_given_loads = true;
     for (auto& contact : step_.contacts) contact.impulse = 0;

@@ -25,6 +25,25 @@ struct RandomConstraints {
   bool has_films = false, has_links = false;
 };
 
+/// Calls `test(what, seed)` for 60 kinds of random problems: with mu_s from 0 to 2, masses in the
+/// ratio 1 and 1e4, with and without links, and with few and many contacts. Each has its own seed.
+template <class Test>
+void for_each_random_constraints(bool has_films, Test test) {
+  unsigned seed = 0;
+  for (const double friction : {0.0, 0.1, 0.5, 1.0, 2.0})
+    for (const double ratio : {1.0, 1e4})
+      for (const bool has_links : {false, true})
+        for (const int contacts : {4, 12, 24}) {
+          RandomConstraints what;
+          what.contacts = contacts;
+          what.friction = friction;
+          what.largest_mass_ratio = ratio;
+          what.has_links = has_links;
+          what.has_films = has_films;
+          test(what, ++seed);
+        }
+}
+
 /// Units in random motion with contacts of gap 0 at random places and in random directions. They
 /// have more rows than the units have degrees of freedom, and one contact occurs twice, so that
 /// impulses are not unique. `y` = 0 satisfies all constraints.
