@@ -1,7 +1,8 @@
 // A case file (TOML, docs/case-file.md): one sphere in a fluid, and what is to be computed for it.
 // Lengths, masses and times are in any consistent units. Keys are declared in case_file.cpp
 // (keys.hpp). The commands of app/ and the parts pipeline/, sweep/, report/, results/ and python/
-// read it. A change must keep accepting the cases that users have written.
+// read it. Every fault of a case throws Error(kBadInput), with the line and the key if it is in one
+// of them. A change must keep accepting the cases that users have written.
 #pragma once
 
 #include <filesystem>

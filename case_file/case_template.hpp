@@ -2,7 +2,8 @@
 // read once and from which cases with other numbers are made. Numbers have the units of the case.
 // Each kind of case (case_file.hpp, and those in particles/, rolling/ and swimmer/) has a function
 // read_root() for this, which its own header declares; the command `sweep` and python/ make such
-// cases. A change must keep accepting users' cases.
+// cases. A wrong value throws Error(kBadInput) with its line. Whether the keys and columns that
+// [sweep] names exist is not checked here. A change must keep accepting users' cases.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // A table of a TOML file, read strictly: the reader asks for every key by name, and a key that was
 // not asked for is an error. Sections whose keys are declared are read by keys.hpp. Numbers are in
-// the units of the file and have no unit here. All readers of cases (case_file/, particles/,
-// rolling/, swimmer/) use this class; a change must keep the messages, which name file, line, key
-// and what is allowed.
+// the units of the file and have no unit here. Every fault of a file throws Error(kBadInput). All
+// readers of cases (case_file/, particles/, rolling/, swimmer/) use this class; a change must keep
+// the messages, which name file, line, key and what is allowed.
 #pragma once
 
 #include <fmt/format.h>

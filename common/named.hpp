@@ -1,6 +1,7 @@
 // Finds rows by name in tables, such as those of geometries, bases, terms, models and kinds of
-// pictures. Each row of a table has a member `name`. All parts with such tables use it. A change
-// must keep the words of the error, which users see for a wrong name.
+// pictures. Each row of a table has a member `name`. A name that is not in the table throws
+// Error(kBadInput), or gives a null pointer. All parts with such tables use it. A change must keep
+// the words of the error, which users see for a wrong name.
 //
 // The row that find_named and require_named return belongs to the table. Therefore they take a
 // table that outlives the call, or a view of such a table (std::span); a call with a temporary

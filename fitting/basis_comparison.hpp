@@ -1,8 +1,9 @@
 // Fits of one force table in several bases (a basis is a list of functions of the gap, which a fit
 // combines linearly), and the choice between them by Akaike's information criterion. Lengths,
-// masses and times are in the units of the table. Used by pipeline/fit_stages.cpp and report/ for
-// the command `fit --compare-bases`. A change must keep that a basis that cannot be fitted does not
-// prevent the fits in the others.
+// masses and times are in the units of the table. A basis that cannot be fitted throws nothing: its
+// result has the reason. Only a stop is thrown, as Error(kInterrupted). Used by
+// pipeline/fit_stages.cpp and report/ for the command `fit --compare-bases`. A change must keep
+// that a basis that cannot be fitted does not prevent the fits in the others.
 #pragma once
 
 #include <optional>

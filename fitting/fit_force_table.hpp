@@ -1,8 +1,10 @@
 // The fit of a force table: the coefficients in F(q) = sum of coefficient * term(q), with the force
 // F at the gap q, by linear least squares (docs/physics.md (3.2)). Lengths, masses and times are in
-// the units of the table. Used by pipeline/ (commands `fit` and `run`), motions/fit/fit_pair.cpp
-// (one fit for each resistance of a pair), case_file/, examples/ and the Python module. A change
-// must keep that units and order of the rows change the fit by rounding only.
+// the units of the table. A table and settings that determine no fit throw Error(kBadInput) or
+// Error(kNotConverged). A poor fit throws nothing, but its diagnostics have warnings. Used by
+// pipeline/ (commands `fit` and `run`), motions/fit/fit_pair.cpp (one fit for each resistance of a
+// pair), case_file/, examples/ and the Python module. A change must keep that units and order of
+// the rows change the fit by rounding only.
 #pragma once
 
 #include <optional>
@@ -18,7 +20,7 @@ namespace viscontact::fitting {
 
 /// The choices of a fit.
 struct FitSettings {
-  /// The terms (functions of the gap) that the fit combines, at least one.
+  /// The terms (functions of the gap) that the fit combines, at least one (asserted).
   lubrication::Basis basis = lubrication::default_basis();
   /// kRelative minimises the residuals (fit - force)/force, kAbsolute the residuals fit - force.
   lubrication::Weights weights = lubrication::Weights::kRelative;
@@ -28,7 +30,8 @@ struct FitSettings {
   /// the k that the table states (TableHead::leading_coefficient).
   bool fix_leading = false;
   /// The fixed coefficient of 1/q in the force at the velocity u0 of the table's first row
-  /// [M L^2/T^2]; in theory -k u0 if the resistance is k/q near contact. Needs `fix_leading`.
+  /// [M L^2/T^2]; in theory -k u0 if the resistance is k/q near contact. Without `fix_leading` it
+  /// has no effect.
   std::optional<double> leading_value{};
   /// Empty, or for each row of the table, in its order, a force > 0 [M L/T^2], by which its
   /// residual is divided in place of the force of the row.

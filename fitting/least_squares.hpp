@@ -1,6 +1,8 @@
 // Linear least squares, min |A x - b|, with covariance of x and condition number of A. Numbers have
-// any units. Used by robust_least_squares.hpp, and so by every fit of a table. A change must keep
-// the number of correct digits that tests/fitting/ demands for the reference problems of NIST.
+// any units. Numbers that are not finite throw Error(kBadInput), columns that depend on each other
+// Error(kNotConverged). Sizes are only asserted. Used by robust_least_squares.hpp, and so by every
+// fit of a table. A change must keep the number of correct digits that tests/fitting/ demands for
+// the reference problems of NIST.
 #pragma once
 
 #include <Eigen/Core>

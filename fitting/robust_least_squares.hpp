@@ -1,7 +1,9 @@
 // Linear least squares in which a few wrong rows have little effect: M-estimates (Huber 1981),
 // which minimise a sum of losses that grow more slowly than the square of the residual. Residuals
-// have the unit of the right-hand side. Used by fit_force_table.cpp. A change must keep that with
-// Loss::kSquared the result is that of solve_least_squares().
+// have the unit of the right-hand side. An iteration that does not end throws Error(kNotConverged),
+// a stop Error(kInterrupted); other errors are those of least_squares.hpp. Used by
+// fit_force_table.cpp. A change must keep that with Loss::kSquared the result is that of
+// solve_least_squares().
 #pragma once
 
 #include "viscontact/common/stop_token.hpp"

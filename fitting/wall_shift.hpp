@@ -1,8 +1,10 @@
 // The shift of a rough wall: how far below its crests a smooth wall would be that resists the
 // sphere as much (Lefebvre 2008, "Rugosité"; Vinogradova & Yakubov 2006). R is the resistance, drag
-// over velocity, and q the gap. Lengths, masses and times are in the units of the table. Used by
-// pipeline/fit_stages.cpp (command `shift`) and report/. A change must keep the sign: the shift is
-// > 0 if the rough wall resists less than a smooth wall at its crests.
+// over velocity, and q the gap. Lengths, masses and times are in the units of the table. A table
+// and a smooth wall that do not belong together throw Error(kBadInput), an iteration that does not
+// end Error(kNotConverged). Used by pipeline/fit_stages.cpp (command `shift`) and report/. A change
+// must keep the sign: the shift is > 0 if the rough wall resists less than a smooth wall at its
+// crests.
 #pragma once
 
 #include <vector>

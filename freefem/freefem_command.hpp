@@ -1,5 +1,7 @@
 // How a process of FreeFEM (the finite element program) is started: which program, where its
-// scripts are, with which arguments, environment and working folder. Times are in seconds. Used by
+// scripts are, with which arguments, environment and working folder. Times are in seconds. Missing
+// scripts throw Error(kExternalProgram), a wrong time limit Error(kWrongUsage), a stop
+// Error(kInterrupted). A FreeFEM that is missing shows only when a process is started. Used by
 // freefem_axi/ and freefem_flow/. A change must keep each process on one thread, because as many
 // processes as cores can run at once.
 #pragma once

@@ -1,9 +1,10 @@
 // The table of geometries: the kinds of bodies beside a sphere, its neighbour, for which FreeFEM
 // computes the force on the sphere. q is the gap between both, r the radius of the sphere, mu the
-// viscosity, and R the resistance (force over velocity). Lengths are in any one unit. Used by
-// tabulation.hpp, case_file/ and rolling/. A new geometry needs a FreeFEM script and a row in
-// geometry.cpp (docs/extending.md). A change must keep names and keys, which case files and tables
-// contain, and flags, which the scripts read.
+// viscosity, and R the resistance (force over velocity). Lengths are in any one unit. Unknown names
+// throw Error(kBadInput). The functions of a Geometry do not check number and values of their
+// parameters. Used by tabulation.hpp, case_file/ and rolling/. A new geometry needs a FreeFEM
+// script and a row in geometry.cpp (docs/extending.md). A change must keep names and keys, which
+// case files and tables contain, and flags, which the scripts read.
 #pragma once
 
 #include <array>

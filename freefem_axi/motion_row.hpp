@@ -1,7 +1,8 @@
 // Force and torque on a sphere that slides or rolls across its axis of symmetry, or spins about it,
 // at one gap, by FreeFEM (docs/physics.md, section 2). Lengths, masses and times are in the units
-// of the case. Used by motion_table_plan.hpp, row_picture.cpp and bench/. A change must agree with
-// scripts/row.idp, which solves the row.
+// of the case. If FreeFEM fails, Error(kExternalProgram) is thrown, also for a gap or length that
+// its scripts refuse. Used by motion_table_plan.hpp, row_picture.cpp and bench/. A change must
+// agree with scripts/row.idp, which solves the row.
 #pragma once
 
 #include <vector>

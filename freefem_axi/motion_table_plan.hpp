@@ -1,8 +1,9 @@
 // Plans of the tables of force and torque on one sphere that approaches its neighbour, slides,
 // rolls or spins. A row of the approach is computed for each gap [L] and velocity [L/T]; a row of
 // another motion for each gap only, because force and torque are proportional to the velocity.
-// Numbers are in the units of the case. Used by pipeline/tabulate/. A change must keep the order of
-// the rows and that the numbers in a table do not depend on which other tables are made with it.
+// Numbers are in the units of the case. An unknown geometry throws Error(kBadInput). Gaps and
+// velocities are not checked here. Used by pipeline/tabulate/. A change must keep the order of the
+// rows and that the numbers in a table do not depend on which other tables are made with it.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,7 @@
 // The flow around a sphere at one gap and one velocity, with its meshes, for pictures. rho is the
 // distance from the axis of symmetry, z the height, phi the angle about the axis. Lengths, masses
-// and times are in the units of the case. Used by report/flow/ and pipeline/tabulate/. A change
+// and times are in the units of the case. If FreeFEM fails, also because its scripts refuse the
+// gap, Error(kExternalProgram) is thrown. Used by report/flow/ and pipeline/tabulate/. A change
 // must agree with scripts/pictures.idp, which writes what this file reads.
 #pragma once
 

@@ -1,9 +1,11 @@
 // The lubrication force F_lub(q, u0) on a sphere at the gap q and the velocity u0, computed by
 // FreeFEM (docs/physics.md, section 2): the inputs of a table, and the solution of one of its rows.
-// Lengths, masses and times are in any consistent units. Used by motion_row.hpp, row_picture.hpp,
-// case_file/, rolling/, bench/ and the command `doctor`. A change must keep the texts of
-// geometry_in_words() and container_in_words(), because the heads of tables contain them and their
-// hash decides whether a table is up to date.
+// Lengths, masses and times are in any consistent units. An unknown geometry throws
+// Error(kBadInput). Ranges are not checked here: the scripts of FreeFEM refuse wrong numbers, which
+// throws Error(kExternalProgram). Used by motion_row.hpp, row_picture.hpp, case_file/, rolling/,
+// bench/ and the command `doctor`. A change must keep the texts of geometry_in_words() and
+// container_in_words(), because the heads of tables contain them and their hash decides whether a
+// table is up to date.
 #pragma once
 
 #include <optional>

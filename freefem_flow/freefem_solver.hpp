@@ -1,7 +1,8 @@
 // Starts the process of a fluid solver: FreeFEM with the scripts of freefem_flow/scripts/, or a
 // program of the user's own. Numbers are in the units of the case. app/ and python/ hand
-// start_fluid_solver() to particles/. A change must keep the names of the scripts, which are
-// installed under them.
+// start_fluid_solver() to particles/. A solver that cannot be run or that fails throws
+// Error(kExternalProgram), a stop Error(kInterrupted). A change must keep the names of the scripts,
+// which are installed under them.
 #pragma once
 
 #include <memory>

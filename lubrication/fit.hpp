@@ -3,7 +3,9 @@
 // interval of gaps, and its diagnostics, which say how far it can be trusted. Lengths, masses and
 // times are in the units of the table of forces. Relative residuals, fit over table minus 1, have
 // no dimension. fitting/ makes fits; lubrication_force.hpp, motions/, case_file/, results/,
-// reduced_model/ and sweep/ use them. A change must agree with docs/fit.schema.json.
+// reduced_model/ and sweep/ use them. A wrong file or word throws Error(kBadInput). The members of
+// a Fit that did not come from a file are not checked here. A change must agree with
+// docs/fit.schema.json.
 #pragma once
 
 #include <array>

@@ -1,8 +1,10 @@
 // The lubrication force as a function of gap and velocity, F_lub(q, u) = -R(q) u, with its
 // resistance R and the primitive Gamma of R. R is a sum of fitted terms, or the exact series for a
 // plane (docs/physics.md (2.3), (2.4), (3.2), (4.2)). Lengths, masses and times are in any
-// consistent units. Used by reduced_model/, fitting/, rolling/, pipeline/, report/ and the Python
-// module. A change must keep R continuous at the ends of the interval, and Gamma a primitive of R.
+// consistent units. A gap at which the force is not known throws Error(kBadInput), a result beyond
+// the range of a double Error(kNotConverged). Used by reduced_model/, fitting/, rolling/,
+// pipeline/, report/ and the Python module. A change must keep R continuous at the ends of the
+// interval, and Gamma a primitive of R.
 #pragma once
 
 #include <array>

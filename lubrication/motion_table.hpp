@@ -1,7 +1,8 @@
 // The table of force and torque on a sphere in one of its motions beside a neighbour (approaching,
 // sliding, rolling, spinning), for several gaps and velocities. Lengths, masses and times are in
-// any consistent units. Used by freefem_axi/ (writes), fitting/ and motions/ (read), and results/.
-// A change must keep the names of the columns, which published tables have.
+// any consistent units. A wrong value, row or file throws Error(kBadInput) with file and line. Used
+// by freefem_axi/ (writes), fitting/ and motions/ (read), and results/. A change must keep the
+// names of the columns, which published tables have.
 #pragma once
 
 #include <filesystem>

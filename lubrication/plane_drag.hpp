@@ -1,7 +1,7 @@
 // Exact Stokes drag of a sphere that moves normal to a no-slip plane in a half-space
 // (docs/physics.md (2.4); Brenner 1961, Chem. Eng. Sci. 16, 242), to round-off and without summing
-// a series. All values are without dimension. Used by lubrication_force.cpp. A change must keep
-// the error bound below.
+// a series. All values are without dimension. Nothing is checked or thrown. Used by
+// lubrication_force.cpp. A change must keep the error bound below.
 #pragma once
 
 namespace viscontact::lubrication {

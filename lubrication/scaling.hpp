@@ -1,9 +1,10 @@
 // Makes from a fit of the force on a sphere of radius r in a fluid of viscosity mu the fit for
 // another radius r' and viscosity mu'. In Stokes flow the force divided by mu r u, with the
 // velocity u, depends on the gap q only by q/r. Lengths, masses and times may be in other units
-// afterwards than before: a fit in units of the radius serves a case in SI units. Used by
-// case_file/, motions/, swimmer/, the command `export` and the Python module. A change must keep
-// all bits of a fit whose radius and viscosity do not change.
+// afterwards than before: a fit in units of the radius serves a case in SI units. An unknown term
+// throws Error(kBadInput). Radii and viscosities are not checked. Used by case_file/, motions/,
+// swimmer/, the command `export` and the Python module. A change must keep all bits of a fit whose
+// radius and viscosity do not change.
 #pragma once
 
 #include <string>

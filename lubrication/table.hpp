@@ -1,7 +1,9 @@
 // The common part of all tables that FreeFEM computes and fits read: a head, and rows with named
 // columns; and the motions of a sphere beside another body, its neighbour. Lengths, masses and
-// times are in any consistent units. Used by motion_table.hpp, freefem_axi/ and swimmer/. A change
-// must keep the keys of the head and the names of the motions, which published tables have.
+// times are in any consistent units. A name that is no motion throws Error(kBadInput); numbers are
+// checked where files are read (table_codec.hpp). Used by motion_table.hpp, freefem_axi/ and
+// swimmer/. A change must keep the keys of the head and the names of the motions, which published
+// tables have.
 //
 // A kind of table is a struct Row and four functions beside it: columns_of(), prepare(), complete()
 // and check() (table_codec.hpp). A new column needs a member of the row and a line in columns_of(),

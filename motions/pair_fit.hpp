@@ -1,8 +1,10 @@
 // The resistances of a sphere beside another body at rest, its neighbour, to all motions of the
 // sphere, as fitted functions of the gap (docs/physics.md (2.12)), and the file of these fits.
 // Lengths, masses and times are in the units of the tables from which the fits were made.
-// motions/fit/ makes and exports the fits; rolling/ and the Python module read them. A change must
-// keep the names of entries, bases and keys, which files contain.
+// motions/fit/ makes and exports the fits; rolling/ and the Python module read them. A wrong file,
+// an unknown basis and an entry that a fit lacks throw Error(kBadInput). Gaps, radii and
+// viscosities of arguments are not checked. A change must keep the names of entries, bases and
+// keys, which files contain.
 #pragma once
 
 #include <array>

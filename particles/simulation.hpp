@@ -1,8 +1,9 @@
 // Simulates many rigid discs or spheres with viscous contact, without a fluid around them: problem
 // (5.2) and scheme (5.3) of docs/physics.md (Maury 2006; Lefebvre 2009). Lengths, masses and times
-// are in any consistent units. run/, sweep/ and python/ use it. A change must keep that no bit of
-// the results depends on the number of threads, or on whether the run was continued from a restart
-// file.
+// are in any consistent units. run/, sweep/ and python/ use it. A step that cannot be computed
+// throws Error(kNotConverged). Of setting and state only the membranes are checked. A change must
+// keep that no bit of the results depends on the number of threads, or on whether the run was
+// continued from a restart file.
 #pragma once
 
 #include <array>

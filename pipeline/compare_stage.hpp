@@ -1,8 +1,9 @@
 // The comparison of trajectories: how far the motion that each model computed is from that of one
 // of them, the reference (docs/file-formats.md, "Comparison"). Numbers are in the units of the
-// trajectories. The commands `run` (run_stages.cpp) and `compare` call it. A change must keep the
-// order of the models in the file, that of reduced_model::all_models(), then the user's files by
-// name.
+// trajectories. The commands `run` (run_stages.cpp) and `compare` call it. Trajectories that are
+// missing or cannot be compared throw Error(kBadInput), a stop Error(kInterrupted). A change must
+// keep the order of the models in the file, that of reduced_model::all_models(), then the user's
+// files by name.
 #pragma once
 
 #include <filesystem>

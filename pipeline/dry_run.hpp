@@ -1,6 +1,8 @@
 // The output of --dry-run: how many rows a command would compute and about how long that takes, in
 // seconds of wall time. Nothing is written. The commands `tabulate` and `sweep`, and
-// particles/sweep, use it. A change must keep the keys of the JSON, which users' scripts read.
+// particles/sweep, use it. Files that cannot be read throw Error(kBadInput), and rows that are
+// computed for the estimate throw their errors. A change must keep the keys of the JSON, which
+// users' scripts read.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +16,11 @@ namespace viscontact::pipeline {
 
 /// How many rows one output of a command has, and how long they take.
 struct DryRun {
-  std::string output;          ///< path of the table or of the sweep's file
-  std::uint64_t rows = 0,      ///< number of all rows
-      finished = 0;            ///< number of the rows that would not be computed again, <= rows
-  std::uint64_t failed = 0;    ///< unfinished rows that were tried and failed; 0 for sweeps
+  std::string output;      ///< path of the table or of the sweep's file
+  std::uint64_t rows = 0,  ///< number of all rows
+      finished = 0;        ///< number of the rows that would not be computed again, <= rows
+  /// Number of unfinished rows that were tried and failed; 0 for sweeps other than of particles.
+  std::uint64_t failed = 0;
   double seconds_per_row = 0;  ///< mean time of a row on one core [s], >= 0
   std::string basis;           ///< what seconds_per_row was estimated from, in words
 };

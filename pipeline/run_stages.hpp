@@ -1,7 +1,9 @@
 // Runs the five stages of `viscontact run` in order: the drag of the sphere is tabulated over the
 // gap, a formula is fitted to the table, each model computes the motion, the motions are compared,
 // and the report is written. The command `run` calls it. Numbers are in the units of the case. A
-// change must keep the order, because each stage reads the files of those before it.
+// wrong case throws Error(kBadInput) before the first stage. A row or model that fails throws after
+// the others are done. A change must keep the order, because each stage reads the files of those
+// before it.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,8 @@
 // A sweep of any kind of case: computes the rows of a study (sweep/study.hpp) and writes their
 // file. Numbers are in the units of the case. The command `sweep` and particles/sweep call it. A
-// change must keep that finished rows are never computed again.
+// row that fails is no error; if nothing could be computed in any row, Error(kNotConverged) is
+// thrown. A stop throws Error(kInterrupted). A change must keep that finished rows are never
+// computed again.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,9 @@
 // What the sources of the Python module (python/*.cpp) share: calls that take long, arrays of
 // NumPy, and a fit with its force. Numbers are in the units of the fit. While a long call runs,
-// other Python threads run, too, and Ctrl-C (SIGINT) stops the call. A change must keep that no
-// object of Python is used while the interpreter's lock is released, and that the values are bit
-// for bit those of the C++ libraries.
+// other Python threads run, too, and Ctrl-C (SIGINT) stops the call. The errors of the C++
+// libraries pass unchanged, except Error(kInterrupted), which becomes KeyboardInterrupt. A change
+// must keep that no object of Python is used while the interpreter's lock is released, and that the
+// values are bit for bit those of the C++ libraries.
 #pragma once
 
 #include <pybind11/numpy.h>

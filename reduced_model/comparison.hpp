@@ -2,8 +2,9 @@
 // there is contact, and how far each trajectory is from the reference. q is the gap, u the
 // velocity, q_ref and u_ref those of the reference. In contact models gamma [M L/T] is minus the
 // impulse that the film has absorbed, <= 0. Lengths, masses and times are in the units of the
-// trajectories. Used by pipeline/, sweep/, results/ and report/. A change must keep comparison
-// files of earlier versions readable.
+// trajectories. Trajectories that cannot be compared and wrong files throw Error(kBadInput), a stop
+// Error(kInterrupted). Used by pipeline/, sweep/, results/ and report/. A change must keep
+// comparison files of earlier versions readable.
 #pragma once
 
 #include <array>

@@ -1,7 +1,8 @@
 // What every model of motion is given: the sphere, its start, the external force, and the values of
 // the models' parameters. Lengths, masses and times are in any consistent units. Case files set and
-// check these members, models do not check them; reduced_model/, rolling/ and case_file/ use them.
-// A change must keep the keys, which users' case files contain.
+// check these members, models do not check them; a parameter without a value, or too many steps,
+// throws Error(kBadInput). Used by reduced_model/, rolling/ and case_file/. A change must keep the
+// keys, which users' case files contain.
 #pragma once
 
 #include <array>

@@ -1,10 +1,11 @@
 // A trajectory, which is the motion of one sphere near a wall as a model computes it: its rows, its
 // budget of momentum and energy, its file, and the reduction of its rows for that file (key `rows`
 // of [motion]). Contact models replace the thin film of fluid by contact with a memory gamma, minus
-// the impulse that the film has absorbed. Lengths, masses and times are in the units of the case.
-// Used by reduced_model/, pipeline/, sweep/, results/ and python/. A change must keep the names of
-// the columns, which published files have, both balances of the budget, and all rows that
-// compare_trajectories() looks for, such as the one with the smallest gap.
+// the impulse that the film has absorbed. Lengths, masses and times are in the units of the case. A
+// wrong file throws Error(kBadInput), with the line if it is in one; members of a trajectory in
+// memory are not checked. Used by reduced_model/, pipeline/, sweep/, results/ and python/. A change
+// must keep the names of the columns, which published files have, both balances of the budget, and
+// all rows that compare_trajectories() looks for, such as the one with the smallest gap.
 #pragma once
 
 #include <array>

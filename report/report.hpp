@@ -1,6 +1,7 @@
 // report.html: one page with the results of a run of one sphere, in the units of the case. The
-// commands `run` and `report` call it. A change must keep that the page loads nothing from
-// elsewhere, and that folders of earlier versions can be read.
+// commands `run` and `report` call it. Inputs that are missing or wrong throw Error(kBadInput); a
+// missing gnuplot is only a warning. A change must keep that the page loads nothing from elsewhere,
+// and that folders of earlier versions can be read.
 #pragma once
 
 #include <array>

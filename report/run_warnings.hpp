@@ -1,7 +1,8 @@
 // The warnings in the report of one sphere: drag and fits that cannot be trusted, accuracy that was
 // not reached, models that ignore the roughness of the case, and files that do not belong together.
-// Gaps [L] and times [T] are in the units of the case. report.cpp shows the warnings. A change of a
-// limit changes the reports of earlier runs when they are made again.
+// Gaps [L] and times [T] are in the units of the case. report.cpp shows the warnings. Files that
+// cannot be read throw Error(kBadInput). A change of a limit changes the reports of earlier runs
+// when they are made again.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // Protects files that Viscontact did not write, or that are of another kind, from being replaced by
-// an output. All commands that write files, and python/, call it before their work. A change must
+// an output. All commands that write files, and python/, call it before their work. A file that
+// must not be replaced, or cannot be opened, throws Error(kBadInput) with its path. A change must
 // keep that it recognises the outputs of earlier versions.
 #pragma once
 

@@ -1,5 +1,6 @@
 // Reads the results of a run from its folder, for the report. Lengths, masses and times are in the
-// units of the case. A change must keep the folders of earlier versions readable. Used by report/.
+// units of the case. A file that is missing or wrong throws Error(kBadInput). A change must keep
+// the folders of earlier versions readable. Used by report/.
 #pragma once
 
 #include <filesystem>

@@ -1,7 +1,9 @@
 // A sphere near a plane in a viscous fluid that moves in two directions and turns (physics.md (4.8)
 // to (4.11)): x along the plane, z away from it, y the axis of rotation; q is the gap. Lengths,
 // masses and times are in any consistent units. The command `rolling`, its sweeps and python/ use
-// these models. A change must keep their names, which users' case files contain.
+// these models. A fit that lacks a resistance or a gap that the motion needs throws
+// Error(kBadInput), an integration that fails Error(kNotConverged), a stop Error(kInterrupted). A
+// change must keep their names, which users' case files contain.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,7 @@
 // Forces on a sphere that moves along a plane and turns: the fluid's resistance (physics.md (2.12))
 // and dry friction. x is along the plane, y the axis of rotation, q the gap. Lengths, masses and
-// times are in any consistent units. The models of rolling_motion.hpp use it. A change must keep
+// times are in any consistent units. The models of rolling_motion.hpp use it. A gap above the
+// interval of the fit throws Error(kBadInput); other arguments are not checked. A change must keep
 // the signs, by which the drag opposes the motion.
 #pragma once
 

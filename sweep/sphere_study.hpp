@@ -1,7 +1,9 @@
 // The sweep of a case of one sphere near a wall: it varies keys of the case, and each row has the
 // smallest gap, the thinnest film and the distance from a reference of several models of motion
 // (docs/file-formats.md). Lengths, masses and times are in the units of the case. The command
-// `sweep` calls it. A change must keep the names of the columns, which users' scripts read.
+// `sweep` calls it. A wrong case or fit throws Error(kBadInput), a wrong choice of what varies
+// Error(kWrongUsage), both before a row is computed. A model that fails throws nothing: its results
+// are empty. A change must keep the names of the columns, which users' scripts read.
 #pragma once
 
 #include <filesystem>

@@ -3,8 +3,10 @@
 // named numbers in a CSV file (docs/file-formats.md). The file is written row by row, so that a
 // later call continues an interrupted sweep after its last row. Each kind of case has a function
 // that makes a Study (sphere_study.hpp, rolling_study.hpp, swimmer_study.hpp, particles_study.hpp).
-// Numbers are in the units of the case. Used by app/, pipeline/ and the folders of these functions.
-// A change must keep the form of the file, which users' scripts read.
+// Numbers are in the units of the case. What fails in a row is text of the column `failure`, and
+// not thrown. Ranges that make no sweep throw Error(kWrongUsage), files that cannot be read or
+// written Error(kBadInput). Used by app/, pipeline/ and the folders of these functions. A change
+// must keep the form of the file, which users' scripts read.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,8 @@
 // The keys of a case that a sweep varies, and the values of each key, in the unit that the key has
-// in the case. study.hpp and the sweeps of all kinds of cases use it. A change must keep the values
-// bit for bit, because an interrupted sweep compares them with the rows that it has already
-// written.
+// in the case. study.hpp and the sweeps of all kinds of cases use it. A text that is no range
+// throws Error(kBadInput), more than 1e12 points Error(kWrongUsage). Indices are not checked. A
+// change must keep the values bit for bit, because an interrupted sweep compares them with the rows
+// that it has already written.
 #pragma once
 
 #include <cstdint>

@@ -3,7 +3,9 @@
 // the centres of neighbours; a stroke is a closed loop of shapes. Among the loops through a given
 // shape with this displacement, the optimal one has the least energy in a given period. Its power
 // is constant. Lengths, masses and times are in the units of the swimmer's fit. swimmer/case and
-// swimmer/job use it. A change must keep energies to the digits of docs/swimmer.md.
+// swimmer/job use it. A search that leaves the table throws Error(kBadInput), one that does not
+// converge Error(kNotConverged), a stop Error(kInterrupted). A change must keep energies to the
+// digits of docs/swimmer.md.
 #pragma once
 
 #include <Eigen/Core>

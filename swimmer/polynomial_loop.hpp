@@ -2,7 +2,8 @@
 // centres of neighbours. This file has closed loops in the space of shapes, which are polynomials,
 // and their displacement and energy as functions of the coefficients. optimal_stroke.hpp uses it to
 // find the loop of least energy. Lengths, masses and times are in the units of the swimmer's fit. A
-// change must keep the gradients equal to the derivatives of the quadrature sums, to round-off.
+// loop outside the table throws Error(kBadInput). Sizes and numbers of polynomials are not checked.
+// A change must keep the gradients equal to the derivatives of the quadrature sums, to round-off.
 #pragma once
 
 #include <Eigen/Core>

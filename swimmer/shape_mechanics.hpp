@@ -2,8 +2,9 @@
 // neighbours, in a fluid without inertia (Najafi & Golestanian 2004, Phys. Rev. E 69, 062901;
 // Alouges, DeSimone & Lefebvre 2008, J. Nonlinear Sci. 18, 277; physics.md, section 7). Lengths,
 // masses and times are in the units of the fit. Strokes (swim.hpp) and the search for the best one
-// (optimal_stroke.hpp) use it. A change must keep that the total force is 0, and that metric_slopes
-// and displacement_form_slopes are the derivatives.
+// (optimal_stroke.hpp) use it. A shape outside the table throws Error(kBadInput). A change must
+// keep that the total force is 0, and that metric_slopes and displacement_form_slopes are the
+// derivatives.
 //
 // x_k is the arm between spheres k and k + 1. With the resistance matrix R(x), the spheres move at
 // U_i = V + sum_k B_ik dx_k/dt, where V is the velocity of the middle sphere. The total force

@@ -1,8 +1,9 @@
 // Strokes: closed paths of a swimmer's arms, with their time law, and the quadrature for integrals
 // along them. A swimmer is a line of spheres, and an arm is the distance between the centres of
 // neighbours. Lengths and times are in the units of the case. swimmer_case.cpp makes strokes, and
-// swim.hpp and polynomial_loop.hpp integrate them. A change must keep that legs follow each other
-// without a gap, and the points of the quadrature, on which the last digits of results depend.
+// swim.hpp and polynomial_loop.hpp integrate them. Samples that are no closed loop throw
+// Error(kBadInput); nothing else is checked. A change must keep that legs follow each other without
+// a gap, and the points of the quadrature, on which the last digits of results depend.
 #pragma once
 
 #include <Eigen/Core>

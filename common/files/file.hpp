@@ -1,6 +1,7 @@
 // Reads and writes whole files; all parts with files use it. A file is written under another name
-// and then renamed. A change must keep that at any time, also after a power cut, a reader finds the
-// old file or the whole new one, because commands continue from such files.
+// and then renamed. A failure throws Error(kBadInput) with the path, and an old file is then as it
+// was, unless a function says otherwise. A change must keep that at any time, also after a power
+// cut, a reader finds the old file or the whole new one, because commands continue from such files.
 #pragma once
 
 #include <filesystem>

@@ -1,7 +1,8 @@
 // A text file to which lines are only ever added, as to a table with a row for each step. After
 // each sync(), the caller keeps the end of the file (FileEnd) in another file. If the process is
 // killed, the next one continues the file from this end. particles/run/ uses it for the logs of
-// runs. A change must keep that what sync() has written is never changed.
+// runs. A file that cannot be written, or that somebody else has changed, throws Error(kBadInput)
+// with its path. A change must keep that what sync() has written is never changed.
 #pragma once
 
 #include <cstdint>

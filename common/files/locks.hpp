@@ -1,7 +1,9 @@
 // Files that only one process at a time may append to (the journal of a tabulation or sweep), and
 // folders that only one process at a time may write into (that of a run). app/, freefem_axi/,
-// particles/, rolling/, sweep/ and swimmer/ use them. A change must keep that a text is at the end
-// of the file, in one piece, when append_to() returns.
+// particles/, rolling/, sweep/ and swimmer/ use them. A lock that another process holds throws
+// Error(kBadInput) with the path, and so does a failed call; but where the file system has no
+// locks, two processes do not notice each other. A change must keep that a text is at the end of
+// the file, in one piece, when append_to() returns.
 #pragma once
 
 #include <filesystem>

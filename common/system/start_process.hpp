@@ -1,6 +1,7 @@
-// Starts a child process with sockets as its standard streams (Linux). Used by run_process()
-// (process.cpp) and ChildProcess (child_process.hpp). A program that cannot be run is no exception:
-// StartedProcess says so. A change must keep that the child ends with the thread that started it.
+// Starts a child process with sockets as its standard streams (Linux). A system without free
+// sockets throws std::system_error. Used by run_process() (process.cpp) and ChildProcess
+// (child_process.hpp). A program that cannot be run is no exception: StartedProcess says so. A
+// change must keep that the child ends with the thread that started it.
 #pragma once
 
 #include <sys/types.h>

@@ -1,7 +1,9 @@
-// Threads that share loops over fixed blocks, used by particles/ for the steps of many particles. A
-// change must keep the results independent of the number of threads, bit for bit. oneTBB 2021.8 is
-// not used, because ThreadSanitizer cannot check it. It is hardly faster: for a loop of 2, 4 and 16
-// blocks on two idle cores it takes 21, 40 and 156 us, and this class takes 21, 45 and 159 us.
+// Threads that share loops over fixed blocks, used by particles/ for the steps of many particles.
+// The first exception of a loop is thrown again where the loop was called; threads that the system
+// refuses are no error. A change must keep the results independent of the number of threads, bit
+// for bit. oneTBB 2021.8 is not used, because ThreadSanitizer cannot check it. It is hardly faster:
+// for a loop of 2, 4 and 16 blocks on two idle cores it takes 21, 40 and 156 us, and this class
+// takes 21, 45 and 159 us.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,7 @@
-// Reads JSON texts (RFC 8259) and remembers the line of each value, so that an error can name it.
-// Readers of fit files, comparisons, provenance and records of runs use it. A change must keep the
-// order of the keys, because files are written in this order.
+// Reads JSON texts (RFC 8259) and remembers the line of each value, so that an error can name it. A
+// text that is no JSON throws Error(kBadInput) with its line; what the values mean is not checked
+// here. Readers of fit files, comparisons, provenance and records of runs use it. A change must
+// keep the order of the keys, because files are written in this order.
 #pragma once
 
 #include <filesystem>

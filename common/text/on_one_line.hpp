@@ -1,6 +1,7 @@
 // Turns a text of several lines into one line. freefem_axi/, particles/, pipeline/ and report/ use
-// it for journals and messages that have one line each. A change may alter only line ends, because
-// journals are read again.
+// it for journals and messages that have one line each. Only "\n" counts as a line end: a "\r"
+// stays. Nothing is refused or thrown. A change may alter only line ends, because journals are read
+// again.
 #pragma once
 
 #include <algorithm>

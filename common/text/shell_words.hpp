@@ -1,7 +1,8 @@
 // Splits command lines into words, and quotes words for a POSIX shell. app/, freefem_flow/,
 // motions/, particles/, pipeline/ and report/ use it for commands in messages, in scripts of Slurm
 // and in provenance (the record in a file of how it was made); a change must keep how they are
-// quoted.
+// quoted. A quotation mark that is not closed throws Error(kWrongUsage); every other text is
+// accepted.
 #pragma once
 
 #include <span>

@@ -1,6 +1,7 @@
 // The units in which a case is written, as words for pages, axes and tables. Nothing is converted.
 // case_file/ fills them in; particles/, report/, rolling/ and swimmer/ show them in pages and
-// files. A change must keep the words of files, which users' scripts read.
+// files. A power beyond -9 to 9 throws std::out_of_range. Words are not checked here, but when
+// case_file/ reads them. A change must keep the words of files, which users' scripts read.
 #pragma once
 
 #include <string>

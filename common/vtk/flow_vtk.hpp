@@ -1,8 +1,9 @@
 // The flow of a fluid on a mesh of quadratic triangles in a plane, and its VTK file for ParaView.
 // freefem_axi/ and freefem_flow/ make flows, report/flow/ draws them, freefem_axi/ and particles/
 // write files, and particles/picture/ reads them again. Lengths, masses and times are in the units
-// of the case. A change must keep the order of nodes, which is that of VTK, and the arrays and
-// names of the file.
+// of the case. A file that cannot be read, or whose nodes do not exist, throws Error(kBadInput).
+// Lengths of lists that are written, and whether numbers are finite, are not checked. A change must
+// keep the order of nodes, which is that of VTK, and the arrays and names of the file.
 #pragma once
 
 #include <array>

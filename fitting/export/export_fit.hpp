@@ -1,7 +1,9 @@
 // Writes a fit as code or data, so that other programs can use it without Viscontact. Lengths,
-// masses and times are in the units of the fit. Used by the command `export` (app/commands/) and by
-// motions/fit/export_pair.cpp. A change must keep the names of functions and keys, which programs
-// of users call, and the order of the sums, so that the values agree with LubricationForce.
+// masses and times are in the units of the fit. A fit, target or formula that cannot be written
+// throws Error(kBadInput), or Error(kWrongUsage) if only the target csv has no place for it. Used
+// by the command `export` (app/commands/) and by motions/fit/export_pair.cpp. A change must keep
+// the names of functions and keys, which programs of users call, and the order of the sums, so that
+// the values agree with LubricationForce.
 #pragma once
 
 #include <span>

@@ -1,7 +1,9 @@
 // Runs a script of freefem_axi/scripts/ in a FreeFEM process, which gets numbers as arguments and
-// prints lines of text (docs/extending.md). Times are in seconds. Used by tabulation.cpp,
-// motion_row.cpp and swimmer/tabulation/ for the rows of all tables, and by results/, app/ and
-// bench/. A change must keep each process on one thread and within its time limit.
+// prints lines of text (docs/extending.md). Times are in seconds. A FreeFEM that cannot be started
+// throws Error(kExternalProgram), a stop Error(kInterrupted). A script that fails is no exception
+// here: the caller looks at the exit status. Used by tabulation.cpp, motion_row.cpp and
+// swimmer/tabulation/ for the rows of all tables, and by results/, app/ and bench/. A change must
+// keep each process on one thread and within its time limit.
 #pragma once
 
 #include <chrono>

@@ -1,8 +1,10 @@
 // Makes a TablePlan, the functions that compute, read and write a table, for any type Row of rows
 // (lubrication/table.hpp). The caller gives what differs between types: which rows there are, how
-// FreeFEM solves them, and what the numbers depend on. Numbers have the units of the table. Used by
-// motion_table_plan.cpp and swimmer/tabulation/. A change must keep the order of the numbers in a
-// row of a journal (the file of finished rows), in which journals of earlier runs are read.
+// FreeFEM solves them, and what the numbers depend on. Numbers have the units of the table. The
+// arguments are not checked. A plan throws what the functions in PlanParts throw; a file that is
+// not the planned table is no error. Used by motion_table_plan.cpp and swimmer/tabulation/. A
+// change must keep the order of the numbers in a row of a journal (the file of finished rows), in
+// which journals of earlier runs are read.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,8 +1,10 @@
 // A table whose rows FreeFEM computes one by one, independent of what its rows contain: forces and
 // torques on a sphere (motion_table_plan.hpp), or resistance matrices of spheres on a line
 // (swimmer/tabulation/). make_plan.hpp makes it; the other files of this folder, pipeline/ and
-// swimmer/ use it. Times are in seconds; other numbers have the units of the table. A change must
-// keep that equal inputs give equal hashes, by which tables and rows of earlier runs are found.
+// swimmer/ use it. Times are in seconds; other numbers have the units of the table. A row that
+// fails is an Error(kExternalProgram) of TablePlan::solve, which is recorded as its reason; any
+// other Error ends the computation. Sizes of points and rows are not checked. A change must keep
+// that equal inputs give equal hashes, by which tables and rows of earlier runs are found.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,9 @@
 // Computes the rows of a table with several FreeFEM processes at once. Times are in seconds; other
-// numbers have the units of the table. Used by pipeline/tabulate/. A change must keep that each
-// finished row is on disk before the thread that computed it starts the next one.
+// numbers have the units of the table. A row that FreeFEM cannot compute is recorded and not
+// thrown. Error(kExternalProgram) says that FreeFEM cannot be run, Error(kBadInput) that the
+// journal cannot be written, Error(kInterrupted) that a stop was requested. Used by
+// pipeline/tabulate/. A change must keep that each finished row is on disk before the thread that
+// computed it starts the next one.
 #pragma once
 
 #include <filesystem>
@@ -34,11 +37,10 @@ struct RowWorker {
 /// because another process may have finished it meanwhile. Each finished row, and the reason of
 /// each failed one, is written at once to the worker's journal (row_journal.hpp) beside
 /// `table_path`. `report` is called after each row, by one thread at a time; if no row is missing,
-/// neither `report` nor FreeFEM is called. A row that fails does
-/// not stop the others and is not thrown; read_row_record() returns it. Throws
-/// Error(kExternalProgram) if FreeFEM cannot be run at all, Error(kBadInput) if the journal cannot
-/// be written, and Error(kInterrupted) if worker.freefem.stop requests a stop. The caller writes
-/// the table and removes the journals.
+/// neither `report` nor FreeFEM is called. A row that fails does not stop the others and is not
+/// thrown; read_row_record() returns it. Throws Error(kExternalProgram) if FreeFEM cannot be run at
+/// all, Error(kBadInput) if the journal cannot be written, and Error(kInterrupted) if
+/// worker.freefem.stop requests a stop. The caller writes the table and removes the journals.
 void compute_rows(const RowWorker& worker, const TablePlan& plan,
                   const std::vector<RowPoint>& points, const std::filesystem::path& table_path,
                   const TabulateReport& report);

@@ -1,7 +1,8 @@
 // The boundary of the mesh of a fluid with membranes, which are closed curves inside the mesh, and
 // rigid discs, which are holes. Domains are discs, or boxes that may be periodic along x only. All
-// lengths have the unit of the arguments. membrane_process.cpp uses it. A change of labels must
-// also be made in scripts/membranes.edp.
+// lengths have the unit of the arguments. membrane_process.cpp uses it. Curves that leave no room
+// for a mesh throw Error(kNotConverged). Sizes of arrays and signs of lengths are not checked. A
+// change of labels must also be made in scripts/membranes.edp.
 #pragma once
 
 #include <Eigen/Core>

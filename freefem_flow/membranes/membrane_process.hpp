@@ -1,6 +1,8 @@
 // Starts FreeFEM with scripts/membranes.edp, which computes Stokes flow with membranes and rigid
 // discs in the plane. All numbers have the units of the arguments; freefem_solver.cpp, which calls
-// it, scales the case so that radii and viscosity are about 1. A change must agree with the script.
+// it, scales the case so that radii and viscosity are about 1. A FreeFEM that fails throws
+// Error(kExternalProgram), a domain or membranes that it cannot take Error(kBadInput), particles
+// for which there is no mesh Error(kNotConverged). A change must agree with the script.
 #pragma once
 
 #include <memory>

@@ -1,7 +1,9 @@
 // A fluid solver that is a process of its own, FreeFEM or a program of the user's, which is asked
 // by the protocol of docs/fluid-solver.md. Lengths, masses and times have the units of the
-// arguments. freefem_solver.cpp makes it; membranes/ uses read_flow() and SolverLimits. A change of
-// the protocol must change its version and that page.
+// arguments. freefem_solver.cpp makes it; membranes/ uses read_flow() and SolverLimits. A solver
+// that ends, is late or gives a wrong answer throws Error(kExternalProgram); numbers that are not
+// finite are not sent, but throw Error(kNotConverged). A change of the protocol must change its
+// version and that page.
 #pragma once
 
 #include <chrono>

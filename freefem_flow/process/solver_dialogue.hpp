@@ -1,8 +1,9 @@
 // Sends requests to the process of a fluid solver, and reads and checks its answers word by word,
-// by the protocol of docs/fluid-solver.md. An error names the solver, the request and the last
-// lines that the solver wrote. Numbers have the units of the caller. flow_process.cpp and
-// membrane_process.cpp use it. A change must keep that each answer has a time limit, and that
-// numbers read back to the same double.
+// by the protocol of docs/fluid-solver.md. A solver that ends, is late or answers wrongly throws
+// Error(kExternalProgram), which names the solver, the request and the last lines that the solver
+// wrote. Numbers have the units of the caller. flow_process.cpp and membrane_process.cpp use it. A
+// change must keep that each answer has a time limit, and that numbers read back to the same
+// double.
 #pragma once
 
 #include <chrono>

@@ -1,7 +1,8 @@
 // Writes the fit of a pair, the resistances of a sphere beside a body at rest (pair_fit.hpp), as
 // code or data with a function of the gap for each resistance. Lengths, masses and times are in the
-// units of the fit. Used by the command `export` (app/commands/). A change must keep the names of
-// functions and keys, which programs of users call.
+// units of the fit. An unknown target throws Error(kBadInput); the values of the fit are not
+// checked. Used by the command `export` (app/commands/). A change must keep the names of functions
+// and keys, which programs of users call.
 #pragma once
 
 #include <string>

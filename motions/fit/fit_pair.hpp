@@ -1,7 +1,8 @@
 // Fits all resistances of a pair, a sphere beside a body at rest (pair_fit.hpp), to the tables of
 // force and torque in its motions: approach, slide, roll, spin. Lengths, masses and times are in
-// the units of the tables. Used by motions/job/ (commands `fit` and `rolling`) and the Python
-// module. A change must keep the check that the matrix of resistances is symmetric.
+// the units of the tables. Tables that are not those of one pair throw Error(kBadInput); other
+// errors are those of fit_force_table(). Used by motions/job/ (commands `fit` and `rolling`) and
+// the Python module. A change must keep the check that the matrix of resistances is symmetric.
 #pragma once
 
 #include <map>

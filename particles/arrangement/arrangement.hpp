@@ -1,7 +1,8 @@
 // Random arrangements of discs or spheres that do not overlap, in a disc or a box. Lengths are in
 // the unit of the case file. particles/case places the particles of a case file with it, and
-// particles/sweep reports their area fraction. A change must keep the arrangement of each seed bit
-// for bit, because users repeat runs by their seeds.
+// particles/sweep reports their area fraction. Particles for which no places are found throw
+// Error(kBadInput). Radii and gaps are not checked. A change must keep the arrangement of each seed
+// bit for bit, because users repeat runs by their seeds.
 #pragma once
 
 #include <cstdint>

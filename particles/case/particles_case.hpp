@@ -1,7 +1,8 @@
 // Reads the case file of many particles, a TOML file in which a user describes a simulation
 // (docs/case-file.md, "Many particles"). Lengths, masses and times are in any one consistent system
-// of units. run/, sweep/, python/ and the sweep of particles_study.hpp use it. A change must keep
-// accepting the cases that users have written.
+// of units. run/, sweep/, python/ and the sweep of particles_study.hpp use it. Every fault of a
+// case throws Error(kBadInput), with the line and the key if it is in one of them. A change must
+// keep accepting the cases that users have written.
 #pragma once
 
 #include <filesystem>

@@ -2,7 +2,9 @@
 // point of the sweep is a set of values of the varied keys of the case. At each point the case is
 // run once, or with several random arrangements of its particles (draws), and each run gives a row
 // of results (docs/file-formats.md). Lengths, masses and times are in the units of the case. sweep/
-// and app/ use it. A change must keep the names of the columns, because scripts of users read them.
+// and app/ use it. A wrong case throws Error(kBadInput), a wrong choice of what varies
+// Error(kWrongUsage), both before a row is computed. A run that fails throws nothing: its row says
+// why. A change must keep the names of the columns, because scripts of users read them.
 #pragma once
 
 #include <cstdint>

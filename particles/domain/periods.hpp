@@ -99,9 +99,9 @@ inline Vector shift_of(const PeriodicCell& cell, std::int32_t image) {
   return shift_of(cell, Periods{double(x), double(y), double(z)});
 }
 
-/// The inverse of the motion of the cell, applied to `apart` [L]: the motion has changed each shift
-/// of an image to (1 + moved_for gradient) times its value at the start. Infinite or NaN if this
-/// matrix is singular.
+/// The inverse of the motion of the cell, applied to the vector `apart` [L] from one place to
+/// another: the motion has changed each shift of an image to (1 + moved_for gradient) times its
+/// value at the start. Infinite or NaN if this matrix is singular.
 inline Vector before_the_motion(const PeriodicCell& cell, const Vector& apart) {
   const double t = cell.is_sheared() ? cell.moved_for : 0;
   const auto& g = cell.gradient;
@@ -110,9 +110,10 @@ inline Vector before_the_motion(const PeriodicCell& cell, const Vector& apart) {
           ((1 + t * g[0]) * apart[1] - t * g[2] * apart[0]) / determinant, apart[2]};
 }
 
-/// The whole numbers of periods by which an image is shifted if its shift is the one nearest to
-/// `apart` [L]; 0 along an axis without a period. In a sheared cell, nearest is meant before the
-/// motion of the cell.
+/// The whole numbers of periods whose shift is nearest to the vector `apart` [L] from one particle
+/// to another: the image of the first particle with this shift is the one nearest to the second.
+/// 0 along an axis without a period. In a sheared cell, nearest is meant before the motion of the
+/// cell.
 inline Periods periods_towards(const PeriodicCell& cell, const Vector& apart) {
   const auto at_start = before_the_motion(cell, apart);
   Periods periods{};
@@ -121,7 +122,8 @@ inline Periods periods_towards(const PeriodicCell& cell, const Vector& apart) {
   return periods;
 }
 
-/// `apart` [L] minus the shift nearest to it (periods_towards()), the shortest vector of images.
+/// `apart` [L], the vector from one particle to another, minus the shift nearest to it
+/// (periods_towards()): the vector from the nearest image of the first particle to the second.
 inline Vector nearest_image(const PeriodicCell& cell, const Vector& apart) {
   return apart - shift_of(cell, periods_towards(cell, apart));
 }

@@ -3,7 +3,8 @@
 // in the restitution they give back the share e_d of the impulse that they took up. gamma <= 0 is
 // minus the impulse that the film of a contact has absorbed; the load of a contact is the impulse
 // that it bears if particles are at rest under the forces of the step. Gaps are in [L], rates at
-// which they grow in [L/T], impulses in [M L/T]. fluid_motion.hpp has the shapes. Errors are those
+// which they grow in [L/T], impulses in [M L/T]. fluid_motion.hpp has the shapes of the arguments
+// of solve_blow(), fluid_contacts.hpp those of StepContacts and ContactConditions. Errors are those
 // of the mobility and of BlowStep::loaded. fluid_simulation.cpp uses it. A change must keep that
 // the work of a blow is not positive.
 #include <algorithm>
@@ -91,7 +92,8 @@ class Blow {
   double rate(std::size_t c, std::span<const double> velocities) const {
     return opening(ordinary_.contacts[c], velocities.data(), conditions_.layout) + parts_[c].drift;
   }
-  // The conditions of a problem whose impulses are those of a time `length` [T].
+  // The conditions (fluid_contacts.hpp) of a problem in which the impulse of a contact is its force
+  // times `length` [T].
   ContactConditions conditions_over(double length) const {
     auto conditions = conditions_;
     conditions.h = length;

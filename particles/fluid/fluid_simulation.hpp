@@ -2,8 +2,10 @@
 // (Lefebvre 2007, "Fluid-particle simulations with FreeFem++"; Lefebvre 2009, "Numerical simulation
 // of gluey particles"). Lengths, masses and times are in any consistent units; in the plane masses,
 // forces and powers are per unit length. particles/run/ and the other sources of this folder use
-// it. A change must keep that a run which was interrupted and continued gives the same bits as a
-// run without a break.
+// it. A step that cannot be computed throws Error(kNotConverged), a fluid solver that fails
+// Error(kExternalProgram), a stop Error(kInterrupted). Values of the setting are not checked. A
+// change must keep that a run which was interrupted and continued gives the same bits as a run
+// without a break.
 #pragma once
 
 #include <memory>

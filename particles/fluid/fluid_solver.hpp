@@ -1,7 +1,10 @@
 // What a simulation asks of a fluid: the velocities that rigid particles take in it under given
 // forces. Lengths, masses and times are in any consistent units; in the plane masses, forces and
 // powers are per unit length of the third dimension. particles/fluid/ and particles/membranes/ ask;
-// freefem_flow/ answers, and app/ connects both. A change must agree with docs/fluid-solver.md.
+// freefem_flow/ answers, and app/ connects both. A solver that fails throws
+// Error(kExternalProgram), places without a mesh and arguments that are not finite
+// Error(kNotConverged), a stop Error(kInterrupted). Sizes of arrays are only asserted. A change
+// must agree with docs/fluid-solver.md.
 #pragma once
 
 #include <array>

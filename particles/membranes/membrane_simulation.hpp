@@ -1,7 +1,9 @@
 // Simulates membranes (closed curves through particles, their beads) and rigid discs in a Stokes
 // flow, docs/physics.md (8.1) to (8.8). Lengths, masses and times are in the units of the case
 // file; M stands for a mass per length of the third dimension. run/particle_simulation.hpp uses it.
-// A change must keep that a run from a restart file gives the same bits as an uninterrupted one.
+// A step that cannot be computed throws Error(kNotConverged), a fluid solver that fails
+// Error(kExternalProgram), a stop Error(kInterrupted). A change must keep that a run from a restart
+// file gives the same bits as an uninterrupted one.
 #pragma once
 
 #include <memory>

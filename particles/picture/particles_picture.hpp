@@ -1,6 +1,7 @@
 // A still picture of a motion of particles, and a web page that plays the motion by the scripts in
 // particles/picture/page. Lengths [L] and times [T] are in the units of the case.
-// run/particles_pages.cpp calls both functions for the folder of a run. A change must keep that
+// run/particles_pages.cpp calls both functions for the folder of a run. A flow that cannot be read
+// throws Error(kBadInput); other faults of a motion are not looked for. A change must keep that
 // each result is complete without other files.
 #pragma once
 

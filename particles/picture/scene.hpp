@@ -1,8 +1,9 @@
 // What the still picture and the page show of a motion of particles: its frames in the plane, the
 // part of space that is seen, the flow, and the scales of colours. Lengths [L], masses [M] and
 // times [T] are in the units of the case; gamma is minus the impulse that the film of a contact has
-// absorbed. The other sources of this folder use it. A change of SceneStyle must be made in
-// style_of_page() of particles_page.cpp and in the scripts in particles/picture/page, too.
+// absorbed. The other sources of this folder use it. A flow that cannot be read throws
+// Error(kBadInput). Indices and other numbers are not checked. A change of SceneStyle must be made
+// in style_of_page() of particles_page.cpp and in the scripts in particles/picture/page, too.
 #pragma once
 
 #include <algorithm>

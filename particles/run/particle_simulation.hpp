@@ -1,7 +1,8 @@
 // One interface to the three simulations of many particles: without a fluid, in a fluid, and in a
-// fluid with membranes. Lengths, masses and times are in the units of the case. Used by
-// particles_stage.cpp, sweep/ and python/. A change must keep that a function means the same for
-// all three.
+// fluid with membranes. Lengths, masses and times are in the units of the case. A step that cannot
+// be computed throws Error(kNotConverged), a fluid solver that fails Error(kExternalProgram), a
+// stop Error(kInterrupted). Used by particles_stage.cpp, sweep/ and python/. A change must keep
+// that a function means the same for all three.
 #pragma once
 
 #include <memory>

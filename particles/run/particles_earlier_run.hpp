@@ -1,7 +1,8 @@
 // The run that an earlier call of the command `particles` left in its folder: whether it can be
 // continued, and from which state. Lengths, masses and times are in the units of the case. run/,
-// sweep/ and python/ use it. A change must keep that a continued run gives the same files as a run
-// that was never interrupted.
+// sweep/ and python/ use it. A restart file that does not fit the case throws Error(kBadInput). A
+// run that cannot be continued is no error. A change must keep that a continued run gives the same
+// files as a run that was never interrupted.
 #pragma once
 
 #include <filesystem>

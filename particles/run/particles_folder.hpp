@@ -1,8 +1,10 @@
 // The files in the folder of a run of many particles (docs/file-formats.md): their names; which of
 // them a run may replace; how those of an earlier run are removed; the sums over the steps, for
 // run.json; and the record in restart.bin, which says where each file ends. Times [T] are in the
-// unit of the case, computing times in seconds. The files in run/ use it. A change must keep names,
-// columns and keys, because scripts of users and interrupted runs rely on them.
+// unit of the case, computing times in seconds. The files in run/ use it. A file that cannot be
+// read or removed, or must not be, throws Error(kBadInput) with its name; a missing folder throws
+// std::filesystem::filesystem_error. A change must keep names, columns and keys, because scripts of
+// users and interrupted runs rely on them.
 #pragma once
 
 #include <array>

@@ -1,7 +1,9 @@
 // Writes the page, the picture and the HDF5 file of a run of many particles from the files of the
-// run, in the units of the case. The commands `particles` and `report` call it. A change must keep
-// that frames of earlier versions can be drawn, and the names and layout of the data sets in the
-// HDF5 file (docs/file-formats.md, "HDF5"), because users' scripts read them.
+// run, in the units of the case. The commands `particles` and `report` call it. A file that is
+// missing, damaged or cannot be written throws Error(kBadInput), a program without libhdf5
+// Error(kWrongUsage). A change must keep that frames of earlier versions can be drawn, and the
+// names and layout of the data sets in the HDF5 file (docs/file-formats.md, "HDF5"), because users'
+// scripts read them.
 #pragma once
 
 #include <filesystem>

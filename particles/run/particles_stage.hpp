@@ -1,6 +1,8 @@
 // The command `particles`: simulates many particles from a case and writes the files of the run, in
-// the units of the case. app/ and sweep/ use it. A change must keep that a run that was killed at
-// any time, when it is continued, ends with the same files as an uninterrupted one.
+// the units of the case. app/ and sweep/ use it. Wrong inputs throw before anything is written. A
+// simulation that fails throws after what it has computed is written. A change must keep that a run
+// that was killed at any time, when it is continued, ends with the same files as an uninterrupted
+// one.
 #pragma once
 
 #include <string>

@@ -1,6 +1,7 @@
 // Writes the files that grow while a run of many particles computes: frames (the states at the
 // output times), the lists of their files, and tables. Nothing of them stays in memory. Lengths,
-// masses and times are in the units of the case. Used by particles_stage.cpp and
+// masses and times are in the units of the case. A file that cannot be written, or that somebody
+// else has changed, throws Error(kBadInput) with its name. Used by particles_stage.cpp and
 // particles_earlier_run.cpp. A change must keep that an interrupted run that is continued from its
 // record gives the same files as an uninterrupted one.
 #pragma once

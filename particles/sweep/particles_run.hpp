@@ -1,7 +1,8 @@
 // Computes the rows of a sweep of particles. Each row is a run of one case in a folder of its own,
 // and its results are kept there, in the units of the case. particles_sweep_stage.cpp uses it. A
-// change must keep that a finished row is not computed again, and that results of another case or
-// version are not taken.
+// run that fails throws nothing: its result says why. Files that cannot be read or written throw
+// Error(kBadInput), a stop Error(kInterrupted). A change must keep that a finished row is not
+// computed again, and that results of another case or version are not taken.
 #pragma once
 
 #include <cstdint>

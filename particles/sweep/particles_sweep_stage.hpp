@@ -2,8 +2,10 @@
 // table is the result of one simulation, which has a folder of its own (particles_run.hpp). Either
 // this process computes all rows, or each task of a job on a cluster (Slurm) computes some of them
 // and gather_sweep() writes the tables. The command `sweep` of app/ calls these functions. Numbers
-// are in the units of the case. A change must not delete the result of a finished simulation,
-// because a later call reads it instead of computing the row again.
+// are in the units of the case. A run that fails does not stop the others; if all fail, or if rows
+// are missing where they are gathered, Error(kNotConverged) is thrown. A change must not delete the
+// result of a finished simulation, because a later call reads it instead of computing the row
+// again.
 #pragma once
 
 #include <string>

@@ -1,7 +1,8 @@
 // Submits the rows of a table, or of a sweep of particles, to the workload manager Slurm as one
-// array job, whose tasks each compute a share of the rows (docs/cluster.md). A change must keep
-// that later edits of a case do not change a submitted job. Used by app/, particles/sweep and
-// tabulate/.
+// array job, whose tasks each compute a share of the rows (docs/cluster.md). A Slurm that is
+// missing or refuses throws Error(kExternalProgram), a second job for an output Error(kBadInput). A
+// change must keep that later edits of a case do not change a submitted job. Used by app/,
+// particles/sweep and tabulate/.
 #pragma once
 
 #include <cstddef>

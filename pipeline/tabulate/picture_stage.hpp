@@ -1,6 +1,7 @@
 // `viscontact tabulate --plot`: pictures (SVG) and VTK files of the flow around the sphere for
-// chosen gaps. Gaps [L] and velocities [L/T] are in the units of the case. A change must keep the
-// names of the files, which contain the gap. Used by app/.
+// chosen gaps. Gaps [L] and velocities [L/T] are in the units of the case. A number that is not a
+// gap of the case throws Error(kBadInput), a failure of FreeFEM or gnuplot Error(kExternalProgram).
+// A change must keep the names of the files, which contain the gap. Used by app/.
 #pragma once
 
 #include <filesystem>

@@ -1,7 +1,8 @@
 // The external force f_ext(t): every force on the sphere except those of the fluid and of contact,
 // such as gravity, a push or a measured signal. Lengths, masses and times are in any consistent
-// units. All models of one sphere in reduced_model/, and rolling/, use it. A change must keep means
-// and impulses exact, because the budgets of impulses and works are balanced to round-off.
+// units. All models of one sphere in reduced_model/, and rolling/, use it. Wrong pieces and wrong
+// files throw Error(kBadInput). Times are not checked. A change must keep means and impulses exact,
+// because the budgets of impulses and works are balanced to round-off.
 #pragma once
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // A C++ interface to the integrator CVODE of SUNDIALS (Hindmarsh et al. 2005), for the models
 // `inertial` and `inertial_rough` of reduced_model/models and for rolling/. Times are in [T]; the
 // components of a state may have any dimensions. Every return code of SUNDIALS is checked in
-// cvode.cpp and nowhere else. A change must include no header of SUNDIALS here: those of Debian 13
-// need the headers of MPI, which the tests and users of an installed Viscontact would then have to
-// find.
+// cvode.cpp and nowhere else; a failure throws Error(kNotConverged). A change must include no
+// header of SUNDIALS here: those of Debian 13 need the headers of MPI, which the tests and users of
+// an installed Viscontact would then have to find.
 #pragma once
 
 #include <exception>

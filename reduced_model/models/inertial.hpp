@@ -1,8 +1,9 @@
 // The motion of the sphere with its inertia and the whole drag, integrated by CVODE: the models
 // `inertial`, with which all others are compared, and `inertial_rough`. q is the gap, u = dq/dt the
 // velocity, m the mass, R(q) the resistance, f_ext the external force. Lengths, masses and times
-// are in any consistent units. models.cpp lists the models. A change of results must raise
-// kModelsRevision.
+// are in any consistent units. models.cpp lists the models. A motion that leaves the interval of
+// the fit throws Error(kBadInput), an integration that fails Error(kNotConverged), a stop
+// Error(kInterrupted). A change of results must raise kModelsRevision.
 #pragma once
 
 #include <array>

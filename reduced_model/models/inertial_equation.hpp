@@ -1,8 +1,9 @@
 // The equation of motion of the sphere with its inertia, by its first integral (physics.md (4.1),
 // (4.2)). q is the gap, r the radius, m the mass, R the resistance, Gamma its primitive, f_ext the
 // external force; the index 0 marks values at the start. Lengths, masses and times are in any
-// consistent units. The models `inertial` and `inertial_rough` integrate it, and rolling/ does for
-// the motion along the normal of the plane.
+// consistent units. A gap outside the interval of the force throws Error(kBadInput); times are not
+// checked. The models `inertial` and `inertial_rough` integrate it, and rolling/ does for the
+// motion along the normal of the plane.
 //
 //     m d^2q/dt^2 = -R(q) dq/dt + f_ext(t)                                           (M)
 //     m u + Gamma(q) = P(t) := m u0 + Gamma(q0) + int_0^t f_ext,   u = dq/dt         (I)

@@ -1,7 +1,8 @@
-// The table of models of motion of one sphere, and the gaps that a model reaches. A new model needs
-// its own source and a row in models.cpp (docs/extending.md); commands, help, sweeps and the report
-// read that table. Lengths, masses and times are in any consistent units. A change must keep the
-// names of models, which users' case files contain.
+// The table of models of motion of one sphere, and the gaps that a model reaches. Unknown names,
+// and motions that a model refuses, throw Error(kBadInput). Lists and descriptions throw nothing. A
+// new model needs its own source and a row in models.cpp (docs/extending.md); commands, help,
+// sweeps and the report read that table. Lengths, masses and times are in any consistent units. A
+// change must keep the names of models, which users' case files contain.
 #pragma once
 
 #include <optional>

@@ -1,7 +1,8 @@
 // Pictures of one row of a table of lubrication forces: the mesh in the gap between sphere and
 // wall, the flow around the sphere and the flow in the gap. Lengths, masses and times are in the
-// units of the case. `tabulate --plot` makes them (pipeline/tabulate/picture_stage.cpp). A change
-// must keep that each function returns one complete SVG.
+// units of the case. `tabulate --plot` makes them (pipeline/tabulate/picture_stage.cpp). A gnuplot
+// that is missing or fails throws Error(kExternalProgram). A change must keep that each function
+// returns one complete SVG.
 #pragma once
 
 #include <string>

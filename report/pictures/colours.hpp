@@ -110,8 +110,10 @@ PressureColours proportional_colours(const std::vector<double>& pressures);
 /// others. Pressures that are not finite do not count. The highest 0.5 % are cut off if the largest
 /// pressure is more than three times the largest of the others: the scale then ends at the largest
 /// of the others, rounded up. The lowest 0.5 % are treated in the same way. If such an end is cut,
-/// or if an end is more than ten times the pressure `usual` >= 0, the scale is linear below about
-/// `usual` and logarithmic beyond it. The limits are free choices.
+/// or if an end is more than ten times the pressure `usual` >= 0, the scale is linear below the
+/// power of ten nearest to `usual` and logarithmic beyond it; if `usual` is 0, it stays linear. If
+/// no pressure is finite, also in an empty list, the scale is from -1 to 1. The limits are free
+/// choices.
 PressureColours robust_colours(const std::vector<double>& pixels, double usual);
 
 }  // namespace viscontact::report

@@ -1,6 +1,8 @@
 // Draws curves and colour fields with the program gnuplot. Values have no unit here; the labels of
-// the axes name the units. report/ and swimmer/ draw by it. A change must keep that no text of a
-// user reaches gnuplot as a command.
+// the axes name the units. report/ and swimmer/ draw by it. A gnuplot that is missing or fails
+// throws Error(kExternalProgram), a stop Error(kInterrupted). Commands in Panel::settings and
+// Curve::style are passed on as they are. A change must keep that no text of a user reaches gnuplot
+// as a command.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,7 @@
 // The picture of a sweep, which varies keys of a case, from its CSV file, in the units of the case.
-// The command `sweep` (app/commands/sweep/) calls it for --plot. A change must keep that it can
-// draw files larger than the memory.
+// The command `sweep` (app/commands/sweep/) calls it for --plot. A column that does not exist, or a
+// file without a number to draw, throws Error(kBadInput). A change must keep that it can draw files
+// larger than the memory.
 #pragma once
 
 #include <filesystem>

@@ -1,7 +1,8 @@
 // The case of a sphere that moves along a plane in a viscous fluid and turns (TOML,
 // docs/case-file.md). Lengths, masses and times are in any consistent units. Keys are declared in
-// rolling_case.cpp (keys.hpp). rolling/, app/ and python/ read it. A change must keep accepting the
-// cases that users have written.
+// rolling_case.cpp (keys.hpp). rolling/, app/ and python/ read it. Every fault of a case throws
+// Error(kBadInput), with the line and the key if it is in one of them. A change must keep accepting
+// the cases that users have written.
 #pragma once
 
 #include <filesystem>

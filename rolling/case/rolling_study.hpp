@@ -1,7 +1,9 @@
 // The sweep of a sphere that moves along a plane and turns: a row has the state of each model at
 // the end of the motion; all rows use one fit of the drag of the sphere near the plane. Lengths,
-// masses and times are in the units of the case. The command `sweep` calls it. A change must keep
-// the names of the columns, which users' scripts read.
+// masses and times are in the units of the case. The command `sweep` calls it. A wrong case or fit
+// throws Error(kBadInput), a wrong choice of what varies Error(kWrongUsage), both before a row is
+// computed. A model that fails throws nothing: its results are empty. A change must keep the names
+// of the columns, which users' scripts read.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,8 @@
 // The report of a sphere that moves along a plane and turns: a page with pictures and tables.
-// Lengths, masses and times are in the units of the case. rolling_stage.cpp calls it. A change must
-// keep the names of the pictures, so that those of earlier runs are replaced.
+// Lengths, masses and times are in the units of the case. rolling_stage.cpp calls it. A gnuplot
+// that fails throws Error(kExternalProgram), a file that cannot be written Error(kBadInput); a
+// missing gnuplot is only a warning. A change must keep the names of the pictures, so that those of
+// earlier runs are replaced.
 #pragma once
 
 #include <array>

@@ -1,6 +1,8 @@
 // The command `rolling`: tables of the drag, their fit, trajectories and report of a sphere that
-// moves along a plane and turns. Results are in the units of the case. app/ calls it. A change must
-// keep the names of the files, keys and columns, which users' scripts read.
+// moves along a plane and turns. Results are in the units of the case. app/ calls it. Wrong inputs
+// throw Error(kBadInput) before anything is written; a model that fails throws after the results of
+// the others are written. A change must keep the names of the files, keys and columns, which users'
+// scripts read.
 #pragma once
 
 #include <filesystem>

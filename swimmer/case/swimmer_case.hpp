@@ -1,7 +1,8 @@
 // The case of a swimmer (TOML, docs/case-file.md): spheres on a line, the table of their resistance
 // matrices (forces per velocity), and the strokes that are computed with it. Lengths, masses and
 // times are in any consistent units. Keys are declared in swimmer_case.cpp (keys.hpp). swimmer/,
-// app/ and python/ read it. A change must keep accepting the cases that users have written.
+// app/ and python/ read it. Every fault of a case throws Error(kBadInput), with the line and the
+// key if it is in one of them. A change must keep accepting the cases that users have written.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,7 +1,8 @@
 // The sweep over the strokes of a swimmer (spheres on a line whose distances change in time): its
 // displacement, energy and efficiency at each point, from one fit of the resistance matrices.
-// Lengths, masses and times are in the units of the case. The command `sweep` calls it. A change
-// must keep the names of the columns, which users' scripts read.
+// Lengths, masses and times are in the units of the case. The command `sweep` calls it. A wrong
+// case or fit throws Error(kBadInput), a wrong choice of what varies Error(kWrongUsage), both
+// before a row is computed. A change must keep the names of the columns, which users' scripts read.
 #pragma once
 
 #include <filesystem>

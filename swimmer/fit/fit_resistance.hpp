@@ -1,7 +1,9 @@
 // Fits the resistance matrices of spheres on a line, given in a table, by a function of the gaps
 // (ResistanceFit), and makes perturbed fits, from which the results of a swimmer get their error
-// estimates. Lengths, masses and times are in the units of the table. swimmer/job and python/ call
-// it. A change must keep that the fit meets every row of the table.
+// estimates. Lengths, masses and times are in the units of the table. A table without all
+// combinations of its gaps, or with a matrix that is not positive definite, throws
+// Error(kBadInput). swimmer/job and python/ call it. A change must keep that the fit meets every
+// row of the table.
 #pragma once
 
 #include <vector>

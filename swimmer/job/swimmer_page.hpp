@@ -1,6 +1,8 @@
 // The report of a swimmer (spheres on a line that change their distances): a page with pictures and
 // tables. Lengths, masses and times are in the units of the case. swimmer_stage.cpp calls it. A
-// change must keep the names of the pictures, so that those of earlier runs are replaced.
+// gnuplot that fails throws Error(kExternalProgram), a file that cannot be written
+// Error(kBadInput); a missing gnuplot is only a warning. A change must keep the names of the
+// pictures, so that those of earlier runs are replaced.
 #pragma once
 
 #include <array>

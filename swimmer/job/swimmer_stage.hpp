@@ -1,6 +1,8 @@
 // The command `swimmer`: the table of resistance matrices of spheres on a line, its fit, strokes of
 // a swimmer made of these spheres, and the report. Results are in the units of the case. app/ and
-// python/ call it. A change must keep names of files, keys and columns, which users' scripts read.
+// python/ call it. Wrong inputs throw Error(kBadInput) before anything is written, a stop
+// Error(kInterrupted). A change must keep names of files, keys and columns, which users' scripts
+// read.
 #pragma once
 
 #include <filesystem>

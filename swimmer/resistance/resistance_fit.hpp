@@ -1,8 +1,9 @@
 // A fit of the resistance matrix R (forces on the fluid per velocity) of spheres on a line, as a
 // function of the gaps between them (physics.md, section 7), the formula of the lubrication between
 // neighbours that is a part of R, and the evaluation of R. Lengths, masses and times are in the
-// units of the table. swimmer/fit/fit_resistance.hpp makes a fit, and shape_mechanics.hpp evaluates
-// it. A change must keep
+// units of the table. A wrong file, and gaps beyond those of the table, throw Error(kBadInput);
+// other arguments are not checked. swimmer/fit/fit_resistance.hpp makes a fit, and
+// shape_mechanics.hpp evaluates it. A change must keep
 // - the keys of the file, which other programs may read;
 // - the formula of the lubrication, because files of fits contain only the rest of R;
 // - R symmetric and positive definite.

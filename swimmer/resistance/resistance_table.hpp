@@ -1,7 +1,8 @@
 // The table of resistance matrices of rigid spheres on a line, over the gaps between them
 // (physics.md, section 7). Lengths, masses and times are in the units of the table.
-// swimmer/tabulation writes it and the other folders of swimmer/ read it. A change must keep the
-// names of the columns, which published tables have.
+// swimmer/tabulation writes it and the other folders of swimmer/ read it. A wrong value, row or
+// file throws Error(kBadInput). A change must keep the names of the columns, which published tables
+// have.
 #pragma once
 
 #include <Eigen/Core>

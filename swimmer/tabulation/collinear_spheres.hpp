@@ -1,7 +1,8 @@
 // Rigid spheres on a line in a viscous fluid: the inputs of a table of their resistance matrices,
 // and the solution of one row by FreeFEM (physics.md, section 7). A resistance matrix R [M/T] maps
 // the velocities of the spheres along the line to their forces on the fluid. Lengths, masses and
-// times are in any consistent units. app/ and the other folders of swimmer/ use it. A change must
+// times are in any consistent units. app/ and the other folders of swimmer/ use it. If FreeFEM
+// fails, also because its script refuses a number, Error(kExternalProgram) is thrown. A change must
 // keep the words of surroundings_in_words(), because lubrication/scaling.hpp finds the lengths in
 // them.
 #pragma once

@@ -1,7 +1,8 @@
 // The options of `sweep`, and the functions that turn options into a study (the points of the sweep
 // and the function that computes the row of a point), one for each kind of case. Numbers are in the
-// units of the case. Used by the two sources of this folder. docs/command-line.md describes the
-// options, whose names must stay.
+// units of the case. Wrong options throw Error(kWrongUsage), wrong files Error(kBadInput), both
+// before a row is computed. A row that fails is no error unless all rows do. Used by the two
+// sources of this folder. docs/command-line.md describes the options, whose names must stay.
 #pragma once
 
 #include <cstdint>

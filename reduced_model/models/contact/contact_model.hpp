@@ -2,8 +2,9 @@
 // Such a model does not resolve the thin film of fluid between sphere and wall, but replaces it by
 // contact with a memory gamma, minus the impulse that the film has absorbed. It may resolve the
 // drag at larger gaps. Lengths, masses and times are in any consistent units. The files of this
-// folder and models.cpp use it. A change must keep the budget of impulses and works balanced to
-// round-off, and raise kModelsRevision if results change.
+// folder and models.cpp use it. Too many steps throw Error(kBadInput), a stop Error(kInterrupted).
+// The members of a ContactModel are not checked. A change must keep the budget of impulses and
+// works balanced to round-off, and raise kModelsRevision if results change.
 #pragma once
 
 #include <functional>

@@ -4,7 +4,8 @@
 // lambda the force of the contact on the sphere, gamma minus the impulse that the film of fluid has
 // absorbed, k the coefficient of 1/q in the resistance R(q); - and + mark values before and after
 // an impact. Lengths, masses and times are in any consistent units. models.cpp lists the models.
-// The functions make a model and run nothing. A change of results must raise kModelsRevision.
+// The functions make a model and run nothing. If they need k, a fit without a positive k throws
+// Error(kBadInput). A change of results must raise kModelsRevision.
 #pragma once
 
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"

@@ -2,7 +2,8 @@
 // u the velocity, m the mass and f_ext the external force; -gamma >= 0 is the impulse that the film
 // of fluid has absorbed, and the solids touch at gamma = gamma_min. Lengths, masses and times are
 // in any consistent units. models.cpp lists the model; studies and tests use it as the reference
-// for the models with a time step. A change of results must raise kModelsRevision.
+// for the models with a time step. A fit or motion that the model refuses throws Error(kBadInput),
+// a stop Error(kInterrupted). A change of results must raise kModelsRevision.
 #pragma once
 
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"

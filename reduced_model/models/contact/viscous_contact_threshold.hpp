@@ -2,7 +2,8 @@
 // (physics.md (4.7)). Gamma is the primitive of R. gamma is minus the impulse that the film below
 // q_c has absorbed, and gamma_min is the value of gamma at which the solids touch. m is the mass, u
 // the velocity. Lengths, masses and times are in any consistent units. models.cpp lists the model.
-// A change of results must raise kModelsRevision.
+// A threshold, roughness or fit that do not belong together throw Error(kBadInput). A change of
+// results must raise kModelsRevision.
 #pragma once
 
 #include <algorithm>
