@@ -43,10 +43,13 @@ ParticlesRuns runs_of(const ParticlesSweep& sweep, const ParticlesSweepRequest& 
           request.start_solver};
 }
 
+/// Shows on the terminal, at most as often as `timer` says, that `done` of `size` rows are finished.
 void show_finished_rows(terminal::ProgressTimer& timer, std::uint64_t done, std::uint64_t size) {
   if (timer.is_due()) terminal::show_progress(fmt::format("sweep: {} of {} rows", done, size));
 }
 
+/// The files that the rows depend on, for their provenance: the case, and the CSV file of particles
+/// that it names, if any.
 results::Inputs inputs_of(const ParticlesSweep& sweep) {
   results::Inputs inputs{{sweep.case_path()}, {}};
   if (!sweep.particles_file().empty()) inputs.given.push_back(sweep.particles_file());
@@ -64,6 +67,9 @@ void write_means(const ParticlesSweep& sweep, const std::string& output) {
   terminal::say("sweep: means over {} draws in {}", sweep.points().draws, path.string());
 }
 
+/// Calls `run` for each row that is not in the file of the rows, writes this file and the table of
+/// means, and says on the terminal how many runs failed. Throws the errors of
+/// pipeline::write_rows(), and Error(kNotConverged) if every run failed.
 void write_tables(const ParticlesSweep& sweep, const ParticlesSweepRequest& request,
                   ParticlesRunner run) {
   const auto& output = request.output;
