@@ -25,16 +25,20 @@
 namespace viscontact::sweep {
 namespace {
 
+// The columns of each model, after "MODEL.", in the order of the file.
 constexpr std::array kModelColumns = {
     "minimal_gap",     "minimal_gap_time",     "film",
     "contact_from",    "contact_until",        "sup_gap_distance",
     "l1_gap_distance", "l1_velocity_distance", "film_ratio",
     "steps",           "solid_contact_from",   "solid_contact_velocity"};
 
+/// The thinnest film that a contact model computes, or else the smallest gap [L], >= 0.
 double thinnest(const reduced_model::ModelComparison& model) {
   return model.recovered_minimal_gap.value_or(model.minimal_gap);
 }
 
+/// Adds the results of a model to the row. Without a reference (null) it has no distances and no
+/// film_ratio; the field of a ratio to a film of 0 is empty.
 void add_model(const reduced_model::ModelComparison& model,
                const reduced_model::ModelComparison* reference, RowResults& results) {
   const auto put = [&](const char* column, double value) {

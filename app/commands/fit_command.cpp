@@ -72,6 +72,8 @@ struct FitOptions {
                     *basis_option = nullptr, *weights_option = nullptr;
 };
 
+/// `fit` for the tables of a pair, a sphere beside its neighbour, in `files`. Throws
+/// Error(kWrongUsage) for options of a single table, and the errors of the stages of motions/.
 void fit_tables_of_pair(const FitOptions& o, const std::vector<std::filesystem::path>& files) {
   if (o.terms_option->count() + o.fix_option->count() + o.weights_option->count() > 0 ||
       !o.plot.path.empty())
@@ -94,6 +96,9 @@ void fit_tables_of_pair(const FitOptions& o, const std::vector<std::filesystem::
   motions::fit_pair_stage(files, o.fit, settings, interrupt_token());
 }
 
+/// `fit`: checks the options and the files to write, then compares bases and writes the fit, as far
+/// as both were asked for. Throws Error(kWrongUsage) for options that contradict each other,
+/// Error(kBadInput) for a file that must not be replaced, and the errors of the stages.
 void fit_table(FitOptions& o) {
   const auto files = motions::pair_table_files(o.tables);
   if (motions::are_of_pair(o.tables, files)) return fit_tables_of_pair(o, files);

@@ -8,6 +8,10 @@
 # Jupyter opens this file by Jupytext, and editors by their mode for cells. As a program, type in
 # the source folder of Viscontact `python3 examples/python/lecture.py`.
 #
+# Numbers are in the units of the case. An error, such as a missing file or a motion that cannot be
+# computed, ends the program with an exception of `viscontact`. A test compares the output with the
+# lines that follow.
+#
 # It prints:
 #
 # R(q = 0.01) = 5761.06

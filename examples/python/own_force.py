@@ -7,6 +7,10 @@
 # Jupyter opens this file by Jupytext, and editors by their mode for cells. As a program, type in
 # the source folder of Viscontact `python3 examples/python/own_force.py`.
 #
+# Numbers are in the units of the case. An error, such as a missing file or a motion that cannot be
+# computed, ends the program with an exception of `viscontact`. A test compares the output with the
+# lines that follow.
+#
 # It prints:
 #
 # 400 discs in 600 steps: centre of mass at 14

@@ -8,6 +8,10 @@
 # Jupyter opens this file by Jupytext, and editors by their mode for cells. As a program, type in
 # the source folder of Viscontact `python3 examples/python/parameter_fit.py`.
 #
+# Numbers are in the units of the case. An error, such as a missing file or a motion that cannot be
+# computed, ends the program with an exception of `viscontact`. A test compares the output with the
+# lines that follow.
+#
 # It prints:
 #
 # viscosity: 3.4 within 0.06 %
@@ -48,7 +52,7 @@ measured = gaps(3.4, 24.0) + np.random.default_rng(7).normal(scale=noise, size=l
 # ## The fit
 #
 # Each iteration linearises the gaps at the present parameters, with differences for the derivatives.
-# Logarithms of the parameters keep both positive.
+# Logarithms of the parameters keep both positive. After 20 iterations the fit is taken as it is.
 
 # %%
 logs = np.log([3.0, 20.0])  # a guess: the case's own values

@@ -2,9 +2,10 @@
 // the others, so that no row is lost or computed twice if the program is interrupted. Beside
 // TABLE.csv there is TABLE.csv.rows for a computation on this machine, and a TABLE.csv.rows.WRITER
 // for each process of a cluster. Each file has one writer, because some file systems do not support
-// locks. A line is one row; its numbers have the units of the table. Used by tabulate.cpp (writes),
-// row_record.cpp (reads) and pipeline/tabulate/. A change must only append to a journal, and must
-// keep journals of interrupted runs readable.
+// locks. A line is one row; its numbers have the units of the table. Readers pass over a line that
+// is damaged; a journal that cannot be written throws Error(kBadInput). Used by tabulate.cpp
+// (writes), row_record.cpp (reads) and pipeline/tabulate/. A change must only append to a journal,
+// and must keep journals of interrupted runs readable.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,8 @@
 // A fluid whose particles are held by rigid bodies, hinges, springs and arms, docs/physics.md
-// (6.7). Lengths, masses and times are in any consistent units. Velocities [L/T, 1/T] and forces
-// [M L/T^2, M L^2/T^2] of particles have motion_components() numbers each; numbers of rows are one
-// for each row of hold(), empty without rows. Sizes are not checked. fluid_simulation.cpp,
+// (6.7). Lengths, masses and times are in any consistent units. Velocities [L/T, 1/T] and forces [M
+// L/T^2, M L^2/T^2] of particles have motion_components() numbers each; numbers of rows are one for
+// each row of hold(), empty without rows. Sizes are not checked. Rows that contradict each other
+// throw Error(kNotConverged); other errors are those of the fluid solver. fluid_simulation.cpp,
 // fluid_links.cpp and held_rows.hpp use it. A change must keep that redundant rows are no error,
 // but rows that contradict each other are.
 #pragma once

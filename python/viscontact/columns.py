@@ -1,12 +1,18 @@
-"""A table as a dictionary of arrays."""
+"""A table as a dictionary of arrays, which results.py and the C++ sources of the module return.
+
+A column that a table lacks raises KeyError as an entry and AttributeError as an attribute. Lengths
+and types of the arrays are not checked. A change must keep that a table is a dictionary.
+"""
 
 
 class Columns(dict):
     """Arrays of equal length by name, each also an attribute: table["gap"] is table.gap.
 
+    Their units are those of the file or the case that they come from.
+
     about      further values by name, such as the comments of a file
     pandas()   the table as a pandas.DataFrame; a column of vectors becomes one column for each
-               component
+               component; ImportError without pandas
     """
 
     def __init__(self, columns=(), about=None):

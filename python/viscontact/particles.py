@@ -1,4 +1,10 @@
-"""Many discs or spheres, from a case file or from arrays."""
+"""Many discs or spheres, from a case file or from arrays, for users of the module.
+
+Numbers are in any consistent units; nothing is converted. A case or array that cannot be used
+raises InputError, mostly from the reader of case files, which checks their ranges; steps raise
+what the class Particles of python/particles.cpp says. A change must keep that arrays and a case
+file with the same numbers give the same bits.
+"""
 
 import json
 import pathlib
@@ -38,7 +44,10 @@ class Particles(_Particles):
 
 
 def _sections_of(case):
-    """The sections of a case, with absolute names of the files that it names."""
+    """The sections of a case, with absolute names of the files that it names.
+
+    InputError if the case is a file that cannot be read; what is in it is not checked.
+    """
     if isinstance(case, dict):
         sections, folder = dict(case), pathlib.Path.cwd()
     else:
@@ -62,7 +71,10 @@ def _sections_of(case):
 
 
 def _csv(columns):
-    """The columns as CSV. repr() of a number is read back as the same number."""
+    """The columns as CSV. str() of a number is read back as the same number.
+
+    InputError if they are no columns of equal length, or have masked values.
+    """
     names = getattr(getattr(columns, "dtype", None), "names", None)  # of a structured array
     if names is None:
         if isinstance(columns, (str, bytes, numpy.ndarray)) or not hasattr(columns, "keys"):
@@ -85,6 +97,7 @@ def _csv(columns):
 
 
 def _toml(value):
+    """The value as TOML; InputError for a type that no case has. NaN is not refused here."""
     value = getattr(value, "tolist", lambda: value)()  # of NumPy's arrays and numbers
     if isinstance(value, dict):
         return "{" + ", ".join(f"{json.dumps(str(k))} = {_toml(v)}" for k, v in value.items()) + "}"

@@ -1,4 +1,10 @@
-"""Reads the files that Viscontact writes: tables, JSON, frames, and the folders of runs."""
+"""Reads the files that Viscontact writes: tables, JSON, frames, and the folders of runs.
+
+read() is for users of the module. Numbers keep the units of the file. A file that is missing,
+damaged or of another kind raises InputError; a name that a folder lacks raises KeyError, a frame
+that does not exist IndexError. Numbers are not checked. A change must keep files of earlier
+versions readable.
+"""
 
 import collections.abc
 import csv

@@ -1,5 +1,11 @@
 #!/usr/bin/env python3
-"""Writes the CSV files of the cases in this folder, beside itself; run again, the same bytes."""
+"""Writes the CSV files of the cases in this folder, beside itself; run again, the same bytes.
+
+Lengths, velocities and masses are in the units of the cases. Nothing is checked here: `viscontact
+particles` refuses particles that overlap. An existing file is replaced; one that cannot be written
+ends the script with an error. scripts/angle_of_repose uses heap_discs(). A change of a number
+changes the results of a case, and so the pictures of docs/ and some tests.
+"""
 import math
 import pathlib
 import random
@@ -8,6 +14,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 
 def write(name, dimension, rows):
+    """Writes rows of centre and velocity, each of `dimension` numbers, radius > 0 and mass > 0."""
     axes = "xyz"[:dimension]
     header = ",".join([*axes, *("v" + axis for axis in axes), "radius", "mass"])
     lines = [",".join(f"{value:.6g}" for value in row) for row in rows]
