@@ -1,7 +1,7 @@
 // Comparison of quantities that two files give, such as the radius or viscosity of a case and of
 // its fit. case_file/, fitting/, lubrication/, motions/, pipeline/, results/, rolling/ and swimmer/
-// use it, mostly to refuse files that differ. A change to a smaller tolerance would refuse files
-// that have only been rounded.
+// use it, mostly to refuse files that differ. Nothing is thrown. A change to a smaller tolerance
+// would refuse files that have only been rounded.
 #pragma once
 
 #include <algorithm>

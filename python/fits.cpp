@@ -1,10 +1,11 @@
 // Tables of the lubrication force and their fits in Python: Fit, PairFit, tabulate, fit, fit_pair.
 // Numbers are in the units of the table; the texts for users below have their dimensions. The
 // values are those of the libraries, bit for bit. Errors are those of the functions that are
-// called; a wrong argument is an Error(kWrongUsage). core.cpp adds them to the module. A change
-// must keep the names and arguments, which users' scripts contain; docs/python.md describes them.
-// `dimensions` must have the order of motions::pair_entries(), and the texts that recognise files
-// must be those of app/commands/fit_command.cpp.
+// called; a wrong argument is an Error(kWrongUsage), but an unknown basis, term, weight or loss is
+// an Error(kBadInput). core.cpp adds them to the module. A change must keep the names and
+// arguments, which users' scripts contain; docs/python.md describes them. `dimensions` must have
+// the order of motions::pair_entries(), and the texts that recognise files must be those of
+// app/commands/fit_command.cpp.
 #include <fmt/format.h>
 
 #include <optional>
@@ -62,6 +63,7 @@ double positive_or(const std::optional<double>& value, double other, const char*
   return value.value_or(other);
 }
 
+/// The fit in the file, scaled. Throws the errors of read_fit(), positive_or() and outside_of().
 PythonFit read_python_fit(const fs::path& path, const std::optional<std::string>& below,
                           const std::optional<std::string>& above,
                           const std::optional<double>& radius,
@@ -92,6 +94,8 @@ std::vector<std::string> warnings_of(const lubrication::Fit& fit) {
   return fit.diagnostics ? fit.diagnostics->warnings : std::vector<std::string>{};
 }
 
+/// The function `fit` of Python, whose text for users is in add_fits(). Throws Error(kWrongUsage)
+/// for arguments that exclude each other, and the errors of the functions that it calls.
 PythonFit fit_table(const fs::path& path, const std::optional<std::string>& basis,
                     const std::optional<std::string>& terms, const std::string& weights,
                     const std::string& loss, const py::object& fix,
@@ -124,6 +128,7 @@ PythonFit fit_table(const fs::path& path, const std::optional<std::string>& basi
   return {std::move(fit), path.string(), outside};
 }
 
+/// The function `fit_pair` of Python, likewise.
 motions::PairFit fit_pair_tables(const std::vector<fs::path>& paths, const std::string& basis,
                                  const std::string& loss, const std::optional<fs::path>& output) {
   motions::PairFitSettings settings{basis, lubrication::parse_loss(loss)};
@@ -165,6 +170,9 @@ std::vector<pipeline::CaseTable> tables_of(const fs::path& case_file, const fs::
       });
 }
 
+/// The function `tabulate` of Python (viscontact/__init__.py): computes the tables and returns
+/// their paths. Throws Error(kWrongUsage) for jobs < 0 and the errors of tabulate_stage(); a row
+/// that failed is thrown after the other rows are written.
 std::vector<fs::path> tabulate(const fs::path& case_file, const fs::path& output, int jobs,
                                const std::vector<std::string>& motions) {
   if (jobs < 0) refuse(fmt::format("jobs is {}; it must be > 0, or 0 for all cores", jobs));

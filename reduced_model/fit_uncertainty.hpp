@@ -1,8 +1,9 @@
 // How the errors of a fit of the drag change the motion of the sphere without inertia (physics.md
 // (4.2) with m = 0), for uncertainty.json and the report. q is the gap, q0 the initial one, R the
 // resistance, Gamma its primitive, f_ext the external force; the index `fit` marks values by the
-// fit. Lengths, masses and times are in the units of the case. Used by pipeline/simulate, results/
-// and report/. A change must keep the draws equal for equal arguments.
+// fit. Lengths, masses and times are in the units of the case. A fit that determines no drag throws
+// Error(kBadInput) or Error(kNotConverged); draws that do so are left out and counted. Used by
+// pipeline/simulate, results/ and report/. A change must keep the draws equal for equal arguments.
 #pragma once
 
 #include <array>

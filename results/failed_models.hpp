@@ -1,6 +1,7 @@
 // The record of the models that failed in a simulation, failed_models.json in a run's folder. It
 // tells the commands `compare` and `report` why these models have no trajectory. Nothing here has a
-// unit. A change must keep the keys of the file. Used by pipeline/ and rolling/.
+// unit. A damaged record throws Error(kBadInput), except in recorded_failures(). A change must keep
+// the keys of the file. Used by pipeline/ and rolling/.
 #pragma once
 
 #include <filesystem>

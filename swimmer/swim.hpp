@@ -1,8 +1,9 @@
 // What a stroke of a swimmer, a line of spheres, does: its displacement, energy, positions, forces
 // and power, and estimates of their errors. The arms are the distances x_k between the centres of
 // neighbouring spheres, and a stroke is a closed path of the arms. Lengths, masses and times are in
-// the units of the fit and of the stroke. The commands `swimmer` and `sweep`, and python/, use it.
-// A change may alter the sums over a period by rounding errors only.
+// the units of the fit and of the stroke. A stroke that leaves the table throws Error(kBadInput),
+// an integral that does not converge Error(kNotConverged). The commands `swimmer` and `sweep`, and
+// python/, use it. A change may alter the sums over a period by rounding errors only.
 #pragma once
 
 #include <Eigen/Core>

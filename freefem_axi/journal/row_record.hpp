@@ -1,6 +1,7 @@
 // The finished and failed rows of a table, collected from its file and from its journals, the files
 // in which processes store the rows that they have finished (row_journal.hpp). Numbers have the
-// units of the table. Used by tabulate.cpp, pipeline/ and the Python module. A change must keep
+// units of the table. A journal that cannot be read or removed throws Error(kBadInput); damaged
+// lines count as no rows. Used by tabulate.cpp, pipeline/ and the Python module. A change must keep
 // that the journals are read before the table: another process may write the table and then remove
 // the journals, and rows that are in neither at the time of reading would be lost.
 #pragma once

@@ -1,7 +1,8 @@
 // Estimates the errors of velocities and forces in a fluid: the flow of one placement of the
 // particles is computed again with another penalty and on another mesh. Lengths, masses and times
-// are in any consistent units. fluid_simulation.cpp calls it in the first and the last step. A
-// change must keep the order of the calls of the solver.
+// are in any consistent units. fluid_simulation.cpp calls it in the first and the last step. Errors
+// of the fluid solver are thrown; sizes are not checked. A change must keep the order of the calls
+// of the solver.
 #pragma once
 
 #include <functional>

@@ -168,6 +168,8 @@ std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& 
   return text;
 }
 
+/// The sentences over the picture: the numbers of particles and frames, the times, and what the
+/// page leaves out.
 std::string words_for(const Playback& playback, const PageData& data) {
   const auto count = playback.radii.size(), frames = playback.frames.size();
   std::string words = fmt::format("{} {}{}", count, playback.dimension == 2 ? "disc" : "sphere",
@@ -189,6 +191,7 @@ std::string words_for(const Playback& playback, const PageData& data) {
   return words;
 }
 
+/// HTML of the scales of colours and of the words for lines, as far as the scene has them.
 std::string legend(const Scene& scene, const FlowOfPage& flow) {
   std::string text = flow.legend;
   if (scene.lowest_gamma < 0)

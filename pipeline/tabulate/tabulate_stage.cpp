@@ -28,6 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Warns on the terminal of each finished row whose error estimate exceeds the asked accuracy.
 void warn_of_unmet_accuracy(const freefem_axi::TablePlan& plan,
                             const freefem_axi::RowRecord& record) {
   for (const auto& point : plan.points) {
@@ -92,6 +93,8 @@ std::string rows_in_words(const CaseTable& one, const std::vector<freefem_axi::R
                      kept > 0 ? fmt::format(" ({} of them already computed)", kept) : "");
 }
 
+/// Computes the missing rows of a table, at most `jobs` >= 1 at once, and writes the table. Returns
+/// and throws what finish_table() does; also throws the errors of compute_rows().
 RowFailure tabulate_one(const CaseTable& one, int jobs, const StopToken& stop) {
   if (is_up_to_date(one)) return {};
   check_output_file(one.table);
@@ -104,6 +107,8 @@ RowFailure tabulate_one(const CaseTable& one, int jobs, const StopToken& stop) {
                       "the same command tries them again");
 }
 
+/// Throws the error for the rows `missing`, at least one: Error(kExternalProgram) if one of them
+/// has failed, else Error(kNotConverged).
 [[noreturn]] void throw_missing(const CaseTable& one, const freefem_axi::RowRecord& record,
                                 const std::vector<freefem_axi::RowPoint>& missing,
                                 const fs::path& slurm_folder) {
@@ -124,6 +129,8 @@ RowFailure tabulate_one(const CaseTable& one, int jobs, const StopToken& stop) {
               fmt::join(reasons, "; "));
 }
 
+/// Writes a table from the rows that the tasks of a job have computed. Returns and throws what
+/// finish_table() does, and throws the error of throw_missing() if a row was not tried yet.
 RowFailure gather_one(const CaseTable& one, const fs::path& slurm_folder) {
   if (is_up_to_date(one)) return {};
   const auto record = freefem_axi::read_row_record(one.table, one.plan);
