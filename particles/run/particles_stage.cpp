@@ -1,8 +1,10 @@
 // Runs a case of many particles (particles_stage.hpp): checks the inputs, continues an earlier run,
 // computes time steps, saves the state and writes the results. Numbers are in the units of the
-// case; particles_stage.hpp has their ranges and the errors of run_particles(). A change must keep
-// that restart.bin is written after all files that a run needs to continue (Run::save()), so that a
-// run that is killed at any time can be continued. Used by app/ and sweep/.
+// case; particles_stage.hpp has their ranges. A wrong case or file is an Error(kBadInput); steps
+// that did not converge are an Error(kNotConverged), a stop an Error(kInterrupted), both after the
+// results are written. A change must keep that restart.bin is written after all files that a run
+// needs to continue (Run::save()), so that a run that is killed at any time can be continued. Used
+// by app/ and sweep/.
 #include "viscontact/particles/run/particles_stage.hpp"
 
 #include <fmt/format.h>

@@ -43,7 +43,7 @@ ParticlesRuns runs_of(const ParticlesSweep& sweep, const ParticlesSweepRequest& 
           request.start_solver};
 }
 
-/// Shows on the terminal, at most as often as `timer` says, that `done` of `size` rows are finished.
+/// Shows on the terminal that `done` of `size` rows are finished, at most as often as `timer` says.
 void show_finished_rows(terminal::ProgressTimer& timer, std::uint64_t done, std::uint64_t size) {
   if (timer.is_due()) terminal::show_progress(fmt::format("sweep: {} of {} rows", done, size));
 }
