@@ -136,6 +136,8 @@ void read_motions(const TomlSection& section, std::string_view key, Tabulation& 
       at_key(section, key, [&] { return freefem_axi::parse_motions(names, tabulation.geometry); });
 }
 
+/// Throws Error(kBadInput) unless all gaps, which rise, are from kSmallestGap radii to the largest
+/// gap for which the geometry has room.
 void check_gaps(const TomlSection& section, const Tabulation& tabulation) {
   const double narrowest = tabulation.gaps.front(), widest = tabulation.gaps.back();
   section.require(narrowest >= kSmallestGap * tabulation.radius, "gaps",

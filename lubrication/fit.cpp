@@ -95,6 +95,7 @@ constexpr auto kAllowed = Absence::kAllowed;  // for keys that files of earlier 
 constexpr Allowed kAtLeast1 = {[](double v) { return v >= 1; }, ">= 1"};
 constexpr auto kLeftOutIfEmpty = Absence::kLeftOutIfEmpty;
 
+/// Throws Error(kBadInput) unless there are terms, each once, or none in a fit of the exact drag.
 void check_terms(const JsonFields& json, const Fit& fit) {
   const bool exact = fit.basis == kExactPlane;
   if (fit.terms.empty() != exact)
@@ -107,6 +108,8 @@ void check_terms(const JsonFields& json, const Fit& fit) {
                   "is '{}' for the second time; each term may be named once", fit.terms[i].name);
 }
 
+/// Throws Error(kBadInput) unless the covariance has a row and a column for each term, and
+/// variances >= 0. That it is symmetric is not checked.
 void check_covariance(const JsonFields& json, const Fit& fit) {
   const std::size_t size = fit.terms.size();
   const auto is_right = [&](const auto& list) { return list.size() == size; };

@@ -73,6 +73,8 @@ const std::array kTexts = {Text{"geometry", &TableHead::geometry, true},
                            Text{"container", &TableHead::container, true},
                            Text{"case", &TableHead::case_hash, false}};
 
+/// The radii [L], > 0, in the line "# radii:" of a head. Throws Error(kBadInput) for another word,
+/// or if there are not kFewestSpheres to kMostSpheres of them.
 std::vector<double> radii_in(const std::string& text, const std::string& file) {
   std::vector<double> radii;
   std::istringstream words(text);

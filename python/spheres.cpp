@@ -242,6 +242,8 @@ swimmer::ResistanceTable table_of(const swimmer::SwimmerCase& c,
   return table;
 }
 
+/// The function `swimmer` of Python. Throws Error(kWrongUsage) if `intervals` < 1 or no table is
+/// given, and the errors of the functions of swimmer/.
 py::dict swim(const fs::path& path, const std::optional<fs::path>& table_path, int intervals) {
   if (intervals < 1)
     throw Error(ErrorKind::kWrongUsage, "intervals is {}; it must be > 0", intervals);

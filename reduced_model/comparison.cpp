@@ -51,6 +51,8 @@ double integral_of_absolute(double d0, double d1, double step) {
   return step * (d0 * d0 + d1 * d1) / (2 * (std::abs(d0) + std::abs(d1)));
 }
 
+/// Sets the distances of `result` over the times that both trajectories cover. Throws
+/// Error(kBadInput) if there are none.
 void measure_distances(const Trajectory& trajectory, const Trajectory& reference,
                        ModelComparison& result) {
   const double from = std::max(trajectory.rows.front().time, reference.rows.front().time);

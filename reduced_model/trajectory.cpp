@@ -29,6 +29,8 @@ std::string optional_number(const OptionalDouble& value) {
   return value ? format_number(*value) : "";
 }
 
+/// The number of steps in the head, from 0 to 1e15. Throws Error(kBadInput) for anything else, and
+/// if it is missing.
 long steps_of(const CsvComments& comments, const std::string& file) {
   constexpr double kMost = 1e15;  // below 2^53, so every integer up to it is a double
   const double steps = csv_comment_number(comments, "steps", file);
@@ -47,6 +49,8 @@ std::string write_rebounds(const std::vector<Rebound>& rebounds) {
   return text;
 }
 
+/// The rebounds in the head, five numbers each, separated by ";". Throws Error(kBadInput) for
+/// another text; signs are not checked.
 std::vector<Rebound> read_rebounds(const std::string& text, const FilePosition& file) {
   std::vector<Rebound> rebounds;
   std::istringstream in(text);

@@ -120,6 +120,9 @@ std::vector<pipeline::CaseTable> read_case_tables(const std::vector<std::string>
   return tables;
 }
 
+/// The command `tabulate`. Throws Error(kWrongUsage) for wrong options and Error(kBadInput) for a
+/// wrong case or a file that must not be replaced, before a row is computed; then the errors of the
+/// stages.
 void tabulate_cases(const TabulateOptions& o) {
   check_array_options(o.array);
   check_outputs({o.output});

@@ -333,6 +333,8 @@ std::string write_json(const lubrication::Fit& fit, std::string_view source, con
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
+/// The target csv: samples within the interval. Throws Error(kWrongUsage) if `limits` has a
+/// formula.
 std::string write_csv(const lubrication::Fit& fit, std::string_view source, const Limits& limits) {
   if (limits.below != lubrication::BelowInterval::kError ||
       limits.above != lubrication::AboveInterval::kError)

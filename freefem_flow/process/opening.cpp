@@ -95,6 +95,7 @@ bool is_open(const particles::Fluid& fluid, int label) {
          (*sides)[static_cast<std::size_t>(label - 1)].kind == WallVelocity::Kind::kOpen;
 }
 
+/// Throws Error(kBadInput) if the domain is missing or does not fit the dimension or the boundary.
 void check_domain(const particles::Fluid& fluid, const particles::Domain& domain, int dimension) {
   const bool on_axis = std::holds_alternative<CylinderDomain>(domain);
   if (std::holds_alternative<std::monostate>(domain))

@@ -24,6 +24,8 @@ void lognormal_keys(case_file::Keys& keys, RadiusDistribution& radius) {
                 {"standard deviation of the logarithm of the radius"});
 }
 
+/// Reads the smallest and the largest radius [L]. Throws Error(kBadInput) unless 0 < smallest <
+/// largest.
 void read_uniform(const case_file::TomlSection& section, std::string_view key,
                   RadiusDistribution& radius) {
   const auto ends = section.numbers(key, kModeratelyPositive);

@@ -19,6 +19,9 @@
 namespace viscontact::particles {
 namespace {
 
+/// Throws Error(kBadInput) if a particle cannot belong to the body: it stands there twice, belongs
+/// to another body or membrane, or has a given motion; or if the images that make the body are not
+/// determined.
 void check_members(const case_file::TomlSection& section, const std::vector<std::int32_t>& members,
                    const ParticlesCase& c) {
   for (auto member = members.begin(); member != members.end(); ++member) {
@@ -89,6 +92,7 @@ struct HingeTable {
   std::optional<double> lowest, highest;        // [rad]
 };
 
+/// Reads the number of a body. Throws Error(kBadInput) if there is no such body.
 void read_body_of_hinge(const case_file::TomlSection& section, std::string_view key,
                         HingeTable& hinge, const ParticlesCase& c) {
   const auto& bodies = c.particles.bodies;
@@ -97,6 +101,8 @@ void read_body_of_hinge(const case_file::TomlSection& section, std::string_view 
   hinge.held = bodies.bodies[index_of(hinge.body)].members;
 }
 
+/// Reads the id of a particle. Throws Error(kBadInput) if there is no such particle, or if it
+/// belongs to a body.
 void read_particle_of_hinge(const case_file::TomlSection& section, std::string_view key,
                             HingeTable& hinge, const ParticlesCase& c, const ParticleIds& ids) {
   const auto particle = ids.number(section, key, section.number(key, kNotNegative), "is");
@@ -140,6 +146,8 @@ void hinge_keys(case_file::Keys& keys, HingeTable& hinge, const ParticlesCase& c
                hinge.highest.value_or(0));
 }
 
+/// Reads a table [[hinge]]. Throws Error(kBadInput) with the line, also if the place is outside
+/// what the hinge holds.
 Hinge read_hinge(const case_file::TomlSection& section, const ParticlesCase& c,
                  const ParticleIds& ids) {
   const auto& p = c.particles;
@@ -221,6 +229,8 @@ void spring_keys(case_file::Keys& keys, Spring& spring, const ParticlesCase& c,
                 {"length without force", "the distance at the start"});
 }
 
+/// Reads points (time [T], length [L]). Throws Error(kBadInput) unless the first time is 0, times
+/// increase and lengths are > 0.
 void read_points_of_length(const case_file::TomlSection& length, std::string_view key,
                            PiecewiseLinearLength& pieces) {
   for (const auto& row : length.rows(key, 2, kModeratelyPositiveOr0)) {
@@ -314,6 +324,8 @@ std::vector<double> times_of(std::span<const Arm* const> arms, double end) {
   return times;
 }
 
+/// Throws Error(kBadInput) unless the arm begins with the distance of its particles, and is never
+/// shorter than the sum of their radii.
 void check_arm(const case_file::TomlSection& section, const Arm& arm, const ParticlesCase& c) {
   // Relative error of distances of places with six digits. The first step corrects the distance.
   constexpr double kRounded = 1e-6;

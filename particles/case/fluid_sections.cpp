@@ -147,6 +147,8 @@ void side_keys(case_file::Keys& keys, WallVelocity& wall) {
   pieces.clear();
 }
 
+/// Reads what a side of a box does: a velocity [L/T], "open", or a table. Throws Error(kBadInput)
+/// for anything else.
 void read_side(const case_file::TomlSection& section, std::string_view side, WallVelocity& wall) {
   if (section.is_text(side) && section.text(side) == "open") {
     wall.kind = WallVelocity::Kind::kOpen;
@@ -257,6 +259,8 @@ void check_periods(const case_file::TomlSection& section, const char* key, bool 
                         : "the box may be periodic both ways or not at all");
 }
 
+/// Reads the velocities of the walls. Throws Error(kBadInput) for a cylinder, and for keys that
+/// exclude each other.
 void read_velocity(const case_file::TomlSection& fluid, std::string_view key, const Domain& domain,
                    Fluid& result) {
   fluid.require(!std::holds_alternative<CylinderDomain>(domain), key,

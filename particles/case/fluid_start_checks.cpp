@@ -161,6 +161,7 @@ void check_bodies(const case_file::TomlSection& root, const ParticlesCase& c,
   }
 }
 
+/// Throws Error(kBadInput) if a particle has no mass although restitution or splitting needs one.
 void check_masses(const case_file::TomlSection& root, const ParticlesCase& c,
                   const ParticleNames& names) {
   for (std::size_t k = 0; k < c.particles.count(); ++k)
@@ -324,6 +325,8 @@ void check_arrangement(const case_file::TomlSection& root, const ParticlesCase& 
       least);
 }
 
+/// Throws Error(kBadInput) if the gap is too narrow at the start, for the mesh or for the threshold
+/// gap.
 void check_gap(const ParticlesCase& c, const ParticleNames& names, const StartGap& at) {
   const auto& fluid = *c.setting.fluid;
   const auto& p = c.particles;

@@ -78,6 +78,7 @@ struct ParticleTable {
   std::optional<GivenMotion> given;  // how it is driven; a fixed particle has velocities 0
 };
 
+/// Reads a prescribed motion. Throws Error(kBadInput) if the particle is fixed already.
 void read_given_motion(const case_file::TomlSection& section, std::string_view key,
                        ParticleTable& p, const ParticlesCase& c) {
   section.require(!p.is_fixed, key,
@@ -105,6 +106,7 @@ void read_mass(case_file::Keys& keys, ParticleTable& p, int dimension, bool in_f
                     "from 1e-100 to 1e100, in a fluid also 0"});
 }
 
+/// Reads two semi-axes [L], > 0. Throws Error(kBadInput) if one is more than 100 times the other.
 void read_semi_axes(const case_file::TomlSection& section, std::string_view key,
                     std::array<double, 2>& axes) {
   const auto numbers = section.numbers(key, kModeratelyPositive);

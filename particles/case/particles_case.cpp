@@ -120,6 +120,8 @@ void friction_keys(case_file::Keys& keys, FrictionLaw& law) {
                  "slide open by h mu_s abs(v_t)"});
 }
 
+/// Reads the section [friction]. Throws Error(kBadInput) for spheres on an axis in a fluid, if no
+/// solids can touch in this case, or if its method is not one for a fluid.
 void read_friction(const case_file::TomlSection& section, int dimension, Setting& setting) {
   section.require(!setting.fluid || dimension == 2, "coefficient",
                   "belongs to particles that turn; spheres on the axis of a fluid do not slide on "

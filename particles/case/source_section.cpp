@@ -83,6 +83,8 @@ void check_region(const case_file::TomlSection& section, const Source& source,
   }
 }
 
+/// Reads a table [[source]]. Throws Error(kBadInput) in a fluid, for a region that does not fit,
+/// and for more than kLargestCount particles.
 Source read_source(const case_file::TomlSection& section, const ParticlesCase& c) {
   section.require(!c.setting.fluid, "region",
                   "belongs to a source of particles; the case must not have a section [fluid]");

@@ -85,6 +85,8 @@ std::vector<StartGap> gaps_at_start(const ParticlesCase& c, double limit) {
 
 namespace {
 
+/// Throws Error(kBadInput) if a radius is too small, or a coordinate too large, for
+/// solver.tolerance.
 void check_radii_and_distances(const ParticlesCase& c, const ParticleNames& names) {
   const auto& p = c.particles;
   const double tolerance = c.setting.solver.tolerance;

@@ -46,6 +46,7 @@ void read_constant_or_pieces(const case_file::TomlSection& section, std::string_
       std::max(before, std::nextafter(end_time * (1 + 1e-6), kLargestNumber));
 }
 
+/// Reads a vector, or pieces of time with a vector each. Throws Error(kBadInput) if it is neither.
 void read_pieces(const case_file::TomlSection& section, std::string_view key,
                  PiecewiseConstant& place, int dimension, double end_time) {
   section.require(

@@ -71,6 +71,8 @@ std::span<const std::string_view> fluid_columns(int dimension) {
 
 enum class Sign { kAny, kNotNegative, kPositive };
 
+/// The number of a column in a row. Throws Error(kBadInput) if it is missing or has the wrong sign,
+/// if its magnitude is above 1e100, or, unless any sign is allowed, if it is between 0 and 1e-100.
 double allowed(const Row& row, const Names& names, std::size_t column, Sign sign,
                const std::string& file) {
   const double value = required_field(row, names, column, file);

@@ -50,6 +50,8 @@ std::vector<ShownMemory> read_memories(const AppendedReader& reader, std::size_t
   return memories;
 }
 
+/// The contacts of a frame with `particles` particles. Throws Error(kBadInput) if arrays have other
+/// lengths, or if a number of a particle, image or kind of friction does not exist.
 std::vector<CurrentContact> read_contacts(const AppendedReader& reader, std::int64_t particles) {
   const auto gaps = reader.array<double>("CellData", "gap");
   const auto gammas = reader.array<double>("CellData", "gamma");

@@ -233,6 +233,7 @@ std::vector<std::string> map_colours(double low, double high) {
       "'#fee838')"};
 }
 
+/// A map over two keys. Throws Error(kBadInput) if one of them has fewer than two values.
 std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot,
                      const results::PictureFormat& format, const StopToken& stop) {
   SweepRows rows(path);

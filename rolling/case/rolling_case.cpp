@@ -116,6 +116,8 @@ void rolling_keys(case_file::Keys& keys, RollingCase& c) {
                 {"the models that are run", "all"});
 }
 
+/// Throws Error(kBadInput) unless roughness < radius, roughness <= initial gap and time step <= end
+/// time.
 void check_rolling(const case_file::TomlSection& section, const RollingCase& c) {
   const auto& motion = c.motion;
   section.require(motion.roughness < c.radius, "roughness",
@@ -128,6 +130,8 @@ void check_rolling(const case_file::TomlSection& section, const RollingCase& c) 
                   "is {}; it must be at most end_time, {}", motion.time_step, motion.end_time);
 }
 
+/// Throws Error(kBadInput) for another neighbour than a plane, or if a motion is missing that
+/// rolling needs.
 void check_tabulation(const case_file::TomlSection& section,
                       const freefem_axi::Tabulation& tabulation) {
   section.require(tabulation.geometry == freefem_axi::default_geometry().name, "geometry",

@@ -119,6 +119,8 @@ std::string trajectory_csv(const std::string& model, const RollingTrajectory& tr
   return text;
 }
 
+/// Reads MODEL.csv again. Throws Error(kBadInput) if a number or all rows are missing, or if a
+/// state of contact is unknown.
 RollingTrajectory read_trajectory(const fs::path& path) {
   RollingTrajectory trajectory;
   for (const auto& [fields, line] : read_csv(path, kColumnNames, kColumnNames.size()).rows) {

@@ -16,6 +16,8 @@
 namespace viscontact::swimmer {
 namespace {
 
+/// Reads the radii [L]. Throws Error(kBadInput) unless there are kFewestSpheres to kMostSpheres of
+/// them, all > 0 and none more than 100 times another.
 void read_radii(const case_file::TomlSection& section, std::string_view key,
                 std::vector<double>& radii) {
   radii = section.numbers(key, kPositive);
@@ -251,6 +253,8 @@ void read_samples(const case_file::TomlSection& section, std::string_view key, d
   c.stroke = with_place(file, [&] { return sampled_stroke(times, samples); });
 }
 
+/// Reads the corners of a stroke, arms [L]. Throws Error(kBadInput) for fewer than two corners,
+/// equal neighbours, or arms outside the table.
 void read_corners(const case_file::TomlSection& section, std::string_view key, double period,
                   SwimmerCase& c) {
   const auto rows = section.rows(key, c.gaps.size(), kPositive);
@@ -308,6 +312,7 @@ void ellipse_keys(case_file::Keys& keys, Ellipse& ellipse, const SwimmerCase& c)
       {"of the second arm to the last, in radians; one arm has none"});
 }
 
+/// Reads an elliptic stroke. Throws Error(kBadInput) if no arm moves or one leaves the table.
 void read_ellipse(const case_file::TomlSection& section, std::string_view key, double period,
                   SwimmerCase& c) {
   const auto table = section.section(key);

@@ -40,6 +40,8 @@ void check_swimmer_key(const std::string& key) {
               key);
 }
 
+/// The results of a row. A stroke that fails leaves its columns empty; a stop throws
+/// Error(kInterrupted).
 sweep::RowResults swim_strokes(const SwimmerCase& c, ResistanceFit fit, const StopToken& stop) {
   sweep::RowResults results;
   const Swimmer swimmer(scaled_to(std::move(fit), c.spheres.viscosity, c.spheres.radii));

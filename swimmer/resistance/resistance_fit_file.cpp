@@ -24,6 +24,7 @@ void check_positive(const JsonFields& json, const std::string& key,
     if (!(number > 0)) json.fail(key, "contains {}; each number must be > 0", number);
 }
 
+/// Throws Error(kBadInput) unless there is a list of at least two rising numbers > 0 for each gap.
 void check_gaps(const JsonFields& json, const ResistanceFit& fit) {
   for (const auto& nodes : fit.gaps) {
     check_positive(json, "gaps", nodes);

@@ -170,6 +170,8 @@ void run_study(const SweepOptions& o, const CaseStudy& s) {
   if (picture) draw(o, s, *picture, o.output);
 }
 
+/// The command `sweep` for a case of any kind. Throws Error(kWrongUsage) for wrong options and
+/// Error(kBadInput) for files that must not be replaced, before a row is computed.
 void run_sweep(const SweepOptions& o) {
   check_array_options(o.array);
   // A name that is no model of any kind of case is refused before the case is read.
