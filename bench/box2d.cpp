@@ -8,9 +8,9 @@
 // The discs start on a lattice of spacing 2.1 with random displacements up to 0.05, in a box of
 // width 2.1 ceil(sqrt N) with a floor and two walls. Radii are 0.8 to 1, m = r^2, gravity is 1, the
 // time step is 0.05; gamma_min is -2 unless --gamma-min gives it. Spheres (m = r^3) start in the
-// same way in a cube of width 2.1 (N^(1/3)) with a floor and four walls. With `--sides periodic` only
-// the floor is there, and the other sides are periodic. CPU time is in seconds, the residual in
-// units of the mean radius.
+// same way in a cube of width 2.1 (N^(1/3)) with a floor and four walls. With `--sides periodic`
+// only the floor is there, and the other sides are periodic. CPU time is in seconds, the residual
+// in units of the mean radius.
 #include <fmt/format.h>
 #include <sys/resource.h>
 

@@ -50,7 +50,8 @@ struct Motion {
   void set(const ModelParameter& which, double value) { parameters[which.key] = value; }
 };
 
-/// The time step [T] with which a motion has 4000 steps, as many as the case of Lefebvre's lecture.
+/// The time step [T] with which a motion has 4000 steps, as many as in the case of the lecture of
+/// A. Lefebvre (2008) that data/cases/lecture.toml repeats.
 inline double default_time_step(const Motion& motion, double) { return motion.end_time / 4000; }
 
 /// Step h of `reference` [T], > 0, and row spacing of models that choose their steps themselves.

@@ -59,8 +59,9 @@ void read_fix(const std::string& word, fitting::FitSettings& settings) {
                 word);
 }
 
-/// The values of the options of `fit`. Each member is named after its option, which add_fit()
-/// explains. A path or text is empty if its option was not given.
+/// The values of the options of `fit`, which add_fit() explains. `fit` is that of --output, the
+/// file to write, and `table` is the first of `tables`. Other members are named after their
+/// options. A path or text without a value here is empty if its option was not given.
 struct FitOptions {
   std::string basis{lubrication::default_basis().name};
   std::vector<std::string> tables;

@@ -1,8 +1,8 @@
 // Reads CSV files by fast-cpp-csv-parser, for all readers of tables, trajectories and particles.
 // Numbers are in the units of their columns; csv.hpp has the ranges and errors. Every fault of a
 // file becomes an Error(kBadInput) with the file and, if it is in one line, the line; the messages
-// are not those of the library. What `add_row` throws passes unchanged. A change must keep
-// published files readable.
+// are those of the library only where no other one fits. What `add_row` throws passes unchanged. A
+// change must keep published files readable.
 #include "viscontact/common/text/csv.hpp"
 
 #include <fmt/format.h>

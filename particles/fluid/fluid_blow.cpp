@@ -5,8 +5,9 @@
 // that it bears if particles are at rest under the forces of the step. Gaps are in [L], rates at
 // which they grow in [L/T], impulses in [M L/T]. fluid_motion.hpp has the shapes of the arguments
 // of solve_blow(), fluid_contacts.hpp those of StepContacts and ContactConditions. Errors are those
-// of the mobility and of BlowStep::loaded. fluid_simulation.cpp uses it. A change must keep that
-// the work of a blow is not positive.
+// of the mobility and of BlowStep::loaded. A contact problem whose iterations do not converge
+// throws nothing: the last impulses count, and the caller sees it from the result of solve_blow().
+// fluid_simulation.cpp uses it. A change must keep that the work of a blow is not positive.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -101,7 +102,7 @@ class Blow {
     return conditions;
   }
 
-  const StepContacts& ordinary_;  // the contacts without restitution
+  const StepContacts& ordinary_;  // the contacts of the step, as it was solved without restitution
   const BlowStep& step_;
   const ContactLaws& laws_;
   const Mobility& mobility_;
@@ -167,9 +168,11 @@ bool Blow::find_hits() {
   return any;
 }
 
-/// The contact problem of a step of length `kick` (BlowStep) in place of h. The gaps of hit
-/// contacts are 0 at its beginning. Those of the others are multiplied by kick/h, so that they
-/// close at the same velocity as in the step.
+/// The contact problem of a blow. An impulse of a contact acts on the velocities as if it were a
+/// force during the time BlowStep::kick [T] for which the forces of the step act on the velocities,
+/// which therefore takes the place of the step's length h. The gaps of hit contacts are 0 at its
+/// beginning. Those of the others are multiplied by kick/h, so that they close at the same velocity
+/// as in the step.
 StepContacts Blow::problem() const {
   const double kick = step_.kick;
   StepContacts problem;

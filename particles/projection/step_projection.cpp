@@ -308,10 +308,13 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     if (waited == kPatience) break;
     if (!is_rough) least_excess = std::min(least_excess, result.residuals.excess);
     choose(with_connected_pairs(more, ++rounds));
-    const auto near = margin_ > 0 ? nearly_closed(is_convex) : std::vector<std::size_t>{};
+    // It must not depend on other islands whether pairs that a rough solution nearly closes get
+    // another one. With Coulomb's law, whose loads the rough solution begins to build up, they
+    // always do. With the convex relaxation they never do.
+    if (is_convex && more.empty()) is_rough = false;
+    const bool takes_near = margin_ > 0 && !(is_convex && is_rough);
+    const auto near = takes_near ? nearly_closed(is_convex) : std::vector<std::size_t>{};
     choose(near);
-    // If the rough solution ended before an island has all nearly closed pairs, it would depend on
-    // other islands whether these pairs get a rough solution.
     if (more.empty() && near.empty()) is_rough = false;
   }
   auto scales = residual_scales();

@@ -1,8 +1,10 @@
 // Interpolates colours between the nodes of a scale, and chooses the ends, numbers and words of
-// scales. Pressures and speeds are in the units of the case; colours.hpp has the ranges. Nothing is
-// thrown. Used by the pictures and pages of report/, rolling/, swimmer/ and particles/picture.
-// gnuplot gets PressureColours::at(pressure) in place of the pressure, so a change of at() must
-// agree with the commands of settings().
+// scales. Pressures and speeds are in the units of the case. A share is a place on a scale, 0 at
+// its begin and 1 at its end. PressureColours has the ends `low` < `high` of a scale, the
+// `smallest` and `largest` of all pressures, and `linear_below`, the pressure up to which the scale
+// is linear (0: everywhere). Nothing is thrown. Used by the pictures and pages of report/,
+// rolling/, swimmer/ and particles/picture. gnuplot gets PressureColours::at(pressure) in place of
+// the pressure, so a change of at() must agree with the commands of settings().
 #include "viscontact/report/pictures/colours.hpp"
 
 #include <fmt/format.h>
@@ -74,7 +76,7 @@ std::string short_number(double value) {
   return text;
 }
 
-/// The smallest number >= value that is 1, 2 or 5 times a power of ten.
+/// The smallest number >= `value` > 0 that is 1, 2 or 5 times a power of ten.
 double rounded_up(double value) {
   const double decade = std::pow(10, std::floor(std::log10(value)));
   for (const double mantissa : {1.0, 2.0, 5.0})
@@ -91,9 +93,11 @@ std::vector<double> sorted_finite(const std::vector<double>& values) {
   return sorted;
 }
 
-/// The scale with low < high, as gnuplot needs it: if both are equal, they are moved apart.
+/// The scale with low < high, as gnuplot needs it: if both are equal, or differ by less than the
+/// three digits of the numbers beside the scale can show by far, they are moved apart.
 PressureColours widened(PressureColours colours) {
-  if (colours.high > colours.low) return colours;
+  constexpr double kEqual = 1e-9;
+  if (colours.high - colours.low > kEqual * std::abs(colours.high)) return colours;
   const double half = colours.high == 0 ? 1 : std::abs(colours.high);
   colours.low -= half;
   colours.high += half;
@@ -213,7 +217,8 @@ std::vector<std::string> PressureColours::settings() const {
     ticks = "set cbtics (" + places + ")";
     words += fmt::format("\\nlogarithmic beyond {}", short_number(linear_below));
   }
-  // The words name a pressure beyond 1.2 times the end of the scale; nearer ones look alike.
+  // The words name a pressure beyond 1.2 times the end of the scale. Pressures nearer to the end
+  // would have nearly its colour anyway.
   constexpr double kWorthAWord = 1.2;
   if (largest > kWorthAWord * high && largest > 0)
     words += fmt::format("{} above {} one colour (largest {})", linear_below > 0 ? ";" : "\\n",
@@ -232,9 +237,11 @@ PressureColours proportional_colours(const std::vector<double>& pressures) {
 }
 
 PressureColours robust_colours(const std::vector<double>& pixels, double usual) {
-  constexpr double kBeyond = 0.005;    // share of the pixels that may be beyond each end
-  constexpr double kMuchFarther = 3;   // ratio of extreme to rest, above which the bar is cut
-  constexpr double kLogarithmic = 10;  // ratio of end to `usual`, above which it is logarithmic
+  constexpr double kBeyond = 0.005;  // share of the pixels that may be beyond each end
+  // The scale is cut if the largest pressure is more than kMuchFarther times the largest of the
+  // others, and logarithmic if one of its ends is more than kLogarithmic times the pressure
+  // `usual`.
+  constexpr double kMuchFarther = 3, kLogarithmic = 10;
   const auto sorted = sorted_finite(pixels);
   const auto few = static_cast<std::size_t>(kBeyond * static_cast<double>(sorted.size()));
   auto colours = proportional_colours(sorted);

@@ -103,7 +103,8 @@ struct PressureColours {
 };
 
 /// A linear scale from the smallest to the largest of the pressures [M/(L T^2)] that are finite. If
-/// both are p, it is from p - |p| to p + |p|, or from -1 to 1 if p = 0 or no pressure is finite.
+/// both are p but for a relative 1e-9, it is from p - |p| to p + |p|, or from -1 to 1 if p = 0 or
+/// no pressure is finite.
 PressureColours proportional_colours(const std::vector<double>& pressures);
 
 /// A scale for the pressures of pixels [M/(L T^2)], of which a few may be much larger than all

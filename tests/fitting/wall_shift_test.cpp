@@ -77,7 +77,8 @@ TEST(WallShift, RefusesAnotherFluidAndADragBeyondTheFit) {
   table = shifted_table();
   table.rows[0].force *= 100;
   fails_with(table, "interval");
-  // The fit's interval is [1e-3, 2]: the first gap needs a shift of 9e-4, the last one at most 1e-4.
+  // The fit's interval is [1e-3, 2]: the first gap needs a shift of 9e-4, the last one at most
+  // 1e-4.
   table = shifted_table();
   table.rows.front().gap = 1e-4;
   table.rows.back().gap = 1.9999;

@@ -192,8 +192,8 @@ TEST(Heap, RoughDiscsComeToRestInAHeapOnTheFloorThatHingesHold) {
   }
   // A heap of slope 0, 300 discs of area pi/4 on a length of 100, would be 3 high.
   EXPECT_GT(highest, 6);
-  // Single discs still roll down the slopes. Rounding errors decide which ones: 20 heaps with starts
-  // that differ by 1e-9 have 0.011 to 0.021 of the energy of their fall.
+  // Single discs still roll down the slopes. Rounding errors decide which ones: 20 heaps with
+  // starts that differ by 1e-9 have 0.011 to 0.021 of the energy of their fall.
   EXPECT_LT(heap.kinetic_energy(), 3e-2 * fallen(start, now));
 }
 

@@ -1,5 +1,5 @@
-// The operations of cone.hpp near the boundary of the cone, where differences of the components have
-// no digits, against closed forms.
+// The operations of cone.hpp near the boundary of the cone, where differences of the components
+// have no digits, against closed forms.
 #include "viscontact/particles/constraints/cone.hpp"
 
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@ namespace {
 constexpr double kRounding = 1e-12;  // some thousand rounding errors
 
 /// u and r on opposite sides of the cone, as those of a contact that slides. With their distances i
-/// and j from the boundary and the angle t by which they miss opposite directions, u.r = i |r| + j |u|
-/// + i j + |u| |r| (1 - cos t), where |u| and |r| are the distances from the axis.
+/// and j from the boundary and the angle t by which they miss opposite directions, u.r = i |r| + j
+/// |u| + i j + |u| |r| (1 - cos t), where |u| and |r| are the distances from the axis.
 TEST(SecondOrderCone, KeepsTheDigitsOfProductsNearTheBoundary) {
   Random random(1);
   for (int n = 0; n < 200; ++n) {

@@ -396,8 +396,8 @@ TEST_P(ConvexFriction, EveryStepOfABodyInAWedgeOfMovingWallsConverges) {
 }
 
 TEST_P(ConvexFriction, AFilmAbsorbsSmallImpulsesFarFromTheOrigin) {
-  // In a step a force moves the particles by 1e-10, less than the last place of their coordinates. The
-  // film absorbs its impulse, and as much is needed to pull the particles apart.
+  // In a step a force moves the particles by 1e-10, less than the last place of their coordinates.
+  // The film absorbs its impulse, and as much is needed to pull the particles apart.
   constexpr double kForce = 1e-6, kFar = 1e6;
   constexpr int kSteps = 20;
   auto setting = convex_setting(0.01, 0.5, -1);

@@ -32,8 +32,8 @@ TEST(JammedFriction, AStepThatDoesNotReachTheTolerancesHasNoOverlap) {
   for (const double gamma_min : {0.0, -2.0}) {
     SCOPED_TRACE(gamma_min);
     int contacts = 0;
-    // 100 iterations are too few for Coulomb's law in this packing: 2 steps without films and 34 with
-    // films are not solved.
+    // 100 iterations are too few for Coulomb's law in this packing: 2 steps without films and 34
+    // with films are not solved.
     run_box(300, gamma_min, 100, [&](const StepReport& report) {
       unsolved += report.converged ? 0 : 1;
       contacts = std::max(contacts, static_cast<int>(report.contacts));

@@ -90,8 +90,8 @@ TEST(BlowOfABody, TwiceInAStepKeepsTheEnergyAndHasTheVelocityOfThePointOfContact
       const Vector offset = before.offsets[std::size_t(rebound.second)];
       const double arm = std::cos(angle) * offset[0] - std::sin(angle) * offset[1];
       const double approach = speed + turning * arm;
-      // A blow is solved to 1e-13 of its velocities (kExact in strike.cpp), which are up to 20, and a
-      // second blow multiplies its errors.
+      // A blow is solved to 1e-13 of its velocities (kExact in strike.cpp), which are up to 20, and
+      // a second blow multiplies its errors.
       EXPECT_NEAR(rebound.approach_velocity, approach, 1e-10) << k;
       EXPECT_NEAR(rebound.velocity, -approach, 1e-10) << k;
       const double impulse = -2 * approach / (1 / before.mass + arm * arm / before.inertia[8]);
@@ -105,8 +105,8 @@ TEST(BlowOfABody, TwiceInAStepKeepsTheEnergyAndHasTheVelocityOfThePointOfContact
 }
 
 TEST(BlowOfABody, InSpaceKeepsTheEnergyToSecondOrder) {
-  // Bodies of three unequal spheres, whose angular velocity changes in free flight, too. Returns the
-  // mean change of the energy by a step with a blow.
+  // Bodies of three unequal spheres, whose angular velocity changes in free flight, too. Returns
+  // the mean change of the energy by a step with a blow.
   const auto mean_change = [](double step) {
     Random random(6);
     double sum = 0;

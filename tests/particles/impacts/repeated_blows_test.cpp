@@ -1,7 +1,8 @@
 // Pairs that are hit again and again, also several times in a step, against the closed form of a
 // ball that bounces: its velocities fall by e_d, and its bounces end when a flight would be shorter
 // than a twentieth of the step (docs/physics.md (5.16)). After each blow the gap is 0 but for a
-// rounding error, whose sign must not matter. On a plane that turns, the blows are found by bisection.
+// rounding error, whose sign must not matter. On a plane that turns, the blows are found by
+// bisection.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,8 +42,8 @@ struct Bounces {
   }
 };
 
-/// A scene of `Bounces` with units, directions and an order of particles of its own. Beside the ball
-/// it has its partner, or a particle that floats far above.
+/// A scene of `Bounces` with units, directions and an order of particles of its own. Beside the
+/// ball it has its partner, or a particle that floats far above.
 struct Ball {
   Scene scene;
   double time;  // the unit of time
@@ -163,9 +164,9 @@ TEST(RepeatedBlowsOfDiscs, ThatTurnAroundEachOtherDoNotDependOnTheStep) {
 }
 
 TEST(RepeatedBlowsOfDiscs, ThatComeBackToARoundPartnerInALongStepAreHit) {
-  // A disc has left a heavy one tangentially at 45 degrees below its top, with v^2 = (1 + excess) g R
-  // cos(45 degrees), and flies up. With the centre of the heavy disc as origin, x^2 - R^2 = t^2 (v^2 -
-  // g R c - v g c t + g^2 t^2/4) with c = cos(45 degrees), which is 0 again at `hit`.
+  // A disc has left a heavy one tangentially at 45 degrees below its top, with v^2 = (1 + excess) g
+  // R cos(45 degrees), and flies up. With the centre of the heavy disc as origin, x^2 - R^2 = t^2
+  // (v^2 - g R c - v g c t + g^2 t^2/4) with c = cos(45 degrees), which is 0 again at `hit`.
   constexpr double kR = 2, kG = 1, kBegin = 0.05;  // the simulation begins at the time kBegin
   const double c = std::sqrt(0.5);
   Random random(11);
@@ -192,8 +193,9 @@ TEST(RepeatedBlowsOfDiscs, ThatComeBackToARoundPartnerInALongStepAreHit) {
 }
 
 TEST(RepeatedBlowsOfDiscs, ThatComeBackWithoutAFlightDoNotDependOnRoundingErrors) {
-  // The first disc hits the second one, and the film keeps them together or nearly so. The second one
-  // hits the heavy third one, which touches it, and comes back to the first one with a gap of 0.
+  // The first disc hits the second one, and the film keeps them together or nearly so. The second
+  // one hits the heavy third one, which touches it, and comes back to the first one with a gap of
+  // 0.
   Random random(10);
   for (int k = 0; k < 1000; ++k) {
     const double angle = random.uniform(-1, 1), speed = random.uniform(1, 10),
@@ -226,8 +228,8 @@ TEST(RepeatedBlowsOfDiscs, ThatComeBackWithoutAFlightDoNotDependOnRoundingErrors
 }
 
 /// Blows of a ball of radius 1/2 that falls, with the acceleration 1, on a plane through the origin
-/// that turns about it: the next zero of the gap after each blow, by small steps and bisection, until
-/// the flight would be shorter than a twentieth of `step`.
+/// that turns about it: the next zero of the gap after each blow, by small steps and bisection,
+/// until the flight would be shorter than a twentieth of `step`.
 std::vector<Rebound> blows_on_turning_plane(Vector x, Vector v, double omega, double dry,
                                             double step, double end) {
   const Vector pull{0, -1, 0}, spin{0, 0, omega};
@@ -302,8 +304,8 @@ TEST(RepeatedBlowsOfDiscs, OfABlowAtTheEndOfAStepGoOnInTheNextStep) {
     Simulation simulation(scene.setting, scene.state, 1);
     const auto rebounds = rebounds_until(3, simulation);
     ASSERT_EQ(rebounds.size(), 3U) << k;
-    // Times that differ by 1e-9 of the step count as equal (kSameTime in impacts.cpp), so that a blow
-    // beyond the end of a step by less is moved to the end.
+    // Times that differ by 1e-9 of the step count as equal (kSameTime in impacts.cpp), so that a
+    // blow beyond the end of a step by less is moved to the end.
     EXPECT_NEAR(rebounds[0].time, 1, 1e-9);
     EXPECT_NEAR(rebounds[1].time, 1.6, 1e-9);
     EXPECT_NEAR(rebounds[2].time, 1.78, 1e-9);

@@ -14,7 +14,8 @@ struct Scene {
   Setting setting;
 };
 
-/// Lets contacts without film rebound with the coefficient `dry`, e_d, in steps of the length `step`.
+/// Lets contacts without film rebound with the coefficient `dry`, e_d, in steps of the length
+/// `step`.
 inline void set_rebounds_without_film(Setting& setting, double dry, double step) {
   setting.laws.film.gamma_min = 0;
   setting.laws.restitution.coefficient = dry;

@@ -148,9 +148,9 @@ TEST_P(Hinges, ALargeSwingKeepsThePointAndTheEnergy) {
 }
 
 TEST(Hinges, APlaneThatASwingingDiscPassesAtASmallDistanceChangesNothing) {
-  // The disc swings about the origin from one side of its lowest point to the other. Equations about
-  // the beginning of a step see the tangent of its circle, which the plane cuts before the lowest
-  // point.
+  // The disc swings about the origin from one side of its lowest point to the other. Equations
+  // about the beginning of a step see the tangent of its circle, which the plane cuts before the
+  // lowest point.
   constexpr double kRadius = 0.5;
   for (const double clearance : {1e-6, 1e-3, 0.05})
     for (const bool has_friction : {false, true})
