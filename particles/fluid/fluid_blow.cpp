@@ -292,8 +292,8 @@ void Blow::move(FluidBlow& blow) {
   for (std::size_t i = 0; i < blow.moved.size(); ++i)
     blow.moved[i] += conditions_.free_velocities[i];
   // Because hits have different times, some particles may now overlap, or a gap may be open
-  // although its film still pulls. Contact forces then change the displacements until neither is
-  // so.
+  // although its film still pulls. Contact forces then change the displacements until no particles
+  // overlap and no such gap is open.
   StepContacts gaps;
   gaps.contacts = ordinary_.contacts;
   const double allowed = conditions_.solver.tolerance * conditions_.mean_radius / 2;

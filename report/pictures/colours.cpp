@@ -1,6 +1,6 @@
 // Interpolates colours between the nodes of a scale, and chooses the ends, numbers and words of
 // scales. Pressures and speeds are in the units of the case. A share is a place on a scale, 0 at
-// its begin and 1 at its end. PressureColours has the ends `low` < `high` of a scale, the
+// its lower end and 1 at its upper one. PressureColours has the ends `low` < `high` of a scale, the
 // `smallest` and `largest` of all pressures, and `linear_below`, the pressure up to which the scale
 // is linear (0: everywhere). Nothing is thrown. Used by the pictures and pages of report/,
 // rolling/, swimmer/ and particles/picture. gnuplot gets PressureColours::at(pressure) in place of
@@ -93,9 +93,11 @@ std::vector<double> sorted_finite(const std::vector<double>& values) {
   return sorted;
 }
 
-/// The scale with low < high, as gnuplot needs it: if both are equal, or differ by less than the
-/// three digits of the numbers beside the scale can show by far, they are moved apart.
+/// The scale with low < high, as gnuplot needs it: if both are equal but for kEqual times their size,
+/// they are moved apart.
 PressureColours widened(PressureColours colours) {
+  // Three digits of a number are written beside a scale, so that no reader could tell such ends
+  // apart.
   constexpr double kEqual = 1e-9;
   if (colours.high - colours.low > kEqual * std::abs(colours.high)) return colours;
   const double half = colours.high == 0 ? 1 : std::abs(colours.high);
