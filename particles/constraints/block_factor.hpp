@@ -3,7 +3,8 @@
 // to a body: a particle, or a rigid body of several. Units are any consistent ones. A singular
 // matrix makes factorise() return false; nothing else is checked (numbers of bodies, edges, blocks
 // and rows, the order of calls), and nothing is thrown. Used by constraint_system.cpp,
-// coulomb_path.hpp, interior_points.hpp and proximal_step.hpp. Results depend on the order of sums.
+// coulomb_path.hpp, interior_points.hpp and proximal_step.hpp. Results depend on the order of sums,
+// and by rounding errors on the instructions that the processor has.
 #pragma once
 
 #include <array>
