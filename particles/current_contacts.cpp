@@ -155,8 +155,9 @@ std::vector<CurrentContact> contacts_of(const Setting& setting, const State& sta
   for (const auto* pairs : {&state.pairs, &state.walls})
     for (const auto& pair : *pairs) {
       const auto [gap, normal, branch] = place_of(setting, p, pair, places);
-      if (!(pair.gamma < 0 || gap <= touching || pair.impulse != 0)) continue;
       const auto& memory = state.memories.of(pair.memory);
+      const bool has_force = pair.impulse != 0 || norm(memory.friction()) > 0;
+      if (!(pair.gamma < 0 || gap <= touching || has_force)) continue;
       // Before the first step there is no length of a step, and all impulses are 0.
       const double per_time = state.earlier_step > 0 ? 1 / state.earlier_step : 0;
       contacts.push_back({.first = pair.first,

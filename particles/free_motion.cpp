@@ -112,7 +112,7 @@ std::vector<char> Simulation::free_particles() const {
   };
   for (const auto* pairs : {&state_.pairs, &state_.walls})
     for (const auto& pair : *pairs)
-      if (pair.impulse != 0) {
+      if (pair.impulse != 0 || norm(state_.memories.of(pair.memory).friction()) > 0) {
         bind(pair.first);
         bind(pair.second);
       }

@@ -281,6 +281,11 @@ void Simulation::undo_impacts() {
 template <int D>
 void Simulation::accept(const ProjectionResult& projected, double h, double next,
                         StepReport& report) {
+  // Pairs that bore friction without an impulse in the step before may be left out of this one.
+  for_pairs([&](Pair& pair) {
+    if (pair.impulse == 0 && pair.memory != PairMemories::kNone)
+      state_.memories.make(pair.memory).set_friction({});
+  });
   take_impulses(projected);
   report.glued = remember(projected, h);
   const double kick = kick_length(h);
@@ -377,7 +382,7 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
   accept<D>(projected, h, next, report);
   if (halvings > 0)
     for_pairs([&](const Pair& pair) {
-      if (pair.impulse == 0) return;
+      if (pair.impulse == 0 && pair.memory == PairMemories::kNone) return;
       auto& sums = impulses_of_parts_[key_of(pair)];
       sums.of_contact += pair.impulse;
       for_impulses(sums.memory, state_.memories.of(pair.memory),

@@ -15,6 +15,22 @@
 
 namespace viscontact::particles {
 
+namespace {
+
+/// Twice the kinetic energy of these motions of the units, times the length of the step
+/// [M L^2/T].
+template <int D>
+double energy_of(const ConstraintProblem<D>& problem, std::span<const Motion<D>> motions) {
+  double energy = 0;
+  for (std::size_t u = 0; u < motions.size(); ++u) {
+    const auto impulse = problem.units[u].impulse_of(motions[u]);
+    for (std::size_t k = 0; k < impulse.size(); ++k) energy += impulse[k] * motions[u][k];
+  }
+  return energy;
+}
+
+}  // namespace
+
 template <int D>
 ConstraintSystem<D>::ConstraintSystem(const ConstraintStep& step, const Particles& particles,
                                       std::span<double> displacements,
@@ -313,6 +329,17 @@ BlockResidual ConstraintSystem<D>::residual_of_contact(
   return residual_after(problem, block, solution.motions);
 }
 
+/// True if give_up() may be tried: the island has not given up yet, and a contact has a load of its
+/// own that could be given.
+template <int D>
+bool ConstraintSystem<D>::may_give_up(const Island& island) const {
+  const auto has_own_load = [](const ConstraintBlock& block) {
+    return block.is_contact && block.rows > 1 && block.friction_bound != FrictionBound::kGiven;
+  };
+  return island.can_give_up && !island.has_given_up && !island.problem.is_rough &&
+         std::ranges::any_of(island.problem.blocks, has_own_load);
+}
+
 /// Solves the problem of an island with given loads in place of those of the solution, in which
 /// further iterations or corrections make no progress. Returns true if it is solved. The loads are
 /// those of a solution without friction if `have_diverged`, because those of the present
@@ -323,11 +350,7 @@ template <int D>
 bool ConstraintSystem<D>::give_up(Island& island, bool have_diverged,
                                   ConstraintSolution<D>& solution, SolverResult& result) {
   auto& problem = island.problem;
-  const bool has_own_loads = std::ranges::any_of(problem.blocks, [](const ConstraintBlock& block) {
-    return block.is_contact && block.rows > 1 && block.friction_bound != FrictionBound::kGiven;
-  });
-  if (!has_own_loads || !island.can_give_up || island.has_given_up || problem.is_rough)
-    return false;
+  if (!may_give_up(island)) return false;
   const auto with_own_loads = problem;
   const auto is_solved = [&](bool without_friction) {
     auto with_given_loads = solve_with_given_loads(problem, without_friction);
@@ -407,12 +430,25 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double last_change = kInfinity, gained_change = kInfinity;
   int growing = 0, gained_at = 0;
+  ConstraintSolution<D> solution;
+  SolverResult result;
   const auto restart = [&] {
     make_problem(system, island, is_rough, roughly_allowed);
     if (has_motions_without_contacts(island) && !begin_without_contacts(system, island))
       make_problem(system, island, is_rough, roughly_allowed);
     last_change = gained_change = kInfinity;
     growing = gained_at = 0;
+  };
+  // Begins anew with given loads: those of `impulses`, or, if it is empty, those of a solution
+  // without friction. Returns false, and changes nothing, if that is impossible.
+  const auto give_up_anew = [&](const std::vector<double>& impulses) {
+    if (!may_give_up(island)) return false;
+    auto corrected = problem;
+    restart();
+    if (!impulses.empty()) problem.impulses = impulses;
+    if (give_up(island, impulses.empty(), solution, result)) return true;
+    problem = std::move(corrected);
+    return false;
   };
   // Begins anew with gaps that are distances. Returns false if this would change no gap.
   const auto use_distances = [&] {
@@ -422,8 +458,11 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
     return true;
   };
   restart();
-  ConstraintSolution<D> solution;
-  SolverResult result;
+  // Of the problem without corrections: the larger energy of its motions without and with impulses,
+  // and the impulses. Those of Coulomb's law may be as large as one likes where friction locks a
+  // body, and are not kept.
+  double first_energy = 0;
+  std::vector<double> first_impulses;
   for (int n = 0;; ++n) {
     int most = island.has_given_up ? kMostOfGivenLoads : max_iterations - result.iterations;
     if (n > 0) most = std::max(most, kLeastCorrected);
@@ -433,11 +472,28 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
     const auto is_exhausted = [&] {
       return result.iterations >= max_iterations + (island.has_given_up ? kMostOfGivenLoads : 0);
     };
+    // A body that friction locks between two contacts still turns about the line through them. The
+    // correction for this turn demands a motion that the locks prevent. If any impulses give it,
+    // they are larger by orders of magnitude and add energy.
+    constexpr double kMostEnergy = 1.01;  // over first_energy
+    const double energy = energy_of<D>(problem, solution.motions);
+    if (n == 0) {
+      const std::vector<double> none(problem.rows.size());
+      first_energy = std::max(energy, energy_of<D>(problem, motions<D>(problem, none)));
+      if (is_convex_) first_impulses = problem.impulses;
+    } else if (energy > kMostEnergy * first_energy && give_up_anew(first_impulses)) {
+      n = 0;
+      continue;
+    }
     // A convex problem is given up only if further iterations would not solve it.
     if (!(solution.result.residual <= 1) && !is_rough && !(is_convex_ && is_exhausted())) {
       if (n > 0 && use_distances()) {
         max_iterations += result.iterations;
         n = -1;
+        continue;
+      }
+      if (n > 0 && give_up_anew(first_impulses)) {
+        n = 0;
         continue;
       }
       // Where friction locks particles that must move, impulses grow without bound, so that loads
@@ -466,12 +522,7 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
       }
       // Friction may turn bodies so far that corrections do not converge.
       if (island.has_given_up) break;
-      auto corrected = std::move(problem);
-      restart();
-      if (!give_up(island, true, solution, result)) {
-        problem = std::move(corrected);
-        break;
-      }
+      if (!give_up_anew({})) break;
       n = 0;
       continue;
     }

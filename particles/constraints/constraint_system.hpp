@@ -103,7 +103,10 @@ class ConstraintSystem {
   /// without friction, as in (5.17), and residual() is that of (5.17).
   ///
   /// If corrections diverge also with distances, the friction is bounded by the loads of a solution
-  /// without friction with either law, unless all loads are given already.
+  /// without friction with either law, unless all loads are given already. If a corrected problem is
+  /// not solved, or its motion has more energy than those without corrections, which happens where
+  /// friction locks a body that turns about the line through two contacts, the friction is bounded
+  /// by the loads of a solution without friction (Coulomb's law) or without corrections (5.9).
   SolverResult solve(ContactSystem<D>& system, bool is_rough, double roughly_allowed,
                      int max_iterations);
 
@@ -179,6 +182,7 @@ class ConstraintSystem {
   bool can_use_distances(ContactSystem<D>& system, const Island& island) const;
   void make_problem(const ContactSystem<D>& system, Island& island, bool is_rough,
                     double roughly_allowed);
+  bool may_give_up(const Island& island) const;
   bool give_up(Island& island, bool have_diverged, ConstraintSolution<D>& solution,
                SolverResult& result);
   void give_loads_of_step(Island& island);

@@ -323,17 +323,16 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     // A pair with an impulse is chosen in the next step, too, where the convex relaxation may push
     // it apart. An impulse within its allowed error must not have this effect, and is set to 0.
     const auto& here = system_.contacts[c];
-    const bool is_error =
-        is_convex && here.lowest == 0 &&
-        here.w * here.impulse <= scales.of(here).allowed_gap(settings, mean_radius);
+    const double error = scales.of(here).allowed_gap(settings, mean_radius) / here.w;
+    const bool is_error = is_convex && here.lowest == 0 && here.impulse <= error;
     result.impulses.push_back(is_error ? 0 : here.impulse);
     if (!constraints_) continue;
     auto memory = state_.memories.of(pair(chosen_[c]).memory);
+    constraints_->remember(c, memory);
     if (is_error) {
-      memory.set_friction({});
       memory[Remembered::kCarried] = 0;
-    } else {
-      constraints_->remember(c, memory);
+      // With a given load friction may be large without an impulse.
+      if (norm(memory.friction()) <= error) memory.set_friction({});
     }
     result.memories.push_back(memory);
   }
