@@ -1,6 +1,7 @@
 // Reads the case file of one sphere, for app/, pipeline/, sweep/, report/, results/ and python/.
-// Numbers are in the units of the case; case_file.hpp has their dimensions and ranges. A wrong
-// value is an Error(kBadInput) that names the line; a missing file or section is an
+// Numbers are in the units of the case; viscosity [M/(L T)], radius and first gap [L] and end time
+// [T] are positive, gravity [L/T^2] is any finite number, and a trajectory has 2 to 1e8 rows. A
+// wrong value is an Error(kBadInput) that names the line; a missing file or section is an
 // Error(kBadInput) without a line. A change must keep the keys and their defaults, because users
 // have written cases with them. A new key must be added to docs/case-file.md. A new parameter of a
 // model needs no change here, because reduced_model/models/ lists the parameters.

@@ -1,8 +1,8 @@
 // Makes the tables of docs/case-file.md and the case that the command `init` writes from the
-// declarations of keys in case_file/, particles/, rolling/ and swimmer/; keys.hpp has the ranges
-// and errors. Examples have the units of the case. Reading throws the Error(kBadInput) of
-// TomlSection; describing throws nothing. A change alters that page, whose test CaseFilePage then
-// fails.
+// declarations of keys in case_file/, particles/, rolling/ and swimmer/; a whole number is from 1
+// to 1e12, a fraction between 0 and 1. Examples have the units of the case. Reading throws the
+// Error(kBadInput) of TomlSection; describing throws nothing. A change alters that page, whose test
+// CaseFilePage then fails.
 #include "viscontact/case_file/keys.hpp"
 
 #include <regex>

@@ -1,6 +1,7 @@
 // Reads the sections [fluid], [sphere] and [tabulation] (gaps, velocities, geometry, container) of
 // one sphere or a rolling one (shared_sections.hpp), for case_file.cpp and rolling/. Numbers are in
-// the units of the case; shared_sections.hpp has their dimensions and ranges. A wrong value is an
+// the units of the case; gaps [L] are at least 1e-8 radii, a grid has 2 to 100000 of them, the
+// container is at most 2e5 radii wide, and velocities [L/T] are not 0. A wrong value is an
 // Error(kBadInput) with its line. A change must keep the gaps of a grid bit for bit, because
 // finished rows and tables are found again by their gaps. docs/case-file.md repeats kSmallestGap
 // and kLargestLength.

@@ -1,8 +1,8 @@
 // Reads TOML tables with toml++, for all readers of cases in case_file/, particles/, rolling/ and
-// swimmer/; toml_section.hpp has the ranges and errors. Numbers are in the units of the file. Every
-// fault is an Error(kBadInput) with the file and, where there is one, the line. In a change, every
-// function that reads a key must note it in `asked`, because finish() reports all other keys as
-// unknown.
+// swimmer/. A key has at most 16 parts joined by dots, and arrays nest at most 256 deep. Numbers
+// are in the units of the file. Every fault is an Error(kBadInput) with the file and, where there
+// is one, the line, counted from 1. In a change, every function that reads a key must note it in
+// `asked`, because finish() reports all other keys as unknown.
 #include "viscontact/case_file/toml_section.hpp"
 
 #include <toml++/toml.h>

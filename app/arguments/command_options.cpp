@@ -1,11 +1,12 @@
 // Options that several commands of app/ share, and checks of what a command line names; main.cpp,
-// commands/ and help/ use them. command_options.hpp has the comments of the functions, with ranges
-// and units. A wrong option is an Error(kWrongUsage) or, if CLI11 checks it, a CLI::ParseError; a
-// file that --plot must not replace is an Error(kBadInput), and a path that cannot be resolved a
-// std::filesystem::filesystem_error. The list `options` in with_files_apart() must contain every
-// option for which a command calls CLI11's expected(0, 1), which allows an option without its
-// value. The names of the options of array jobs (jobs of many tasks on a Slurm cluster) must stay,
-// because submitted scripts contain them.
+// commands/ and help/ use them. Widths are from 100 to 10000 and letters from 2 to 200, in pixels
+// of an SVG or points of a PDF; --jobs is from 1 to 1024, --tasks from 1 to 4e6, and --task is K/T
+// with 0 <= K < T. A wrong option is an Error(kWrongUsage) or, if CLI11 checks it, a
+// CLI::ParseError; a file that --plot must not replace is an Error(kBadInput), and a path that
+// cannot be resolved a std::filesystem::filesystem_error. The list `options` in with_files_apart()
+// must contain every option for which a command calls CLI11's expected(0, 1), which allows an
+// option without its value. The names of the options of array jobs (jobs of many tasks on a Slurm
+// cluster) must stay, because submitted scripts contain them.
 #include "viscontact/app/arguments/command_options.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +21,7 @@
 #include <system_error>
 #include <thread>
 
-#include "viscontact/app/commands/interrupt.hpp"
+#include "viscontact/app/interrupt.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/lubrication/terms.hpp"

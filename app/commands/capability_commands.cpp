@@ -9,7 +9,7 @@
 
 #include "viscontact/app/arguments/command_options.hpp"
 #include "viscontact/app/commands/commands.hpp"
-#include "viscontact/app/commands/interrupt.hpp"
+#include "viscontact/app/interrupt.hpp"
 #include "viscontact/freefem_flow/freefem_solver.hpp"
 #include "viscontact/particles/run/particles_stage.hpp"
 #include "viscontact/rolling/job/rolling_stage.hpp"

@@ -13,7 +13,7 @@
 
 #include "viscontact/app/arguments/command_options.hpp"
 #include "viscontact/app/commands/commands.hpp"
-#include "viscontact/app/commands/interrupt.hpp"
+#include "viscontact/app/interrupt.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/locks.hpp"
 #include "viscontact/common/named.hpp"

@@ -1,8 +1,8 @@
-// Reads and writes files with POSIX calls, for all parts with files; file.hpp has the errors. A
-// failed call becomes an Error(kBadInput) with the path, a signal while a pipe is read an
-// Error(kInterrupted); write_file_by() also throws what its argument throws. A change must keep the
-// order write, fsync, rename, fsync of the folder, because only in this order does a power cut
-// leave either the old or the new file.
+// Reads and writes files with POSIX calls, for all parts with files. A failed call becomes an
+// Error(kBadInput) with the path, also where a file is asked for and a folder or a device is there,
+// a signal while a pipe is read an Error(kInterrupted); write_file_by() also throws what its
+// argument throws. A change must keep the order write, fsync, rename, fsync of the folder, because
+// only in this order does a power cut leave either the old or the new file.
 #include "viscontact/common/files/file.hpp"
 
 #include <fcntl.h>

@@ -1,7 +1,8 @@
 // Writes new lines over the foot of the file (a text that always ends it), followed by the foot
-// again, in one call, for the logs of particles/run/; growing_file.hpp has the ranges and errors.
-// Lengths are in bytes. A change must keep that the file ends with a whole line and the foot, also
-// after a failed write, which is an Error(kBadInput).
+// again, in one call, for the logs of particles/run/. Lengths are in bytes. More than 64 KiB of
+// waiting lines are written at once; lines that are neither written nor synced are lost in a crash.
+// A change must keep that the file ends with a whole line and the foot, also after a failed write,
+// which is an Error(kBadInput).
 #include "viscontact/common/files/growing_file.hpp"
 
 #include <fcntl.h>

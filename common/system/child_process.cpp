@@ -1,10 +1,11 @@
 // Exchanges messages with a child process by poll on its three streams at once, for the fluid
-// solvers of freefem_flow/; child_process.hpp has the ranges and errors. Times are in milliseconds,
-// memory is in units of 1024 bytes. Throws Error(kExternalProgram) for a program that cannot be
-// run, Error(kInterrupted) if a stop is requested while a word or line is awaited, and
-// std::system_error without free sockets. A child that fails later is no error: Reading::state says
-// what happened. A change must keep that at most one buffer is received ahead of what is read, so
-// that a child that writes without end takes no memory.
+// solvers of freefem_flow/. Times are in milliseconds, memory is in units of 1024 bytes. A word or
+// line has at most 4096 bytes, and the 20 last lines of 1000 bytes each are kept. Throws
+// Error(kExternalProgram) for a program that cannot be run, Error(kInterrupted) if a stop is
+// requested while a word or line is awaited, and std::system_error without free sockets. A child
+// that fails later is no error: Reading::state says what happened. A change must keep that at most
+// one buffer is received ahead of what is read, so that a child that writes without end takes no
+// memory.
 #include "viscontact/common/system/child_process.hpp"
 
 #include <fmt/format.h>

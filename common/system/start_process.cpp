@@ -1,9 +1,10 @@
-// Starts a child process by fork and exec, for process.cpp and child_process.cpp; start_process.hpp
-// has the arguments and errors. Throws std::system_error without free sockets or descriptors; a
-// program that cannot be run is no exception. Between fork and exec a change may only call
-// functions that neither allocate memory nor take locks, because another thread may hold a lock at
-// the moment of the fork: those that POSIX lists as async-signal-safe, prctl, which is a system
-// call, and execvpe of glibc (>= 2.24), which works on the stack.
+// Starts a child process by fork and exec, for process.cpp and child_process.cpp. Throws
+// std::system_error without free sockets or descriptors; a program that cannot be run is no
+// exception: the result then has the process number -1 and words that say why. Between fork and
+// exec a change may only call functions that neither allocate memory nor take locks, because
+// another thread may hold a lock at the moment of the fork: those that POSIX lists as
+// async-signal-safe, prctl, which is a system call, and execvpe of glibc (>= 2.24), which works on
+// the stack.
 #include "viscontact/common/system/start_process.hpp"
 
 #include <fcntl.h>

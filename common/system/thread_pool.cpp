@@ -1,7 +1,7 @@
-// The worker threads of a ThreadPool, which particles/ uses; thread_pool.hpp has the ranges and
-// errors. Which thread computes a block depends on chance; a change must keep that no result
-// depends on it. A thread that the system refuses is no error. The first exception of a loop is
-// thrown again in the thread that called run().
+// The worker threads of a ThreadPool, which particles/ uses. A pool has at least one thread, and
+// loops within loops are not checked. Which thread computes a block depends on chance; a change
+// must keep that no result depends on it. A thread that the system refuses is no error. The first
+// exception of a loop is thrown again in the thread that called run().
 #include "viscontact/common/system/thread_pool.hpp"
 
 #include <atomic>

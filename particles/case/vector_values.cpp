@@ -2,7 +2,7 @@
 // particles_sections.hpp declares the functions and has the ranges. Vectors have the unit that the
 // key says; times [T] are in the unit of the case. Components of vectors are at most 1e100 in
 // magnitude. A wrong value is an Error(kBadInput) with its line. The sources in particles/case/ and
-// membranes/membrane_keys.cpp use it. A change must keep accepting users' cases.
+// case/membrane_keys.cpp use it. A change must keep accepting users' cases.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -67,8 +67,8 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
           // sections of a case of particles
           Found("particles/case/particles_case.cpp", "viscous_contact"),
           Found("particles/case/particles_case.cpp", "plane"),
-          Found("particles/membranes/membrane_checks.cpp", "viscous_contact"),
-          Found("particles/membranes/membrane_checks.cpp", "plane"),
+          Found("particles/case/membrane_checks.cpp", "viscous_contact"),
+          Found("particles/case/membrane_checks.cpp", "plane"),
           Found("particles/case/fluid_start_checks.cpp", "viscous_contact"),
           // obstacles in words
           Found("particles/case/start_checks.cpp", "plane"),

@@ -1,6 +1,6 @@
 // The command `sweep` (docs/command-line.md), which main.cpp adds: its command line, and what its
-// picture shows. Numbers have the units of the case; sweep_options.hpp has the ranges of options. A
-// wrong option is an Error(kWrongUsage); other errors are those of command_options.hpp,
+// picture shows. Numbers have the units of the case; --samples is from 1 to 1e12, --draws from 1 to
+// 1e9. A wrong option is an Error(kWrongUsage); other errors are those of command_options.hpp,
 // sweep_options.hpp, pipeline/sweep_stage.hpp and, for the picture, report/pictures/sweep_plot.hpp.
 // A change must keep that an option of the command line takes precedence over the section [sweep]
 // of the case.
@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "viscontact/app/commands/commands.hpp"
-#include "viscontact/app/commands/interrupt.hpp"
 #include "viscontact/app/commands/sweep/sweep_options.hpp"
+#include "viscontact/app/interrupt.hpp"
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/named.hpp"

@@ -1,11 +1,11 @@
 // Turns the options of `sweep` into a study, for each kind of case (sweep_options.hpp); used by
 // sweep_command.cpp. Options of the command line decide; for those that are missing, the section
 // [sweep] of the case decides, which the case of a swimmer does not have. Numbers have the units of
-// the case; sweep_options.hpp has the ranges of options and the errors. A wrong option is an
-// Error(kWrongUsage), a wrong case an Error(kBadInput); sweep_many_particles() also throws the
-// errors of particles/sweep/particles_sweep_stage.hpp. Rows are computed by sweep/, and runs of
-// particles by particles/sweep/. A change must keep the texts given to refuse_other_kind(), which
-// stand in the heads of the files.
+// the case; --samples is from 1 to 1e12, --draws from 1 to 1e9, and a seed any number of 64 bits. A
+// wrong option is an Error(kWrongUsage), a wrong case an Error(kBadInput); sweep_many_particles()
+// also throws the errors of particles/sweep/particles_sweep_stage.hpp. Rows are computed by sweep/,
+// and runs of particles by particles/sweep/. A change must keep the texts given to
+// refuse_other_kind(), which stand in the heads of the files.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/app/commands/interrupt.hpp"
 #include "viscontact/app/commands/sweep/sweep_options.hpp"
+#include "viscontact/app/interrupt.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/freefem_flow/freefem_solver.hpp"
 #include "viscontact/particles/sweep/particles_sweep_stage.hpp"
