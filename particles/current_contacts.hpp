@@ -15,7 +15,7 @@ namespace viscontact::particles {
 
 /// What friction did at a contact in the last step.
 enum class ContactFriction : std::int8_t {
-  kNone,    ///< no friction: no load on the solids, or a case without friction
+  kNone,    ///< no load on the solids (given loads may bear friction), or a case without friction
   kSticks,  ///< the friction is smaller than coefficient times load
   kSlides   ///< the friction is coefficient times load, its largest magnitude
 };

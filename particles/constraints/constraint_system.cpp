@@ -29,6 +29,15 @@ double energy_of(const ConstraintProblem<D>& problem, std::span<const Motion<D>>
   return energy;
 }
 
+/// The sum of the normal impulses of all contacts, without regard to their signs [M L/T].
+template <int D>
+double sum_of_loads(const ConstraintProblem<D>& problem) {
+  double sum = 0;
+  for (const auto& block : problem.blocks)
+    if (block.is_contact) sum += std::abs(problem.impulses[block.row]);
+  return sum;
+}
+
 }  // namespace
 
 template <int D>
@@ -440,7 +449,7 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
     growing = gained_at = 0;
   };
   // Begins anew with given loads: those of `impulses`, or, if it is empty, those of a solution
-  // without friction. Returns false, and changes nothing, if that is impossible.
+  // without friction. Returns false, with the problem as it was, if that does not solve it.
   const auto give_up_anew = [&](const std::vector<double>& impulses) {
     if (!may_give_up(island)) return false;
     auto corrected = problem;
@@ -459,9 +468,9 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
   };
   restart();
   // Of the problem without corrections: the larger energy of its motions without and with impulses,
-  // and the impulses. Those of Coulomb's law may be as large as one likes where friction locks a
-  // body, and are not kept.
-  double first_energy = 0;
+  // the sum of its loads, and its impulses. Those of Coulomb's law may be as large as one likes
+  // where friction locks a body, and are not kept.
+  double first_energy = 0, first_loads = 0;
   std::vector<double> first_impulses;
   for (int n = 0;; ++n) {
     int most = island.has_given_up ? kMostOfGivenLoads : max_iterations - result.iterations;
@@ -473,15 +482,19 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
       return result.iterations >= max_iterations + (island.has_given_up ? kMostOfGivenLoads : 0);
     };
     // A body that friction locks between two contacts still turns about the line through them. The
-    // correction for this turn demands a motion that the locks prevent. If any impulses give it,
-    // they are larger by orders of magnitude and add energy.
-    constexpr double kMostEnergy = 1.01;  // over first_energy
-    const double energy = energy_of<D>(problem, solution.motions);
+    // correction for this turn demands a motion that the locks prevent. Coulomb's law then has no
+    // solution. The convex relaxation has one, with loads that are larger by orders of magnitude
+    // and add energy. Planes and arms that move may add energy, too, but no such loads.
+    constexpr double kMostEnergy = 1.01, kMostLoads = 10;  // over first_energy and first_loads
     if (n == 0) {
       const std::vector<double> none(problem.rows.size());
-      first_energy = std::max(energy, energy_of<D>(problem, motions<D>(problem, none)));
+      first_energy = std::max(energy_of<D>(problem, solution.motions),
+                              energy_of<D>(problem, motions<D>(problem, none)));
+      first_loads = sum_of_loads(problem);
       if (is_convex_) first_impulses = problem.impulses;
-    } else if (energy > kMostEnergy * first_energy && give_up_anew(first_impulses)) {
+    } else if (is_convex_ && first_loads > 0 && sum_of_loads(problem) > kMostLoads * first_loads &&
+               energy_of<D>(problem, solution.motions) > kMostEnergy * first_energy &&
+               give_up_anew(first_impulses)) {
       n = 0;
       continue;
     }

@@ -1,5 +1,5 @@
-// Balances of particles in a box with friction: all forces that change the momentum are listed, and
-// a body that friction locks between its contacts gains no energy.
+// Balances of particles in a box with friction: all forces that change the momentum are listed, a
+// body that friction locks between its contacts gains no energy, and bodies in a turning drum do.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -112,6 +112,35 @@ TEST(LockedBody, GainsNoEnergy) {
     });
   }
   EXPECT_GT(given, 0);
+}
+
+// The walls do work, so that turns give a step more energy than its motion without corrections has.
+TEST(TurningDrum, BodiesWithCoulombsLawConvergeInEveryStep) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    Random random(seed);
+    Setting setting;
+    setting.time_step = 0.02;
+    setting.laws.film.gamma_min = 0;
+    setting.laws.friction = FrictionLaw{0.1};
+    setting.gravity = {0, -1, 0};
+    for (const Vector& inward : {Vector{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}}) {
+      auto plane = plane_at_rest(-2.0 * inward, inward);
+      plane.angular_velocity = {0, 0, 3};
+      setting.planes.push_back(plane);
+    }
+    State state = no_particles(2);
+    for (const Vector& middle : {Vector{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}}) {
+      const Vector half = 0.45 * random.direction(2);
+      add_particle(state, middle - half, random.uniform(0.33, 0.4), 1);
+      add_particle(state, middle + half, random.uniform(0.33, 0.4), 1);
+    }
+    add_rotation(state.particles);
+    for (std::int32_t b = 0; b < 4; ++b) add_rigid_body(state.particles, {{2 * b, 2 * b + 1}});
+    Simulation simulation(setting, std::move(state), 1);
+    run(simulation, 4, [&](const StepReport& report) {
+      EXPECT_TRUE(report.converged) << "seed " << seed << ", t = " << report.time;
+    });
+  }
 }
 
 }  // namespace
