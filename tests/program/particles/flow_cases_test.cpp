@@ -85,6 +85,36 @@ TEST_F(FlowCase, ADiscFalls) {
   EXPECT_NEAR(column("steps.csv", "reynolds_number").back(), 5.45 * 0.25 / 0.1, 0.3);
 }
 
+// On this mesh UMFPACK of FreeFEM 4.11 loses all digits. With 14 and 16 edges, where it does not, the
+// disc falls at 1.70 and 1.87 after this step, because the meshes are coarse.
+TEST_F(FlowCase, ADiscFallsOnAMeshOnWhichOneSolverFails) {
+  compute(R"(title = "A disc falls on a fixed mesh"
+[space]
+dimension = 2
+gravity = [0.0, -980.0]
+[fluid]
+viscosity = 0.1
+density = 1.0
+constraint = "penalty"
+mesh = "fixed"
+edges_per_particle = 12
+[domain]
+box = { from = [0.0, 0.0], to = [2.0, 6.0] }
+[viscous_contact]
+time_step = 0.02
+end_time = 0.02
+gamma_min = 0.0
+[output]
+tables = ["motion"]
+every = 0.02
+[[particle]]
+centre = [1.0, 4.0]
+radius = 0.1
+density = 1.5
+)");
+  EXPECT_NEAR(column("motion.csv", "vy").back(), -1.75, 0.15);
+}
+
 // A mean pressure gradient balances the force on the disc. What it leaves, also because the mesh has
 // no exact area, accelerates this light fluid: with 1e-5 of the force by 1 in a unit of time.
 TEST_F(FlowCase, AForceInAPeriodicCellMakesNoMomentum) {
