@@ -1,7 +1,9 @@
 // Writes new lines over the foot of the file (a text that always ends it), followed by the foot
-// again, in one call, for the logs of particles/run/; growing_file.hpp has the ranges and errors.
-// Lengths are in bytes. A change must keep that the file ends with a whole line and the foot, also
-// after a failed write, which is an Error(kBadInput).
+// again, in one call, for the logs of particles/run/. Lengths are in bytes, without the foot. Lines
+// must be whole, each with its line break, which is not checked; up to 64 KiB of them wait in
+// memory, and without sync() they are lost. A file that cannot be read or written, or does not have
+// the lines that an earlier process wrote, is an Error(kBadInput) with the path. A change must keep
+// that the file ends with a whole line and the foot, also after a failed write.
 #include "viscontact/common/files/growing_file.hpp"
 
 #include <fcntl.h>
