@@ -1,10 +1,10 @@
 // Assembles the equations of a fit, F = sum of coefficient * term(q) for each row of a table,
 // solves them by least squares, and sets the members of the fit and its diagnostics. In the units
 // of the table, q > 0 is the gap [L], F the force [M L/T^2] and u the velocity [L/T], not 0, of a
-// row, r > 0 the radius of the sphere [L]; relative residuals, fit/F - 1, have no dimension. At
-// least one row is needed (not checked), and as many different gaps as coefficients, at least 2. A
-// table or terms that cannot be fitted are an Error(kBadInput), dependent terms an
-// Error(kNotConverged), a stop an Error(kInterrupted). Used by pipeline/, motions/fit/,
+// row, r > 0 the radius of the sphere [L]; relative residuals, fit/F - 1, have no dimension. A
+// table needs as many different gaps as there are coefficients, at least 2; fewer, rows that
+// contradict each other and a result that a double cannot hold are an Error(kBadInput), dependent
+// terms an Error(kNotConverged), a stop an Error(kInterrupted). Used by pipeline/, motions/fit/,
 // basis_comparison.cpp, examples/ and python/. A change must keep that units and order of the rows
 // change the fit by rounding only, and the numbers 0.99 and 5 below, which lubrication/fit.hpp
 // repeats.

@@ -58,7 +58,7 @@ std::string container_in_words(const Tabulation& tabulation) {
                      format_number(tabulation.container->height));
 }
 
-/// A geometry parameter that is missing from the list throws std::out_of_range; so does
+/// Throws std::out_of_range if tabulation.geometry_parameters is too short; so does
 /// row_arguments().
 std::string geometry_in_words(const Tabulation& tabulation) {
   const auto& geometry = find_geometry(tabulation.geometry);

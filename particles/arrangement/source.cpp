@@ -1,7 +1,8 @@
-// Decides when the particles that a source adds to a simulation are due, and where they appear
-// (source.hpp, which has the dimensions and ranges). Lengths, masses and times are in the units of
-// the case file; nothing is checked or thrown. simulation.cpp and particles/run use it. A change
-// must keep the due times and places bit for bit, because users repeat runs by their seeds.
+// Decides when the particles that a source adds to a simulation are due, and where they appear. In
+// the units of the case file, `rate` [1/T] is > 0, times [T] are >= 0, `end` is later than `begin`,
+// the corners of the region [L] are in order, radii [L] and masses [M] are > 0; nothing is checked
+// or thrown. A particle that finds no place waits. simulation.cpp and particles/run use it. A
+// change must keep the due times and places bit for bit, because users repeat runs by their seeds.
 // Therefore the compiler must not fuse a product and a sum into one operation (-ffp-contract=off in
 // CMakeLists.txt).
 #include "viscontact/particles/arrangement/source.hpp"
