@@ -458,6 +458,8 @@ FittedSystem residuals_of(const Equations& equations, const RobustSolution& solu
 
 }  // namespace
 
+/// Sets all members of the fit but table_sha256 and versions. A poor fit throws nothing: its
+/// diagnostics have warnings.
 lubrication::Fit fit_force_table(const lubrication::MotionTable& table, const FitSettings& settings,
                                  const StopToken& stop) {
   check_linearity(table);

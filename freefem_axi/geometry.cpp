@@ -1,8 +1,8 @@
 // The table of the bodies beside a sphere, its neighbours: plane, free surface, sphere, cavity,
-// rough plane. q > 0 is the gap [L], r > 0 the radius of the sphere [L], mu the viscosity [M/(L
-// T)], R the resistance [M/T]; lengths are in any one unit, curvatures in 1 over it, ratios and
-// factors without dimension. The functions of a row do not check their parameters, which must be
-// complete. An unknown name or motion is an Error(kBadInput). Used by tabulation.cpp, case_file/
+// rough plane. q > 0 is the gap [L], r > 0 the radius of the sphere [L], mu the viscosity
+// [M/(L T)], R the resistance [M/T]; lengths are in any one unit, curvatures in 1 over it, ratios
+// and factors without dimension. The functions of a row do not check their parameters, which must
+// be complete. An unknown name or motion is an Error(kBadInput). Used by tabulation.cpp, case_file/
 // and rolling/. A change must keep the names, which case files and tables contain; the flags, which
 // the scripts read; the order of the parameters, which functions here find by their index; and
 // motions in the order of MotionKind.

@@ -110,6 +110,7 @@ std::vector<MotionGroup> motion_groups(const Tabulation& tabulation) {
   return groups;
 }
 
+/// At least one motion of the group must be asked for, which is not checked.
 TablePlan motion_table_plan(const Tabulation& tabulation, MotionGroup group,
                             const TablePath& path_of) {
   PlanParts<MotionRow> parts;

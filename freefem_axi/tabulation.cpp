@@ -1,6 +1,6 @@
 // Computes the force on a sphere at one gap and velocity: makes the arguments of a FreeFEM script,
 // runs it and reads the result. In the units of the case, viscosity [M/(L T)], radius and gap [L]
-// are positive, the velocity [L/T] not 0, the force in [M L/T^2]; only FreeFEM checks this. It
+// are positive, the velocity [L/T] not 0, the force in [M L/T^2]; only FreeFEM checks this, and it
 // writes the force in the units of solve_scale(). A row without a result is an
 // Error(kExternalProgram), an unknown geometry and a force beyond the range of a double an
 // Error(kBadInput), a stop an Error(kInterrupted). Used by motion_row.cpp, row_picture.cpp,

@@ -1,7 +1,7 @@
 // Dissipation of the fluid without particles, >= 0, in closed form, for linear flows and plane
-// Couette flow: in a disc or box per unit length of the third dimension [M L/T^3], in a cylinder [M
-// L^2/T^3]. process/flow_process.cpp and membranes/membrane_process.cpp use it. Units are those of
-// the arguments, whose ranges are not checked (the viscosity [M/(L T)] and the lengths are
+// Couette flow: in a disc or box per unit length of the third dimension [M L/T^3], in a cylinder
+// [M L^2/T^3]. process/flow_process.cpp and membranes/membrane_process.cpp use it. Units are those
+// of the arguments, whose ranges are not checked (the viscosity [M/(L T)] and the lengths are
 // positive); nothing is thrown. A change must keep that the result is exactly 0 if no closed form
 // is known: callers take 0 for "not known".
 #include "viscontact/freefem_flow/dissipation_alone.hpp"

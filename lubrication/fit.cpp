@@ -1,8 +1,8 @@
 // Reads and writes fit files, names the choices that they contain, and makes the fit object for the
 // exact drag of a plane and for another viscosity. In the units of the fit, viscosity [M/(L T)],
-// radius and gaps [L] are positive, the velocity u0 [L/T] is not 0, coefficients are a force [M
-// L/T^2] over the unit of their term; this is checked only when a file is read. A fault of a file
-// (also that it does not exist) or an unknown word is an Error(kBadInput). Used by fitting/,
+// radius and gaps [L] are positive, the velocity u0 [L/T] is not 0, coefficients are a force
+// [M L/T^2] over the unit of their term; this is checked only when a file is read. A fault of a
+// file (also that it does not exist) or an unknown word is an Error(kBadInput). Used by fitting/,
 // motions/, case_file/, reduced_model/, sweep/, results/, pipeline/, app/ and python/. A change
 // must keep names and keys, which fit files contain, and agree with docs/fit.schema.json, which
 // repeats keys, types and ranges.

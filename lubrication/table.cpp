@@ -3,8 +3,8 @@
 // coefficient of the approach [M L/T] are > 0; the leading factors have any sign; a line of spheres
 // has 2 to 10 radii. A fault of a file is an Error(kBadInput) with the file and the key, or the
 // line and the name of the column. Used by motion_table.cpp, table_codec.hpp, freefem_axi/ and
-// swimmer/. A change must keep the names and keys of published tables (other files search for "#
-// case: " and "# viscontact: resistance table"), and kMotions in the order of MotionKind.
+// swimmer/. A change must keep the names and keys of published tables (other files search for
+// "# case: " and "# viscontact: resistance table"), and kMotions in the order of MotionKind.
 #include "viscontact/lubrication/table.hpp"
 
 #include <array>

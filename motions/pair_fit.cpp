@@ -1,7 +1,7 @@
 // The names, bases and values of the resistances of a sphere beside a body at rest, and the keys of
 // their file (docs/file-formats.md): an object for each resistance, with the keys of a fit file. In
-// the units of the fit, squeeze and slide are in [M/T], slide_roll in [M L/T], roll and spin in [M
-// L^2/T]; viscosity [M/(L T)], radius and gaps [L] are > 0, which is checked only in files. An
+// the units of the fit, squeeze and slide are in [M/T], slide_roll in [M L/T], roll and spin in
+// [M L^2/T]; viscosity [M/(L T)], radius and gaps [L] are > 0, which is checked only in files. An
 // unknown name, a missing resistance and a fault of the file are an Error(kBadInput); terms of a
 // fit are known, because its reader checks them. Used by motions/fit/, motions/job/, rolling/, app/
 // and python/. A change must keep published files readable, the text "pair fit", for which other

@@ -31,6 +31,8 @@ GrowingFile::GrowingFile(std::filesystem::path path, std::string_view head, std:
   append(head);
 }
 
+/// Throws Error(kBadInput) unless the file is at least `end.bytes` long and end.last_line ends
+/// there; also if `end` is that of a file without lines.
 void GrowingFile::check(const FileEnd& end) const {
   const Descriptor file(::open(path_.c_str(), O_RDONLY | O_CLOEXEC));
   struct stat status = {};
@@ -44,6 +46,7 @@ void GrowingFile::check(const FileEnd& end) const {
     throw_bad_input({path_.string()}, "does not have the lines that the run has written into it");
 }
 
+/// Removes all that follows `end` in the file.
 void GrowingFile::resume(const FileEnd& end) {
   check(end);
   file_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_CLOEXEC));

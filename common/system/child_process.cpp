@@ -142,6 +142,7 @@ ChildProcess::Reading ChildProcess::more_or(Clock::time_point deadline, std::siz
   return {};
 }
 
+/// A last word without white space after it is not returned: the state is then kClosed.
 ChildProcess::Reading ChildProcess::read_word(Clock::time_point deadline) {
   std::size_t searched = 0;  // bytes of the word that are known not to be white space
   for (;;) {

@@ -4,8 +4,8 @@
 // fails, nothing is thrown: `id` is -1, and `failure` says why. The caller must wait for the end of
 // the child (waitpid). Between fork and exec a change may only call functions that neither allocate
 // memory nor take locks, because another thread may hold a lock at the moment of the fork: those
-// that POSIX lists as async-signal-safe, prctl, which is a system call, and execvpe of glibc (>=
-// 2.24), which works on the stack.
+// that POSIX lists as async-signal-safe, prctl, which is a system call, and execvpe of glibc
+// (>= 2.24), which works on the stack.
 #include "viscontact/common/system/start_process.hpp"
 
 #include <fcntl.h>

@@ -1,10 +1,11 @@
 // Reads CSV files by fast-cpp-csv-parser, for all readers of tables, trajectories and particles.
 // Each field is empty or a finite number in the unit of its column; lines are counted from 1, and
 // at least one column must be asked for. Every fault of a file (it cannot be read, no header line,
-// a column twice or missing, too few or too many fields, no number, other rows than "# rows: N"
-// says) is an Error(kBadInput) with the file and, if it is in one line, the line; the messages are
-// those of the library only where no other one fits. A file without rows is right. What `add_row`
-// throws passes unchanged. A change must keep published files readable.
+// a column twice or missing, too few or too many fields, a field that is no number, another number
+// of rows than a line "# rows:" says) is an Error(kBadInput) with the file and, if it is in one
+// line, the line; the messages are those of the library only where no other one fits. A file
+// without rows is right. What `add_row` throws passes unchanged. A change must keep published files
+// readable.
 #include "viscontact/common/text/csv.hpp"
 
 #include <fmt/format.h>
@@ -220,6 +221,9 @@ double csv_comment_number(const CsvComments& comments, const std::string& key,
   return *value;
 }
 
+/// The first `required` of `names` must be in the header line; another column that is missing has
+/// empty fields. Rows above a faulty one may have been passed to `add_row` when the error is
+/// thrown.
 void read_csv_rows(
     std::string text, const std::string& file, std::span<const std::string> names,
     std::size_t required,

@@ -1,5 +1,5 @@
-// Writes a fit as code or numbers: the resistance R [M/T] of a sphere as a function of the gap q >
-// 0 [L], the sum of weight * term(q), and its primitive Gamma(q) = int_r^q R [M L/T], with the
+// Writes a fit as code or numbers: the resistance R [M/T] of a sphere as a function of the gap q
+// > 0 [L], the sum of weight * term(q), and its primitive Gamma(q) = int_r^q R [M L/T], with the
 // sphere's radius r (docs/physics.md (3.2), (3.3), (4.2)), in the units of the fit. Three faults
 // are an Error(kBadInput): an unknown target, a resistance that is not positive and finite, and a
 // fit without the coefficient k > 0 that a formula for small gaps needs. The target csv with gaps

@@ -49,6 +49,7 @@ JournalEntry solve(const FreeFem& freefem, const std::string& version, const Tab
 
 }  // namespace
 
+/// If no row at `points` is missing, neither FreeFEM nor `report` is called.
 void compute_rows(const RowWorker& worker, const TablePlan& plan,
                   const std::vector<RowPoint>& points, const std::filesystem::path& table_path,
                   const TabulateReport& report) {

@@ -1,11 +1,11 @@
 // The lengths of edges of the mesh, from distances to particles and walls. mesh_boundary.cpp,
 // freefem_solver.cpp and membranes/ use them. Lengths [L] are in the unit of the arguments; those
 // of edges are > 0 if there are gaps, and <= 0 where surfaces touch. Radii, the number of edges on
-// a particle and `coarsening` must be > 0 and numbers of particles must exist, which is not
-// checked. check_edge_length() throws Error(kNotConverged); without a domain, size_of() and the
-// constructor throw std::bad_variant_access. The constants are chosen by the table of errors in
-// bench/README.md ("Particles in a fluid"), which must be measured again after a change, because it
-// changes all meshes; 24 is the default of fluid.edges_per_particle.
+// a particle and `coarsening` must be > 0, and a particle with the given number (from 0) must
+// exist, which is not checked. check_edge_length() throws Error(kNotConverged); without a domain,
+// size_of() and the constructor throw std::bad_variant_access. The constants are chosen by the
+// table of errors in bench/README.md ("Particles in a fluid"), which must be measured again after a
+// change, because it changes all meshes; 24 is the default of fluid.edges_per_particle.
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
 
 #include <limits>
@@ -138,6 +138,7 @@ double EdgeLengths::on_particle(std::size_t k, const Point& x) const {
   return std::min(longest_, across(distance));
 }
 
+/// At the point of particle k that has the parameter `t` [rad] on its outline.
 double EdgeLengths::on_outline(std::size_t k, double t) const {
   const auto& outline = outlines_[k];
   const double length = on_particle(k, outline.at(t));

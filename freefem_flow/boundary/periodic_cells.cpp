@@ -162,6 +162,7 @@ class Corners {
 
 }  // namespace
 
+/// `partner` of an edge is the place of its partner in the list; -1 on a wall.
 std::vector<CellEdge> periodic_cells(const particles::BoxDomain& box,
                                      std::span<const particles::Outline> circles) {
   std::vector<CellEdge> edges;

@@ -1,13 +1,13 @@
 // Puts the boundary of a mesh together from walls, periodic sides, rigid discs and membranes, for
 // membrane_process.cpp. Lengths [L] have the unit of the arguments; numbers of edges and radii are
-// > 0 (not checked). Labels: walls 1 to 4, periodic sides 9, membrane k 20 + k, disc k 100 + k. In
-// a box that is periodic along x the mesh ends at two straight lines one period apart, the images
-// of one line that no membrane or disc crosses; shift_between_membranes() finds it. Three faults
-// are an Error(kNotConverged): a membrane or disc leaves the domain or a membrane meets a disc;
-// there is no such line; an edge is too short. A domain that is neither a disc nor a box is a
-// std::bad_variant_access. A change must keep that opposite periodic sides get the same points,
-// because scripts/constraints.idp identifies these, and the labels, which scripts/membranes.edp
-// repeats.
+// > 0 (not checked). Labels are 1 to 4 of walls, 9 of periodic sides, 20 + k of membrane k and 100
+// + k of disc k, from 0. In a box that is periodic along x the mesh ends at two straight lines one
+// period apart, the images of one line that no membrane or disc crosses; shift_between_membranes()
+// finds it. Three faults are an Error(kNotConverged): a membrane or disc leaves the domain or a
+// membrane meets a disc; there is no such line; an edge is too short. A domain that is neither a
+// disc nor a box is a std::bad_variant_access. A change must keep that opposite periodic sides get
+// the same points, because scripts/constraints.idp identifies these, and the labels, which
+// scripts/membranes.edp repeats.
 #include "viscontact/freefem_flow/membranes/membrane_boundary.hpp"
 
 #include <algorithm>
@@ -144,6 +144,7 @@ double shift_between_membranes(const particles::Domain& domain, const InnerCurve
   return middle - cell.from[0];
 }
 
+/// No curve may cross a periodic side, which is not checked.
 MeshBoundary membrane_boundary(const particles::Domain& domain, const InnerCurves& curves) {
   const WantedEdges edges(domain, curves);
   const auto wanted_at = [&](const Point& x) { return edges.at(x); };

@@ -264,6 +264,8 @@ particles::FlowField FlowProcess::flow() {
   return read_flow(*solver_);
 }
 
+/// Reads places [L], velocities [L/T] and pressures [M/(L T^2)] of the nodes, and the nodes of the
+/// triangles, from 0.
 particles::FlowField read_flow(SolverDialogue& solver) {
   solver.ask("flow", "flow\n");
   solver.expect("flow");

@@ -17,6 +17,7 @@
 
 namespace viscontact::particles {
 
+/// The number of particles that are due up to `time` [T]: 0 before `begin`, at most largest_count.
 std::size_t Source::due(double time) const {
   // A particle counts as due although `time` is too early by a rounding error. A billionth is far
   // above rounding errors, and far below the time between two particles.
@@ -113,6 +114,8 @@ Pouring::Pouring(std::vector<Source>& sources, State& state) : waiting_(sources.
   }
 }
 
+/// Adds the particles that are due at state.time. If one finds no free place, it and the later ones
+/// of its source wait for the next call.
 void Pouring::pour(const Setting& setting, State& state) {
   if (drawn_.empty()) return;
   auto& p = state.particles;

@@ -1,11 +1,11 @@
 // Makes rigid bodies of several discs or spheres, and moves them in a time step (docs/physics.md
-// (5.11)). In any consistent units, lengths are in [L], turns in [rad], masses [M] and inertia [M
-// L^2] are > 0 in free_step(), and steps h [T] are > 0. simulation.cpp, free_motion.cpp, case/,
-// constraints/, fluid/, impacts/ and links/ use it. Nothing is checked or thrown: wrong numbers
-// give infinite results or NaN, and if the iteration for the turn of a body does not converge, its
-// last value is taken. A change must keep that a body that crosses no side of a periodic cell has
-// the same bits as without periods, and that the angular momentum stays constant to rounding
-// without a torque.
+// (5.11)). Lengths [L], masses [M] and times [T] are in any consistent units, turns in [rad]; steps
+// h [T] must be > 0, and free_step() needs a mass [M] and an inertia [M L^2] > 0. simulation.cpp,
+// free_motion.cpp, case/, constraints/, fluid/, impacts/ and links/ use it. Nothing is checked or
+// thrown: wrong numbers give infinite results or NaN, and if the iteration for the turn of a body
+// does not converge, its last value is taken. A change must keep that a body that crosses no side
+// of a periodic cell has the same bits as without periods, and that the angular momentum stays
+// constant to rounding without a torque.
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
 
 #include <algorithm>
@@ -350,6 +350,8 @@ void constrain(BodyStep& step, const Vector& displacement, const Vector& turn, i
   step.turn = turn;
 }
 
+/// Displacement [L] of the point at `arm` [L] from the centre of a body that moves by
+/// `displacement` [L] and turns by `turn` [rad].
 Vector displacement_at(const Vector& displacement, const Vector& turn, const Vector& arm,
                        int dimension) {
   if (dimension == 3) return displacement + rotated(turned({1, 0, 0, 0}, turn), arm) - arm;

@@ -1,8 +1,8 @@
 // Reads the section [arrangement] of a case of many particles, which places particles at random,
 // and the species (kinds) of particles that arrangements and sources have. In the units of the
 // case, radii [L], masses [M], densities and shares are from 1e-100 to 1e100 (mass and density in a
-// fluid also 0), sigma is from 1e-6 to 1, a fraction in (0, 1), the gap [L] >= 0, a count 1 to 1
-// 000 000. A wrong value, and particles that do not fit, are an Error(kBadInput) with the line. A
+// fluid also 0), sigma is from 1e-6 to 1, a fraction in (0, 1), the gap [L] >= 0, a count 1 to
+// 1 000 000. A wrong value, and particles that do not fit, are an Error(kBadInput) with the line. A
 // change must keep keys and defaults, which users' cases rely on. Used by particle_tables.cpp and
 // source_section.cpp.
 #include <algorithm>

@@ -502,6 +502,7 @@ std::vector<case_file::KeyTable> domain_and_fluid_tables() {
           case_file::describe_keys("[[probe]]", probe_keys, Domain{})};
 }
 
+/// A word that names no file in `folder` stays as it is.
 std::vector<std::string> with_absolute_files(std::vector<std::string> command,
                                              const std::filesystem::path& folder) {
   for (auto& word : command) {
