@@ -62,8 +62,7 @@ std::string_view to_string(Misfit misfit) {
 
 Misfit parse_misfit(std::string_view word) { return require_named(kMisfits, word, "misfit").value; }
 
-/// Viscosity and radius must be positive, which is not checked; so must be that of
-/// with_viscosity().
+/// Viscosity [M/(L T)] and radius [L] must be positive, which is not checked.
 Fit exact_plane_fit(double viscosity, double radius) {
   Fit fit;
   fit.basis = kExactPlane;
@@ -80,6 +79,7 @@ Fit exact_plane_fit(double viscosity, double radius) {
 
 bool is_exact_plane(const Fit& fit) { return fit.basis == kExactPlane; }
 
+/// The viscosity [M/(L T)] must be positive, which is not checked.
 Fit with_viscosity(Fit fit, double viscosity) {
   const double scale = viscosity / fit.viscosity;
   fit.viscosity = viscosity;

@@ -102,7 +102,8 @@ ActionUnits action_units(MotionKind motion, double viscosity, double radius) {
   return {6 * kPi * viscosity * radius * length, 8 * kPi * viscosity * radius * radius * length};
 }
 
-/// False also for a pipe, and for a file that cannot be opened.
+/// False also for a pipe, and for a file that cannot be opened. A path that the system cannot look
+/// up throws std::filesystem::filesystem_error.
 bool is_motion_table(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path)) return false;
   std::ifstream file(path);

@@ -181,7 +181,8 @@ void fields_of(JsonFields& json, PairFit& fit) {
   json.foreign_object("provenance");
 }
 
-/// False for a pipe and for a missing file. Throws Error(kBadInput) if a file cannot be read.
+/// False for a pipe and for a missing file. Throws Error(kBadInput) if a file cannot be read, and
+/// std::filesystem::filesystem_error if the system cannot look up the path.
 bool is_pair_fit(const std::filesystem::path& path) {
   return std::filesystem::is_regular_file(path) &&
          read_file(path).find(fmt::format("\"kind\": \"{}\"", kPairFit)) != std::string::npos;

@@ -122,8 +122,9 @@ CLI::Option* add_jobs(CLI::App& command, int& jobs, const std::string& help) {
       ->default_str("one for each core");
 }
 
-/// The arguments of a command line from the name of the command on; an option without its value is
-/// moved behind a file that stands after it, such as in `fit --fix own.csv`. Throws nothing.
+/// The arguments of a command line, from the name of the command on, in an order that CLI11 reads
+/// correctly: an option without its value before a file, as in `fit --fix own.csv`, is moved to the
+/// end or to just before "--". Throws nothing.
 std::vector<std::string> with_files_apart(std::vector<std::string> arguments) {
   struct Option {
     std::string_view command, name;

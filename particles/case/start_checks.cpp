@@ -50,8 +50,9 @@ std::string obstacle_name(const ParticlesCase& c, std::size_t k) {
   return k < walls.size() ? walls[k] : fmt::format("plane {}", k - walls.size() + 1);
 }
 
-/// All gaps [L] at the start below `limit` >= 0 [L]; < 0 where there is an overlap. The largest
-/// diameter plus `limit` must be less than each period, which is not checked. Throws nothing.
+/// All gaps [L] at the start below `limit` >= 0 [L]; < 0 where there is an overlap; those of
+/// ellipses and plates may be larger. The largest diameter plus `limit` must be less than each
+/// period, which is not checked. Throws nothing.
 std::vector<StartGap> gaps_at_start(const ParticlesCase& c, double limit) {
   const auto& p = c.particles;
   const auto cell = cell_of(c.setting.domain);

@@ -89,7 +89,7 @@ void read_vector(const case_file::TomlSection& section, std::string_view key, Ve
   std::ranges::copy(numbers, place.begin());
 }
 
-/// The values below keep references to their arguments, which must outlive them.
+/// The value keeps references to the arguments, which must outlive it; so do the next three.
 case_file::KeyValue vector(Vector& place, const int& dimension) {
   return case_file::custom("a list of numbers", read_vector, place, dimension);
 }
