@@ -1,7 +1,7 @@
 // Reads the case file of one sphere, for app/, pipeline/, sweep/, report/, results/ and python/.
-// Numbers are in the units of the case; viscosity [M/(L T)], radius and first gap [L] and end time
-// [T] are positive, gravity [L/T^2] is any finite number, and a trajectory has 2 to 1e8 rows. A
-// wrong value is an Error(kBadInput) that names the line; a missing file or section is an
+// Numbers are in any consistent units, and finite: radius [L], viscosity [M/(L T)], mass [M], gaps
+// [L] and times [T] are positive; velocities [L/T], forces [M L/T^2] and gravity [L/T^2] have any
+// sign. A wrong value is an Error(kBadInput) that names the line; a missing file or section is an
 // Error(kBadInput) without a line. A change must keep the keys and their defaults, because users
 // have written cases with them. A new key must be added to docs/case-file.md. A new parameter of a
 // model needs no change here, because reduced_model/models/ lists the parameters.
@@ -133,7 +133,7 @@ void force_file_keys(Keys& keys, std::string& file) {
 
 /// The path of a file that the case names relative to `folder`, the folder of the case. If there is
 /// no such file, but `folder` itself contains a file of the same name, returns the path of that
-/// file, because a run copies the case and the files that it names into one folder.
+/// file, because a run copies the case and the files that it names into one folder. Throws nothing.
 fs::path force_file(const fs::path& folder, const fs::path& file) {
   const auto copy = folder / file.filename();
   // exists() fails for a text that cannot be the name of a file; reading the file reports it.
@@ -350,6 +350,8 @@ const Part& required(const std::optional<Part>& part, const Case& c, std::string
 
 }  // namespace
 
+/// The kind of a case, by its sections. Throws Error(kBadInput) for a pipe, and for a file that
+/// cannot be read or is not valid TOML.
 CaseKind kind_of_case(const fs::path& path) {
   std::error_code none;  // read_toml_file() says what is wrong
   if (fs::is_fifo(path, none))
@@ -381,6 +383,9 @@ void read_root(const TomlSection& root, Case& c) {
   root.finish();
 }
 
+/// The fit, scaled to radius and viscosity of the case. Throws Error(kBadInput) if it has an
+/// unknown term, or was made for another radius and for a geometry or container whose lengths in
+/// radii are not those of the case.
 lubrication::Fit fit_for(const Case& c, lubrication::Fit fit, const fs::path& file) {
   const double radius = fit.radius;
   fit = lubrication::scaled_to(std::move(fit), c.viscosity, c.radius);

@@ -1,9 +1,9 @@
 // The keys that all kinds of cases have: `units`, and those of [sweep] that choose points and
-// picture. The readers of cases in case_file/, particles/, rolling/ and swimmer/ use them. Numbers
-// have the units of the case; `samples` is a whole number from 1 to 1e12, and the word for a unit
-// has 1 to 20 bytes. A wrong value is an Error(kBadInput) with file and line. A change must keep
-// accepting users' cases. After a change of a declaration the tables of docs/case-file.md must be
-// made again.
+// picture. The readers of cases in case_file/, particles/, rolling/ and swimmer/ use them. Words of
+// units have 1 to 20 bytes; `samples` is a whole number from 1 to 1e12 without a unit; the other
+// keys are texts. Whether the keys and columns that [sweep] names exist is not checked here. A
+// wrong value is an Error(kBadInput) with file and line. A change must keep accepting users' cases.
+// After a change of a declaration the tables of docs/case-file.md must be made again.
 #include "viscontact/case_file/case_template.hpp"
 
 namespace viscontact::case_file {

@@ -1,8 +1,9 @@
 // Makes the tables of docs/case-file.md and the case that the command `init` writes from the
-// declarations of keys in case_file/, particles/, rolling/ and swimmer/; a whole number is from 1
-// to 1e12, a fraction between 0 and 1. Examples have the units of the case. Reading throws the
-// Error(kBadInput) of TomlSection; describing throws nothing. A change alters that page, whose test
-// CaseFilePage then fails.
+// declarations of keys in case_file/, particles/, rolling/ and swimmer/. Values and examples have
+// the units of the case; a declaration gives the allowed range of each number, and the default is
+// the value that the place has before. Reading a missing, wrong or disallowed value throws an
+// Error(kBadInput) with file, line and key; describing throws nothing. A change alters that page,
+// whose test CaseFilePage then fails.
 #include "viscontact/case_file/keys.hpp"
 
 #include <regex>

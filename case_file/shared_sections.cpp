@@ -1,10 +1,10 @@
 // Reads the sections [fluid], [sphere] and [tabulation] (gaps, velocities, geometry, container) of
-// one sphere or a rolling one (shared_sections.hpp), for case_file.cpp and rolling/. Numbers are in
-// the units of the case; gaps [L] are at least 1e-8 radii, a grid has 2 to 100000 of them, the
-// container is at most 2e5 radii wide, and velocities [L/T] are not 0. A wrong value is an
-// Error(kBadInput) with its line. A change must keep the gaps of a grid bit for bit, because
-// finished rows and tables are found again by their gaps. docs/case-file.md repeats kSmallestGap
-// and kLargestLength.
+// one sphere or a rolling one, for case_file.cpp and rolling/. Numbers are in the units of the
+// case: viscosity [M/(L T)], radius and lengths [L], mass [M] are positive; the density of the
+// fluid [M/L^3] is >= 0; reference velocities [L/T] (angular ones [1/T]) are not 0; gaps [L] are at
+// least 1e-8 radii. A wrong value is an Error(kBadInput) with its line. A change must keep the gaps
+// of a grid bit for bit, because finished rows and tables are found again by their gaps.
+// docs/case-file.md repeats kSmallestGap and kLargestLength.
 #include "viscontact/case_file/shared_sections.hpp"
 
 #include <algorithm>
@@ -199,6 +199,7 @@ void tabulation_keys(Keys& keys, Tabulation& tabulation) {
 
 }  // namespace
 
+/// Viscosity [M/(L T)] and radius [L] must be positive, which is not checked here.
 Tabulation read_tabulation(const TomlSection& section, double viscosity, double radius) {
   Tabulation tabulation;
   tabulation.viscosity = viscosity;
@@ -248,6 +249,8 @@ void sphere_keys(Keys& keys, double& radius, double& density, double& mass, bool
                     "20.0"});
 }
 
+/// The mass [M] of a sphere minus that of the fluid that it displaces; negative if the fluid is
+/// denser. Nothing is checked, and the result may be infinite.
 double mass_less_displaced_fluid(double mass, double fluid_density, double radius) {
   return mass - fluid_density * ball_volume(radius);
 }

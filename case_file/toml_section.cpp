@@ -1,7 +1,8 @@
 // Reads TOML tables with toml++, for all readers of cases in case_file/, particles/, rolling/ and
-// swimmer/. A key has at most 16 parts joined by dots, and arrays nest at most 256 deep. Numbers
-// are in the units of the file. Every fault is an Error(kBadInput) with the file and, where there
-// is one, the line, counted from 1. In a change, every function that reads a key must note it in
+// swimmer/. Numbers are in the units of the file; each must be finite and satisfy the `allowed` of
+// the caller. Lists have at least one element. Every fault (also a missing file, invalid TOML, a
+// missing or unknown key, a wrong type) is an Error(kBadInput) with the file and, where there is
+// one, the line, counted from 1. In a change, every function that reads a key must note it in
 // `asked`, because finish() reports all other keys as unknown.
 #include "viscontact/case_file/toml_section.hpp"
 
@@ -182,6 +183,8 @@ bool TomlSection::is_table(std::string_view key) const {
 
 int TomlSection::line() const { return line_of(*node_->table); }
 
+/// The line of the key, or that of the table if the key does not exist; 0 in a copy with other
+/// values.
 int TomlSection::line(std::string_view key) const {
   const auto* node = node_->table->get(key);
   return node != nullptr ? line_of(*node) : line();
@@ -325,6 +328,9 @@ void TomlSection::finish() const {
     }
 }
 
+/// Copies the root table with other numbers, which are not checked here. Throws Error(kBadInput)
+/// without a line if a path leads to no number, or if more than its last key does not exist. Lines
+/// of the copy are 0.
 TomlSection TomlSection::with_numbers(
     std::span<const std::pair<std::string, double>> numbers) const {
   auto root = std::make_shared<toml::table>(*node_->root);
@@ -363,6 +369,7 @@ TomlSection TomlSection::with_numbers(
   return TomlSection(Node{root, root.get(), node_->file, "", {}});
 }
 
+/// Throws Error(kBadInput) without a line if a path leads to no text.
 TomlSection TomlSection::with_texts(
     std::span<const std::pair<std::string, std::string>> texts) const {
   auto root = std::make_shared<toml::table>(*node_->root);

@@ -1,9 +1,10 @@
 // Fits one force table in each basis (list of functions of the gap), and picks the fit with the
-// smallest value of Akaike's criterion. Numbers are in the units of the table; lubrication/fit.hpp
-// has their dimensions and ranges. The Error of a basis that cannot be fitted is stored, not
-// thrown; only Error(kInterrupted) is thrown. Used by pipeline/fit_stages.cpp and report/. A change
-// must fit the same rows with the same weights in each basis, because the values of the criterion
-// cannot be compared otherwise.
+// smallest value of Akaike's criterion, a number without dimension. Gaps [L] are positive,
+// velocities [L/T] not 0, forces in [M L/T^2], in the units of the table (not checked). The Error
+// of a basis that cannot be fitted is stored as its text, not thrown; only Error(kInterrupted) is
+// thrown. best_basis() is null if no fit has a criterion. Used by pipeline/fit_stages.cpp and
+// report/. A change must fit the same rows with the same weights in each basis, because the values
+// of the criterion cannot be compared otherwise.
 #include "viscontact/fitting/basis_comparison.hpp"
 
 #include "viscontact/common/error.hpp"

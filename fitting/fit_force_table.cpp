@@ -1,11 +1,13 @@
 // Assembles the equations of a fit, F = sum of coefficient * term(q) for each row of a table,
-// solves them by least squares, and sets the members of the fit and its diagnostics. q is the gap,
-// F the force and u the velocity of a row, and r the radius of the sphere, in the units of the
-// table; fit_force_table.hpp and lubrication/fit.hpp have the dimensions and ranges. A table or a
-// choice of terms that cannot be fitted is an Error(kBadInput) or Error(kNotConverged), a stop an
-// Error(kInterrupted). Used by pipeline/, motions/fit/, basis_comparison.cpp, examples/ and
-// python/. A change must keep that units and order of the rows change the fit by rounding only, and
-// the numbers 0.99 and 5 below, which lubrication/fit.hpp repeats.
+// solves them by least squares, and sets the members of the fit and its diagnostics. In the units
+// of the table, q > 0 is the gap [L], F the force [M L/T^2] and u the velocity [L/T], not 0, of a
+// row, r > 0 the radius of the sphere [L]; relative residuals, fit/F - 1, have no dimension. A
+// table needs as many different gaps as there are coefficients, at least 2; fewer, rows that
+// contradict each other and a result that a double cannot hold are an Error(kBadInput), dependent
+// terms an Error(kNotConverged), a stop an Error(kInterrupted). Used by pipeline/, motions/fit/,
+// basis_comparison.cpp, examples/ and python/. A change must keep that units and order of the rows
+// change the fit by rounding only, and the numbers 0.99 and 5 below, which lubrication/fit.hpp
+// repeats.
 #include "viscontact/fitting/fit_force_table.hpp"
 
 #include <fmt/format.h>
@@ -456,6 +458,8 @@ FittedSystem residuals_of(const Equations& equations, const RobustSolution& solu
 
 }  // namespace
 
+/// Sets all members of the fit but table_sha256 and versions. A poor fit throws nothing: its
+/// diagnostics have warnings.
 lubrication::Fit fit_force_table(const lubrication::MotionTable& table, const FitSettings& settings,
                                  const StopToken& stop) {
   check_linearity(table);

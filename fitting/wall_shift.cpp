@@ -1,9 +1,11 @@
 // Finds the depth below its crests at which a rough wall acts like a smooth one, the only unknown
-// of a least squares problem, by Gauss-Newton iteration. Lengths, masses and times are in the units
-// of the table; wall_shift.hpp has dimensions and ranges. A table and a force that do not belong
-// together are an Error(kBadInput), an iteration that does not end an Error(kNotConverged). Used by
-// pipeline/fit_stages.cpp and report/. A change must keep the sign of the shift and the
-// Error(kBadInput) that names a row whose resistance no gap of the smooth wall has.
+// of a least squares problem, by Gauss-Newton iteration. In the units of the table gaps [L] are
+// positive, resistances [M/T] positive, and the common shift [L] is >= 0; relative residuals have
+// no dimension. The table must have a row, which is not checked. A table and a force that do not
+// belong together are an Error(kBadInput), an iteration that does not end within 100 steps an
+// Error(kNotConverged). Used by pipeline/fit_stages.cpp and report/. A change must keep the sign of
+// the shift and the Error(kBadInput) that names a row whose resistance no gap of the smooth wall
+// has.
 #include "viscontact/fitting/wall_shift.hpp"
 
 #include <algorithm>

@@ -1,7 +1,8 @@
 // Makes the command line and the environment of FreeFEM processes, and finds the scripts and the
 // Debian package of FreeFEM. Used by freefem_axi/journal/freefem.cpp and
-// freefem_flow/freefem_solver.cpp. Times are in seconds; freefem_command.hpp has the ranges.
-// Missing scripts are an Error(kExternalProgram), a wrong time limit an Error(kWrongUsage). A
+// freefem_flow/freefem_solver.cpp. Time limits are whole numbers of seconds from 1 to 10 million.
+// Missing scripts are an Error(kExternalProgram), a wrong time limit an Error(kWrongUsage), a stop
+// request while dpkg answers an Error(kInterrupted). That FreeFEM exists is not checked here. A
 // change must keep that files in a user's folder and a user's settings of FreeFEM have no effect on
 // a script.
 #include "viscontact/freefem/freefem_command.hpp"
@@ -82,6 +83,7 @@ std::string executable_of_user() {
   return named != nullptr && *named != '\0' ? named : "FreeFem++-nw";
 }
 
+/// Nothing if the variable is not set or empty; Error(kWrongUsage) if it is no such number.
 std::optional<std::chrono::seconds> time_limit_of_user() {
   // Four months; the check finds typing errors, and any longer time works too.
   constexpr int kLongest = 10'000'000;
@@ -97,6 +99,7 @@ std::optional<std::chrono::seconds> time_limit_of_user() {
   return std::chrono::seconds(seconds);
 }
 
+/// Nothing without dpkg, without an answer within 10 s, or if no package owns the program.
 std::optional<Package> package_of(const std::string& executable, const StopToken& stop) {
   // dpkg answers within a second. If it takes longer, the system counts as one without dpkg.
   constexpr std::chrono::seconds kLongest(10);
@@ -114,6 +117,7 @@ std::optional<Package> package_of(const std::string& executable, const StopToken
   return package;
 }
 
+/// Throws Error(kExternalProgram) if no folder share/viscontact/PART with the script is found.
 std::filesystem::path find_script_folder(std::string_view part, std::string_view script) {
   namespace fs = std::filesystem;
   const auto program_folder = fs::read_symlink("/proc/self/exe").parent_path();

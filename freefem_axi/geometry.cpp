@@ -1,10 +1,11 @@
 // The table of the bodies beside a sphere, its neighbours: plane, free surface, sphere, cavity,
-// rough plane. q is the gap, r the radius of the sphere, mu the viscosity, R the resistance;
-// lengths are in any one unit; geometry.hpp has the dimensions and ranges. An unknown name or
-// motion is an Error(kBadInput). Used by tabulation.cpp, case_file/ and rolling/. A change must
-// keep the names, which case files and tables contain; the flags, which the scripts read; the order
-// of the parameters, which functions here find by their index; and motions in the order of
-// MotionKind.
+// rough plane. q > 0 is the gap [L], r > 0 the radius of the sphere [L], mu the viscosity
+// [M/(L T)], R the resistance [M/T]; lengths are in any one unit, curvatures in 1 over it, ratios
+// and factors without dimension. The functions of a row do not check their parameters, which must
+// be complete. An unknown name or motion is an Error(kBadInput). Used by tabulation.cpp, case_file/
+// and rolling/. A change must keep the names, which case files and tables contain; the flags, which
+// the scripts read; the order of the parameters, which functions here find by their index; and
+// motions in the order of MotionKind.
 #include "viscontact/freefem_axi/geometry.hpp"
 
 #include <algorithm>
@@ -161,6 +162,9 @@ bool has_motion(const Geometry& geometry, lubrication::MotionKind motion) {
   return std::ranges::find(geometry.motions, motion) != geometry.motions.end();
 }
 
+/// The motions with these names, in the order of MotionKind; {"all"} are those of the geometry.
+/// Throws Error(kBadInput) for an unknown geometry or name, a name twice, and a motion that the
+/// geometry lacks.
 std::vector<lubrication::MotionKind> parse_motions(const std::vector<std::string>& names,
                                                    std::string_view geometry_name) {
   const auto& geometry = find_geometry(geometry_name);
@@ -185,6 +189,7 @@ std::vector<lubrication::MotionKind> parse_motions(const std::vector<std::string
   return motions;
 }
 
+/// Throws Error(kBadInput), which lists the names, if there is none with this name.
 const Geometry& find_geometry(std::string_view name) {
   return require_named(kGeometries, name, "geometry");
 }

@@ -1,10 +1,12 @@
 // Calls the FreeFEM script of a geometry with the argument -motion, and reads the lines
 // "viscontact-action" that scripts/row.idp prints: forces and torques in units of viscosity, sphere
-// radius and velocity of the motion; lubrication/motion_table.hpp has the dimensions of the rows.
-// Lines that are missing or contradict each other are an Error(kExternalProgram), an unknown
-// geometry an Error(kBadInput), a stop an Error(kInterrupted). Used by motion_table_plan.cpp,
-// row_picture.cpp and bench/. A change must agree with scripts/row.idp, which numbers its solutions
-// in the order of motions_of().
+// radius and velocity of the motion. The rows are in the units of the case: gap > 0 [L] (the script
+// refuses others), velocity 1 [L/T] or angular velocity 1 [1/T], forces [M L/T^2], torques
+// [M L^2/T^2], factors and error estimates [1]. Lines that are missing or contradict each other,
+// and a FreeFEM that fails, are an Error(kExternalProgram), an unknown geometry an
+// Error(kBadInput), a stop an Error(kInterrupted). Used by motion_table_plan.cpp, row_picture.cpp
+// and bench/. A change must agree with scripts/row.idp, which numbers its solutions in the order of
+// motions_of().
 #include "viscontact/freefem_axi/motion_row.hpp"
 
 #include <array>
@@ -32,7 +34,8 @@ constexpr double kForceUnit = 6 * std::numbers::pi, kTorqueUnit = 8 * std::numbe
 struct ActionLine {
   /// The solution is the index in motions_of(); body 0 is the sphere, 1 the neighbour.
   std::size_t solution = 0, body = 0;
-  /// Force, torque, estimates of their relative errors, observed order of convergence.
+  /// Force, torque, error estimates of their factors (both over the sphere's force factor if it
+  /// slides, over its torque factor if it turns), observed order of convergence.
   std::array<double, 5> numbers{};
 };
 

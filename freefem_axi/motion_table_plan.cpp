@@ -1,9 +1,11 @@
 // Makes the plans of the tables of one sphere: which rows they have, how FreeFEM solves them, and a
-// text of everything that the numbers depend on, from which a hash is made. Numbers are in the
-// units of the case; tabulation.hpp has their dimensions and ranges. An unknown geometry is an
-// Error(kBadInput); solving a row throws the errors of solve_row() and solve_motions(). Used by
-// pipeline/tabulate/. A change must keep this text: with another hash all tables that users have
-// count as out of date and are computed again.
+// text of everything that the numbers depend on, from which a hash is made. In the units of the
+// case, viscosity [M/(L T)], radius [L] and gaps [L] are positive, velocities [L/T] or [1/T] not 0,
+// the relative accuracy [1] in (0, 1); none of this is checked here. An unknown geometry is an
+// Error(kBadInput). Solving a row throws Error(kExternalProgram) if FreeFEM fails, Error(kBadInput)
+// for a force that a double cannot hold, and Error(kInterrupted). Used by pipeline/tabulate/. A
+// change must keep this text: with another hash all tables that users have count as out of date and
+// are computed again.
 #include "viscontact/freefem_axi/motion_table_plan.hpp"
 
 #include <fmt/format.h>
@@ -108,6 +110,7 @@ std::vector<MotionGroup> motion_groups(const Tabulation& tabulation) {
   return groups;
 }
 
+/// At least one motion of the group must be asked for, which is not checked.
 TablePlan motion_table_plan(const Tabulation& tabulation, MotionGroup group,
                             const TablePath& path_of) {
   PlanParts<MotionRow> parts;

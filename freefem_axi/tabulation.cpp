@@ -1,9 +1,10 @@
 // Computes the force on a sphere at one gap and velocity: makes the arguments of a FreeFEM script,
-// runs it and reads the result. Numbers are in the units of the case, except that FreeFEM writes
-// the force in the units of solve_scale(); tabulation.hpp has their dimensions. A row without a
-// result is an Error(kExternalProgram), an unknown geometry and a force beyond the range of a
-// double an Error(kBadInput), a stop an Error(kInterrupted). Used by motion_row.cpp,
-// row_picture.cpp, case_file/, rolling/, app/ and bench/. A change must agree with the flags in
+// runs it and reads the result. In the units of the case, viscosity [M/(L T)], radius and gap [L]
+// are positive, the velocity [L/T] not 0, the force in [M L/T^2]; only FreeFEM checks this, and it
+// writes the force in the units of solve_scale(). A row without a result is an
+// Error(kExternalProgram), an unknown geometry and a force beyond the range of a double an
+// Error(kBadInput), a stop an Error(kInterrupted). Used by motion_row.cpp, row_picture.cpp,
+// case_file/, rolling/, app/ and bench/. A change must agree with the flags in
 // scripts/sphere_arguments.idp and the output of row.idp, and keep the words for geometry and
 // container, on which the hashes of tables depend.
 #include "viscontact/freefem_axi/tabulation.hpp"
@@ -57,6 +58,8 @@ std::string container_in_words(const Tabulation& tabulation) {
                      format_number(tabulation.container->height));
 }
 
+/// Throws std::out_of_range if tabulation.geometry_parameters is too short; so does
+/// row_arguments().
 std::string geometry_in_words(const Tabulation& tabulation) {
   const auto& geometry = find_geometry(tabulation.geometry);
   std::string words(geometry.name);
@@ -75,6 +78,8 @@ double neighbour_ratio(const Tabulation& tabulation, lubrication::MotionKind mot
   return geometry.neighbour_ratio(motion, tabulation.geometry_parameters);
 }
 
+/// The coefficient k > 0 [M L/T] of 1/gap in the resistance, by lubrication theory; nothing if it
+/// is not known.
 std::optional<double> leading_coefficient(const Tabulation& tabulation) {
   const auto& geometry = find_geometry(tabulation.geometry);
   if (geometry.leading_factor == nullptr) return std::nullopt;
@@ -106,6 +111,8 @@ std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
   return arguments;
 }
 
+/// The units of viscosity [M/(L T)] and speed [L/T] in which FreeFEM computes: 1, unless viscosity
+/// or |velocity| is outside [1e-9, 1e9].
 SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity) {
   // Any limits far from those of a double would do: products of these numbers stay normal.
   constexpr double kLeast = 1e-9, kMost = 1e9;

@@ -1,8 +1,9 @@
-// Dissipation of the fluid without particles (dissipation_alone.hpp, which has its dimension) in
-// closed form, for linear flows and plane Couette flow. process/flow_process.cpp and
-// membranes/membrane_process.cpp use it. Units are those of the arguments; nothing is thrown. A
-// change must keep that the result is exactly 0 if no closed form is known: callers take 0 for "not
-// known".
+// Dissipation of the fluid without particles, >= 0, in closed form, for linear flows and plane
+// Couette flow: in a disc or box per unit length of the third dimension [M L/T^3], in a cylinder
+// [M L^2/T^3]. process/flow_process.cpp and membranes/membrane_process.cpp use it. Units are those
+// of the arguments, whose ranges are not checked (the viscosity [M/(L T)] and the lengths are
+// positive); nothing is thrown. A change must keep that the result is exactly 0 if no closed form
+// is known: callers take 0 for "not known".
 #include "viscontact/freefem_flow/dissipation_alone.hpp"
 
 namespace viscontact::freefem_flow {

@@ -1,8 +1,9 @@
 // The commands of fluid solvers, and the units in which FreeFEM computes, for app/ and python/.
-// Numbers are in the units of the case if nothing else is said; freefem_solver.hpp and
-// particles/fluid/fluid_solver.hpp have the dimensions and ranges; L, M and T are the dimensions of
-// length, mass and time. A solver that does not start is an Error(kExternalProgram), a particle too
-// small for its mesh or a wrong domain an Error(kBadInput), a gap too narrow for the mesh an
+// Numbers are in the units of the case if nothing else is said: lengths [L] and the viscosity
+// [M/(L T)] are > 0, velocities in [L/T, 1/T], forces and torques in [M L/T^2, M L^2/T^2], in the
+// plane with masses per unit length of the third dimension. Time limits are 1 to 10 million
+// seconds. A solver that does not start is an Error(kExternalProgram), a particle too small for its
+// mesh or a wrong domain an Error(kBadInput), a gap too narrow for the mesh an
 // Error(kNotConverged), a wrong time limit in the environment an Error(kWrongUsage), and a
 // requested stop an Error(kInterrupted). A change must keep units that are powers of 2, because
 // their scaling has no rounding error, and the names of the scripts in scripts/.
@@ -314,6 +315,8 @@ SolverCommand freefem_command(const std::string& script) {
 
 }  // namespace
 
+/// `dimension`: 2 in the plane, 1 on the axis of a cylinder. Throws Error(kExternalProgram) if
+/// there is no such script; that the program exists is not checked.
 SolverCommand solver_command(const particles::Fluid& fluid, int dimension) {
   if (!fluid.solver.empty()) {
     SolverCommand own;
@@ -325,6 +328,7 @@ SolverCommand solver_command(const particles::Fluid& fluid, int dimension) {
   return freefem_command(script_of(fluid.mesh, dimension));
 }
 
+/// Throws Error(kWrongUsage) for a wrong time limit in the environment.
 SolverLimits solver_limits(const StopToken& stop) {
   SolverLimits limits;
   limits.stop = stop;
@@ -332,6 +336,8 @@ SolverLimits solver_limits(const StopToken& stop) {
   return limits;
 }
 
+/// `radii` [L] are those of all particles, > 0; `dimension` is 2 in the plane and 1 on an axis.
+/// Never null.
 std::unique_ptr<particles::FluidSolver> start_fluid_solver(const particles::Fluid& fluid,
                                                            const particles::Domain& domain,
                                                            std::span<const double> radii,

@@ -1,10 +1,12 @@
 // Puts the boundary of a mesh together from walls, periodic sides, the axis of a cylinder and the
-// surfaces of the particles, for freefem_solver.cpp. mesh_boundary.hpp has the labels, dimensions
-// and ranges; lengths are in the unit of the arguments. A gap that is too narrow, or discs of one
-// body that overlap across a periodic side, are an Error(kNotConverged), and a missing domain is a
-// std::bad_variant_access, which EdgeLengths throws. A change must keep that opposite periodic
-// sides get the same points, because scripts/constraints.idp identifies these, and the labels,
-// which scripts/ and docs/fluid-solver.md repeat.
+// surfaces of the particles, for freefem_solver.cpp. Lengths [L] are in the unit of the arguments;
+// radii and `coarsening` are > 0, and particles are inside the domain (not checked). Labels are 1
+// to 4 of walls, 5 of the axis, 8 of lines inside particles, 9 of periodic sides, and 100 + k of
+// particle k, from 0. A gap that is too narrow, or discs of one body that overlap across a periodic
+// side, are an Error(kNotConverged), and a missing domain is a std::bad_variant_access, which
+// EdgeLengths throws. A change must keep that opposite periodic sides get the same points, because
+// scripts/constraints.idp identifies these, and the labels, which scripts/ and docs/fluid-solver.md
+// repeat.
 #include "viscontact/freefem_flow/mesh_boundary.hpp"
 
 #include <algorithm>
@@ -234,6 +236,7 @@ void check_unions(const particles::Fluid& fluid, const particles::Particles& par
 
 }  // namespace
 
+/// bodies.particles must not be null, which is not checked.
 MeshBoundary mesh_boundary(const particles::Fluid& fluid, const particles::Domain& domain,
                            const particles::FluidParticles& bodies, double coarsening) {
   check_unions(fluid, *bodies.particles);

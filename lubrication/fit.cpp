@@ -1,9 +1,11 @@
 // Reads and writes fit files, names the choices that they contain, and makes the fit object for the
-// exact drag of a plane and for another viscosity. Numbers are in the units of the fit; fit.hpp has
-// their dimensions and ranges. A fault of a file or an unknown word is an Error(kBadInput). Used by
-// fitting/, motions/, case_file/, reduced_model/, sweep/, results/, pipeline/, app/ and python/. A
-// change must keep names and keys, which fit files contain, and agree with docs/fit.schema.json,
-// which repeats keys, types and ranges.
+// exact drag of a plane and for another viscosity. In the units of the fit, viscosity [M/(L T)],
+// radius and gaps [L] are positive, the velocity u0 [L/T] is not 0, coefficients are a force
+// [M L/T^2] over the unit of their term; this is checked only when a file is read. A fault of a
+// file (also that it does not exist) or an unknown word is an Error(kBadInput). Used by fitting/,
+// motions/, case_file/, reduced_model/, sweep/, results/, pipeline/, app/ and python/. A change
+// must keep names and keys, which fit files contain, and agree with docs/fit.schema.json, which
+// repeats keys, types and ranges.
 #include "viscontact/lubrication/fit.hpp"
 
 #include <fmt/format.h>
@@ -60,6 +62,7 @@ std::string_view to_string(Misfit misfit) {
 
 Misfit parse_misfit(std::string_view word) { return require_named(kMisfits, word, "misfit").value; }
 
+/// Viscosity [M/(L T)] and radius [L] must be positive, which is not checked.
 Fit exact_plane_fit(double viscosity, double radius) {
   Fit fit;
   fit.basis = kExactPlane;
@@ -76,6 +79,7 @@ Fit exact_plane_fit(double viscosity, double radius) {
 
 bool is_exact_plane(const Fit& fit) { return fit.basis == kExactPlane; }
 
+/// The viscosity [M/(L T)] must be positive, which is not checked.
 Fit with_viscosity(Fit fit, double viscosity) {
   const double scale = viscosity / fit.viscosity;
   fit.viscosity = viscosity;
@@ -216,6 +220,8 @@ Fit parse_fit(const std::string& text, const std::string& file) {
 
 std::string write_fit(const Fit& fit) { return JsonFields::text_of(fit); }
 
+/// `count` >= 2 gaps [L] with equal ratios from the first to the second end of `interval`, 0 <
+/// first < second; neither is checked.
 std::vector<double> spread_gaps(const std::array<double, 2>& interval, int count) {
   const double low = std::log(interval[0]);
   const double high = std::log(interval[1]);

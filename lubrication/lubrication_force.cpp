@@ -1,8 +1,8 @@
-// The resistance R(q) of a sphere at the gap q, its derivative, its primitive Gamma, and the
-// inverse of Gamma: by a sum of fitted terms in the interval [q1, q2] of the fit, and by simple
-// formulas for other gaps. Lengths, masses and times are in any consistent units;
-// lubrication_force.hpp has the dimensions and ranges. A gap that is not allowed and a fit whose
-// resistance is not positive are an Error(kBadInput), a result that a double cannot hold an
+// The resistance R(q) > 0 [M/T] of a sphere at the gap q > 0 [L], its derivative, its primitive
+// Gamma [M L/T], and the inverse of Gamma: by a sum of fitted terms in the interval [q1, q2] of the
+// fit, and by simple formulas for other gaps. Lengths, masses and times are in any consistent
+// units. A gap that is not allowed (outside [q1, q2] without such a formula, or NaN) and a fit
+// whose resistance is not positive are an Error(kBadInput), a result that a double cannot hold an
 // Error(kNotConverged). Used by reduced_model/, fitting/, rolling/, pipeline/, report/ and python/.
 // A change must keep R and Gamma continuous at q1 and q2, where one formula replaces another one.
 #include "viscontact/lubrication/lubrication_force.hpp"
@@ -117,6 +117,7 @@ void LubricationForce::check_gap(double gap) const {
               smallest, largest, remedy);
 }
 
+/// The coefficient k > 0 [M L/T] of 1/q in R. Throws Error(kBadInput) if it is not positive.
 double LubricationForce::leading_coefficient() const {
   if (!(leading_ > 0))
     throw Error(ErrorKind::kBadInput,
@@ -131,6 +132,7 @@ LubricationForce::LubricationLimit LubricationForce::limit() const {
   return limit_;
 }
 
+/// R(q) - k/q [M/T], also for q = 0; below the interval it is the value at q1.
 double LubricationForce::regular_resistance(double gap) const {
   if (exact_)
     return leading_ / radius_ * plane_drag_factor_regular(std::max(gap / radius_, kExactRange[0]));
@@ -140,6 +142,7 @@ double LubricationForce::regular_resistance(double gap) const {
   return sum_values(regular_weights_, from);
 }
 
+/// The integral of R - k/q from 0 to q [M L/T], for q >= 0.
 double LubricationForce::regular_impulse(double gap) const {
   if (exact_)
     return gap > 0 ? leading_ * plane_drag_regular_integral(std::max(gap / radius_, kExactRange[0]))
@@ -171,6 +174,7 @@ double LubricationForce::resistance(double gap) const {
   return sum_values(weights_, gap);
 }
 
+/// q dR/dq [M/T], of any sign.
 double LubricationForce::resistance_log_slope(double gap) const {
   check_gap(gap);
   if (exact_) return leading_ / radius_ * plane_drag_factor_log_slope(gap / radius_);
@@ -195,6 +199,8 @@ double LubricationForce::impulse(double gap) const {
   return sum_antiderivatives(weights_, gap) - impulse_at_radius_;
 }
 
+/// ln(q/r) of two gaps between which Gamma is `impulse_wanted` [M L/T]. Throws Error(kBadInput) if
+/// the gap is outside the allowed ones, and Error(kNotConverged) if it is too small for a double.
 std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted) const {
   if (!std::isfinite(impulse_wanted))
     throw Error(ErrorKind::kBadInput,
@@ -248,6 +254,8 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
   return {high, std::log((largest + beyond / std::min(stokes, resistance(largest))) / radius_)};
 }
 
+/// The gap [L] at which Gamma is `impulse_wanted` [M L/T]; the search begins at the gap `near` > 0
+/// [L], or, if it is infinite, in the middle. Throws the errors of bracket_of_impulse().
 double LubricationForce::gap_of_impulse(double impulse_wanted, double near) const {
   // Near contact Gamma is almost linear in s = ln(q/r), so Newton's method in s converges fast. ln
   // q instead of ln(q/r) would make rounding errors depend on the unit of length.

@@ -1,9 +1,10 @@
 // The columns of a table of force and torque on a sphere, and the checks of its numbers
-// (docs/file-formats.md). Numbers are in the units of the table; motion_table.hpp has their
-// dimensions and ranges. A number that is missing or of the wrong sign is an Error(kBadInput) with
-// file and line. freefem_axi/ makes the rows; fitting/, motions/, pipeline/, python/ and results/
-// read tables. A change must keep the names and the order of the columns, which published tables
-// have.
+// (docs/file-formats.md). In the units of the table, gaps [L] are > 0, velocities [L/T] or [1/T]
+// not 0, forces in [M L/T^2], torques in [M L^2/T^2], factors and error estimates without
+// dimension, estimates >= 0. A number that is missing or of the wrong sign, or a factor that is not
+// finite, is an Error(kBadInput) with file and line; a file that does not exist is one with its
+// path. freefem_axi/ makes the rows; fitting/, motions/, pipeline/, python/ and results/ read
+// tables. A change must keep the names and the order of the columns, which published tables have.
 #include "viscontact/lubrication/motion_table.hpp"
 
 #include <algorithm>
@@ -56,6 +57,8 @@ void prepare(const TableHead& head, MotionRow& row) {
   if (head.motion != MotionKind::kApproach) row.neighbour.emplace();
 }
 
+/// Computes forces and torques that are NaN from their factors, and factors that are NaN from
+/// forces and torques. Removes a neighbour without factors. Throws nothing.
 void complete(const TableHead& head, MotionRow& row) {
   const auto units = action_units(head.motion, head.viscosity, head.radius);
   const auto one_from_other = [&](double& force, double& factor, double unit) {
@@ -71,6 +74,7 @@ void complete(const TableHead& head, MotionRow& row) {
   }
 }
 
+/// Throws Error(kBadInput) with the position `here`.
 void check(const TableHead& head, const MotionRow& row, const FilePosition& here) {
   const bool turning = turns(head.motion);
   const double own = turning ? row.torque : row.force;
@@ -90,12 +94,16 @@ double largest_estimate(const MotionRow& row) {
                    other.relative_error_estimate, other.torque_error_estimate});
 }
 
+/// Force and torque over factor and velocity. Viscosity [M/(L T)] and radius [L] must be > 0, which
+/// is not checked.
 ActionUnits action_units(MotionKind motion, double viscosity, double radius) {
   constexpr double kPi = std::numbers::pi;
   const double length = turns(motion) ? radius : 1;
   return {6 * kPi * viscosity * radius * length, 8 * kPi * viscosity * radius * radius * length};
 }
 
+/// False also for a pipe, and for a file that cannot be opened. A path that the system cannot look
+/// up throws std::filesystem::filesystem_error.
 bool is_motion_table(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path)) return false;
   std::ifstream file(path);

@@ -1,9 +1,10 @@
 // The solution of Reynolds' equation in the film between a sphere and its neighbour, which slide
 // past each other or turn (docs/physics.md (2.9), (2.10)). Lengths are in sphere radii, q is the
 // gap, mu the viscosity, r the radius. kappa, 1 plus the neighbour's curvature, is the curvature of
-// the film: its thickness is q + kappa rho^2/2 at the distance rho from the axis. near_contact.hpp
-// has the ranges. Nothing is checked or thrown. Used by freefem_axi/motion_table_plan.cpp. A change
-// must keep the coefficients, which published tables contain.
+// the film: its thickness is q + kappa rho^2/2 at the distance rho from the axis. The curvature
+// must be > -1, and velocity_ratio 0 unless it is > 0; results are numbers of any sign. Nothing is
+// checked or thrown. Used by freefem_axi/motion_table_plan.cpp. A change must keep the
+// coefficients, which published tables contain.
 #include "viscontact/lubrication/near_contact.hpp"
 
 #include <numbers>

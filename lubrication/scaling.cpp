@@ -1,9 +1,9 @@
-// Scales the coefficients, errors and lengths of a fit from radius r and viscosity mu to r' and
-// mu'. Numbers are in any consistent units; scaling.hpp has their dimensions and ranges. An unknown
-// term is an Error(kBadInput). Used by case_file/, motions/, swimmer/, app/ and python/. A change
-// must keep all bits of a fit whose radius and viscosity do not change, because results of earlier
-// versions were computed with it, and find the lengths in the words that freefem_axi/tabulation.cpp
-// and swimmer/tabulation/ make.
+// Scales the coefficients, errors and lengths of a fit from radius r > 0 [L] and viscosity mu > 0
+// [M/(L T)] to r' and mu', both > 0, which is not checked. Numbers are in any consistent units. An
+// unknown term is an Error(kBadInput). Used by case_file/, motions/, swimmer/, app/ and python/. A
+// change must keep all bits of a fit whose radius and viscosity do not change, because results of
+// earlier versions were computed with it, and find the lengths in the words that
+// freefem_axi/tabulation.cpp and swimmer/tabulation/ make.
 #include "viscontact/lubrication/scaling.hpp"
 
 #include <algorithm>
@@ -66,11 +66,14 @@ void scale_gaps(FitDiagnostics& d, double ratio) {
 
 }  // namespace
 
+/// ratio^-n [1] for the term q^n or q^n ln q, with `ratio` = r'/r > 0 (not checked).
 double scale_of_term(std::string_view term, double ratio) {
   const auto power = power_beside_logarithm(term);
   return all_terms()[place_of(power ? std::string_view(*power) : term)].value(1 / ratio);
 }
 
+/// `power` is that of the radius in the resistance: 1 for a force per velocity, 2 for a force per
+/// angular velocity or a torque per velocity, 3 for a torque per angular velocity.
 Fit scaled_to(Fit fit, double viscosity, double radius, int power) {
   if (is_exact_plane(fit)) return exact_plane_fit(viscosity, radius);
   const double ratio = radius / fit.radius;
@@ -110,6 +113,7 @@ Fit scaled_to(Fit fit, double viscosity, double radius, int power) {
   return fit;
 }
 
+/// Each number after a word that does not end in "_ratio" counts as a length. Throws nothing.
 std::string with_lengths_scaled(const std::string& words, double factor) {
   std::istringstream in(words);
   std::string text, before;

@@ -1,9 +1,10 @@
 // The names of the motions of a sphere, and the lines "# key: value" at the head of a table
-// (docs/file-formats.md). Numbers are in the units of the table; table.hpp has their dimensions and
-// ranges. A fault of a file is an Error(kBadInput) with file and key. Used by motion_table.cpp,
-// table_codec.hpp, freefem_axi/ and swimmer/. A change must keep the names and keys of published
-// tables (other files search for "# case: " and "# viscontact: resistance table"), and kMotions in
-// the order of MotionKind.
+// (docs/file-formats.md). In the units of the table, viscosity [M/(L T)], radii [L] and the leading
+// coefficient of the approach [M L/T] are > 0; the leading factors have any sign; a line of spheres
+// has 2 to 10 radii. A fault of a file is an Error(kBadInput) with the file and the key, or the
+// line and the name of the column. Used by motion_table.cpp, table_codec.hpp, freefem_axi/ and
+// swimmer/. A change must keep the names and keys of published tables (other files search for
+// "# case: " and "# viscontact: resistance table"), and kMotions in the order of MotionKind.
 #include "viscontact/lubrication/table.hpp"
 
 #include <array>
@@ -28,6 +29,7 @@ std::string_view to_string(MotionKind motion) {
   return kMotions.at(static_cast<std::size_t>(motion)).name;
 }
 
+/// Throws Error(kBadInput), which lists the names, for an unknown one.
 MotionKind parse_motion(std::string_view name) {
   return require_named(kMotions, name, "motion").kind;
 }

@@ -1,9 +1,10 @@
 // The table of terms, the functions of the gap q > 0 that a fit combines, and the named bases. q is
-// in the unit of length of the fit, and l = ln q; terms.hpp has the dimensions. An unknown name is
-// an Error(kBadInput). Used by fitting/, motions/, rolling/, case_file/, app/ and other files of
-// lubrication/. A new term or basis needs only a row here. A change must keep the names, the order
-// of kTerms, in which sums are added, and that log_slope is q times the derivative of value, and
-// antiderivative a primitive of value.
+// a number in the unit of length of the fit, and l = ln q; a term q^n or q^n ln q has the unit of
+// length to the power n. That q > 0, and that there is a weight for each term, is not checked. An
+// unknown name, an empty one or one that is named twice is an Error(kBadInput). Used by fitting/,
+// motions/, rolling/, case_file/, app/ and other files of lubrication/. A new term or basis needs
+// only a row here. A change must keep the names, the order of kTerms, in which sums are added, and
+// that log_slope is q times the derivative of value, and antiderivative a primitive of value.
 #include "viscontact/lubrication/terms.hpp"
 
 #include <array>
@@ -98,6 +99,7 @@ std::size_t place_of(std::string_view term) {
   return static_cast<std::size_t>(&require_named(kTerms, term, "term") - kTerms.data());
 }
 
+/// Nothing, and no error, if there is no such term.
 std::optional<Term> find_term(std::string_view name) {
   const auto* term = find_named(kTerms, name);
   return term == nullptr ? std::nullopt : std::optional(*term);

@@ -1,10 +1,11 @@
 // The names, bases and values of the resistances of a sphere beside a body at rest, and the keys of
-// their file (docs/file-formats.md): an object for each resistance, with the keys of a fit file.
-// Numbers are in the units of the fit; pair_fit.hpp has their dimensions and ranges. An unknown
-// name, a missing resistance and a fault of the file are an Error(kBadInput); terms of a fit are
-// known, because its reader checks them. Used by motions/fit/, motions/job/, rolling/, app/ and
-// python/. A change must keep published files readable, the text "pair fit", for which other files
-// search, and pair_entries() in the order of PairEntry.
+// their file (docs/file-formats.md): an object for each resistance, with the keys of a fit file. In
+// the units of the fit, squeeze and slide are in [M/T], slide_roll in [M L/T], roll and spin in
+// [M L^2/T]; viscosity [M/(L T)], radius and gaps [L] are > 0, which is checked only in files. An
+// unknown name, a missing resistance and a fault of the file are an Error(kBadInput); terms of a
+// fit are known, because its reader checks them. Used by motions/fit/, motions/job/, rolling/, app/
+// and python/. A change must keep published files readable, the text "pair fit", for which other
+// files search, and pair_entries() in the order of PairEntry.
 #include "viscontact/motions/pair_fit.hpp"
 
 #include <fmt/format.h>
@@ -89,6 +90,8 @@ lubrication::Basis basis_of_entry(const NamedEntry& entry, std::string_view name
   return basis;
 }
 
+/// The resistance at the gap `gap` > 0 [L], also outside the fitted interval; NaN or infinite for
+/// other gaps. Throws Error(kBadInput) if the fit lacks the entry.
 double entry_value(const PairFit& fit, PairEntry entry, double gap) {
   const auto found = fit.entries.find(entry);
   if (found == fit.entries.end())
@@ -178,6 +181,8 @@ void fields_of(JsonFields& json, PairFit& fit) {
   json.foreign_object("provenance");
 }
 
+/// False for a pipe and for a missing file. Throws Error(kBadInput) if a file cannot be read, and
+/// std::filesystem::filesystem_error if the system cannot look up the path.
 bool is_pair_fit(const std::filesystem::path& path) {
   return std::filesystem::is_regular_file(path) &&
          read_file(path).find(fmt::format("\"kind\": \"{}\"", kPairFit)) != std::string::npos;

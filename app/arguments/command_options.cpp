@@ -1,12 +1,12 @@
 // Options that several commands of app/ share, and checks of what a command line names; main.cpp,
-// commands/ and help/ use them. Widths are from 100 to 10000 and letters from 2 to 200, in pixels
-// of an SVG or points of a PDF; --jobs is from 1 to 1024, --tasks from 1 to 4e6, and --task is K/T
-// with 0 <= K < T. A wrong option is an Error(kWrongUsage) or, if CLI11 checks it, a
-// CLI::ParseError; a file that --plot must not replace is an Error(kBadInput), and a path that
-// cannot be resolved a std::filesystem::filesystem_error. The list `options` in with_files_apart()
-// must contain every option for which a command calls CLI11's expected(0, 1), which allows an
-// option without its value. The names of the options of array jobs (jobs of many tasks on a Slurm
-// cluster) must stay, because submitted scripts contain them.
+// commands/ and help/ use them. Widths are 100 to 10000 and font sizes 2 to 200, both in pixels of
+// an SVG or points of a PDF; jobs are 1 to 1024, tasks 1 to 4000000. A wrong option is an
+// Error(kWrongUsage) or, if CLI11 checks it, a CLI::ParseError; a file that --plot must not replace
+// is an Error(kBadInput), and a path that cannot be resolved a std::filesystem::filesystem_error.
+// The list `options` in with_files_apart() must contain every option for which a command calls
+// CLI11's expected(0, 1), which allows an option without its value. The names of the options of
+// array jobs (jobs of many tasks on a Slurm cluster) must stay, because submitted scripts contain
+// them.
 #include "viscontact/app/arguments/command_options.hpp"
 
 #include <fmt/format.h>
@@ -43,6 +43,7 @@ std::filesystem::path resolved_place_of(std::filesystem::path path) {
 
 }  // namespace
 
+/// Throws Error(kWrongUsage) for an empty name and for two names of one file.
 void check_outputs(const std::vector<std::string>& paths) {
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (paths[i].empty())
@@ -54,6 +55,8 @@ void check_outputs(const std::vector<std::string>& paths) {
   }
 }
 
+/// Does nothing if `path` is empty. Throws Error(kWrongUsage) for an unknown ending, and
+/// Error(kBadInput) if `path` is a file, but no picture of this kind that Viscontact wrote.
 void check_picture(const std::string& path) {
   if (path.empty()) return;
   const auto* kind = results::picture_kind(path);
@@ -81,6 +84,7 @@ void add_picture(CLI::App& command, results::PictureRequest& picture, const std:
       ->needs(plot);
 }
 
+/// Throws Error(kWrongUsage) if one of `names` is no name of a model.
 void check_models(std::string_view option, const std::vector<std::string>& names) {
   for (const auto& name : names)
     from_option(option, [&] { return reduced_model::find_model(name); });
@@ -118,6 +122,9 @@ CLI::Option* add_jobs(CLI::App& command, int& jobs, const std::string& help) {
       ->default_str("one for each core");
 }
 
+/// The arguments of a command line, from the name of the command on, in an order that CLI11 reads
+/// correctly: an option without its value before a file, as in `fit --fix own.csv`, is moved to the
+/// end or to just before "--". Throws nothing.
 std::vector<std::string> with_files_apart(std::vector<std::string> arguments) {
   struct Option {
     std::string_view command, name;
@@ -175,12 +182,15 @@ void add_array_options(CLI::App& command, ArrayOptions& o, const std::string& re
   o.task_option->excludes(o.launcher_option)->excludes(o.gather_option);
 }
 
+/// Throws Error(kWrongUsage) for options that need --launcher slurm without it, and for a wrong
+/// --task.
 void check_array_options(const ArrayOptions& o) {
   if (!o.is_slurm() && (o.tasks > 0 || !o.slurm_options.empty()))
     throw Error(ErrorKind::kWrongUsage, "--tasks and --slurm-options need --launcher slurm");
   (void)share_of(o);
 }
 
+/// The rows of --task; all rows without this option. Throws Error(kWrongUsage) unless 0 <= K < T.
 pipeline::Share share_of(const ArrayOptions& o) {
   pipeline::Share share;
   if (o.task.empty()) return share;

@@ -1,8 +1,10 @@
-// Reads and writes files with POSIX calls, for all parts with files. A failed call becomes an
-// Error(kBadInput) with the path, also where a file is asked for and a folder or a device is there,
-// a signal while a pipe is read an Error(kInterrupted); write_file_by() also throws what its
-// argument throws. A change must keep the order write, fsync, rename, fsync of the folder, because
-// only in this order does a power cut leave either the old or the new file.
+// Reads and writes files with POSIX calls, for all parts with files. A file is any number of bytes,
+// which are not interpreted. A failed call, such as for a file that does not exist, is an
+// Error(kBadInput) with the path; an old file is then unchanged, unless flushing its folder failed
+// after the new one took its place. A signal while a pipe is read is an Error(kInterrupted);
+// write_file_by() also throws what its argument throws. A change must keep the order write, fsync,
+// rename, fsync of the folder, because only in this order does a power cut leave either the old or
+// the new file.
 #include "viscontact/common/files/file.hpp"
 
 #include <fcntl.h>
@@ -114,6 +116,7 @@ void finish_replacement(const std::filesystem::path& place) {
 
 }  // namespace
 
+/// All bytes of a file or a pipe. A folder or a device is an Error(kBadInput), too.
 std::string read_file(const std::filesystem::path& path) {
   // A signal ends open and read only while they wait for a pipe. In the program it then asks for a
   // stop, because other signals have no handler or let them go on (SA_RESTART). In the Python
@@ -157,6 +160,8 @@ void remove_file(const std::filesystem::path& path) {
   if (error) throw_system_error(path, "removed", error.value());
 }
 
+/// A folder that cannot be opened or flushed by its file system is no error; an error of the disk
+/// is.
 void sync_folder_of(const std::filesystem::path& path) {
   const Descriptor file(::open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   // EINVAL: the file system cannot flush folders.
@@ -164,6 +169,9 @@ void sync_folder_of(const std::filesystem::path& path) {
     throw_system_error(path, "written", errno);
 }
 
+/// The file that writing to `path` would replace: `path`, or what it links to. Throws
+/// Error(kBadInput) if this exists and is no regular file. Whether the file can be written is not
+/// checked.
 std::filesystem::path check_output_file(const std::filesystem::path& path) {
   namespace fs = std::filesystem;
   std::error_code error;
@@ -197,10 +205,13 @@ void write_file_by(const std::filesystem::path& path,
   }));
 }
 
+/// The caller must call flush_files() afterwards, or a power cut may lose the file.
 void write_unflushed(const std::filesystem::path& path, std::string_view content) {
   (void)put_content(path, content, false);
 }
 
+/// All files must be in the folder of the first one, which is not checked: only that folder is
+/// flushed.
 void flush_files(std::span<const std::filesystem::path> paths) {
   for (const auto& path : paths) {
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));

@@ -1,8 +1,9 @@
 // Writes new lines over the foot of the file (a text that always ends it), followed by the foot
-// again, in one call, for the logs of particles/run/. Lengths are in bytes. More than 64 KiB of
-// waiting lines are written at once; lines that are neither written nor synced are lost in a crash.
-// A change must keep that the file ends with a whole line and the foot, also after a failed write,
-// which is an Error(kBadInput).
+// again, in one call, for the logs of particles/run/. Lengths are in bytes, without the foot. Lines
+// must be whole, each with its line break, which is not checked; up to 64 KiB of them wait in
+// memory, and without sync() they are lost. A file that cannot be read or written, or does not have
+// the lines that an earlier process wrote, is an Error(kBadInput) with the path. A change must keep
+// that the file ends with a whole line and the foot, also after a failed write.
 #include "viscontact/common/files/growing_file.hpp"
 
 #include <fcntl.h>
@@ -30,6 +31,8 @@ GrowingFile::GrowingFile(std::filesystem::path path, std::string_view head, std:
   append(head);
 }
 
+/// Throws Error(kBadInput) unless the file is at least `end.bytes` long and end.last_line ends
+/// there; also if `end` is that of a file without lines.
 void GrowingFile::check(const FileEnd& end) const {
   const Descriptor file(::open(path_.c_str(), O_RDONLY | O_CLOEXEC));
   struct stat status = {};
@@ -43,6 +46,7 @@ void GrowingFile::check(const FileEnd& end) const {
     throw_bad_input({path_.string()}, "does not have the lines that the run has written into it");
 }
 
+/// Removes all that follows `end` in the file.
 void GrowingFile::resume(const FileEnd& end) {
   check(end);
   file_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_CLOEXEC));

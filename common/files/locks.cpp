@@ -1,8 +1,10 @@
 // Opens, locks (flock) and appends with system calls, for the commands that write into a folder or
-// a journal: app/, freefem_axi/, particles/, rolling/, sweep/ and swimmer/ use it. A failed call,
-// or a lock that another process holds, becomes an Error(kBadInput) with the path; a file system
-// without locks is no error. A change must keep the locks flocks, because
-// freefem_axi/journal/row_record.cpp locks the same files with flock.
+// a journal: app/, freefem_axi/, particles/, rolling/, sweep/ and swimmer/ use it. Texts and
+// messages may be any bytes. A failed call, or a lock that another process holds, is an
+// Error(kBadInput) with the path; a file system without locks is no error, and two processes then
+// do not notice each other. After a failed append_to() a part of the text may be in the file. A
+// change must keep the locks flocks, because freefem_axi/journal/row_record.cpp locks the same
+// files with flock.
 #include "viscontact/common/files/locks.hpp"
 
 #include <fcntl.h>

@@ -1,11 +1,11 @@
 // Exchanges messages with a child process by poll on its three streams at once, for the fluid
-// solvers of freefem_flow/. Times are in milliseconds, memory is in units of 1024 bytes. A word or
-// line has at most 4096 bytes, and the 20 last lines of 1000 bytes each are kept. Throws
-// Error(kExternalProgram) for a program that cannot be run, Error(kInterrupted) if a stop is
-// requested while a word or line is awaited, and std::system_error without free sockets. A child
-// that fails later is no error: Reading::state says what happened. A change must keep that at most
-// one buffer is received ahead of what is read, so that a child that writes without end takes no
-// memory.
+// solvers of freefem_flow/. Times are in milliseconds, memory is in units of 1024 bytes; a word or
+// line has at most kLongestText bytes (4096), and kLines lines (20) of kLongest bytes (1000) are
+// kept. Throws Error(kExternalProgram) for a program that cannot be run, Error(kInterrupted) if a
+// stop is requested while a word or line is awaited, and std::system_error without free sockets. A
+// child that fails later is no error: Reading::state says what happened. A change must keep that at
+// most one buffer is received ahead of what is read, so that a child that writes without end takes
+// no memory.
 #include "viscontact/common/system/child_process.hpp"
 
 #include <fmt/format.h>
@@ -83,6 +83,7 @@ ChildProcess::~ChildProcess() {
   }
 }
 
+/// Text for a child that no longer reads is lost without an error.
 void ChildProcess::send(std::string_view text) {
   to_send_.erase(0, sent_);
   sent_ = 0;
@@ -141,6 +142,7 @@ ChildProcess::Reading ChildProcess::more_or(Clock::time_point deadline, std::siz
   return {};
 }
 
+/// A last word without white space after it is not returned: the state is then kClosed.
 ChildProcess::Reading ChildProcess::read_word(Clock::time_point deadline) {
   std::size_t searched = 0;  // bytes of the word that are known not to be white space
   for (;;) {
@@ -193,6 +195,7 @@ void ChildProcess::keep(std::string_view line) {
   last_lines_.add(LastLines::kOutput, "\n");
 }
 
+/// In units of 1024 bytes; 0 if the child has ended.
 long ChildProcess::peak_memory_kb() const {
   std::ifstream status(fmt::format("/proc/{}/status", child_.id));
   const std::string key = "VmHWM:";
@@ -210,6 +213,9 @@ bool ChildProcess::has_ended() const {
          info.si_pid == child_.id;
 }
 
+/// Waits at most `grace` for the end of the child, kills its group, and returns how it ended, such
+/// as "ended with status 3" or "had to be stopped". Throws nothing; a stop request only ends the
+/// waiting.
 std::string ChildProcess::finish(std::chrono::milliseconds grace) {
   const auto deadline = Clock::now() + grace;
   const auto collect = [&](int milliseconds) {

@@ -1,10 +1,11 @@
 // Runs a child process to its end, such as FreeFEM, gnuplot or sbatch for app/, freefem/,
 // freefem_axi/, pipeline/ and report/: sends its input while it collects its output. Times are in
-// milliseconds, memory is in units of 1024 bytes. The exit status is from 0 to 255; 128 + n if the
-// signal n ended the child. A program that cannot be run is no exception: the result says so (exit
-// status 127, as in a shell). A requested stop throws Error(kInterrupted), and a system without
-// free sockets std::system_error. A change must keep that a child that neither reads nor writes nor
-// ends is killed at its time limit or at a stop.
+// milliseconds, memory is in units of 1024 bytes. There must be at least one argument, the program
+// (not checked); without a time limit the child may run for ever. A program that cannot be run is
+// no exception: the result says so (exit status 127, as in a shell; 128 + number of a signal that
+// ended the child). A requested stop throws Error(kInterrupted) within about 0.1 s, and a system
+// without free sockets std::system_error. A change must keep that a child that neither reads nor
+// writes nor ends is killed at its time limit or at a stop.
 #include "viscontact/common/system/process.hpp"
 
 #include <poll.h>

@@ -1,10 +1,11 @@
-// Starts a child process by fork and exec, for process.cpp and child_process.cpp. Throws
-// std::system_error without free sockets or descriptors; a program that cannot be run is no
-// exception: the result then has the process number -1 and words that say why. Between fork and
-// exec a change may only call functions that neither allocate memory nor take locks, because
-// another thread may hold a lock at the moment of the fork: those that POSIX lists as
-// async-signal-safe, prctl, which is a system call, and execvpe of glibc (>= 2.24), which works on
-// the stack.
+// Starts a child process by fork and exec, for process.cpp and child_process.cpp. The command has
+// at least one argument, the program, which is looked up on PATH (not checked). Throws
+// std::system_error without free sockets or descriptors; if the program cannot be run or fork
+// fails, nothing is thrown: `id` is -1, and `failure` says why. The caller must wait for the end of
+// the child (waitpid). Between fork and exec a change may only call functions that neither allocate
+// memory nor take locks, because another thread may hold a lock at the moment of the fork: those
+// that POSIX lists as async-signal-safe, prctl, which is a system call, and execvpe of glibc
+// (>= 2.24), which works on the stack.
 #include "viscontact/common/system/start_process.hpp"
 
 #include <fcntl.h>

@@ -1,7 +1,9 @@
-// The worker threads of a ThreadPool, which particles/ uses. A pool has at least one thread, and
-// loops within loops are not checked. Which thread computes a block depends on chance; a change
-// must keep that no result depends on it. A thread that the system refuses is no error. The first
-// exception of a loop is thrown again in the thread that called run().
+// The worker threads of a ThreadPool, which particles/ uses. The number of threads counts the
+// calling one, and 1 or less means that it works alone; blocks are counted from 0, and any number
+// of them is allowed. Which thread computes a block depends on chance; a change must keep that no
+// result depends on it. A thread that the system refuses is no error. The first exception of a loop
+// is thrown again in the thread that called run(), when all blocks are finished; without workers at
+// once. A loop must not start another one, which is not checked.
 #include "viscontact/common/system/thread_pool.hpp"
 
 #include <atomic>

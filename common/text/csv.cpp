@@ -1,8 +1,11 @@
 // Reads CSV files by fast-cpp-csv-parser, for all readers of tables, trajectories and particles.
-// Numbers are in the units of their columns; csv.hpp has the ranges and errors. Every fault of a
-// file becomes an Error(kBadInput) with the file and, if it is in one line, the line; the messages
-// are those of the library only where no other one fits. What `add_row` throws passes unchanged. A
-// change must keep published files readable.
+// Each field is empty or a finite number in the unit of its column; lines are counted from 1, and
+// at least one column must be asked for. Every fault of a file (it cannot be read, no header line,
+// a column twice or missing, too few or too many fields, a field that is no number, another number
+// of rows than a line "# rows:" says) is an Error(kBadInput) with the file and, if it is in one
+// line, the line; the messages are those of the library only where no other one fits. A file
+// without rows is right. What `add_row` throws passes unchanged. A change must keep published files
+// readable.
 #include "viscontact/common/text/csv.hpp"
 
 #include <fmt/format.h>
@@ -142,6 +145,8 @@ void read_columns(const std::string& text, const std::string& file,
 
 }  // namespace
 
+/// The lines "# key: value" of a text; of two values of a key the last one counts, and
+/// `contradictions` (may be null) gets keys with different values. Throws nothing.
 CsvComments read_csv_comments(const std::string& text, std::set<std::string>* contradictions) {
   CsvComments comments;
   std::istringstream stream(text);
@@ -178,6 +183,7 @@ std::vector<std::string> csv_fields(const std::string& line) {
   return fields;
 }
 
+/// Throws nothing; a text without a header line has no names, and the line after its last one.
 CsvHeader csv_header(const std::string& text) {
   std::istringstream lines(text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size())
                                                             : text);
@@ -215,6 +221,9 @@ double csv_comment_number(const CsvComments& comments, const std::string& key,
   return *value;
 }
 
+/// The first `required` of `names` must be in the header line; another column that is missing has
+/// empty fields. Rows above a faulty one may have been passed to `add_row` when the error is
+/// thrown.
 void read_csv_rows(
     std::string text, const std::string& file, std::span<const std::string> names,
     std::size_t required,

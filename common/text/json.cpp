@@ -1,8 +1,10 @@
-// Reads JSON for fits, comparisons, provenance and records of runs; json.hpp and json_fields.hpp
-// have the ranges and errors. A text is read twice: once for errors, lines and repeated keys, and
-// once for the values. Every fault of a text becomes an Error(kBadInput) with file, line and cause;
-// a value that the `read` of read_json() misses becomes one without a line. Other exceptions of
-// `read` pass unchanged. A change must keep published files readable.
+// Reads JSON for fits, comparisons, provenance and records of runs. Lines are counted from 1, and
+// those of values up to eight levels deep are recorded; numbers must fit into a double. A text is
+// read twice: once for errors, lines and repeated keys, and once for the values. Every fault of a
+// text becomes an Error(kBadInput) with file, line and cause; a file that cannot be read is one
+// with its path, and a value that the `read` of read_json() misses becomes one without a line.
+// Other exceptions of `read` pass unchanged. What values mean is not checked here. A change must
+// keep published files readable.
 #include "viscontact/common/text/json.hpp"
 
 #include <fmt/format.h>
@@ -167,6 +169,7 @@ JsonDocument JsonDocument::parse(const std::string& text, std::string file) {
   return document;
 }
 
+/// The line of the value at the path, or of the nearest array or object above it. Throws nothing.
 int JsonDocument::line_of(std::string path) const {
   for (;;) {
     if (const auto found = lines_.find(path); found != lines_.end()) return found->second;

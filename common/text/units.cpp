@@ -1,6 +1,9 @@
 // Composes the words of units, such as "kg m/s²", for pages, axes and tables of particles/,
-// report/, rolling/ and swimmer/; units.hpp has the ranges of the powers. A power beyond -9 to 9
-// throws std::out_of_range. A change must keep the words of files, which users' scripts read.
+// report/, rolling/ and swimmer/. Nothing is converted. Powers of mass, length and time are from -9
+// to 9; another power throws std::out_of_range where a unit or dimension is written. If the case
+// does not say its units (the word for the length is empty), unit_or_dimension() writes the
+// dimension; other words of units are then empty, and texts with dimensions stay unchanged. Words
+// are not checked here. A change must keep the words of files, which users' scripts read.
 #include "viscontact/common/text/units.hpp"
 
 #include <array>

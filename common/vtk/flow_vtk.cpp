@@ -1,7 +1,10 @@
-// Writes flows as VTK files for freefem_axi/ and particles/, and reads them for particles/picture/
-// (flow_vtk.hpp, which has the dimensions). A file that cannot be read, is no such file or is cut
-// short is an Error(kBadInput); writing throws nothing. A change must keep the names of the arrays,
-// because the reader and users' pictures refer to them.
+// Writes flows as VTK files for freefem_axi/ and particles/, and reads them for particles/picture/.
+// Places are in [L], velocities in [L/T], pressures in [M/(L T^2)], in the units of the case; there
+// is one number for each node, and nodes of triangles are counted from 0. When a file is written,
+// lengths of lists are not checked and nothing is thrown. A file that cannot be read, is no such
+// file or is cut short is an Error(kBadInput) with its path; that numbers are finite is not
+// checked. A change must keep the names of the arrays, because the reader and users' pictures refer
+// to them.
 #include "viscontact/common/vtk/flow_vtk.hpp"
 
 #include <algorithm>

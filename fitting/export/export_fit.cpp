@@ -1,11 +1,11 @@
-// Writes a fit as code or numbers: the resistance R of a sphere as a function of the gap q, the sum
-// of weight * term(q), and its primitive Gamma(q) = int_r^q R, with the sphere's radius r
-// (docs/physics.md (3.2), (3.3), (4.2)). Numbers are in the units of the fit; lubrication/fit.hpp
-// has their dimensions and ranges. Three faults are an Error(kBadInput): an unknown target, a
-// resistance that is not positive, and a fit without the coefficient k that a formula for small
-// gaps needs. The target csv with gaps outside the interval is an Error(kWrongUsage). Used by app/
-// and motions/fit/export_pair.cpp, which repeats the names of the targets. A change must keep the
-// names of functions and keys, which programs of users call, and the order of the sums.
+// Writes a fit as code or numbers: the resistance R [M/T] of a sphere as a function of the gap q
+// > 0 [L], the sum of weight * term(q), and its primitive Gamma(q) = int_r^q R [M L/T], with the
+// sphere's radius r (docs/physics.md (3.2), (3.3), (4.2)), in the units of the fit. Three faults
+// are an Error(kBadInput): an unknown target, a resistance that is not positive and finite, and a
+// fit without the coefficient k > 0 that a formula for small gaps needs. The target csv with gaps
+// outside the interval is an Error(kWrongUsage). Used by app/ and motions/fit/export_pair.cpp,
+// which repeats the names of the targets. A change must keep the names of functions and keys, which
+// programs of users call, and the order of the sums.
 #include "viscontact/fitting/export/export_fit.hpp"
 
 #include <fmt/format.h>

@@ -1,10 +1,11 @@
-// Runs FreeFEM processes to their end and reads what they print. Times are in seconds; freefem.hpp
-// has the ranges. A FreeFEM that does not start and scripts that are not found are an
-// Error(kExternalProgram), a wrong time limit of the user an Error(kWrongUsage), a stop an
-// Error(kInterrupted); if a script fails, the caller decides. Used by tabulation.cpp,
-// motion_row.cpp, tabulate.cpp, swimmer/tabulation/, pipeline/tabulate/, results/, app/ and bench/.
-// A change must keep each process on one thread and within its time limit, and the words
-// "viscontact-error" and "viscontact-version", which the scripts print.
+// Runs FreeFEM processes to their end and reads what they print. Times are whole seconds: by
+// default at most 30 minutes for a row and 2 minutes for the version, or what the user's time limit
+// says (1 to 10 million). Accuracies are relative, in (0, 1) (not checked). A FreeFEM that does not
+// start and scripts that are not found are an Error(kExternalProgram), a wrong time limit of the
+// user an Error(kWrongUsage), a stop an Error(kInterrupted); if a script fails, the caller decides.
+// Used by tabulation.cpp, motion_row.cpp, tabulate.cpp, swimmer/tabulation/, pipeline/tabulate/,
+// results/, app/ and bench/. A change must keep each process on one thread and within its time
+// limit, and the words "viscontact-error" and "viscontact-version", which the scripts print.
 #include "viscontact/freefem_axi/journal/freefem.hpp"
 
 #include <fmt/format.h>
@@ -50,6 +51,8 @@ FreeFem default_freefem(const StopToken& stop) {
   return freefem;
 }
 
+/// A script that fails or exceeds its time limit throws nothing: the caller must look at
+/// `exit_status` and `timed_out` of the result.
 ProcessResult run_freefem(const FreeFem& freefem, std::string_view script,
                           const std::vector<std::string>& arguments,
                           std::optional<std::chrono::seconds> time_limit) {
@@ -91,6 +94,8 @@ std::string line_after(const std::string& output, std::string_view prefix) {
   return {};
 }
 
+/// The version in words. Throws Error(kExternalProgram) if FreeFEM fails or does not answer in
+/// time.
 std::string freefem_version(const FreeFem& freefem) {
   const auto result = run_freefem(freefem, "version.edp", {}, freefem.version_limit);
   if (result.timed_out)

@@ -1,11 +1,12 @@
 // Opens, locks and appends to a journal, the file of the rows of a table that FreeFEM has finished,
 // and writes and reads its lines. A line is "HASH row POINT NUMBERS VERSION CHECKSUM" or "HASH
-// failed POINT REASON CHECKSUM": HASH identifies the table, POINT and NUMBERS are numbers in its
-// units (table_plan.hpp has their dimensions), VERSION is that of FreeFEM. A damaged line is read
-// as nothing; a journal that cannot be written or is locked is an Error(kBadInput). Used by
-// tabulate.cpp, row_record.cpp and pipeline/tabulate/. A change must keep that a line is written in
-// one piece and is on disk when append() returns, that is_writer_name() accepts what writer_name()
-// makes, and that journals of interrupted runs can be read.
+// failed POINT REASON CHECKSUM": HASH identifies the table, POINT is gap [L] and velocity [L/T] (or
+// gaps alone), NUMBERS are the columns of the row in the units of the table, all finite; VERSION is
+// that of FreeFEM. A damaged line is read as nothing; a journal that cannot be written or is locked
+// is an Error(kBadInput). Used by tabulate.cpp, row_record.cpp and pipeline/tabulate/. A change
+// must keep that a line is written in one piece and is on disk when append() returns, that
+// is_writer_name() accepts what writer_name() makes, and that journals of interrupted runs can be
+// read.
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 
 #include <fcntl.h>

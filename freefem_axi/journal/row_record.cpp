@@ -1,8 +1,10 @@
 // Reads all journals of a table (files of the rows that processes have finished), merges their rows
-// with those of the table, and removes from the journals what the table contains. Numbers are in
-// the units of the table; table_plan.hpp has their dimensions. A damaged line counts as no row; a
-// journal that cannot be read, replaced or removed is an Error(kBadInput). Used by tabulate.cpp,
-// pipeline/ and python/. A change must keep that the table is read after the journals.
+// with those of the table, and removes from the journals what the table contains. Rows are found by
+// their points, gap [L] and velocity [L/T] (or gaps alone), as they stand in the files, in the
+// units of the table. A damaged line, a file that does not exist and a table of other inputs count
+// as no row; a journal that cannot be read, replaced or removed is an Error(kBadInput). Used by
+// tabulate.cpp, pipeline/ and python/. A change must keep that the table is read after the
+// journals.
 #include "viscontact/freefem_axi/journal/row_record.hpp"
 
 #include <fcntl.h>
@@ -94,6 +96,7 @@ std::vector<std::string> failures_of(const RowRecord& record, const std::vector<
   return reasons;
 }
 
+/// A journal that cannot be opened for writing, or that another process has locked, stays.
 void remove_journals(const fs::path& table_path, const std::string& hash) {
   for (const auto& journal : journals_of(table_path)) {
     // The lock is held while the journal is read and removed. Another process that has opened the

@@ -1,10 +1,12 @@
 // Distributes the rows of a table over threads, each of which runs one FreeFEM process at a time
-// and waits for it. Times are in seconds; tabulate.hpp has the ranges. A row that FreeFEM cannot
-// solve is recorded as failed; every other error stops all threads and is thrown:
-// Error(kExternalProgram) if FreeFEM cannot be run, Error(kBadInput) if the journal cannot be
-// written, Error(kInterrupted) for a stop. Used by pipeline/tabulate/. A change must keep that a
-// row is on disk before its thread starts the next one, and that only one thread at a time uses the
-// journal (the file of finished rows) and the progress report.
+// and waits for it. Times are in seconds, points of rows in the units of the table (gap [L],
+// velocity [L/T], or gaps alone); the number of threads is at least 1 (not checked: with fewer no
+// row is computed). A row that FreeFEM cannot solve is recorded as failed; every other error stops
+// all threads and is thrown: Error(kExternalProgram) if FreeFEM cannot be run, Error(kBadInput) if
+// the journal cannot be written or read, Error(kInterrupted) for a stop. Used by
+// pipeline/tabulate/. A change must keep that a row is on disk before its thread starts the next
+// one, and that only one thread at a time uses the journal (the file of finished rows) and the
+// progress report.
 #include "viscontact/freefem_axi/journal/tabulate.hpp"
 
 #include <atomic>
@@ -47,6 +49,7 @@ JournalEntry solve(const FreeFem& freefem, const std::string& version, const Tab
 
 }  // namespace
 
+/// If no row at `points` is missing, neither FreeFEM nor `report` is called.
 void compute_rows(const RowWorker& worker, const TablePlan& plan,
                   const std::vector<RowPoint>& points, const std::filesystem::path& table_path,
                   const TabulateReport& report) {

@@ -1,10 +1,11 @@
-// The lengths of edges of the mesh (edge_lengths.hpp), from distances to particles and walls.
-// mesh_boundary.cpp, freefem_solver.cpp and membranes/ use them. Lengths are in the unit of the
-// arguments; edge_lengths.hpp has the ranges. check_edge_length() throws Error(kNotConverged);
-// without a domain, size_of() and the constructor throw std::bad_variant_access. The constants are
-// chosen by the table of errors in bench/README.md ("Particles in a fluid"), which must be measured
-// again after a change, because it changes all meshes; 24 is the default of
-// fluid.edges_per_particle.
+// The lengths of edges of the mesh, from distances to particles and walls. mesh_boundary.cpp,
+// freefem_solver.cpp and membranes/ use them. Lengths [L] are in the unit of the arguments; those
+// of edges are > 0 if there are gaps, and <= 0 where surfaces touch. Radii, the number of edges on
+// a particle and `coarsening` must be > 0, and a particle with the given number (from 0) must
+// exist, which is not checked. check_edge_length() throws Error(kNotConverged); without a domain,
+// size_of() and the constructor throw std::bad_variant_access. The constants are chosen by the
+// table of errors in bench/README.md ("Particles in a fluid"), which must be measured again after a
+// change, because it changes all meshes; 24 is the default of fluid.edges_per_particle.
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
 
 #include <limits>
@@ -37,6 +38,7 @@ constexpr double kFasterWithInertia = 2, kFastestWithInertia = 0.1;
 
 }  // namespace
 
+/// The smallest extent [L] of the domain: a diameter, or the shorter side.
 double size_of(const particles::Domain& domain) {
   if (const auto* disc = std::get_if<particles::DiscDomain>(&domain)) return 2 * disc->radius;
   if (const auto* cylinder = std::get_if<particles::CylinderDomain>(&domain))
@@ -45,6 +47,8 @@ double size_of(const particles::Domain& domain) {
   return std::min(box.to[0] - box.from[0], box.to[1] - box.from[1]);
 }
 
+/// Throws Error(kNotConverged) unless `edge` [L] is longer than 1e-7 times `length` [L], also for
+/// NaN.
 void check_edge_length(double edge, double length) {
   constexpr double kShortest = 1e-7;      // FreeFEM merges nearer points
   if (edge > kShortest * length) return;  // false for NaN
@@ -134,6 +138,7 @@ double EdgeLengths::on_particle(std::size_t k, const Point& x) const {
   return std::min(longest_, across(distance));
 }
 
+/// At the point of particle k that has the parameter `t` [rad] on its outline.
 double EdgeLengths::on_outline(std::size_t k, double t) const {
   const auto& outline = outlines_[k];
   const double length = on_particle(k, outline.at(t));

@@ -1,10 +1,10 @@
-// Computes the edges where a mesh of a periodic box ends, for mesh_boundary.cpp; periodic_cells.hpp
-// has the dimensions and ranges. The cell of each particle is a convex polygon. Corners that are
-// very near to each other are joined, and the edges are kept that lie on a wall or between a
-// particle and an image, which is a particle shifted by whole periods. Lengths are in the unit of
-// the arguments; nothing is thrown. A change must keep that an edge and its partner differ by a
-// period only, because a mesh is not periodic otherwise, and the labels of walls in
-// mesh_boundary.hpp.
+// Computes the edges where a mesh of a periodic box ends, for mesh_boundary.cpp. The cell of each
+// particle is a convex polygon. Corners that are very near to each other are joined, and the edges
+// are kept that lie on a wall or between a particle and an image, which is a particle shifted by
+// whole periods. Lengths [L] are in the unit of the arguments. There must be at least one particle,
+// with its centre in the box, and circles must not overlap; nothing is checked or thrown. A change
+// must keep that an edge and its partner differ by a period only, because a mesh is not periodic
+// otherwise, and the labels of walls in mesh_boundary.hpp (1 left, 2 right, 3 bottom, 4 top).
 #include "viscontact/freefem_flow/boundary/periodic_cells.hpp"
 
 #include <algorithm>
@@ -162,6 +162,7 @@ class Corners {
 
 }  // namespace
 
+/// `partner` of an edge is the place of its partner in the list; -1 on a wall.
 std::vector<CellEdge> periodic_cells(const particles::BoxDomain& box,
                                      std::span<const particles::Outline> circles) {
   std::vector<CellEdge> edges;

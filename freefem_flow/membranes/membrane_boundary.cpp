@@ -1,12 +1,13 @@
 // Puts the boundary of a mesh together from walls, periodic sides, rigid discs and membranes, for
-// membrane_process.cpp. membrane_boundary.hpp has the dimensions and ranges, mesh_boundary.hpp the
-// labels; lengths have the unit of the arguments. In a box that is periodic along x the mesh ends
-// at two straight lines one period apart, the images of one line that no membrane or disc crosses;
-// shift_between_membranes() finds this line. There are three reasons for an Error(kNotConverged): a
-// membrane or disc leaves the domain or a membrane meets a disc; there is no such line; an edge is
-// too short. A domain that is neither a disc nor a box is a std::bad_variant_access. A change must
-// keep that opposite periodic sides get the same points, because scripts/constraints.idp identifies
-// these, and the labels, which scripts/membranes.edp repeats.
+// membrane_process.cpp. Lengths [L] have the unit of the arguments; numbers of edges and radii are
+// > 0 (not checked). Labels are 1 to 4 of walls, 9 of periodic sides, 20 + k of membrane k and 100
+// + k of disc k, from 0. In a box that is periodic along x the mesh ends at two straight lines one
+// period apart, the images of one line that no membrane or disc crosses; shift_between_membranes()
+// finds it. Three faults are an Error(kNotConverged): a membrane or disc leaves the domain or a
+// membrane meets a disc; there is no such line; an edge is too short. A domain that is neither a
+// disc nor a box is a std::bad_variant_access. A change must keep that opposite periodic sides get
+// the same points, because scripts/constraints.idp identifies these, and the labels, which
+// scripts/membranes.edp repeats.
 #include "viscontact/freefem_flow/membranes/membrane_boundary.hpp"
 
 #include <algorithm>
@@ -85,6 +86,9 @@ class WantedEdges {
 
 }  // namespace
 
+/// Throws Error(kNotConverged) if a curve leaves the domain or a membrane meets a disc; NaN counts
+/// as outside. `unit` > 0 is the unit of length of `curves` in that of the case; only the message
+/// uses it.
 void check_places(const particles::Domain& domain, const InnerCurves& curves, double unit) {
   const auto fail = [&](const char* what, const Point& x) {
     throw Error(ErrorKind::kNotConverged,
@@ -106,6 +110,9 @@ void check_places(const particles::Domain& domain, const InnerCurves& curves, do
   }
 }
 
+/// The distance [L] of that line from the left side, which may be negative; 0 without a period
+/// along x or without curves. Throws Error(kNotConverged) if no strip wider than a thousandth of
+/// the period is free.
 double shift_between_membranes(const particles::Domain& domain, const InnerCurves& curves) {
   const auto cell = particles::cell_of(domain);
   const double period = cell.lengths[0];
@@ -137,6 +144,7 @@ double shift_between_membranes(const particles::Domain& domain, const InnerCurve
   return middle - cell.from[0];
 }
 
+/// No curve may cross a periodic side, which is not checked.
 MeshBoundary membrane_boundary(const particles::Domain& domain, const InnerCurves& curves) {
   const WantedEdges edges(domain, curves);
   const auto wanted_at = [&](const Point& x) { return edges.at(x); };

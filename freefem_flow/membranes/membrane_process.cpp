@@ -1,9 +1,10 @@
-// The dialogue with scripts/membranes.edp, which freefem_solver.cpp starts; membrane_process.hpp
-// has the ranges. Lengths, masses (per length of the third dimension) and times are in the units of
-// the arguments, so that forces are in [M L/T^2] and entries of the mobility in [T/M]. A solver
-// that fails is an Error(kExternalProgram), a place outside the domain or a number that is not
-// finite an Error(kNotConverged), too many membranes or a wrong domain an Error(kBadInput), and a
-// requested stop an Error(kInterrupted). A change must agree with what the script reads and writes.
+// The dialogue with scripts/membranes.edp, which freefem_solver.cpp starts. Lengths, masses (per
+// length of the third dimension) and times are in the units of the arguments, so that forces are in
+// [M L/T^2] and entries of the mobility in [T/M]; radii and `unit` are > 0, and a box has no period
+// along y (neither is checked). A solver that fails is an Error(kExternalProgram), a place outside
+// the domain or a number that is not finite an Error(kNotConverged), more than kMostMembranes (80)
+// membranes or a wrong domain an Error(kBadInput), and a requested stop an Error(kInterrupted). A
+// change must agree with what the script reads and writes.
 #include "viscontact/freefem_flow/membranes/membrane_process.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 // Writes the requests to a fluid solver and reads the answers (docs/fluid-solver.md, with which a
-// change must agree), for freefem_solver.cpp and membranes/. Units are those of the arguments;
-// flow_process.hpp and particles/fluid/fluid_solver.hpp have the dimensions. A wrong answer is an
+// change must agree), for freefem_solver.cpp and membranes/. In the units of the arguments
+// velocities are in [L/T, 1/T], forces and torques in [M L/T^2, M L^2/T^2], 3 numbers for each
+// particle in the plane and 1 on an axis; sizes of arrays are only asserted. A wrong answer is an
 // Error(kExternalProgram), a number for the solver that is not finite an Error(kNotConverged), a
 // wrong domain or a file of the flow that cannot be read or written an Error(kBadInput), a missing
 // temporary folder an Error(kWrongUsage), and a requested stop an Error(kInterrupted). A change
@@ -263,6 +264,8 @@ particles::FlowField FlowProcess::flow() {
   return read_flow(*solver_);
 }
 
+/// Reads places [L], velocities [L/T] and pressures [M/(L T^2)] of the nodes, and the nodes of the
+/// triangles, from 0.
 particles::FlowField read_flow(SolverDialogue& solver) {
   solver.ask("flow", "flow\n");
   solver.expect("flow");

@@ -1,9 +1,10 @@
-// Writes the first text that a fluid solver gets (opening.hpp), for flow_process.cpp and
-// membranes/membrane_process.cpp. Units are those of the arguments; opening.hpp,
-// particles/fluid.hpp and particles/domain/domain.hpp have the dimensions. A wrong domain is an
-// Error(kBadInput). A change must agree with docs/fluid-solver.md and with scripts/opening.idp;
-// numbers must read back to the same double, and the labels 1 to 4 of a box must be in the order of
-// particles::SideVelocities.
+// Writes the first text that a fluid solver gets, for flow_process.cpp and
+// membranes/membrane_process.cpp. In the units of the arguments, radii and lengths [L] and the
+// viscosity [M/(L T)] are > 0, velocities in [L/T], gradients in [1/T], the density in [M/L^3];
+// that numbers are finite and in range is not checked. A domain that is missing, or does not fit
+// the dimension or the velocities of sides, is an Error(kBadInput). A change must agree with
+// docs/fluid-solver.md and with scripts/opening.idp; numbers must read back to the same double, and
+// the labels 1 to 4 of a box must be in the order of particles::SideVelocities.
 #include "viscontact/freefem_flow/process/opening.hpp"
 
 #include <fmt/format.h>
@@ -113,6 +114,7 @@ void check_domain(const particles::Fluid& fluid, const particles::Domain& domain
 
 }  // namespace
 
+/// `dimension`: 2 in the plane, 1 on the axis of a cylinder. `radii` may be empty.
 std::string opening(const particles::Fluid& fluid, const particles::Domain& domain,
                     std::span<const double> radii, int dimension) {
   check_domain(fluid, domain, dimension);
@@ -159,6 +161,7 @@ std::string opening(const particles::Fluid& fluid, const particles::Domain& doma
   return text;
 }
 
+/// One line of eight numbers for each wall. Throws nothing if opening() accepted the arguments.
 std::string walls_at(const particles::Fluid& fluid, const particles::Domain& domain,
                      const particles::FlowStep& step) {
   std::string text;

@@ -1,10 +1,11 @@
 // Asks a fluid solver and checks its answers, and writes numbers and boundaries for it;
-// flow_process.cpp and membranes/membrane_process.cpp use it. Numbers have the units of the caller;
-// solver_dialogue.hpp has the ranges. Each fault of the solver is an Error(kExternalProgram), a
-// number for it that is not finite an Error(kNotConverged), a requested stop an
-// Error(kInterrupted), and a system without free sockets a std::system_error. A change must keep
-// that a solver that does not answer is killed at its time limit, and the messages that
-// docs/troubleshooting.md quotes.
+// flow_process.cpp and membranes/membrane_process.cpp use it. Numbers have the units of the caller
+// and are finite; time limits are > 0 milliseconds, from the request on. Each fault of the solver
+// (it ends, is late, answers wrongly, or its program cannot be run) is an Error(kExternalProgram),
+// after which only ask() may be called, which throws the same; a number for it that is not finite
+// is an Error(kNotConverged), a requested stop an Error(kInterrupted), and a system without free
+// sockets a std::system_error. A change must keep that a solver that does not answer is killed at
+// its time limit, and the messages that docs/troubleshooting.md quotes.
 #include "viscontact/freefem_flow/process/solver_dialogue.hpp"
 
 #include <fmt/format.h>

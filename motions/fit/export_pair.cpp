@@ -1,8 +1,8 @@
-// Writes each resistance of a pair, a sphere beside a body at rest, as a function of the gap in C,
-// Fortran, Python, MATLAB, JSON or CSV. Numbers are in the units of the fit; motions/pair_fit.hpp
-// has their dimensions and ranges. An unknown target is an Error(kBadInput). Used by app/. A change
-// must keep the names of functions and keys, which users rely on, and the targets of
-// fitting/export/export_fit.cpp.
+// Writes each resistance of a pair, a sphere beside a body at rest, as a function of the gap > 0
+// [L] in C, Fortran, Python, MATLAB, JSON or CSV. In the units of the fit, squeeze and slide are in
+// [M/T], slide_roll in [M L/T], roll and spin in [M L^2/T]; that they are positive is not checked.
+// An unknown target is an Error(kBadInput). Used by app/. A change must keep the names of functions
+// and keys, which users rely on, and the targets of fitting/export/export_fit.cpp.
 #include "viscontact/motions/fit/export_pair.hpp"
 
 #include <array>

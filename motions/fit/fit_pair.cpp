@@ -1,10 +1,10 @@
-// Makes a table of each resistance (entry of pair_fit.hpp) of a sphere beside a body at rest from
-// the tables of force and torque, and fits it. Numbers are in the units of the tables (pair_fit.hpp
-// has their dimensions and ranges); the factors of force and torque are those of
-// lubrication/motion_table.hpp. Tables that do not belong together are an Error(kBadInput); the
-// errors of fit_force_table(), also Error(kNotConverged) and Error(kInterrupted), are thrown, too.
-// Used by motions/job/ and python/. A change must keep the check that slide_roll is the same in
-// both tables.
+// Makes a table of each resistance (squeeze, slide, roll, slide_roll, spin) of a sphere beside a
+// body at rest from the tables of force and torque, and fits it. In the units of the tables, gaps
+// [L] are > 0; squeeze and slide are in [M/T], slide_roll in [M L/T], roll and spin in [M L^2/T];
+// factors of force and torque have no dimension. Tables that do not belong together are an
+// Error(kBadInput), as are too few gaps; terms that cannot be told apart are an
+// Error(kNotConverged), a stop during a robust fit is an Error(kInterrupted). Used by motions/job/
+// and python/. A change must keep the check that slide_roll is the same in both tables.
 #include "viscontact/motions/fit/fit_pair.hpp"
 
 #include <algorithm>

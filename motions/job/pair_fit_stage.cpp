@@ -1,9 +1,12 @@
 // Finds and reads the tables of a sphere beside a body at rest, fits them, and prints the
-// residuals. Numbers are in the units of the tables; pair_fit.hpp has their dimensions. A folder in
-// which a table is missing is an Error(kBadInput) with the remedy; the errors of fit_pair(), also
-// Error(kNotConverged) and Error(kInterrupted), are thrown, too. Used by app/, rolling/job/ and
-// python/. A change must keep the names MOTION.csv and must not write a fit again that did not
-// change.
+// residuals. In the units of the tables gaps are in [L]; residuals are relative and >= 0. There
+// must be at least one table (not checked). A folder in which a table is missing is an
+// Error(kBadInput) with the remedy, and so are a table that cannot be read or does not belong to
+// the others, and a fit that cannot be written; terms that cannot be told apart are an
+// Error(kNotConverged), a stop is an Error(kInterrupted). A path that the system cannot look up,
+// such as one in a folder without permission, is a std::filesystem::filesystem_error. Used by app/,
+// rolling/job/ and python/. A change must keep the names MOTION.csv and must not write a fit again
+// that did not change.
 #include "viscontact/motions/job/pair_fit_stage.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 // Places discs or spheres at random in a disc or box such that all gaps have at least a given
-// length; arrangement.hpp describes the method and has the dimensions and ranges. Lengths are in
-// the unit of the case file. Throws Error(kBadInput) if the particles do not fit, and
+// length. Lengths are in the unit of the case file: radii [L] are > 0, at least one, and the least
+// gap [L] is >= 0 (not checked); results are 2 or 3 coordinates [L] for each particle. Throws
+// Error(kBadInput) if the particles do not fit, or if ten random beginnings fail, and
 // std::bad_variant_access if the domain is neither a disc nor a box. particles/case and
 // particles/sweep use it. A change must keep the arrangement of each seed bit for bit on every
 // machine. Therefore only + - * / and sqrt may be used, and the compiler must not fuse a product
@@ -338,12 +339,16 @@ void shuffle(PlacedParticles& placed, double size, SplitMix64& random) {
 
 }  // namespace
 
+/// Sum of the areas (dimension 2) [L^2] or volumes (3) [L^3] of the particles.
 double size_of(const Arrangement& asked, int dimension) {
   double sum = 0;
   for (const double radius : asked.radii) sum += size_of_particle(dimension, radius);
   return sum;
 }
 
+/// The coordinates [L] of the new centres, in the order of the radii. Each particle, the largest
+/// first, gets a random place; particles that are too close are then pushed apart, and all are
+/// moved at random. The particles in `present` stay where they are.
 std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
                             const Particles& present) {
   const auto& radii = asked.radii;

@@ -1,7 +1,8 @@
-// Decides when the particles that a source adds to a simulation are due, and where they appear
-// (source.hpp, which has the dimensions and ranges). Lengths, masses and times are in the units of
-// the case file; nothing is checked or thrown. simulation.cpp and particles/run use it. A change
-// must keep the due times and places bit for bit, because users repeat runs by their seeds.
+// Decides when the particles that a source adds to a simulation are due, and where they appear. In
+// the units of the case file, `rate` [1/T] is > 0, times [T] are >= 0, `end` is later than `begin`,
+// the corners of the region [L] are in order, radii [L] and masses [M] are > 0; nothing is checked
+// or thrown. A particle that finds no place waits. simulation.cpp and particles/run use it. A
+// change must keep the due times and places bit for bit, because users repeat runs by their seeds.
 // Therefore the compiler must not fuse a product and a sum into one operation (-ffp-contract=off in
 // CMakeLists.txt).
 #include "viscontact/particles/arrangement/source.hpp"
@@ -16,6 +17,7 @@
 
 namespace viscontact::particles {
 
+/// The number of particles that are due up to `time` [T]: 0 before `begin`, at most largest_count.
 std::size_t Source::due(double time) const {
   // A particle counts as due although `time` is too early by a rounding error. A billionth is far
   // above rounding errors, and far below the time between two particles.
@@ -112,6 +114,8 @@ Pouring::Pouring(std::vector<Source>& sources, State& state) : waiting_(sources.
   }
 }
 
+/// Adds the particles that are due at state.time. If one finds no free place, it and the later ones
+/// of its source wait for the next call.
 void Pouring::pour(const Setting& setting, State& state) {
   if (drawn_.empty()) return;
   auto& p = state.particles;

@@ -1,9 +1,10 @@
-// Draws the species, radius and mass of one particle after the other (species.hpp, which has the
-// dimensions and ranges), in the units of the case. Nothing is checked or thrown. particles/case
-// and source.cpp use it. A change must keep hash_of(), whose values restart files store, and the
-// radii of each seed bit for bit on every machine. Therefore the compiler must not fuse a product
-// and a sum into one operation (-ffp-contract=off in CMakeLists.txt), and only + - * / sqrt, floor,
-// frexp and ldexp may be used; exp and log of the C library differ between versions.
+// Draws the species, radius > 0 [L] and mass >= 0 [M] of one particle after the other, in the units
+// of the case. Densities are in [M/L^2] (discs) or [M/L^3] (spheres), shares > 0, sigma is at most
+// 1, and there is at least one species; nothing is checked or thrown. particles/case and source.cpp
+// use it. A change must keep hash_of(), whose values restart files store, and the radii of each
+// seed bit for bit on every machine. Therefore the compiler must not fuse a product and a sum into
+// one operation (-ffp-contract=off in CMakeLists.txt), and only + - * / sqrt, floor, frexp and
+// ldexp may be used; exp and log of the C library differ between versions.
 #include "viscontact/particles/arrangement/species.hpp"
 
 #include <algorithm>
@@ -120,6 +121,8 @@ std::vector<DrawnParticle> drawn(DrawnSpecies species, std::size_t count) {
   return particles;
 }
 
+/// As many particles as bring the sum of their areas or volumes nearest to `size` [L^2] or [L^3],
+/// at least 1.
 std::vector<DrawnParticle> drawn_to_size(DrawnSpecies species, int dimension, double size,
                                          std::size_t largest_count) {
   std::vector<DrawnParticle> particles;

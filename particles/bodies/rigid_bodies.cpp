@@ -1,10 +1,11 @@
-// Makes rigid bodies of several discs or spheres, and moves them in a time step; rigid_bodies.hpp
-// has the equations, dimensions and ranges. Lengths, masses and times are in any consistent units.
-// simulation.cpp, free_motion.cpp, case/, constraints/, fluid/, impacts/ and links/ use it. Nothing
-// is checked or thrown: if the iteration for the turn of a body does not converge, its last value
-// is taken. A change must keep that a body that crosses no side of a periodic cell has the same
-// bits as without periods, and that the angular momentum stays constant to rounding without a
-// torque.
+// Makes rigid bodies of several discs or spheres, and moves them in a time step (docs/physics.md
+// (5.11)). Lengths [L], masses [M] and times [T] are in any consistent units, turns in [rad]; steps
+// h [T] must be > 0, and free_step() needs a mass [M] and an inertia [M L^2] > 0. simulation.cpp,
+// free_motion.cpp, case/, constraints/, fluid/, impacts/ and links/ use it. Nothing is checked or
+// thrown: wrong numbers give infinite results or NaN, and if the iteration for the turn of a body
+// does not converge, its last value is taken. A change must keep that a body that crosses no side
+// of a periodic cell has the same bits as without periods, and that the angular momentum stays
+// constant to rounding without a torque.
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
 
 #include <algorithm>
@@ -174,6 +175,8 @@ std::optional<AmbiguousImages> ambiguous_images(const Particles& particles,
   return std::nullopt;
 }
 
+/// The members must turn (add_rotation()) and belong to no other body, and the body must be smaller
+/// than the periods. A mass or a moment of inertia < 0 in `request` means: that of the members.
 void add_rigid_body(Particles& particles, const RigidBodyRequest& request) {
   RigidBody body;
   body.members = request.members;
@@ -224,6 +227,7 @@ Matrix3 present_inertia(const RigidBody& body, int dimension) {
   return inertia;
 }
 
+/// The angular velocity stays as it is if the last entry of the inertia is 0.
 void update_angular_velocity(RigidBody& body, int dimension) {
   if (!(body.inertia[8] > 0)) return;
   if (dimension == 3)
@@ -232,6 +236,7 @@ void update_angular_velocity(RigidBody& body, int dimension) {
     body.angular_velocity[2] = body.angular_momentum[2] / body.inertia[8];
 }
 
+/// Masses [M] whose sum is that of the body; equal ones if no member has a mass.
 std::vector<double> member_masses(const RigidBody& body, const Particles& particles) {
   double sum = 0;
   for (const auto member : body.members) sum += particles.masses[index_of(member)];
@@ -273,6 +278,7 @@ void place_members(Particles& p) {
   }
 }
 
+/// The place of a particle among the members, from 0; the number of members if it is none.
 std::size_t member_number(const RigidBody& body, std::int32_t particle) {
   return static_cast<std::size_t>(std::ranges::find(body.members, particle) - body.members.begin());
 }
@@ -313,6 +319,8 @@ Vector midpoint_turn(const RigidBody& body, const Vector& angular_momentum, doub
 
 }  // namespace
 
+/// The motion of a body without contacts in a step of length h [T]; the load [M L/T^2, M L^2/T^2]
+/// acts for the time `kick` [T].
 BodyStep free_step(const RigidBody& body, const BodyLoad& load, double h, double kick,
                    int dimension) {
   BodyStep step;
@@ -342,6 +350,8 @@ void constrain(BodyStep& step, const Vector& displacement, const Vector& turn, i
   step.turn = turn;
 }
 
+/// Displacement [L] of the point at `arm` [L] from the centre of a body that moves by
+/// `displacement` [L] and turns by `turn` [rad].
 Vector displacement_at(const Vector& displacement, const Vector& turn, const Vector& arm,
                        int dimension) {
   if (dimension == 3) return displacement + rotated(turned({1, 0, 0, 0}, turn), arm) - arm;

@@ -1,8 +1,9 @@
 // Reads the section [arrangement] of a case of many particles, which places particles at random,
-// and the species (kinds) of particles that arrangements and sources have (particles_sections.hpp).
-// Lengths, masses and times are in the units of the case; arrangement.hpp and species.hpp have
-// their dimensions and ranges. A wrong value is an Error(kBadInput) with its line. A change must
-// keep keys and defaults, which users' cases rely on. Used by particle_tables.cpp and
+// and the species (kinds) of particles that arrangements and sources have. In the units of the
+// case, radii [L], masses [M], densities and shares are from 1e-100 to 1e100 (mass and density in a
+// fluid also 0), sigma is from 1e-6 to 1, a fraction in (0, 1), the gap [L] >= 0, a count 1 to
+// 1 000 000. A wrong value, and particles that do not fit, are an Error(kBadInput) with the line. A
+// change must keep keys and defaults, which users' cases rely on. Used by particle_tables.cpp and
 // source_section.cpp.
 #include <algorithm>
 #include <limits>

@@ -1,8 +1,10 @@
 // Reads and checks the tables [[body]], [[hinge]], [[spring]] and [[arm]] of a case of many
-// particles (particles_sections.hpp): rigid bodies, and links that hold particles and bodies.
-// Lengths, masses and times are in the units of the case; rigid_bodies.hpp and links.hpp have their
-// dimensions and ranges. A wrong value is an Error(kBadInput) with its line. A change must keep
-// keys and defaults, which users' cases rely on. Used by particles_case.cpp.
+// particles: rigid bodies, and links that hold particles and bodies. In the units of the case,
+// masses [M] and moments of inertia [M L^2] are from 1e-100 to 1e100 (in a fluid also 0), angles
+// [rad] at most 1e100 in magnitude, stiffnesses [M L^2/T^2] of hinges >= 0 and [M/T^2] of springs
+// > 0, lengths of arms [L] > 0, times [T] rise from 0. A wrong value is an Error(kBadInput) with
+// its line. A change must keep keys and defaults, which users' cases rely on. Used by
+// particles_case.cpp.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,8 +1,9 @@
-// Reads the sections [domain], [fluid] and [[probe]] of a case of many particles
-// (particles_sections.hpp). Lengths, masses and times are in the units of the case; domain.hpp and
-// fluid.hpp have their dimensions and ranges. A wrong value is an Error(kBadInput) with its line. A
-// change must keep keys and defaults, which users' cases rely on, and the order of kSides, which is
-// that of SideVelocities. Used by particles_case.cpp.
+// Reads the sections [domain], [fluid] and [[probe]] of a case of many particles. In the units of
+// the case, lengths [L] and the viscosity [M/(L T)] are from 1e-100 to 1e100, the density [M/L^3]
+// and the threshold gap also 0; coordinates [L], velocities [L/T] and rates [1/T] are at most 1e100
+// in magnitude; the penalty [1] is from 1e-12 to 1, and there are 6 to 400 edges. A wrong value is
+// an Error(kBadInput) with its line. A change must keep keys and defaults, which users' cases rely
+// on, and the order of kSides, which is that of SideVelocities. Used by particles_case.cpp.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -501,6 +502,7 @@ std::vector<case_file::KeyTable> domain_and_fluid_tables() {
           case_file::describe_keys("[[probe]]", probe_keys, Domain{})};
 }
 
+/// A word that names no file in `folder` stays as it is.
 std::vector<std::string> with_absolute_files(std::vector<std::string> command,
                                              const std::filesystem::path& folder) {
   for (auto& word : command) {

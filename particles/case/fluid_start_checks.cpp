@@ -1,9 +1,10 @@
 // Checks whether the flow around the particles at the start of a case can be computed, and chooses
-// the default of fluid.threshold_gap, the gap at which contact is made (particles_sections.hpp).
-// Lengths, masses and times are in the units of the case; fluid.hpp and particles.hpp have their
-// dimensions and ranges. Each fault is an Error(kBadInput) with the line of the particle or of the
-// key. A change must keep accepting users' cases, and the limits that docs/fluid.md repeats. Used
-// by particles_case.cpp.
+// the default of fluid.threshold_gap, the gap [L] at which contact is made. In the units of the
+// case, a gap [L] must be at least a thousandth of the smaller radius [L] on a fitted mesh, and
+// less than the threshold gap by at most solver.tolerance mean radii; the case must have a fluid,
+// and check_start() must have accepted it (not checked). Each fault is an Error(kBadInput) with the
+// line of the particle or of the key. A change must keep accepting users' cases, and the limits
+// that docs/fluid.md repeats. Used by particles_case.cpp.
 #include <algorithm>
 #include <numbers>
 #include <numeric>
@@ -384,6 +385,8 @@ void check_penalty(const case_file::TomlSection& root, const ParticlesCase& c) {
 
 }  // namespace
 
+/// The default [L] is 0.05 times the smallest radius or semi-axis, or half of the smallest gap at
+/// the start if that is smaller, but at least the gap at which the solids touch.
 void set_default_threshold_gap(ParticlesCase& c) {
   constexpr double kOfRadius = 0.05;  // free; a change alters results of cases without the key
   double smallest = std::ranges::min(c.particles.radii);

@@ -1,8 +1,10 @@
 // Reads the particles of a case of many particles: the sections [particles] (a CSV file),
-// [[particle]] and [[force]] (particles_sections.hpp). Lengths, masses and times are in the units
-// of the case; particles.hpp, fluid.hpp and setting.hpp have their dimensions and ranges. A wrong
-// value is an Error(kBadInput) with its line. A change must keep keys and defaults, which users'
-// cases rely on. Used by particles_case.cpp.
+// [[particle]] and [[force]]. In the units of the case, radii, semi-axes and lengths of plates [L]
+// and masses [M] are from 1e-100 to 1e100 (a mass in a fluid also 0); coordinates [L], velocities
+// [L/T, 1/T], forces [M L/T^2] and torques [M L^2/T^2] are at most 1e100 in magnitude; ids are
+// whole numbers from 0 to 2^31 - 1. A wrong value, and a file that cannot be read, are an
+// Error(kBadInput), with the line if there is one. A change must keep keys and defaults, which
+// users' cases rely on. Used by particles_case.cpp.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,8 +1,11 @@
 // Reads the case file of many particles, and its sections [space], [viscous_contact], [friction],
-// [solver], [output], [[plane]] and [sweep]; the other sections have sources of their own. Numbers
-// are in the units of the case; particles_case.hpp and setting.hpp have their dimensions and
-// ranges. A wrong value is an Error(kBadInput) with its line. A change must keep keys and defaults,
-// which users' cases rely on. Used by particles_study.cpp, run/, sweep/, app/ and python/.
+// [solver], [output], [[plane]] and [sweep]; the other sections have sources of their own. In the
+// units of the case, times [T], viscosity [M/(L T)] and roughness [L] are from 1e-100 to 1e100,
+// gamma_min [M L/T] is <= 0, the coefficient of restitution 0 to 1 and that of friction >= 0;
+// tolerances [1] are from 1e-12 to 0.1, and vectors at most 1e100 in magnitude. A wrong value, and
+// a file that cannot be read, are an Error(kBadInput), with the line if there is one. A change must
+// keep keys and defaults, which users' cases rely on. Used by particles_study.cpp, run/, sweep/,
+// app/ and python/.
 #include "viscontact/particles/case/particles_case.hpp"
 
 #include <algorithm>
@@ -343,6 +346,7 @@ std::vector<case_file::KeyTable> tables_of_particles_case() {
   return tables;
 }
 
+/// Throws Error(kBadInput) if fluid.solver is no list of texts.
 std::string text_for_any_folder(const case_file::TomlSection& root, const fs::path& path) {
   std::vector<std::pair<std::string, std::string>> paths;
   const auto folder = fs::absolute(path).parent_path();

@@ -1,10 +1,11 @@
-// Makes the cases, rows and means of a sweep of particles. Results are in the units of the case;
-// particles_study.hpp has the ranges, and docs/file-formats.md the columns. A wrong case, and a
-// file that cannot be read or has other rows, are an Error(kBadInput); a key that cannot be varied,
-// or draws that are not possible, are an Error(kWrongUsage). A change must keep that everything
-// that determines the results of a row is in identity(), because results with the same identity are
-// not computed again, and that the draws of a point follow each other in the file, because means
-// are computed point by point. Used by sweep/ and app/.
+// Makes the cases, rows and means of a sweep of particles. Results are in the units of the case
+// (docs/file-formats.md has the columns); numbers of rows count from 0, which is not checked, and
+// there are at most 1e12 rows. A wrong case, and a file that cannot be read or has other rows, are
+// an Error(kBadInput); a key that cannot be varied, or draws that are not possible, are an
+// Error(kWrongUsage). A change must keep that everything that determines the results of a row is in
+// identity(), because results with the same identity are not computed again, and that the draws of
+// a point follow each other in the file, because means are computed point by point. Used by sweep/
+// and app/.
 #include "viscontact/particles/case/particles_study.hpp"
 
 #include <fmt/format.h>

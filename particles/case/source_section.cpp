@@ -1,8 +1,10 @@
-// Reads the tables [[source]] of a case of many particles (particles_sections.hpp). A source adds
-// particles with random radii at random places during the run. Lengths, masses and times are in the
-// units of the case; source.hpp and species.hpp have their dimensions and ranges. A wrong value is
-// an Error(kBadInput) with its line. A change must keep keys and defaults, which users' cases rely
-// on. Used by particle_tables.cpp.
+// Reads the tables [[source]] of a case of many particles. A source adds particles with random
+// radii at random places during the run. In the units of the case, a rate [1/T] and an end [T] are
+// from 1e-100 to 1e100, a begin [T] is >= 0 and earlier than the end, coordinates [L] and
+// velocities [L/T] are at most 1e100 in magnitude, and at most 1 000 000 particles come. A wrong
+// value, radii for which there is no place, and a case with a fluid are an Error(kBadInput) with
+// the line. A change must keep keys and defaults, which users' cases rely on. Used by
+// particle_tables.cpp.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,8 +1,10 @@
-// Checks the places and radii of the particles at the start of a case of many particles
-// (particles_sections.hpp, which has the limits and their reasons). Lengths are in the unit of the
-// case; particles.hpp has the ranges. Each fault is an Error(kBadInput). A change must keep
-// accepting users' cases, and messages must name the line of the CSV file, because the file can be
-// long. Used by particles_case.cpp and fluid_start_checks.cpp.
+// Checks the places and radii of the particles at the start of a case of many particles. Lengths
+// [L] are in the unit of the case. With `solver.tolerance` times the mean radius as the tolerance
+// of gaps, an overlap may be at most this tolerance, and the tolerance at most a hundredth of each
+// radius; a diameter plus a hundredth of the radius (in a fluid at least the threshold gap) must
+// not exceed a period. Each fault is an Error(kBadInput) with the line of the particle, if it has
+// one. A change must keep accepting users' cases, and messages must name the line of the CSV file,
+// because the file can be long. Used by particles_case.cpp and fluid_start_checks.cpp.
 #include <algorithm>
 #include <variant>
 
@@ -32,6 +34,7 @@ FilePosition ParticleNames::at(std::size_t k) const {
   return {case_.path.string(), table < lines_.in_case.size() ? lines_.in_case[table] : 0};
 }
 
+/// The name of obstacle k, from 0: first the walls of the domain, then the planes.
 std::string obstacle_name(const ParticlesCase& c, std::size_t k) {
   std::vector<std::string> walls;
   if (std::holds_alternative<DiscDomain>(c.setting.domain)) walls = {"the wall of the disc"};
@@ -47,6 +50,9 @@ std::string obstacle_name(const ParticlesCase& c, std::size_t k) {
   return k < walls.size() ? walls[k] : fmt::format("plane {}", k - walls.size() + 1);
 }
 
+/// All gaps [L] at the start below `limit` >= 0 [L]; < 0 where there is an overlap; those of
+/// ellipses and plates may be larger. The largest diameter plus `limit` must be less than each
+/// period, which is not checked. Throws nothing.
 std::vector<StartGap> gaps_at_start(const ParticlesCase& c, double limit) {
   const auto& p = c.particles;
   const auto cell = cell_of(c.setting.domain);

@@ -1,8 +1,9 @@
-// Reads vectors and piecewise constant vectors from the keys of a case of many particles;
-// particles_sections.hpp declares the functions and has the ranges. Vectors have the unit that the
-// key says; times [T] are in the unit of the case. Components of vectors are at most 1e100 in
-// magnitude. A wrong value is an Error(kBadInput) with its line. The sources in particles/case/ and
-// case/membrane_keys.cpp use it. A change must keep accepting users' cases.
+// Reads vectors and piecewise constant vectors from the keys of a case of many particles. A vector
+// has 1, 2 or 3 numbers, as many as the space has dimensions, in the unit that the key says, each
+// at most 1e100 in magnitude; times [T] of pieces are > 0, increase, and reach the end of the run,
+// in the unit of the case. A wrong value is an Error(kBadInput) with its line. The sources in
+// particles/case/ and membranes/membrane_keys.cpp use it. A change must keep accepting users'
+// cases.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -88,6 +89,7 @@ void read_vector(const case_file::TomlSection& section, std::string_view key, Ve
   std::ranges::copy(numbers, place.begin());
 }
 
+/// The value keeps references to the arguments, which must outlive it; so do the next three.
 case_file::KeyValue vector(Vector& place, const int& dimension) {
   return case_file::custom("a list of numbers", read_vector, place, dimension);
 }

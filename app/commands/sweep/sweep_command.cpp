@@ -1,9 +1,11 @@
 // The command `sweep` (docs/command-line.md), which main.cpp adds: its command line, and what its
-// picture shows. Numbers have the units of the case; --samples is from 1 to 1e12, --draws from 1 to
-// 1e9. A wrong option is an Error(kWrongUsage); other errors are those of command_options.hpp,
-// sweep_options.hpp, pipeline/sweep_stage.hpp and, for the picture, report/pictures/sweep_plot.hpp.
-// A change must keep that an option of the command line takes precedence over the section [sweep]
-// of the case.
+// picture shows. Numbers have the units of the case. There are at most 1e12 --samples and 1e9
+// --draws, at least 1 of each if the option is given. A wrong option is an Error(kWrongUsage); a
+// wrong case or fit, and an output that is a file of another kind, are an Error(kBadInput). A row
+// that fails is no error, but Error(kNotConverged) is thrown if all rows failed or rows are missing
+// for --gather. A failure of gnuplot or Slurm is an Error(kExternalProgram), Ctrl-C an
+// Error(kInterrupted). A change must keep that an option of the command line takes precedence over
+// the section [sweep] of the case.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,11 +1,12 @@
-// Turns the options of `sweep` into a study, for each kind of case (sweep_options.hpp); used by
-// sweep_command.cpp. Options of the command line decide; for those that are missing, the section
-// [sweep] of the case decides, which the case of a swimmer does not have. Numbers have the units of
-// the case; --samples is from 1 to 1e12, --draws from 1 to 1e9, and a seed any number of 64 bits. A
-// wrong option is an Error(kWrongUsage), a wrong case an Error(kBadInput); sweep_many_particles()
-// also throws the errors of particles/sweep/particles_sweep_stage.hpp. Rows are computed by sweep/,
-// and runs of particles by particles/sweep/. A change must keep the texts given to
-// refuse_other_kind(), which stand in the heads of the files.
+// Turns the options of `sweep` into a study (points, and the function that computes the row of a
+// point), for each kind of case; used by sweep_command.cpp. Options of the command line decide; for
+// those that are missing, the section [sweep] of the case decides, which the case of a swimmer does
+// not have. Numbers have the units of the case; samples are at most 1e12, draws at most 1e9, and 0
+// means "not given". A wrong option is an Error(kWrongUsage), a wrong case, fit or output file an
+// Error(kBadInput). sweep_many_particles() throws Error(kNotConverged) if all rows failed or if
+// rows are missing for --gather, Error(kExternalProgram) if Slurm fails, and Error(kInterrupted).
+// Rows are computed by sweep/, and runs of particles by particles/sweep/. A change must keep the
+// texts given to refuse_other_kind(), which stand in the heads of the files.
 #include <fmt/format.h>
 
 #include <algorithm>
