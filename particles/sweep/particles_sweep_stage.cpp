@@ -70,8 +70,9 @@ void write_means(const ParticlesSweep& sweep, const std::string& output) {
 }
 
 /// Calls `run` for each row that is not in the file of the rows, writes this file and the table of
-/// means, and says on the terminal how many runs failed. Throws the errors of
-/// pipeline::write_rows(), and Error(kNotConverged) if every run failed.
+/// means, and says on the terminal how many runs failed. Throws
+/// Error(kBadInput) if a file cannot be read or written, Error(kInterrupted) at a stop, and
+/// Error(kNotConverged) if every run failed.
 void write_tables(const ParticlesSweep& sweep, const ParticlesSweepRequest& request,
                   ParticlesRunner run) {
   const auto& output = request.output;

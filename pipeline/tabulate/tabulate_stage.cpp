@@ -94,7 +94,8 @@ std::string rows_in_words(const CaseTable& one, const std::vector<freefem_axi::R
 }
 
 /// Computes the missing rows of a table, at most `jobs` >= 1 at once, and writes the table. Returns
-/// and throws what finish_table() does; also throws the errors of compute_rows().
+/// and throws what finish_table() does; also throws Error(kExternalProgram) if FreeFEM cannot be
+/// run, and Error(kInterrupted) at a stop.
 RowFailure tabulate_one(const CaseTable& one, int jobs, const StopToken& stop) {
   if (is_up_to_date(one)) return {};
   check_output_file(one.table);
