@@ -1,7 +1,8 @@
-// Computes the obstacles and the periodic cell of a setting (setting.hpp, which has the dimensions
-// and ranges). Lengths and times are in the units of the case. Nothing is checked or thrown. A
-// change must keep the order of the obstacles, because files number them in this order. Used by the
-// simulations and the files in io/ and run/.
+// Computes the obstacles and the periodic cell of a setting (setting.hpp). Lengths [L], radii > 0
+// among them, velocities of planes [L/T] and the velocity gradient of the cell [1/T] are in the
+// units of the case. There may be no obstacle; a cell without periods has the lengths 0. Nothing is
+// checked or thrown. A change must keep the order of the obstacles, because files number them in
+// this order. Used by the simulations and the files in io/ and run/.
 #include "viscontact/particles/setting.hpp"
 
 namespace viscontact::particles {

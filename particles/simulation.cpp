@@ -1,9 +1,12 @@
 // Computes the steps of many particles (simulation.hpp), docs/physics.md (5.3): motion without
 // contacts (free_motion.cpp), projection, new gamma, new positions; and divides steps with fast
 // particles. Numbers are in the units of the case; h [T] is the length of a step or of a part of
-// it. simulation.hpp has the shapes. The constructor throws Error(kBadInput) for a state with other
-// membranes, step() Error(kNotConverged). A change must keep that, if a step throws, the state is
-// that before the step. Used by run/, sweep/ and python/.
+// it. Positions [L], displacements [L] and velocities [L/T] have 2 numbers for each disc, 3 for
+// each sphere, turns [rad] 1 or 3. The constructor throws Error(kBadInput) if a state that has done
+// steps has other membranes; that masses and h are > 0 and that there is at least 1 thread is not
+// checked. step() throws Error(kNotConverged) if a step cannot be accepted: examine(),
+// checked_length(). A change must keep that, if a step throws, the state is that before the step.
+// Used by run/, sweep/ and python/.
 #include "viscontact/particles/simulation.hpp"
 
 #include <fmt/format.h>

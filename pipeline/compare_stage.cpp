@@ -1,10 +1,11 @@
 // Finds the trajectory files of a folder (CSV, one for each model of motion: the gap over time),
-// compares them, and writes the comparison. Numbers are in the units of the trajectories;
-// reduced_model/comparison.hpp has their dimensions and ranges. A folder without trajectories is an
-// Error(kBadInput), one that cannot be listed a std::filesystem::filesystem_error, a stop an
-// Error(kInterrupted). A change must keep the order of the files, because the comparison lists
-// models in this order, and because the first file becomes the reference if the model that is the
-// reference by default has failed. Used by run_stages.cpp and app/ (`run`, `compare`).
+// compares them, and writes the comparison. Gaps [L], >= 0, velocities [L/T] and times [T] are in
+// the units of the trajectories. A folder without trajectories, a trajectory that cannot be read or
+// compared, and a reference that has none are an Error(kBadInput), a folder that cannot be listed a
+// std::filesystem::filesystem_error, a stop an Error(kInterrupted). A change must keep the order of
+// the files, because the comparison lists models in this order, and because the first file becomes
+// the reference if the model that is the reference by default has failed. Used by run_stages.cpp
+// and app/ (`run`, `compare`).
 #include "viscontact/pipeline/compare_stage.hpp"
 
 #include <fmt/format.h>

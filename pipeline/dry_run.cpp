@@ -1,8 +1,8 @@
 // Estimates computing times [s] from finished rows, from a few rows that are computed now, or from
-// measured constants; dry_run.hpp has the ranges. An Error of a row that is computed ends the
-// estimate; files that cannot be read are an Error(kBadInput), a stop an Error(kInterrupted). Used
-// by app/ and particles/sweep. A change must keep the keys of the JSON, which users' scripts read
-// (docs/command-line.md).
+// measured constants; all times are >= 0. `jobs` >= 1 and a study of at least one row are not
+// checked. An Error of a row that is computed ends the estimate; files that cannot be read are an
+// Error(kBadInput), a stop an Error(kInterrupted). Used by app/ and particles/sweep. A change must
+// keep the keys of the JSON, which users' scripts read (docs/command-line.md).
 #include "viscontact/pipeline/dry_run.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // Reads tables, calls the functions of fitting/, and writes fits, the shift of a rough wall
 // (fit_stages.hpp) and pictures, each with the record of how it was made (results/provenance.hpp).
-// Numbers are in the units of the table; lubrication/fit.hpp and fitting/wall_shift.hpp have their
-// dimensions and ranges. A wrong table or fit is an Error(kBadInput), a fit that does not converge
-// an Error(kNotConverged), a gnuplot that fails an Error(kExternalProgram), a stop an
+// Gaps [L], > 0, and the shift [L], >= 0, are in the units of the table; residuals and error
+// estimates are relative [1]. A wrong table or fit is an Error(kBadInput), a fit that does not
+// converge an Error(kNotConverged), a gnuplot that fails an Error(kExternalProgram), a stop an
 // Error(kInterrupted). Used by run_stages.cpp and app/ (`run`, `fit`, `shift`). A change must keep
 // the line "# viscontact: wall shift", for which app/ searches, and the columns of the file of
 // shifts (docs/file-formats.md).

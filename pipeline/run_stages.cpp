@@ -1,11 +1,12 @@
 // Decides which stages of `viscontact run` must run: those whose outputs are missing or were made
-// from other inputs. Numbers are in the units of the case. Failures of rows and models are thrown
-// last, when all other results are written; a wrong case and a file of the user in the way are an
-// Error(kBadInput) before; a stop is an Error(kInterrupted), and run_stages.hpp has the other
-// errors. Used by app/ (command `run`). A change must keep the texts that refuse_other_kind()
-// searches for, which are in the files, and that the outputs made from old trajectories are removed
-// before new trajectories are written, so that a run that is killed never leaves outputs that do
-// not belong together.
+// from other inputs. Numbers are in the units of the case; `jobs` is at least 1. Failures of rows
+// and models are thrown last, when all other results are written; a wrong case and a file of the
+// user in the way are an Error(kBadInput) before; a FreeFEM or gnuplot that fails is an
+// Error(kExternalProgram), a fit that does not converge an Error(kNotConverged), a stop an
+// Error(kInterrupted). Used by app/ (command `run`). A change must keep the texts that
+// refuse_other_kind() searches for, which are in the files, and that the outputs made from old
+// trajectories are removed before new trajectories are written, so that a run that is killed never
+// leaves outputs that do not belong together.
 #include "viscontact/pipeline/run_stages.hpp"
 
 #include <algorithm>

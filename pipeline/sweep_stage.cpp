@@ -1,9 +1,9 @@
 // Computes the rows of a sweep, shows its progress, and says at its end how many rows failed. Times
-// are in seconds; sweep_stage.hpp and sweep/study.hpp have the ranges, and who makes the study
-// states the units of its rows. If all rows failed, that is an Error(kNotConverged); a file that
-// cannot be read or written is an Error(kBadInput), a stop an Error(kInterrupted); sweep_stage.hpp
-// has the other errors. Used by app/ and particles/sweep. A change must keep that finished rows are
-// never computed again.
+// are in seconds, `jobs` >= 1 is not checked, and who makes the study states the units of its rows.
+// If all rows failed, that is an Error(kNotConverged); a file that cannot be read or written is an
+// Error(kBadInput), a SOURCE_DATE_EPOCH that is no time an Error(kWrongUsage), a stop an
+// Error(kInterrupted); errors of Study::run are passed on. Used by app/ and particles/sweep. A
+// change must keep that finished rows are never computed again.
 #include "viscontact/pipeline/sweep_stage.hpp"
 
 #include <fmt/format.h>

@@ -1,9 +1,10 @@
 // Distances between trajectories that are linear between their rows, by exact integrals, and the
-// comparison file (comparison.hpp, docs/file-formats.md). Numbers are in the units of the
-// trajectories; comparison.hpp has their dimensions and ranges. Names that are missing or stand
-// twice, trajectories without a common time, and files of another form are an Error(kBadInput), a
-// stop an Error(kInterrupted). Used by pipeline/, sweep/, results/ and report/. A change must keep
-// old comparison files readable.
+// comparison file (comparison.hpp, docs/file-formats.md). Gaps [L], >= 0, velocities [L/T], times
+// [T] and gamma [M L/T], minus the impulse that the film has absorbed, <= 0, are in the units of
+// the trajectories, each of which has a row (not checked); distances are >= 0. Names that are
+// missing or stand twice, trajectories without a common time, and files of another form are an
+// Error(kBadInput), a stop an Error(kInterrupted). Used by pipeline/, sweep/, results/ and report/.
+// A change must keep old comparison files readable.
 #include "viscontact/reduced_model/comparison.hpp"
 
 #include <fmt/format.h>

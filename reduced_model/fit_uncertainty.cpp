@@ -1,9 +1,10 @@
 // Computes how the errors of a fit of the drag change the gap between the sphere and the wall
-// during its motion, and writes and reads uncertainty.json (fit_uncertainty.hpp). Numbers are in
-// the units of the case; fit_uncertainty.hpp has their dimensions and ranges. A draw of
-// coefficients is left out if its drag is not positive or the motion is impossible with it; if all
-// are left out, that is an Error(kNotConverged). A fit that LubricationForce refuses and a wrong
-// file are an Error(kBadInput). Used by pipeline/simulate, results/ and report/. A change must keep
+// during its motion, and writes and reads uncertainty.json (fit_uncertainty.hpp). Gaps [L], > 0,
+// and times [T], >= 0, are in the units of the case; the misfit is relative, 0 to 1. The covariance
+// of the fit must have a row and a column for each term (not checked). A draw of coefficients is
+// left out if its drag is not positive or the motion is impossible with it; if all are left out,
+// that is an Error(kNotConverged). A fit that LubricationForce refuses throws its error, a wrong
+// file an Error(kBadInput). Used by pipeline/simulate, results/ and report/. A change must keep
 // that `level` is the share between the ends in middle_of(), and the seed and the order of the
 // random numbers, so that the same case gives the same file.
 #include "viscontact/reduced_model/fit_uncertainty.hpp"

@@ -1,8 +1,9 @@
 // What the models of motion share: the values of their parameters, reports of their progress, the
-// number of their steps, and the times [T] of the rows of their trajectories. motion.hpp has the
-// dimensions and ranges. A missing parameter and too many steps are an Error(kBadInput), a stop an
-// Error(kInterrupted). Used by all models, rolling/ and case_file/. A change of step_count() or
-// row_times() changes trajectories and must raise kModelsRevision (trajectory.hpp).
+// number of their steps, and the times [T] of the rows of their trajectories. A parameter has its
+// own dimension; time steps [T] and end times [T] are > 0, which is not checked. A missing
+// parameter and more than 1e8 steps are an Error(kBadInput), a stop an Error(kInterrupted). Used by
+// all models, rolling/ and case_file/. A change of step_count() or row_times() changes trajectories
+// and must raise kModelsRevision (trajectory.hpp).
 #include "viscontact/reduced_model/motion.hpp"
 
 #include <algorithm>

@@ -1,9 +1,10 @@
 // Reads and writes the CSV file of a trajectory (docs/file-formats.md), and selects rows for it.
-// Numbers are in the units of the case; trajectory.hpp has their dimensions and ranges. A fault of
-// a file is an Error(kBadInput) with file and line. Used by pipeline/, sweep/, results/ and
-// python/. A change must keep three things: the names of the columns, which users' scripts read;
-// the order of kColumns, by which read_trajectory() finds the columns; and in fewer_rows() the rows
-// that a comparison looks for.
+// Times [T], which increase, gaps [L], >= 0, velocities [L/T], forces [M L/T^2] and gamma [M L/T],
+// minus the impulse that the film has absorbed, are in the units of the case; all are finite, but
+// only the signs of gaps are checked. A fault of a file is an Error(kBadInput) with the file and,
+// in a row, the line. Used by pipeline/, sweep/, results/ and python/. A change must keep three
+// things: the names of the columns, which users' scripts read; the order of kColumns, by which
+// read_trajectory() finds the columns; and in fewer_rows() the rows that a comparison looks for.
 #include "viscontact/reduced_model/trajectory.hpp"
 
 #include <fmt/format.h>
@@ -178,6 +179,7 @@ std::size_t first_of_least(const std::vector<TrajectoryRow>& rows, const Value& 
 
 }  // namespace
 
+/// `count` >= 2 is not checked.
 std::vector<TrajectoryRow> fewer_rows(const std::vector<TrajectoryRow>& rows, int count) {
   const auto wanted = static_cast<std::size_t>(count);
   if (rows.size() <= wanted) return rows;

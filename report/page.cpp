@@ -1,5 +1,6 @@
-// Draws plots by gnuplot and writes the page around them. Sizes are in pixels; numbers of plots
-// have no units here; page.hpp has the ranges. A missing gnuplot is a warning, a failing one an
+// Draws plots by gnuplot and writes the page around them. Sizes are in pixels, >= 0; numbers of
+// plots have no units here. Along a curve x must not decrease (not checked), and a y that is not
+// finite interrupts the line. A missing gnuplot is a warning, a failing one an
 // Error(kExternalProgram), a file that cannot be written or must not be replaced an
 // Error(kBadInput), a wrong SOURCE_DATE_EPOCH an Error(kWrongUsage), a requested stop an
 // Error(kInterrupted), and a path that the system refuses a std::filesystem::filesystem_error. Used

@@ -1,6 +1,6 @@
 // The report of a run of one sphere: warnings, tables, plots and how the files were made. Gaps [L],
-// times [T] and all other numbers are in the units of the case; report.hpp has the inputs and
-// errors. An input that is missing or wrong, or a file that must not be replaced, is an
+// times [T] and all other numbers are in the units of the case, and each trajectory has a row (not
+// checked). An input that is missing or wrong, or a file that must not be replaced, is an
 // Error(kBadInput), a wrong SOURCE_DATE_EPOCH an Error(kWrongUsage), a failing gnuplot an
 // Error(kExternalProgram), and a requested stop an Error(kInterrupted). Used by `run` and `report`.
 // kPlotNames must contain the name of every plot, because it decides which files in plots/ are

@@ -1,9 +1,10 @@
-// Makes the plots of the report of one sphere (run_plots.hpp has the ranges): trajectories, their
-// comparison, the fit, and the effect of its errors. Gaps [L], times [T], gamma [M L/T] and forces
-// [M L/T^2] are in the units of the case. plot_fit() and plot_gaps_logarithmic() throw
-// Error(kBadInput) for a fit or a motion that is refused. Heights [pixels], margins, limits and
-// numbers of points are free choices. Used by report.cpp, whose kPlotNames must have the plots'
-// names, and kDimensions the labels of axes.
+// Makes the plots of the report of one sphere (run_plots.hpp): trajectories, their comparison, the
+// fit, and the effect of its errors. Gaps [L], times [T], gamma [M L/T] and forces [M L/T^2] are in
+// the units of the case; gamma is minus the impulse that the film has absorbed, <= 0. Gaps that are
+// not > 0 are not drawn on logarithmic axes, and each trajectory has a row (not checked).
+// plot_fit() and plot_gaps_logarithmic() throw Error(kBadInput) for a fit or a motion that is
+// refused. Heights [pixels], margins, limits and numbers of points are free choices. Used by
+// report.cpp, whose kPlotNames must have the plots' names, and kDimensions the labels of axes.
 #include "viscontact/report/run_plots.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
-// Finds what the report of a run of one sphere must warn of; run_warnings.hpp has the errors. Gaps
-// and films [L] are in the unit of the case; residuals and error estimates are relative [1]. A file
-// that cannot be read, or a fit or a motion that is refused, is an Error(kBadInput), and a case
-// without a motion a std::bad_optional_access. Used by report.cpp. A change of a limit alters
-// reports that are made again.
+// Finds what the report of a run of one sphere must warn of. Gaps and films [L] are in the unit of
+// the case; residuals and error estimates are relative [1]; each trajectory has a row (not
+// checked). A file that cannot be read, or a fit or a motion that is refused, is an
+// Error(kBadInput), and a case without a motion a std::bad_optional_access. Used by report.cpp. A
+// change of a limit alters reports that are made again.
 #include "viscontact/report/run_warnings.hpp"
 
 #include <fmt/format.h>

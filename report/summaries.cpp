@@ -1,8 +1,8 @@
-// Writes the columns and words of the summaries, and draws their pictures; summaries.hpp has the
-// dimensions and ranges. Gaps, times and velocities are in the units of the case, pictures in
-// pixels. A missing or failing gnuplot is an Error(kExternalProgram), a requested stop an
-// Error(kInterrupted), and a fit without diagnostics a std::bad_optional_access. Used by pipeline/.
-// A change must keep the JSON's keys.
+// Writes the columns and words of the summaries, and draws their pictures. Gaps [L], times [T] and
+// velocities [L/T] are in the units of the case, residuals and error estimates relative [1],
+// pictures in pixels; what is not known is shown as a dash. A missing or failing gnuplot is an
+// Error(kExternalProgram), a requested stop an Error(kInterrupted), and a fit without diagnostics a
+// std::bad_optional_access. Used by pipeline/. A change must keep the JSON's keys.
 #include "viscontact/report/summaries.hpp"
 
 #include <fmt/format.h>

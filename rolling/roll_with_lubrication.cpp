@@ -1,15 +1,14 @@
 // The models `smooth` and `rough` of a sphere that moves along a plane in a viscous fluid
 // (physics.md (4.8), (4.9)). The integrator CVODE computes the motion from one change of the solid
 // contact to the next: the sphere touches the roughness, its slip ends, friction no longer prevents
-// slip, or the sphere is lifted off. x is along the plane, z away from it, and y is the axis of
-// rotation; u and V are the velocities of sphere and plane along x, and w is the angular velocity.
-// s is ln(q/r) with the gap q and the radius r. Slip is the velocity of the lowest point relative
-// to the plane, u - V - r w. m is the mass and I the moment of inertia. Numbers are in any
-// consistent units; rolling_motion.hpp declares the models and has the dimensions and ranges. A fit
-// that lacks a resistance or whose squeeze is not positive, a gap above those of the fit and too
-// many rows are an Error(kBadInput), a step that CVODE cannot make an Error(kNotConverged), a stop
-// an Error(kInterrupted). roll_with_viscous_contact.cpp lists the models. A change must keep the
-// slip exactly 0 while the sphere rolls.
+// slip, or the sphere is lifted off. x is along the plane, z away from it, y the axis of rotation;
+// u and V are the velocities of sphere and plane along x [L/T], w is the angular velocity [1/T], q
+// the gap [L], r the radius [L], s = ln(q/r); slip is u - V - r w. Mass m [M], moment of inertia I
+// [M L^2], q and r are > 0, in any consistent units (not checked). A fit that lacks a resistance or
+// whose squeeze is not positive, a gap above those of the fit and more than 1e8 rows are an
+// Error(kBadInput), a step that CVODE cannot make an Error(kNotConverged), a stop an
+// Error(kInterrupted). roll_with_viscous_contact.cpp lists the models. A change must keep the slip
+// exactly 0 while the sphere rolls.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,8 +1,9 @@
 // The model `viscous_contact` of a sphere that moves along a plane and turns, by the time steps of
 // physics.md (4.5) and (4.10); also end_of() and the list of all models of rolling_motion.hpp.
 // gamma is minus the impulse that the film of fluid has absorbed, gamma_min its value at which the
-// solids touch, q0 the initial gap. Lengths, masses and times are in any consistent units;
-// rolling_motion.hpp has the dimensions and ranges. A fit that lacks a resistance and too many
+// solids touch, q0 the initial gap [L]. Gaps, mass [M], moment of inertia [M L^2] and time step [T]
+// are > 0, roughness [L] and friction [1] >= 0, forces [M L/T^2] and velocities [L/T] have any
+// sign, in any consistent units (not checked). A fit that lacks a resistance and more than 1e8
 // steps are an Error(kBadInput), a number beyond any double is an Error(kNotConverged), a stop an
 // Error(kInterrupted). Used by rolling/case, rolling/job, app/ and python/. A change must keep the
 // balance of contact_step.hpp and the order of the models, which gives their colours in pages.
@@ -107,6 +108,7 @@ RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
   return rows;
 }
 
+/// `trajectory` must have a row, and `radius` [L] be > 0 (not checked).
 RollingEnd end_of(const RollingTrajectory& trajectory, const RollingMotion& motion, double radius) {
   RollingEnd end;
   end.last = trajectory.back();

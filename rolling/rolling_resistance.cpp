@@ -1,8 +1,9 @@
-// Sums the terms of the fits of the resistances, and decides between rolling and sliding. Numbers
-// are in the units of the fit; rolling_resistance.hpp has their dimensions and ranges. A missing
-// resistance, and a gap above those of the fit, are an Error(kBadInput). Used by
-// rolling/roll_with_*.cpp. A change must keep the matrix of the resistances symmetric, and weights
-// in the order of lubrication::all_terms().
+// Sums the terms of the fits of the resistances, and decides between rolling and sliding. Gaps [L],
+// > 0 (not checked), and the resistances `slide` [M/T], `roll` [M L^2/T] and `slide_roll` [M L/T]
+// are in the units of the fit, whose formula is also used below its gaps. A missing resistance, and
+// a gap above those of the fit, are an Error(kBadInput). Used by rolling/roll_with_*.cpp. A change
+// must keep the matrix of the resistances symmetric, and weights in the order of
+// lubrication::all_terms().
 #include "viscontact/rolling/rolling_resistance.hpp"
 
 #include <cmath>
@@ -59,6 +60,8 @@ RollingResistance RollingFluid::slopes(double gap) const {
   return {sum(slide_), sum(roll_), sum(slide_roll_)};
 }
 
+/// Forces [M L/T^2] or impulses [M L/T]; `compliance` > 0, the change of the slip per force or
+/// impulse, and `bound` >= 0 are not checked.
 Friction coulomb(double slip, double compliance, double bound) {
   const double sticking = -slip / compliance;
   if (std::abs(sticking) <= bound) return {sticking, SolidContact::kRolling};

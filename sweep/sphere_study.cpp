@@ -1,10 +1,10 @@
-// Plans, checks and computes the rows of a sweep of one sphere, in the units of the case;
-// sphere_study.hpp has the dimensions of the columns. A model that fails leaves its columns empty.
-// A key that cannot be varied and a missing fit are an Error(kWrongUsage), a wrong case or model is
-// an Error(kBadInput), a stop an Error(kInterrupted). Used by app/ (command `sweep`). A change must
-// keep the names of the columns, which users' scripts read and add_model() repeats, and put
-// everything that determines the rows into identity_of(), so that rows of another sweep are not
-// kept.
+// Plans, checks and computes the rows of a sweep of one sphere, in the units of the case: gaps,
+// films and distances [L], l1_gap_distance [L T], times [T], velocities [L/T], film_ratio [1]. A
+// model that fails leaves its columns empty. A key that cannot be varied and a missing fit are an
+// Error(kWrongUsage), a wrong case or model is an Error(kBadInput), a stop an Error(kInterrupted).
+// Used by app/ (command `sweep`). A change must keep the names of the columns, which users' scripts
+// read and add_model() repeats, and put everything that determines the rows into identity_of(), so
+// that rows of another sweep are not kept.
 #include "viscontact/sweep/sphere_study.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 // Computes the rows of a sweep, and writes, continues and reads its file (study.hpp). Numbers are
-// in the units of the case; study.hpp has the ranges. A file that cannot be read or written is an
-// Error(kBadInput), a name that is given twice an Error(kWrongUsage), a stop an
+// in the units of the case, and one that is not finite gives an empty field. Rows are numbered from
+// 0; that there are at least one row and `jobs` >= 1 is not checked. A file that cannot be read or
+// written is an Error(kBadInput), a name that is given twice an Error(kWrongUsage), a stop an
 // Error(kInterrupted); the errors of Study::run are thrown, too. Used by app/, pipeline/ and the
 // sweeps of all kinds of cases. A change must keep that rows of an earlier call are kept only if
 // its file has the same head, and kHowMade, with which results/provenance.cpp begins a file.
@@ -147,8 +148,9 @@ void check_ranges(const Points& points) {
                   v.key, v.first, v.last, v.last);
 }
 
-// Threads compute rows in any order, but the rows must be passed on in order, so that the file does
-// not depend on the number of threads.
+// If `stop` requests a stop, returns the index after the last row that was passed on, without an
+// Error. Threads compute rows in any order, but the rows must be passed on in order, so that the
+// file does not depend on the number of threads.
 std::uint64_t run_rows(
     std::uint64_t size, std::uint64_t begin, int jobs,
     const std::function<std::string(std::uint64_t index, const StopToken& stop)>& row,

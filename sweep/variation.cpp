@@ -1,8 +1,8 @@
 // Reads ranges, and computes the points of grids and random points. Values have the units of their
-// keys; variation.hpp has the ranges. A range that is not valid is an Error(kBadInput), a grid that
-// is too large an Error(kWrongUsage). Used by the sweeps of all kinds of cases and app/. A change
-// must keep the values bit for bit, because a sweep that continues compares them with its finished
-// rows.
+// keys; a range has 1 to 1e9 values, all finite, and indices of values and points, from 0, are not
+// checked. A text that is no range is an Error(kBadInput), a grid of more than 1e12 points an
+// Error(kWrongUsage). Used by the sweeps of all kinds of cases and app/. A change must keep the
+// values bit for bit, because a sweep that continues compares them with its finished rows.
 #include "viscontact/sweep/variation.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 // Newton's method for the stroke of least energy, whose loop in the space of arms has polynomials
-// as coordinates (polynomial_loop.hpp). Numbers are in the units of the fit; optimal_stroke.hpp has
-// the dimensions and ranges. An energy is that in a period of 1, which is
+// as coordinates (polynomial_loop.hpp). Displacements, not 0, arms and coefficients of polynomials
+// [L] are in the units of the fit; there are at least two arms and kFewestPolynomials polynomials
+// of each (not checked). An energy [M L^2/T^2] is that in a period of 1, which is
 // LoopSums::energy_times_period. Loops that leave the table are an Error(kBadInput), a failure of
 // Newton's method an Error(kNotConverged), a stop an Error(kInterrupted). Used by swimmer/case,
 // swimmer/job and python/. A change must keep energies to the digits of docs/swimmer.md.

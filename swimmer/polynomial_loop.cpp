@@ -1,9 +1,10 @@
 // Polynomial loops of a swimmer's arms, their energy and displacement, and the gradients
-// (polynomial_loop.hpp). Numbers are in the units of the swimmer's fit; polynomial_loop.hpp has
-// their dimensions and ranges. A loop outside the table is an Error(kBadInput). Used by
-// optimal_stroke.cpp. A change must keep that gradients are the derivatives of the sums to
-// round-off, and, for n polynomials, the 2 n + 24 points of all three quadratures, which
-// polynomial_loop.hpp repeats.
+// (polynomial_loop.hpp). Arms, coefficients and displacements [L], the period [T] and energies
+// times the period [M L^2/T] are in the units of the swimmer's fit; a loop has a row of
+// coefficients for each arm and a column for each polynomial, at least one (not checked). A loop
+// outside the table is an Error(kBadInput). Used by optimal_stroke.cpp. A change must keep that
+// gradients are the derivatives of the sums to round-off, and, for n polynomials, the 2 n + 24
+// points of all three quadratures, which polynomial_loop.hpp repeats.
 #include "viscontact/swimmer/polynomial_loop.hpp"
 
 #include <cmath>

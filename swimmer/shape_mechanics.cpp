@@ -1,9 +1,10 @@
-// Solves the balance of forces of a swimmer, a line of spheres, at one shape. The symbols are those
-// of shape_mechanics.hpp. Lengths, masses and times are in the units of the fit;
-// shape_mechanics.hpp has the dimensions and ranges. A shape outside the table is an
-// Error(kBadInput). Used by swim.cpp, polynomial_loop.cpp, optimal_stroke.cpp, swimmer/job and
-// python/. A change must keep that the total force on the fluid is 0, and that slopes are the
-// derivatives.
+// Solves the balance of forces of a swimmer, a line of spheres, at one shape. A shape is the list
+// of its arms, the distances of neighbouring centres [L], one less than there are spheres (not
+// checked). Velocities per arm velocity have no dimension; the resistance R and the metric, the
+// power per squared arm velocities, are [M/T], all in the units of the fit. A shape outside the
+// table is an Error(kBadInput). Used by swim.cpp, polynomial_loop.cpp, optimal_stroke.cpp,
+// swimmer/job and python/. A change must keep that the total force on the fluid is 0, and that
+// slopes are the derivatives.
 #include "viscontact/swimmer/shape_mechanics.hpp"
 
 #include "viscontact/common/error.hpp"

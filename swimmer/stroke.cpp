@@ -1,7 +1,8 @@
 // Makes strokes from corners, samples and ellipses, and the points of a quadrature by the
-// eigenvalues of the Jacobi matrix (Golub & Welsch 1969, Math. Comp. 23, 221). Numbers are in the
-// units of the case; stroke.hpp has their dimensions and ranges. Samples that do not close the loop
-// are an Error(kBadInput). Used by swimmer_case.cpp (strokes), swim.cpp and polynomial_loop.cpp
+// eigenvalues of the Jacobi matrix (Golub & Welsch 1969, Math. Comp. 23, 221). Arms [L], times [T],
+// which rise, and periods [T], > 0, are in the units of the case; the quadrature is that on [0, 1]
+// with at least one point. This is not checked; only samples that do not close the loop are an
+// Error(kBadInput). Used by swimmer_case.cpp (strokes), swim.cpp and polynomial_loop.cpp
 // (quadrature). A change must keep the times at which legs, the parts of a stroke, meet, because
 // forces jump there.
 #include "viscontact/swimmer/stroke.hpp"

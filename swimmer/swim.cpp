@@ -1,8 +1,9 @@
 // Integrates displacement and power along a stroke. A stroke consists of legs, parts on which the
-// arms are smooth functions of time (stroke.hpp). Numbers are in the units of the fit; swim.hpp has
-// their dimensions and ranges. A stroke outside the table is an Error(kBadInput); sums that do not
-// converge are an Error(kNotConverged). Used by swimmer/case, swimmer/job and python/. A change may
-// alter sums by rounding errors only; swim.hpp repeats kMost and kTolerance.
+// arms are smooth functions of time (stroke.hpp). Displacements [L], energies [M L^2/T^2], forces
+// [M L/T^2] and power [M L^2/T^3], >= 0, are in the units of the fit, the efficiency [1] is >= 0;
+// that `intervals` is > 0 is not checked. A stroke outside the table is an Error(kBadInput); sums
+// that do not converge are an Error(kNotConverged). Used by swimmer/case, swimmer/job and python/.
+// A change may alter sums by rounding errors only; swim.hpp repeats kMost and kTolerance.
 #include "viscontact/swimmer/swim.hpp"
 
 #include <algorithm>
@@ -46,8 +47,8 @@ Integrals integrate(const Swimmer& swimmer, const StrokeLeg& leg, double from, d
   return sum;
 }
 
-/// Integrates a leg with more and more points until the integrals no longer change. Throws the
-/// errors of swim_sums().
+/// Integrates a leg with more and more points until the integrals no longer change. Throws
+/// Error(kBadInput) if the leg leaves the table, Error(kNotConverged) if kMost points are too few.
 Integrals integrate_leg(const Swimmer& swimmer, const StrokeLeg& leg) {
   // The integrands are analytic, so that each doubling of the points squares the error. Legs of
   // 1e-3 radii need 8 points, legs across the whole table 64.

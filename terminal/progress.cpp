@@ -1,8 +1,8 @@
-// Writes the progress line and coloured messages to standard error, with ANSI escape sequences
-// (progress.hpp has the ranges), for all commands: app/, motions/, particles/, pipeline/, report/,
-// rolling/ and swimmer/ call it. Times are in seconds. No failure is reported: a message that
-// cannot be written is lost. A change must keep that a file, or a terminal with TERM=dumb, gets no
-// escape sequences.
+// Writes the progress line and coloured messages to standard error, with ANSI escape sequences, for
+// all commands: app/, motions/, particles/, pipeline/, report/, rolling/ and swimmer/ call it.
+// Times are in seconds, >= 0; a share of the work is from 0 to 1, and there is no estimate of the
+// time left if it is 0 or NaN. No failure is reported: a message that cannot be written is lost. A
+// change must keep that a file, or a terminal with TERM=dumb, gets no escape sequences.
 #include "viscontact/terminal/progress.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,8 @@
-// Reads the frames of a run and draws them. Numbers are in the units of the case;
-// particles_pages.hpp has the ranges and errors. A frame that is missing or damaged, a case that
-// has changed, and a file that cannot be written are an Error(kBadInput). A change must keep the
-// memory bounded, however long the run is. Used by app/ and run/.
+// Reads the frames of a run and draws them. Times [T] and lengths [L] are in the units of the case.
+// If a radius is not between 1e-37 and 3e38, the lengths that a page can draw, a warning says so. A
+// list without a frame, a frame that is missing, damaged or of other particles, a case that has
+// changed, and a file that cannot be written are an Error(kBadInput) with the path. A change must
+// keep the memory bounded, however long the run is. Used by app/ and run/.
 #include "viscontact/particles/run/particles_pages.hpp"
 
 #include <algorithm>

@@ -1,10 +1,12 @@
 // Runs a case of many particles (particles_stage.hpp): checks the inputs, continues an earlier run,
-// computes time steps, saves the state and writes the results. Numbers are in the units of the
-// case; particles_stage.hpp has their ranges. A wrong case or file is an Error(kBadInput); steps
-// that did not converge are an Error(kNotConverged), a stop an Error(kInterrupted), both after the
-// results are written. A change must keep that restart.bin is written after all files that a run
-// needs to continue (Run::save()), so that a run that is killed at any time can be continued. Used
-// by app/ and sweep/.
+// computes time steps, saves the state and writes the results. Times of the motion [T] are in the
+// unit of the case, computing times in s, memory in MiB; the number of threads is at least 1. A
+// wrong case or file is an Error(kBadInput), a request for HDF5 without libhdf5 an
+// Error(kWrongUsage), a failure of the fluid solver an Error(kExternalProgram), a step that does
+// not converge an Error(kNotConverged), a stop an Error(kInterrupted); those of a step are thrown
+// after the results are written. A change must keep that restart.bin is written after all files
+// that a run needs to continue (Run::save()), so that a run that is killed at any time can be
+// continued. Used by app/ and sweep/.
 #include "viscontact/particles/run/particles_stage.hpp"
 
 #include <fmt/format.h>

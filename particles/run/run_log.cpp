@@ -1,8 +1,10 @@
-// Writes frames (VTK), their lists (PVD) and tables (CSV), and continues them (run_log.hpp).
-// Numbers are in the units of the case; vtk.hpp, link_file.hpp and contact_file.hpp in io/ have the
-// columns and arrays with their dimensions. A file that cannot be written, or was changed, is an
-// Error(kBadInput). A change must keep that lists and tables only grow, because a run is continued
-// at the ends that its record states. Used by run/.
+// Writes frames (VTK), their lists (PVD) and tables (CSV), and continues them (run_log.hpp). Times
+// [T], lengths [L], impulses [M L/T] and forces [M L/T^2] (of discs in a fluid per length) are in
+// the units of the case; vtk.hpp, link_file.hpp and contact_file.hpp in io/ list all columns.
+// Numbers of frames and flows count from 0. A file that cannot be written, is missing or was
+// changed is an Error(kBadInput) with its name; add_flow() does not check that a frame lacks its
+// flow. A change must keep that lists and tables only grow, because a run is continued at the ends
+// that its record states. Used by run/.
 #include "viscontact/particles/run/run_log.hpp"
 
 #include <algorithm>
@@ -100,6 +102,7 @@ void RunLog::add_step(const StepReport& report, const State& state,
   record_.rebounds += more.size();
 }
 
+/// `link_force_errors` has the order and units of State::link_forces, or is empty if not known.
 void RunLog::add_frame(const State& state, std::span<const double> link_force_errors) {
   const auto& setting = case_.setting;
   const auto contacts = contacts_of(setting, state);

@@ -1,8 +1,11 @@
 // Collects the residuals of a time step, which measure how far its solution misses the conditions
-// of contacts and links, and refuses a step with a deep overlap (step_report.hpp). Numbers are in
-// the units of the case file (step_report.hpp has the dimensions). Throws Error(kNotConverged) from
-// refuse_deep_overlap() only. simulation.cpp, projection/, fluid/ and membranes/ use it. A change
-// must keep that particles with masses and particles in a fluid are measured in the same way.
+// of contacts and links, and refuses a step with a deep overlap (step_report.hpp). Gaps, residuals
+// and the mean radius (> 0, not checked) are lengths [L], impulses and their residuals are [M L/T],
+// in the units of the case file; the report has them divided by the mean radius, or by the impulses
+// at work, as numbers >= 0. A residual that is not a number makes `excess` infinite and `converged`
+// false. Throws Error(kNotConverged) from refuse_deep_overlap() only. simulation.cpp, projection/,
+// fluid/ and membranes/ use it. A change must keep that particles with masses and particles in a
+// fluid are measured in the same way.
 #include "viscontact/particles/steps/step_report.hpp"
 
 #include <fmt/format.h>

@@ -1,9 +1,10 @@
-// Runs the case of a row and keeps its results, in the units of the case; particles_run.hpp has the
-// ranges. A run that fails is no error here: its row says why. A stop is an Error(kInterrupted); a
-// file that cannot be read or written, and a row that another process computes, are an
-// Error(kBadInput). A change must keep that result.json is written after the run and records the
-// case and the version, so that a process may be killed at any time and no result of another case
-// is taken. Used by particles_sweep_stage.cpp.
+// Runs the case of a row and keeps its results, in the units of the case. Rows are numbered from 0,
+// computing times are in s, and a run has at least 1 thread (not checked). A run that fails is no
+// error here: its row says why. A stop is an Error(kInterrupted); a file that cannot be read or
+// written, and a row that another process computes, are an Error(kBadInput). A change must keep
+// that result.json is written after the run and records the case and the version, so that a process
+// may be killed at any time and no result of another case is taken. Used by
+// particles_sweep_stage.cpp.
 #include "viscontact/particles/sweep/particles_run.hpp"
 
 #include <fmt/format.h>

@@ -1,9 +1,11 @@
 // The stages of sweeps of particles (particles_sweep_stage.hpp). Computing times are in [s], other
-// times in the unit of the case; particles_sweep_stage.hpp has the ranges. If all runs fail, or
-// some are missing, an Error(kNotConverged) is thrown; particles_sweep_stage.hpp also says when
-// Error(kInterrupted), Error(kBadInput) and Error(kWrongUsage) are. A change must keep runs in
-// their folders until the user deletes them, so that a sweep to which draws are added computes the
-// new ones only. Used by app/.
+// times in the unit of the case. Rows are numbered from 0; `jobs` is at least 1, and the number of
+// a task less than that of all tasks (not checked). If all runs fail, or some are missing when they
+// are gathered, an Error(kNotConverged) is thrown; a file that cannot be read or written is an
+// Error(kBadInput), a stop an Error(kInterrupted), a Slurm that fails an Error(kExternalProgram),
+// an open quotation mark in its options an Error(kWrongUsage). A change must keep runs in their
+// folders until the user deletes them, so that a sweep to which draws are added computes the new
+// ones only. Used by app/.
 #include "viscontact/particles/sweep/particles_sweep_stage.hpp"
 
 #include <fmt/format.h>
@@ -68,8 +70,9 @@ void write_means(const ParticlesSweep& sweep, const std::string& output) {
 }
 
 /// Calls `run` for each row that is not in the file of the rows, writes this file and the table of
-/// means, and says on the terminal how many runs failed. Throws the errors of
-/// pipeline::write_rows(), and Error(kNotConverged) if every run failed.
+/// means, and says on the terminal how many runs failed. Throws
+/// Error(kBadInput) if a file cannot be read or written, Error(kInterrupted) at a stop, and
+/// Error(kNotConverged) if every run failed.
 void write_tables(const ParticlesSweep& sweep, const ParticlesSweepRequest& request,
                   ParticlesRunner run) {
   const auto& output = request.output;

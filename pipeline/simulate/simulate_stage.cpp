@@ -1,9 +1,9 @@
-// Chooses the fit, runs the models of a case and writes their results. Numbers are in the units of
-// the case; reduced_model/trajectory.hpp has their dimensions and ranges. A drag that is not given
-// and a wrong SOURCE_DATE_EPOCH are an Error(kWrongUsage), a wrong case or fit and a file of the
-// user in the way an Error(kBadInput), a stop an Error(kInterrupted); if models fail, the error of
-// the first is thrown after the results of the others are written. Used by pipeline/, app/ and
-// python/. A change must keep the order of writing in write_simulated().
+// Chooses the fit, runs the models of a case and writes their results. Gaps [L], >= 0, times [T]
+// and velocities [L/T] are in the units of the case. A drag that is not given and a wrong
+// SOURCE_DATE_EPOCH are an Error(kWrongUsage), a wrong case or fit and a file of the user in the
+// way an Error(kBadInput), a stop an Error(kInterrupted); if models fail, the error of the first is
+// thrown after the results of the others are written. Used by pipeline/, app/ and python/. A change
+// must keep the order of writing in write_simulated().
 #include "viscontact/pipeline/simulate/simulate_stage.hpp"
 
 #include <fmt/format.h>

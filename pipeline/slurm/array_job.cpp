@@ -1,10 +1,11 @@
 // An array job (array_job.hpp): its tasks, the script that each task runs, and the calls of Slurm's
 // programs squeue and sbatch. Each task runs `viscontact COMMAND --task K/T`, where K is the number
-// of the task, from 0, and T the number of tasks; array_job.hpp has the ranges. A program of Slurm
-// that fails is an Error(kExternalProgram), a second job and a file that cannot be written an
-// Error(kBadInput), an open quotation mark an Error(kWrongUsage), a stop an Error(kInterrupted).
-// Used by app/, particles/sweep and pipeline/tabulate. A change must keep the name of the job,
-// because a second job for the same output is recognised by it.
+// of the task, from 0 to T - 1, and T the number of tasks, at least 1 and, unless the user gives
+// it, at most 1000; nothing of this is checked. A program of Slurm that fails is an
+// Error(kExternalProgram), a second job and a file that cannot be written an Error(kBadInput), an
+// open quotation mark an Error(kWrongUsage), a stop an Error(kInterrupted). Used by app/,
+// particles/sweep and pipeline/tabulate. A change must keep the name of the job, because a second
+// job for the same output is recognised by it.
 #include "viscontact/pipeline/slurm/array_job.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
-// Chooses the gaps, names the files and writes the pictures of a tabulation; picture_stage.hpp has
-// the ranges. Gaps [L], > 0, are in the unit of the case. A number that is not a gap of the case
-// and a file in the way are an Error(kBadInput), a FreeFEM or gnuplot that fails is an
+// Chooses the gaps, names the files and writes the pictures of a tabulation. Gaps [L], > 0, are in
+// the unit of the case; the tabulation has at least one (not checked). A number that is not a gap
+// of the case and a file in the way are an Error(kBadInput), a FreeFEM or gnuplot that fails is an
 // Error(kExternalProgram), a wrong VISCONTACT_FREEFEM_TIME_LIMIT an Error(kWrongUsage), a stop an
 // Error(kInterrupted). Used by app/. A change must keep the seven digits of path_of(), with which
 // kTolerance agrees, and that the markers of kMesh to kVtu occur in the files that are written; a

@@ -2,12 +2,12 @@
 // gathers the rows of all tasks. Rows that fail do not stop the others. At the end an error names
 // the rows that are missing: it is an Error(kExternalProgram) if some of them failed, and otherwise
 // an Error(kNotConverged). A file that cannot be read or written is an Error(kBadInput), a wrong
-// VISCONTACT_FREEFEM_TIME_LIMIT an Error(kWrongUsage), a stop an Error(kInterrupted). Numbers are
-// in the units of each case; tabulate_stage.hpp has the ranges, freefem_axi/journal/table_plan.hpp
-// the dimensions, and slurm/array_job.hpp the Share of a task. A table may have a companion, a file
-// with the same rows and other columns. Used by app/, pipeline/, python/, rolling/ and swimmer/. A
-// change must keep that the journals, files beside a table to which each row is added when it is
-// finished, are removed only after the table is written.
+// VISCONTACT_FREEFEM_TIME_LIMIT an Error(kWrongUsage), a stop an Error(kInterrupted). A row's gaps
+// [L], > 0, and velocity [L/T] are in the units of its case; `jobs` is at least 1, and the Share of
+// a task are the rows whose number modulo Share::count is Share::number. A table may have a
+// companion, a file with the same rows and other columns. Used by app/, pipeline/, python/,
+// rolling/ and swimmer/. A change must keep that the journals, files beside a table to which each
+// row is added when it is finished, are removed only after the table is written.
 #include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
 
 #include <fmt/format.h>
@@ -94,7 +94,8 @@ std::string rows_in_words(const CaseTable& one, const std::vector<freefem_axi::R
 }
 
 /// Computes the missing rows of a table, at most `jobs` >= 1 at once, and writes the table. Returns
-/// and throws what finish_table() does; also throws the errors of compute_rows().
+/// and throws what finish_table() does; also throws Error(kExternalProgram) if FreeFEM cannot be
+/// run, and Error(kInterrupted) at a stop.
 RowFailure tabulate_one(const CaseTable& one, int jobs, const StopToken& stop) {
   if (is_up_to_date(one)) return {};
   check_output_file(one.table);

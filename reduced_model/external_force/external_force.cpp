@@ -1,9 +1,11 @@
 // Sums of piecewise polynomials (polynomial.hpp) and sinusoids, and the search for the times at
-// which they change their sign. Numbers are in any consistent units; external_force.hpp has their
-// dimensions and ranges. A force that is not defined and a fault of a file of samples are an
-// Error(kBadInput), and one with too many periods an Error(kNotConverged). Used by all models of
-// one sphere, rolling/ and case_file/. A change must keep the formulas of the means and integrals,
-// which lose no digits by cancellation for short intervals and small arguments.
+// which they change their sign. Times [T] are >= 0 (not checked), forces [M L/T^2], < 0 towards the
+// wall, and impulses [M L/T] are in any consistent units. Pieces that are missing or do not follow
+// each other, an angular frequency that is not > 0 and a fault of a file of samples are an
+// Error(kBadInput); more than about 3e4 periods in sign_changes() are an Error(kNotConverged). Used
+// by all models of one sphere, rolling/ and case_file/. A change must keep the formulas of the
+// means and integrals, which lose no digits by cancellation for short intervals and small
+// arguments.
 #include "viscontact/reduced_model/external_force/external_force.hpp"
 
 #include <array>

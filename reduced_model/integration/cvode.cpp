@@ -1,8 +1,10 @@
 // Calls the integrator CVODE of SUNDIALS 6 or 7 and checks all return codes (cvode.hpp). Times are
-// in [T]; cvode.hpp has the shapes and ranges. A code that is an error becomes
-// Error(kNotConverged), unless an Error of the system is the cause, which is then thrown; too
-// little memory is std::bad_alloc. Used by reduced_model/models and rolling/. A change must keep
-// that CVODE prints nothing, and that the file compiles with both versions of SUNDIALS.
+// in [T]. A state and its derivative have `dimension` > 0 components of any dimensions, the
+// Jacobian dimension x dimension entries by columns; lengths of spans and indices are not checked.
+// A code that is an error, or more than 1e6 steps since the restart, become Error(kNotConverged),
+// unless an Error of the system is the cause, which is then thrown; too little memory is
+// std::bad_alloc. Used by reduced_model/models and rolling/. A change must keep that CVODE prints
+// nothing, and that the file compiles with both versions of SUNDIALS.
 #include "viscontact/reduced_model/integration/cvode.hpp"
 
 #include <cvode/cvode.h>

@@ -1,11 +1,12 @@
-// Integrates the equation of inertial_equation.hpp with CVODE: restarts it where the external force
-// jumps, and makes rows at the required times and where the velocity changes its sign. q is the
-// gap, s = ln(q/radius) the unknown of CVODE, Gamma the primitive of the resistance R, m the mass,
-// P = m dq/dt + Gamma(q); lengths, masses and times are in any one system of units; motion.hpp and
-// trajectory.hpp have the dimensions and ranges. A CVODE that gives up and, with roughness, an
-// external force with too many periods are an Error(kNotConverged), a gap outside the fit, too many
-// rows and a start within the roughness an Error(kBadInput), a stop an Error(kInterrupted). Used by
-// models.cpp. A change of results must raise kModelsRevision (trajectory.hpp).
+// Integrates ds/dt = (P - Gamma(q))/(m q) (inertial_equation.hpp) with CVODE: restarts it where the
+// external force jumps, and makes rows at the required times and where the velocity changes its
+// sign. q is the gap, s = ln(q/radius) the unknown of CVODE, Gamma the primitive of the resistance
+// R, m the mass, P = m dq/dt + Gamma(q); gaps [L], the mass [M] and the radius are > 0, times [T]
+// >= 0, P and Gamma are [M L/T], in any consistent units. A CVODE that gives up and, with
+// roughness, an external force with too many periods are an Error(kNotConverged), a gap outside the
+// fit, more than 1e8 rows and a start within the roughness an Error(kBadInput), a stop an
+// Error(kInterrupted). Used by models.cpp. A change of results must raise kModelsRevision
+// (trajectory.hpp).
 #include "viscontact/reduced_model/models/inertial.hpp"
 
 #include <algorithm>

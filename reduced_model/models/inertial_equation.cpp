@@ -1,9 +1,11 @@
-// The equation (S) of inertial_equation.hpp for s = ln(q/r) (q the gap, r the radius), the
-// tolerances of its integration, and the velocity that belongs to a state. Numbers are in any
-// consistent units; inertial_equation.hpp has their dimensions and ranges. A gap outside the fit is
-// an Error(kBadInput) of LubricationForce, a film too thin for a double an Error(kNotConverged).
-// Used by inertial.cpp and rolling/. A change of results must raise kModelsRevision
-// (trajectory.hpp); inertial.hpp repeats kShare and its product with kFlightShare.
+// The equation ds/dt = (P - Gamma(q))/(m q), (S) of inertial_equation.hpp, for s = ln(q/r) (q the
+// gap, r the radius, m the mass, P = m dq/dt + Gamma(q)), the tolerances of its integration, and
+// the velocity that belongs to a state. Gaps [L], m [M] and the resistance [M/T] are > 0, times [T]
+// from 0 to end_time (not checked); P, which momentum() returns, and Gamma, the primitive of the
+// resistance, are [M L/T]; all in any consistent units. A gap outside the fit is an
+// Error(kBadInput) of LubricationForce, a film too thin for a double an Error(kNotConverged). Used
+// by inertial.cpp and rolling/. A change of results must raise kModelsRevision (trajectory.hpp);
+// inertial.hpp repeats kShare and its product with kFlightShare.
 #include "viscontact/reduced_model/models/inertial_equation.hpp"
 
 #include <algorithm>

@@ -1,10 +1,11 @@
 // The table of models of motion, the suffixes of their names, the budget of models that resolve the
-// whole drag, and the gaps that a model reaches. Numbers are in any consistent units; models.hpp
-// and trajectory.hpp have their dimensions and ranges. An unknown name is an Error(kBadInput), a
-// result that is not finite an Error(kNotConverged), a stop an Error(kInterrupted); the errors of
-// the models are thrown, too. Used by pipeline/, sweep/, results/, report/, case_file/, app/ and
-// python/. A change must keep the names, which users' files contain, and the order, which gives the
-// colours of the report.
+// whole drag, and the gaps that a model reaches. Gaps [L], >= 0, velocities [L/T], times [T],
+// forces [M L/T^2], impulses [M L/T] and works [M L^2/T^2] are in any consistent units; masses and
+// time steps > 0 are not checked. An unknown name is an Error(kBadInput), a result that is not
+// finite an Error(kNotConverged), a stop an Error(kInterrupted); the errors of the models are
+// thrown, too. Used by pipeline/, sweep/, results/, report/, case_file/, app/ and python/. A change
+// must keep the names, which users' files contain, and the order, which gives the colours of the
+// report.
 #include "viscontact/reduced_model/models/models.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,9 @@
 // The loop over time of the model `reference`, and the rows of `reference_exact` (reference.hpp).
-// Numbers are in any consistent units; trajectory.hpp has their dimensions and ranges. A step
-// through the wall is an Error(kNotConverged), a motion outside the fit and too many steps an
-// Error(kBadInput), a stop an Error(kInterrupted). Used by models.cpp. A change of results must
-// raise kModelsRevision (trajectory.hpp).
+// Gaps [L], > 0, velocities [L/T], times [T] and forces [M L/T^2], < 0 towards the wall, are in any
+// consistent units. A step through the wall is an Error(kNotConverged), a motion outside the fit, a
+// parameter without a value and more than 1e8 steps an Error(kBadInput), a stop an
+// Error(kInterrupted). Used by models.cpp. A change of results must raise kModelsRevision
+// (trajectory.hpp).
 #include "viscontact/reduced_model/models/reference.hpp"
 
 #include "viscontact/common/error.hpp"

@@ -1,9 +1,10 @@
-// Interpolates a flow at the points of a grid (flow_grid.hpp, which has the dimensions), in the
-// units of the case. Which triangle contains a point is decided as if its six nodes formed four
-// straight triangles; the value at the point then is that of the quadratic shape functions. A point
-// without a triangle gets NaN. Nothing is thrown. Used by flow_plots.cpp, stream_lines.cpp and
-// particles/picture. A change must keep the numbering of nodes: corners, then the middles of sides
-// 01, 12 and 20.
+// Interpolates a flow at the points of a grid (flow_grid.hpp). Places [L], velocities [L/T] and
+// pressures [M/(L T^2)] are in the units of the case; a grid has at least 2 rows and columns, and
+// lists have a number for each of its points or for each node of the mesh (not checked). Which
+// triangle contains a point is decided as if its six nodes formed four straight triangles; the
+// value at the point then is that of the quadratic shape functions. A point without a triangle gets
+// NaN. Nothing is thrown. Used by flow_plots.cpp, stream_lines.cpp and particles/picture. A change
+// must keep the numbering of nodes: corners, then the middles of sides 01, 12 and 20.
 #include "viscontact/report/flow/flow_grid.hpp"
 
 #include <algorithm>

@@ -1,7 +1,8 @@
 // Draws the pictures of a row of a table of lubrication forces in the half-plane (rho, z) of the
-// distance rho from the axis and the height z, and its mirror image. Numbers are in the units of
-// the case (flow_plots.hpp has the ranges), sizes on the picture in pixels; sizes, ratios and
-// numbers of lines without a reason are free choices. A missing or failing gnuplot is an
+// distance rho from the axis and the height z, and its mirror image. Radius and gap [L], > 0,
+// velocities [L/T] or angular velocities [1/T] and pressures are in the units of the case and not
+// checked, sizes on the picture in pixels; sizes, ratios and numbers of lines without a reason are
+// free choices. A gnuplot that is missing, fails or takes ten minutes is an
 // Error(kExternalProgram), a requested stop an Error(kInterrupted). Used by pipeline/tabulate. A
 // change must keep the title true where heights are drawn larger than widths.
 #include "viscontact/report/flow/flow_plots.hpp"

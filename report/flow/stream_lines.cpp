@@ -1,8 +1,10 @@
 // Solves for the stream function on a grid, follows its level lines, and simplifies them
-// (stream_lines.hpp, which has the dimensions), in the units of the case. Pairs of points that are
-// not both in the fluid have a small weight in the least squares, so that the matrix is never
-// singular and the fluid may consist of several regions. Nothing is thrown. flow_plots.cpp and
-// particles/picture draw the lines. A change must keep the equal steps of psi between lines.
+// (stream_lines.hpp). Places [L], velocities [L/T] and the stream function psi [L^2/T], with an
+// axis [L^3/T], are in the units of the case; lists have one number for each point of the grid, NaN
+// where there is no fluid (not checked). Pairs of points that are not both in the fluid have a
+// small weight in the least squares, so that the matrix is never singular and the fluid may consist
+// of several regions. Nothing is thrown. flow_plots.cpp and particles/picture draw the lines. A
+// change must keep the equal steps of psi between lines.
 #include "viscontact/report/flow/stream_lines.hpp"
 
 #include <Eigen/SparseCholesky>

@@ -1,8 +1,10 @@
 // Writes gnuplot's commands and data, runs gnuplot and reads its picture, for report/ and swimmer/.
 // A gnuplot that is missing, fails or hangs is an Error(kExternalProgram), a requested stop an
 // Error(kInterrupted), and a system without free sockets a std::system_error. Sizes are in pixels,
-// those of a PDF in points; values have no units here; gnuplot.hpp has the ranges. Texts of the
-// user must pass through quoted_for_gnuplot, because gnuplot can run commands of the shell.
+// those of a PDF in points; width and height are > 0, and a field has at least 2 columns and rows
+// (not checked). Values have no units here; one that is not finite interrupts a curve or is
+// transparent. Texts of the user must pass through quoted_for_gnuplot, because gnuplot can run
+// commands of the shell.
 #include "viscontact/report/pictures/gnuplot.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,8 @@
-// Reads the columns to draw from a sweep's CSV file and draws them; sweep_plot.hpp has the ranges.
-// Values are in the units of the case, sizes in pixels; heights and margins are free choices. A
-// column that is missing or has no number is an Error(kBadInput), a missing or failing gnuplot an
-// Error(kExternalProgram), and a requested stop an Error(kInterrupted). Used by `sweep`
+// Reads the columns to draw from a sweep's CSV file and draws them. Values, of which one that is
+// missing or no number is not drawn, are in the units of the case, sizes in pixels; heights and
+// margins are free choices. A file that cannot be read, a column that is missing or has no number,
+// and a map with fewer than two values along an axis are an Error(kBadInput), a missing or failing
+// gnuplot an Error(kExternalProgram), and a requested stop an Error(kInterrupted). Used by `sweep`
 // (app/commands/sweep/). Files larger than the memory must be read row by row. kMean and kError
 // must be the ends of names in particles/case/particles_study.cpp.
 #include "viscontact/report/pictures/sweep_plot.hpp"

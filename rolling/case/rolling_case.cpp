@@ -1,8 +1,9 @@
-// Reads the sections of a case of a rolling sphere, and applies the defaults. Numbers are in the
-// units of the case; rolling_case.hpp and rolling_motion.hpp have their dimensions and ranges. A
-// wrong value is an Error(kBadInput) with its line, and so is a fit that is not that of a plane.
-// Used by rolling/, app/ and python/. A change must keep keys and defaults, because users have
-// written cases with them, and docs/case-file.md, which repeats them.
+// Reads the sections of a case of a rolling sphere, and applies the defaults. Lengths [L], masses
+// [M] and times [T], which are > 0 but for the roughness, >= 0, velocities [L/T], forces [M L/T^2]
+// and torques [M L^2/T^2] are in the units of the case. A wrong value is an Error(kBadInput) with
+// its line and key, and a fit that is not that of a plane one with its path. Used by rolling/, app/
+// and python/. A change must keep keys and defaults, because users have written cases with them,
+// and docs/case-file.md, which repeats them.
 #include "viscontact/rolling/case/rolling_case.hpp"
 
 #include <algorithm>

@@ -1,9 +1,11 @@
-// Computes the motions of a sweep of a rolling sphere (rolling_study.hpp). Numbers are in the units
-// of the case; rolling_study.hpp has the dimensions of the columns. Used by app/ (command `sweep`).
-// A key that cannot be varied and an unknown model are an Error(kWrongUsage), a wrong case or fit
-// is an Error(kBadInput), a stop an Error(kInterrupted); a model that fails leaves its columns
-// empty. A change must keep the names of the columns, which users' scripts read and which
-// add_rolling_end() repeats. refuse_useless() repeats which keys a model uses.
+// Computes the motions of a sweep of a rolling sphere (rolling_study.hpp). Gaps and positions [L],
+// angles in radians, velocities and slip [L/T], angular velocities [1/T] and times [T] are in the
+// units of the case; contact is 0 without solid contact, 1 if the solids roll, 2 if they slide.
+// Used by app/ (command `sweep`). A key that cannot be varied and an unknown model are an
+// Error(kWrongUsage), a wrong case or fit is an Error(kBadInput), a stop an Error(kInterrupted); a
+// model that fails leaves its columns empty. A change must keep the names of the columns, which
+// users' scripts read and which add_rolling_end() repeats. refuse_useless() repeats which keys a
+// model uses.
 #include "viscontact/rolling/case/rolling_study.hpp"
 
 #include <fmt/format.h>

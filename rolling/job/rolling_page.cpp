@@ -1,8 +1,8 @@
-// The pictures and the page of a rolling sphere, in the units of the case; rolling_motion.hpp has
-// the dimensions and ranges. A gnuplot that fails is an Error(kExternalProgram), a file in the way
-// or not written an Error(kBadInput), a stop an Error(kInterrupted). Used by rolling_stage.cpp. A
-// change must list every picture in kRollingPictures, which decides which files in plots/ may be
-// replaced or removed.
+// The pictures and the page of a rolling sphere, in the units of the case: gaps [L], > 0, times
+// [T], velocities [L/T] and forces [M L/T^2]. Each trajectory has a row (not checked). A gnuplot
+// that fails is an Error(kExternalProgram), a file in the way or not written an Error(kBadInput), a
+// stop an Error(kInterrupted). Used by rolling_stage.cpp. A change must list every picture in
+// kRollingPictures, which decides which files in plots/ may be replaced or removed.
 #include "viscontact/rolling/job/rolling_page.hpp"
 
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
 // Runs the stages of a rolling sphere one after the other (rolling_stage.hpp): tables of the drag,
-// its fit, the motion by each model, the page. Numbers are in the units of the case;
-// rolling_motion.hpp has their dimensions and ranges. Used by app/. A wrong case and a file of the
-// user in the way are an Error(kBadInput), a stop is an Error(kInterrupted), and rolling_stage.hpp
-// has the other errors; a model that fails is reported at the end, and the others are still
-// written. A change must keep kColumns and kColumnNames in the same order, the numbers of
-// SolidContact, and the keys of rolling.json and the columns of the trajectories, which are in
+// its fit, the motion by each model, the page. Gaps [L], > 0, times [T], velocities [L/T], forces
+// [M L/T^2] and angles in radians are in the units of the case. Used by app/. A wrong case and a
+// file of the user in the way are an Error(kBadInput), a FreeFEM or gnuplot that fails an
+// Error(kExternalProgram), a stop an Error(kInterrupted); a model that fails is reported at the
+// end, and the others are still written. A change must keep the order of kColumns and kColumnNames,
+// the numbers of SolidContact (0: none, 1: rolling, 2: sliding), and the keys and columns in
 // docs/file-formats.md.
 #include "viscontact/rolling/job/rolling_stage.hpp"
 

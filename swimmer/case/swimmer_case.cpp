@@ -1,9 +1,10 @@
 // Reads the case of a swimmer (swimmer_case.hpp): its spheres and arms (distances of the centres of
-// neighbouring spheres), and strokes given by corners, an ellipse or a file of samples. Numbers are
-// in the units of the case; swimmer_case.hpp and collinear_spheres.hpp have their dimensions and
-// ranges. A wrong value is an Error(kBadInput) with its line. Used by swimmer/, app/ and python/. A
-// change must keep that users' cases are accepted, and the arms of a table bit for bit, because its
-// finished rows are found by their gaps. Keys are read in an order: some depend on those before.
+// neighbouring spheres), and strokes given by corners, an ellipse or a file of samples. Radii and
+// gaps [L], viscosity [M/(L T)] and periods [T] are > 0 and in the units of the case; an arm [L] is
+// greater than the sum of both radii. A wrong value is an Error(kBadInput) with its line. Used by
+// swimmer/, app/ and python/. A change must keep that users' cases are accepted, and the arms of a
+// table bit for bit, because its finished rows are found by their gaps. Keys are read in an order:
+// some depend on those before.
 #include "viscontact/swimmer/case/swimmer_case.hpp"
 
 #include <algorithm>
@@ -209,6 +210,7 @@ void read_arms(const case_file::TomlSection& section, std::string_view key, Eige
   place = Eigen::Map<const Eigen::VectorXd>(numbers.data(), arms);
 }
 
+/// Throws Error(kBadInput), which names `key`, if an arm [L] is outside the table.
 void check_arms(const case_file::TomlSection& section, std::string_view key,
                 const Eigen::VectorXd& arms, const SwimmerCase& c) {
   for (std::size_t k = 0; k < c.gaps.size(); ++k)
@@ -216,7 +218,9 @@ void check_arms(const case_file::TomlSection& section, std::string_view key,
       section.fail(key, fault);
 }
 
-/// Reads a stroke from a CSV file with the columns time, x1, x2, ...
+/// Reads a stroke from a CSV file with the columns time [T], x1, x2, ... [L]. Throws
+/// Error(kBadInput) for fewer than 3 rows and, with the line, for an empty field, a time that is
+/// not greater than the one before, or an arm outside the table.
 void read_samples(const case_file::TomlSection& section, std::string_view key, double,
                   SwimmerCase& c) {
   section.require(!section.has("period"), "period",

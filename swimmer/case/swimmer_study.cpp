@@ -1,10 +1,10 @@
-// Computes the strokes of a sweep (swimmer_study.hpp). Numbers are in the units of the case;
-// swimmer_study.hpp has the dimensions of the columns. Used by app/ (command `sweep`). A key that
-// cannot be varied and a case without a stroke are an Error(kWrongUsage), a wrong case or fit is an
-// Error(kBadInput), a stop an Error(kInterrupted); a stroke that fails leaves its columns empty. A
-// change must keep the names of the columns, which users' scripts read and add_sums() repeats, and
-// put everything that determines the rows into the head, so that rows of another sweep are not
-// kept.
+// Computes the strokes of a sweep (swimmer_study.hpp). The columns displacement [L] and energy [M
+// L^2/T^2], each in a period, are in the units of the case; efficiency has no dimension. Used by
+// app/ (command `sweep`). A key that cannot be varied and a case without a stroke are an
+// Error(kWrongUsage), a wrong case or fit is an Error(kBadInput), a stop an Error(kInterrupted); a
+// stroke that fails leaves its columns empty. A change must keep the names of the columns, which
+// users' scripts read and add_sums() repeats, and put everything that determines the rows into the
+// head, so that rows of another sweep are not kept.
 #include "viscontact/swimmer/case/swimmer_study.hpp"
 
 #include <utility>

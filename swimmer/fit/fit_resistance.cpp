@@ -1,10 +1,11 @@
 // Subtracts the lubrication R_lub between neighbouring spheres from each resistance matrix R of a
 // table, and takes the logarithm S of the rest: R = mu (R_lub + l exp S), with the viscosity mu and
 // the largest radius l (resistance_fit.hpp). The fit is the polynomial through the S of all rows.
-// Numbers are in the units of the table; resistance_table.hpp and resistance_fit.hpp have their
-// dimensions and ranges. Rows that are missing or stand twice and a matrix that is not positive
-// definite are an Error(kBadInput). Used by swimmer/job and python/. A change must keep the random
-// signs of change_by_estimates(), on which the error estimates depend.
+// Gaps and radii [L], > 0, the viscosity [M/(L T)], > 0, and R [M/T] are in the units of the table;
+// R_lub is [L], S and errors [1]. Fewer than three values of a gap, rows that are missing or stand
+// twice and a matrix that is not positive definite are an Error(kBadInput). Used by swimmer/job and
+// python/. A change must keep the random signs of change_by_estimates(), on which the error
+// estimates depend.
 #include "viscontact/swimmer/fit/fit_resistance.hpp"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 // The page of a swimmer: tables, curves over time, and the loops of strokes in the plane of two
-// arms, over a map of the displacement per area (displacement_curl). Numbers are in the units of
-// the case; swim.hpp has their dimensions and ranges. Heights and widths of pictures, in pixels,
-// are free choices. A gnuplot that fails is an Error(kExternalProgram), a file in the way or not
-// written an Error(kBadInput), a stop an Error(kInterrupted). Used by swimmer_stage.cpp. A change
-// must list every picture in kSwimmerPictures, which decides which files in plots/ may be replaced
-// or removed.
+// arms, over a map of the displacement per area (displacement_curl). Arms and positions [L], times
+// [T], power [M L^2/T^3] and forces [M L/T^2] are in the units of the case; a stroke has a period >
+// 0 and a row (not checked). Heights and widths of pictures, in pixels, are free choices. A gnuplot
+// that fails is an Error(kExternalProgram), a file in the way or not written an Error(kBadInput), a
+// stop an Error(kInterrupted). Used by swimmer_stage.cpp. A change must list every picture in
+// kSwimmerPictures, which decides which files in plots/ may be replaced or removed.
 #include "viscontact/swimmer/job/swimmer_page.hpp"
 
 #include <fmt/format.h>
@@ -34,7 +34,8 @@ std::size_t place_after_spheres(const SwimmerResults& results) {
   return first_sphere(results) + results.c.spheres.radii.size();
 }
 
-/// log10 of the displacement per area of a small loop, for all pairs of arms of the table.
+/// log10 of the magnitude of the displacement per area [1/L] of a small loop, for all pairs of arms
+/// of the table.
 report::ColourField curl_field(const Swimmer& swimmer) {
   constexpr std::size_t kPixels = 200;  // along each axis; a smooth field needs no more
   const auto [left, right] = swimmer.arm_interval(0);

@@ -1,9 +1,11 @@
 // Runs the stages of a swimmer one after the other (swimmer_stage.hpp): the table of resistance
-// matrices, its fit, the strokes, the page. Numbers are in the units of the case; swim.hpp has
-// their dimensions and ranges. A wrong case and a file of the user in the way are an
-// Error(kBadInput), a stop is an Error(kInterrupted), and swimmer_stage.hpp has the other errors.
-// Used by app/ and python/. A change must keep the texts in check_files(), which the files contain,
-// and the keys of swimmer.json and the columns of stroke.csv, which are in docs/file-formats.md.
+// matrices, its fit, the strokes, the page. Times and periods [T], arms and displacements [L],
+// forces [M L/T^2], power [M L^2/T^3] and energies [M L^2/T^2] are in the units of the case. A
+// wrong case and a file of the user in the way are an Error(kBadInput), a FreeFEM or gnuplot that
+// fails an Error(kExternalProgram), a stroke whose sums or search do not converge an
+// Error(kNotConverged), a stop an Error(kInterrupted). Used by app/ and python/. A change must keep
+// the texts in check_files(), which the files contain, and the keys of swimmer.json and the columns
+// of stroke.csv, which are in docs/file-formats.md.
 #include "viscontact/swimmer/job/swimmer_stage.hpp"
 
 #include <fmt/format.h>
@@ -155,7 +157,8 @@ bool write_stroke(const fs::path& path, const std::optional<StrokeResult>& strok
   return false;
 }
 
-/// Reads what json_of() and stroke_csv() wrote for a swimmer with this number of spheres.
+/// Reads what json_of() and stroke_csv() wrote for a swimmer with this number of spheres. Throws
+/// Error(kBadInput) if the CSV file lacks a number or has no rows.
 StrokeResult read_stroke(const Json& json, const fs::path& path, std::size_t spheres) {
   StrokeResult stroke{json.at("period"),
                       {json.at("displacement"), json.at("energy"),

@@ -1,9 +1,10 @@
 // Evaluates the lubrication of pairs, and R = mu (R_lub + l exp(S)) with its derivatives
-// (resistance_fit.hpp). mu is the viscosity, l the largest radius. Numbers are in the units of the
-// fit; resistance_fit.hpp has their dimensions and ranges. Gaps outside the table are an
-// Error(kBadInput). Used by shape_mechanics.cpp and swimmer/fit. A change must keep that the slopes
-// are the derivatives of R, and the formula of the lubrication, because files of fits contain only
-// the rest.
+// (resistance_fit.hpp). mu is the viscosity, l the largest radius. Radii and gaps [L], > 0, one gap
+// less than there are spheres, R [M/T] and R_lub [L] are in the units of the fit, S has no
+// dimension; the lubrication has 0 to kLubricationTerms terms, which is not checked. Gaps outside
+// the table are an Error(kBadInput). Used by shape_mechanics.cpp and swimmer/fit. A change must
+// keep that the slopes are the derivatives of R, and the formula of the lubrication, because files
+// of fits contain only the rest.
 #include "viscontact/swimmer/resistance/resistance_fit.hpp"
 
 #include <algorithm>

@@ -1,9 +1,10 @@
 // The fields of the file of a ResistanceFit (docs/file-formats.md), and the fit of scaled spheres.
-// Lengths, masses and times are in the units of the table; resistance_fit.hpp has the dimensions
-// and ranges. Every fault of a file is an Error(kBadInput) with line and key, and so are radii of
-// other ratios. The functions are declared in resistance_fit.hpp; swimmer/job and swimmer/case use
-// them. A change must keep earlier files readable, and the text "resistance fit", for which
-// swimmer_stage.cpp searches.
+// The viscosity [M/(L T)] and the radii and gaps [L] are > 0 and in the units of the table; the
+// logarithms of the matrices and relative errors, >= 0, have no dimension. Every fault of a file is
+// an Error(kBadInput) with line and key; radii of other ratios are an Error(kBadInput), too. The
+// functions are declared in resistance_fit.hpp; swimmer/job and swimmer/case use them. A change
+// must keep earlier files readable, and the text "resistance fit", for which swimmer_stage.cpp
+// searches.
 
 #include <algorithm>
 #include <functional>

@@ -1,9 +1,10 @@
-// The columns of a table of resistance matrices (resistance_table.hpp, docs/file-formats.md).
-// Numbers are in the units of the table; resistance_table.hpp has their dimensions and ranges. A
-// fault of a file, a matrix that is not positive definite and radii of other ratios are an
-// Error(kBadInput). Used by the other folders of swimmer/ and python/. A change must keep the names
-// of the columns, which published tables have, and the order of the entries, that of the lines of
-// collinear_spheres.edp.
+// The columns of a table of resistance matrices (resistance_table.hpp, docs/file-formats.md). Gaps
+// and radii [L] and the viscosity [M/(L T)], all > 0, and the entries of R [M/T], force on the
+// fluid per velocity, are in the units of the table; error estimates are relative, >= 0. Indices of
+// spheres, from 0, are not checked. A fault of a file, a matrix that is not positive definite and
+// radii of other ratios are an Error(kBadInput). Used by the other folders of swimmer/ and python/.
+// A change must keep the names of the columns, which published tables have, and the order of the
+// entries, that of the lines of collinear_spheres.edp.
 #include "viscontact/swimmer/resistance/resistance_table.hpp"
 
 #include <fmt/format.h>
@@ -35,6 +36,7 @@ std::size_t entry_position(std::size_t i, std::size_t j, std::size_t spheres) {
   return row * spheres - row * (row + 1) / 2 + column;
 }
 
+/// Throws std::out_of_range if the row has fewer entries than the matrix needs.
 Eigen::MatrixXd matrix_of(const ResistanceRow& row, std::size_t spheres) {
   const auto size = static_cast<Eigen::Index>(spheres);
   Eigen::MatrixXd matrix(size, size);

@@ -1,7 +1,8 @@
 // Interpolation on a grid by the barycentric formula (tensor_polynomial.hpp). Numbers have any
-// dimension; tensor_polynomial.hpp has the shapes of the arguments; nothing is checked or thrown.
-// Used by resistance_fit.cpp and swimmer/fit. A change must keep that the values at the nodes are
-// met exactly.
+// dimension; there is a list of nodes, all different, for each variable, a column of values for
+// each combination of nodes, of which the last variable changes fastest, and a number of a point
+// for each variable. Nothing is checked or thrown. Used by resistance_fit.cpp and swimmer/fit. A
+// change must keep that the values at the nodes are met exactly.
 #include "viscontact/swimmer/resistance/tensor_polynomial.hpp"
 
 #include <cmath>

@@ -1,9 +1,11 @@
-// Calls the FreeFEM script collinear_spheres.edp and reads its answer. Lengths are in the unit of
-// the case (collinear_spheres.hpp has dimensions and ranges); the script computes with viscosity 1,
-// so that its matrix is multiplied by the viscosity of the case. A failure of FreeFEM is an
-// Error(kExternalProgram), a stop an Error(kInterrupted). Used by swimmer/case, swimmer/job and
-// resistance_table_plan.cpp. A change of the arguments or of the lines that are read must be made
-// in the script, too; lubrication/scaling.cpp finds the lengths in surroundings_in_words().
+// Calls the FreeFEM script collinear_spheres.edp and reads its answer. Radii, of 2 to 10 spheres,
+// and gaps [L], one less, are > 0 and in the unit of the case; the relative accuracy is > 0, in a
+// case less than 1. The script refuses numbers that are not > 0. It computes with viscosity 1, so
+// that its matrix is multiplied by the viscosity of the case. A FreeFEM that fails, refuses a
+// number or exceeds its time limit is an Error(kExternalProgram), a stop an Error(kInterrupted).
+// Used by swimmer/case, swimmer/job and resistance_table_plan.cpp. A change of the arguments or of
+// the lines that are read must be made in the script, too; lubrication/scaling.cpp finds the
+// lengths in surroundings_in_words().
 #include "viscontact/swimmer/tabulation/collinear_spheres.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,9 @@
 // The table of resistance matrices of spheres on a line as a TablePlan (how rows are computed,
-// written and read): its rows and their reflections. Lengths are in the unit of the case;
-// collinear_spheres.hpp declares the function and has the dimensions and ranges. Errors are those
-// of solve_resistance(), of which Error(kInterrupted) is one. Used by swimmer/job. A change of the
-// text of inputs_of() makes every earlier table out of date.
+// written and read): its rows and their reflections. Gaps [L], > 0 and rising in each list, and
+// radii [L], one more than there are lists, are in the unit of the case (not checked).
+// collinear_spheres.hpp declares the function. A row that FreeFEM cannot compute is an
+// Error(kExternalProgram), a stop an Error(kInterrupted). Used by swimmer/job. A change of the text
+// of inputs_of() makes every earlier table out of date.
 #include <fmt/format.h>
 
 #include <algorithm>

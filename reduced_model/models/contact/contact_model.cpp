@@ -1,10 +1,11 @@
 // The loop over time of the contact models (contact_model.hpp): it makes the steps of
 // contact_step.hpp and rebound.hpp, adds up the impulses and works, and finds when contact begins
-// and ends. gamma [M L/T] is minus the impulse that the film in the contact has absorbed. Numbers
-// are in any consistent units; contact_model.hpp has their dimensions and ranges. Too many steps
-// and a time step without a value are an Error(kBadInput), a stop an Error(kInterrupted); the
-// errors of the drag are thrown, too. Used by models.cpp. A change must keep the balance of the
-// budget to round-off; one of results must raise kModelsRevision (trajectory.hpp).
+// and ends. gamma [M L/T] is minus the impulse that the film in the contact has absorbed. Gaps [L]
+// are at least that of contact, which is >= 0, velocities are [L/T], the mass [M] and the time step
+// [T] are > 0, in any consistent units; the model is not checked. More than 1e8 steps and a time
+// step without a value are an Error(kBadInput), a stop an Error(kInterrupted); the errors of the
+// drag are thrown, too. Used by models.cpp. A change must keep the balance of the budget to
+// round-off; one of results must raise kModelsRevision (trajectory.hpp).
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
 
 #include <algorithm>
@@ -23,7 +24,8 @@ namespace viscontact::reduced_model {
 namespace {
 
 /// A ResolvedDrag as functions of the distance D [L], the gap less the gap of contact, in the form
-/// that contact_step() needs (NoDrag in contact_step.hpp).
+/// that contact_step() needs (NoDrag in contact_step.hpp). Impulses and momenta are [M L/T]; a drag
+/// that is not defined at a gap throws its own error.
 class DragAtDistance {
  public:
   static constexpr bool kResolved = true;

@@ -1,10 +1,11 @@
 // The models `viscous_contact`, `viscous_contact_leapfrog` and `inelastic_contact`: contact at the
 // gap q = 0 [L] and no drag before it; and `viscous_contact_regular_drag` with the drag R(q) - k/q
-// [M/T], where R is the fitted resistance and k its coefficient of 1/q. viscous_contact.hpp and
-// contact_model.hpp have the other dimensions and ranges. A fit without a positive k is an
-// Error(kBadInput); inelastic contact needs none. Used by models.cpp and viscous_contact_exact.cpp.
-// A change must keep the texts of film_law, which heads of trajectories contain; one of results
-// must raise kModelsRevision (trajectory.hpp).
+// [M/T], where R is the fitted resistance and k its coefficient of 1/q. The initial gap q0 [L] is >
+// 0, the heights of roughness [L] are >= 0 (not checked), and gamma [M L/T], minus the impulse that
+// the film has absorbed, is <= 0. A fit without a positive k is an Error(kBadInput); inelastic
+// contact needs none. Used by models.cpp and viscous_contact_exact.cpp. A change must keep the
+// texts of film_law, which heads of trajectories contain; one of results must raise kModelsRevision
+// (trajectory.hpp).
 #include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
 
 #include <algorithm>

@@ -1,10 +1,11 @@
 // Finds the events of viscous contact (landing, release, and the instant at which the solids
-// touch), and computes the budget between them. The equations are those of
-// viscous_contact_exact.hpp. Numbers are in any consistent units; trajectory.hpp and
-// contact_model.hpp have their dimensions and ranges. A fit without a positive coefficient of 1/q
-// and too many rows are an Error(kBadInput), a force with too many periods an Error(kNotConverged),
-// a stop an Error(kInterrupted). Used by models.cpp. A change of results must raise kModelsRevision
-// (trajectory.hpp).
+// touch), and computes the budget between them. In flight only the external force acts; in contact
+// gap and velocity are 0, and gamma changes by the impulse of this force (viscous_contact_exact.hpp
+// has the equations). Gaps [L], >= 0, velocities [L/T], times [T] and gamma [M L/T], minus the
+// impulse that the film has absorbed, <= 0, are in any consistent units. A fit without a positive
+// coefficient of 1/q and more than 1e8 rows are an Error(kBadInput), a force with too many periods
+// an Error(kNotConverged), a stop an Error(kInterrupted). Used by models.cpp. A change of results
+// must raise kModelsRevision (trajectory.hpp).
 #include "viscontact/reduced_model/models/contact/viscous_contact_exact.hpp"
 
 #include <algorithm>
@@ -36,6 +37,7 @@ class EventDriven {
   const std::optional<SolidTouch>& touch() const { return touch_; }
   double lowest_gamma() const { return lowest_gamma_; }
 
+  /// Gap [L], velocity [L/T] and gamma [M L/T] at a time t [T] between the last event and the next.
   double gap(double t) const {
     if (contact_) return 0;
     const double by_force =

@@ -1,6 +1,8 @@
 // The model `viscous_contact_threshold` (viscous_contact_threshold.hpp): contact at the gap q_c [L]
-// and the whole drag above it. The header has the symbols; contact_model.hpp has the dimensions and
-// ranges. A q_c or roughness outside the allowed range, and in a run a gap outside the fit, is an
+// and the whole drag above it. q_c must be greater than the heights of the roughness together [L],
+// >= 0, and less than the initial gap. `impulse` is the primitive Gamma [M L/T] of the resistance
+// [M/T], and gamma [M L/T], <= 0, is minus the impulse that the film below q_c has absorbed. A q_c
+// or roughness outside this range or the fit, and in a run a gap outside the fit, is an
 // Error(kBadInput), a film too thin for a double an Error(kNotConverged). Used by models.cpp. A
 // change must keep the text of film_law, which heads of trajectories contain; one of results must
 // raise kModelsRevision (trajectory.hpp).
