@@ -1,7 +1,9 @@
-// Finds the contacts and overlaps of a state (current_contacts.hpp, which has the dimensions and
-// ranges), in the units of the case. Nothing is checked or thrown. A change must keep the order of
-// contacts, because io/vtk_reader.cpp returns the contacts of a file in the same order. Used by
-// io/, run/ and python/.
+// Finds the contacts and overlaps of a state, in the units of the case: gaps and branches are in
+// [L], < 0 for a gap of two that overlap, gamma <= 0 in [M L/T], forces in [M L/T^2]; of discs in a
+// fluid the last two are per unit length. Overlaps are divided by the mean radius and are >= 0.
+// Particles are numbered from 0, obstacle k is -1 - k. Nothing is checked or thrown. A change must
+// keep the order of contacts, because io/vtk_reader.cpp returns the contacts of a file in the same
+// order. Used by io/, run/ and python/.
 #include "viscontact/particles/current_contacts.hpp"
 
 #include <algorithm>
@@ -110,6 +112,7 @@ std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
   return {particles.id(index_of(contact.first)), second};
 }
 
+/// Divided by the mean radius [1]; 0 if nothing overlaps.
 double largest_overlap(const Setting& setting, const State& state) {
   double smallest = 0;
   const auto& p = state.particles;
@@ -138,6 +141,7 @@ double largest_overlap(const Setting& setting, const State& state) {
   return (0 - smallest) / mean_radius(p);  // the subtraction returns 0 instead of -0
 }
 
+/// In the unit of gamma, >= 0; 0 without pairs.
 double largest_gamma_error(const State& state) {
   double largest = 0;
   for (const auto* pairs : {&state.pairs, &state.walls})

@@ -1,7 +1,9 @@
-// Computes velocities of walls and pressure gradients that depend on time, and sizes and moments of
-// inertia of particles (fluid.hpp, which has the dimensions and ranges), in the units of the case.
-// Nothing is checked or thrown. A change must keep means over a step exact, so that as much fluid
-// flows in as the case says. Used by case/, fluid/, membranes/ and freefem_flow/.
+// Computes velocities of walls [L/T] and pressure gradients [M/(L^2 T^2)] that depend on time,
+// areas [L^2] or, on an axis, volumes [L^3], and moments of inertia [M L^2] of particles, in the
+// units of the case; in the plane M is a mass per length. Times are >= 0, radii and semi-axes
+// [L] > 0, masses >= 0; a period of 0 means none. Particles are numbered from 0. Nothing is checked
+// or thrown. A change must keep means of pieces over a step exact, so that as much fluid flows in
+// as the case says. Used by case/, fluid/, membranes/ and freefem_flow/.
 #include "viscontact/particles/fluid.hpp"
 
 #include <algorithm>

@@ -1,10 +1,11 @@
-// Members of Simulation (simulation.hpp): the motion of a step of length h [T] that would follow
-// without contacts and links; and the velocities at the present time, where those of the leapfrog
-// scheme are half a step behind. The velocities u* and angular velocities w* of this motion give
-// displacements h u* [L] and turns h w* [rad], docs/physics.md (5.3) and (5.10). `next` is the time
-// at the end of the step [T]. Numbers are in the units of the case; simulation.hpp has the shapes.
-// Nothing is checked or thrown. simulation.cpp calls move_freely() at the beginning of each step; a
-// change must set displacements and turns of all particles, also of those in rigid bodies.
+// Members of Simulation: the motion of a step of length h > 0 [T] that would follow without
+// contacts and links; and the velocities at the present time, where those of the leapfrog scheme
+// are half a step behind. The velocities u* and angular velocities w* of this motion give
+// displacements h u* [L], 2 or 3 numbers for each particle, and turns h w* [rad], 1 (discs) or 3,
+// docs/physics.md (5.3) and (5.10). `next` is the time at the end of the step [T]. Masses [M] and
+// moments of inertia [M L^2] must be > 0; numbers are in the units of the case. Nothing is checked
+// or thrown. simulation.cpp calls move_freely() at the beginning of each step; a change must set
+// displacements and turns of all particles, also of those in rigid bodies.
 #include "viscontact/particles/particles.hpp"
 #include "viscontact/particles/simulation.hpp"
 

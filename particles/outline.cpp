@@ -1,8 +1,10 @@
 // Computes distances to and between circles, ellipses and plates, and the points at which circles
-// meet (outline.hpp, which has the dimensions and ranges). The spine of a plate is the line between
-// the centres of its round ends, and that of a circle its centre. Lengths are in the unit of the
-// case. Nothing is checked or thrown. A change must keep distances exact to rounding errors. Used
-// by case/, fluid/, picture/ and freefem_flow/.
+// meet. The spine of a plate is the line between the centres of its round ends, and that of a
+// circle its centre. Lengths [L] are in the unit of the case, > 0 for radii and semi-axes; a plate
+// has the larger semi-axis first; angles are in radians, counter-clockwise. A distance is < 0
+// inside. Particles are numbered from 0. Nothing is checked or thrown; circles that do not meet
+// give std::nullopt. A change must keep distances exact to rounding errors for circles and plates;
+// those of two ellipses are found by a search. Used by case/, fluid/, picture/ and freefem_flow/.
 #include "viscontact/particles/outline.hpp"
 
 #include <algorithm>
@@ -252,6 +254,7 @@ Outline outline_of(const Fluid& fluid, const Particles& particles, std::span<con
   return outline;
 }
 
+/// Returns std::nullopt if the circles touch or do not meet.
 std::optional<Chord> chord_of(const Particles& particles, std::size_t k, std::size_t other) {
   // The points are computed from the disc with the smaller number, so that they are the same to the
   // last bit if k and `other` are exchanged.

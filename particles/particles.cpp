@@ -1,7 +1,8 @@
-// Computes rotations by quaternions, and turns particles in a step; particles.hpp has the
-// dimensions and shapes. Turns are in radians; nothing is checked or thrown. A change must keep
-// quaternions at length 1, and the order of the operations, on which the last bits of all results
-// depend. Used by all of particles/.
+// Computes rotations by quaternions (w, x, y, z) of length 1, and turns particles in a step. Turns
+// are in radians, 1 number for each disc and 3 for each sphere; angular velocities in [1/T], the
+// length of a step is > 0 [T], masses [M] and radii [L] are > 0. Nothing is checked or thrown; a
+// quaternion of zeros gives NaN. A change must keep quaternions at length 1, and the order of the
+// operations, on which the last bits of all results depend. Used by all of particles/.
 #include "viscontact/particles/particles.hpp"
 
 #include <cmath>

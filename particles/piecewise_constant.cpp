@@ -1,7 +1,8 @@
-// Exact integrals and means of a piecewise constant vector (piecewise_constant.hpp, which has the
-// ranges). The vector may have any unit; times [T] are in the unit of the case. Nothing is checked
-// or thrown. A change must keep that the mean over times within one piece is the value of the piece
-// to the last bit. Used by all of particles/.
+// Exact integrals and means of a piecewise constant vector. The vector may have any unit; times [T]
+// are >= 0 in the unit of the case, and ends of pieces increase. The vector is 0 after the last
+// piece. mean() needs from < to, because it divides by the difference. Nothing is checked or
+// thrown. A change must keep that the mean over times within one piece is the value of the piece to
+// the last bit. Used by all of particles/.
 #include "viscontact/particles/piecewise_constant.hpp"
 
 #include <algorithm>
@@ -38,6 +39,7 @@ Vector PiecewiseConstant::value(double t) const {
   return piece == pieces.end() ? Vector{} : piece->value;
 }
 
+/// Infinite if no piece ends after `t`.
 double PiecewiseConstant::next_end(double t) const {
   const auto piece = std::ranges::upper_bound(pieces, t, {}, &Piece::until);
   return piece == pieces.end() ? std::numeric_limits<double>::infinity() : piece->until;

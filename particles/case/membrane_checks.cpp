@@ -1,8 +1,9 @@
 // Checks of membranes (closed lines through particles, the beads) when a case file is read;
-// case/particles_sections.hpp declares and explains the functions, and membrane_keys.cpp calls
-// them. Lengths are in the unit of the case file; membrane.hpp has the dimensions and ranges. Every
-// fault throws Error(kBadInput) with its line. A change must not refuse what users' cases may
-// contain now.
+// membrane_keys.cpp calls them. Lengths [L], areas [L^2] and the other numbers are in the units of
+// the case file. A membrane has at least 4 beads, in a fluid 12, a reduced area
+// 4 pi area/perimeter^2 of at least 1e-3, in a fluid 0.3 to 0.999, and there a viscosity ratio of
+// 1e-4 to 1e3. Every fault throws Error(kBadInput) with its line. case/particles_sections.hpp
+// declares and explains the functions. A change must not refuse what users' cases may contain now.
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,12 @@
 // Sparse LU or Cholesky factorisation of a matrix of dense blocks of K x K numbers in any units,
-// and the assembly of such matrices for contacts and links (block_factor.hpp, which has the
-// shapes). The factorisation is left-looking: it computes one column of L and row of U after the
-// other, and subtracts from each the products of all earlier ones. factorise() returns false for a
-// singular matrix; nothing is thrown or checked. Used by constraint_system.cpp, interior_points.hpp
-// and proximal_step.hpp. A change of the order of sums changes results by rounding errors.
+// K = 3 (discs) or 6 (spheres), and the assembly of such matrices for contacts and links. The
+// factorisation is left-looking: it computes one column of L and row of U after the other, and
+// subtracts from each the products of all earlier ones. Bodies are numbered from 0, and an edge
+// joins two different ones. A matrix that is declared symmetric must be positive definite.
+// factorise() returns false, with unusable factors, if a block on the diagonal becomes singular,
+// infinite or NaN; nothing else is checked or thrown. Used by constraint_solver.cpp,
+// coulomb_path.cpp, interior_points.cpp and proximal_step.cpp. A change of the order of sums
+// changes results by rounding errors.
 #include "viscontact/particles/constraints/block_factor.hpp"
 
 #include <metis.h>
@@ -280,6 +283,8 @@ void BlockFactor<K>::clear() {
   std::ranges::fill(above_, Block{});
 }
 
+/// Returns false if a block on the diagonal is singular, infinite or NaN, or, for a symmetric
+/// matrix, not positive definite.
 template <int K>
 bool BlockFactor<K>::factorise() {
   std::ranges::fill(first_in_row_, -1);
@@ -334,6 +339,7 @@ void BlockFactor<K>::enlist(std::size_t k, std::size_t entry) {
   first = static_cast<std::int32_t>(k);
 }
 
+/// Replaces one Vec for each body. Needs a factorise() that returned true, which is not checked.
 template <int K>
 void BlockFactor<K>::solve(std::span<Vec> values) const {
   constexpr auto kSize = static_cast<std::size_t>(K);

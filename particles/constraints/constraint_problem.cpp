@@ -1,9 +1,11 @@
-// The problem for the impulses of the contacts and links of a time step (constraint_problem.hpp,
-// which has the dimensions and ranges): motions for given impulses, mobilities, residuals, and the
-// tangents and rows of contacts. Lengths, masses and times are in any consistent units. Nothing is
-// thrown. Used by constraints/, impacts/ and fluid/fluid_friction.cpp. A change of residual_of()
-// alters which steps count as converged. Both arms of a contact must end at one point, to keep a
-// pair's angular momentum.
+// The problem for the impulses of the contacts and links of a time step: motions for given
+// impulses, mobilities, residuals, and the tangents and rows of contacts. A row is a gap, a slip or
+// a link's equation [L], with an impulse [M L/T] and a mobility [T/M], which is > 0 in rows of
+// contacts. A row of angles has [rad], [M L^2/T] and [T/(M L^2)] instead. Motions are displacements
+// [L] and turns [rad]; masses, radii and mobilities of particles are positive. Units are any
+// consistent ones. Nothing is checked or thrown; a NaN makes a residual NaN. Used by constraints/,
+// impacts/ and fluid/fluid_friction.cpp. A change of residual_of() alters which steps count as
+// converged. Both arms of a contact must end at one point, to keep a pair's angular momentum.
 #include "viscontact/particles/constraints/constraint_problem.hpp"
 
 #include <algorithm>
@@ -112,6 +114,8 @@ std::vector<double> row_mobilities(const ConstraintProblem<D>& problem) {
   return w;
 }
 
+/// The pointers are to the values [L], impulses [M L/T] and mobilities > 0 [T/M] of the block's
+/// rows.
 BlockResidual residual_of(const ConstraintBlock& block, const double* v, const double* p,
                           const double* w) {
   BlockResidual residual;

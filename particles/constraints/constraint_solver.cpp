@@ -1,15 +1,16 @@
 // Decides which methods solve the problem of contacts with friction and links of a time step, in
-// which order and with which parameters (constraint_solver.hpp): Gauss-Seidel sweeps, proximal
-// steps, paths of smoothed problems and interior points. Units are any consistent ones;
-// constraint_problem.hpp has dimensions and ranges. A residual [L] is allowed if it is at most
-// ConstraintBlock::allowed or allowed_slip. Nothing is thrown; an unsolved problem has
-// SolverResult::residual > 1. Used by constraint_system.cpp, impacts/ and fluid/fluid_friction.cpp.
-// A change must keep that one thread computes the solution, so that results do not depend on the
-// number of threads. Constants without another reason are free choices.
+// which order and with which parameters: Gauss-Seidel sweeps, proximal steps, paths of smoothed
+// problems and interior points. Values of rows (gaps, slips, equations of links) are in [L],
+// impulses in [M L/T], mobilities > 0 in [T/M], motions in [L, rad], in any consistent units. A
+// residual [L] is allowed if it is at most ConstraintBlock::allowed or allowed_slip, both > 0.
+// Nothing is thrown; an unsolved problem has SolverResult::residual > 1. Used by
+// constraint_system.cpp, impacts/ and fluid/fluid_friction.cpp. A change must keep that one thread
+// computes the solution, so that results do not depend on the number of threads. Constants without
+// another reason are free choices.
 //
-// `epsilon` [1] is the parameter of a proximal step: the impulse of a row with the value v and the
-// mobility w is center - v/(epsilon w), projected on the allowed impulses. A smaller epsilon brings
-// the step nearer to the solution, but makes it harder to compute.
+// `epsilon` [1], > 0, is the parameter of a proximal step: the impulse of a row with the value v
+// and the mobility w is center - v/(epsilon w), projected on the allowed impulses. A smaller
+// epsilon brings the step nearer to the solution, but makes it harder to compute.
 #include "viscontact/particles/constraints/constraint_solver.hpp"
 
 #include <algorithm>
@@ -185,7 +186,8 @@ class Iteration {
   }
 
   /// The sum of the impulses that stop the free motion of each unit, remove the violation of each
-  /// contact with friction and rigid link by the free motion, and hold each film [M L/T].
+  /// contact with friction and rigid link by the free motion, and hold the films of such contacts
+  /// [M L/T].
   double sum_of_impulses_at_work() const {
     double sum = 0;
     std::vector<Motion<D>> free;
@@ -490,6 +492,8 @@ class Iteration {
 
 }  // namespace
 
+/// Takes about `max_iterations` > 0 iterations at most; the residual is > 1 if the problem is
+/// unsolved.
 template <int D>
 ConstraintSolution<D> solve_constraints(ConstraintProblem<D>& problem, int max_iterations,
                                         ConstraintStart start) {
@@ -509,6 +513,7 @@ ConstraintSolution<D> solve_with_given_loads(ConstraintProblem<D>& problem, bool
   return solution;
 }
 
+/// One number >= 0 for each block [L, rad]; 0 for links with a compliance.
 template <int D>
 std::vector<double> least_violations(const ConstraintProblem<D>& problem) {
   // Proximal steps: each minimises the sum of v^2/(kEpsilon w) plus the square of the change of the

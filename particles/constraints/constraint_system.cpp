@@ -1,10 +1,12 @@
-// Solves the problem for the impulses of the contacts, rigid bodies and links of a time step,
-// which island_problem.cpp makes, and finds constraints that contradict each other
-// (constraint_system.hpp, which has the shapes and ranges). Lengths [L], masses [M] and times [T]
-// are in any consistent units. Nothing is thrown; residual() tells whether a step is solved.
-// projection/ uses it. A change must keep that hinges and arms hold after finite turns, and the
-// order of the link forces, which restart files store. A unit is a particle, or a rigid body of
-// several.
+// Solves the problem for the impulses of the contacts, rigid bodies and links of a time step, which
+// island_problem.cpp makes, and finds constraints that contradict each other. A unit is a particle,
+// or a rigid body of several. Displacements, gaps and residuals are in [L], turns in [rad],
+// impulses in [M L/T], forces of links in [M L/T^2] or [M L^2/T^2], in any consistent units;
+// allowed residuals, masses and the length of the step are > 0. For each particle arrays have 2 or
+// 3 displacements, and 1 turn (discs) or 3 (spheres). Nothing is checked or thrown: a step that is
+// not solved has SolverResult::residual > 1 or NaN. projection/ uses it. A change must keep that
+// hinges and arms hold after finite turns, and the order of the link forces, which restart files
+// store.
 #include "viscontact/particles/constraints/constraint_system.hpp"
 
 #include <algorithm>
@@ -353,8 +355,8 @@ bool ConstraintSystem<D>::may_give_up(const Island& island) const {
 /// further iterations or corrections make no progress. Returns true if it is solved. The loads are
 /// those of a solution without friction if `have_diverged`, because those of the present
 /// impulses have no meaning then, and where these do not lead to a solution. Returns false, and
-/// leaves the problem and `solution` as they are, if no contact has such loads, or if links
-/// contradict each other. Adds the iterations to `result` in any case.
+/// leaves the problem and `solution` as they are, if the problem is rough, if all loads are given
+/// already, or if links contradict each other. Adds the iterations to `result` in any case.
 template <int D>
 bool ConstraintSystem<D>::give_up(Island& island, bool have_diverged,
                                   ConstraintSolution<D>& solution, SolverResult& result) {

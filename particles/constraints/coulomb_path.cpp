@@ -1,9 +1,12 @@
-// The steps along the path of smoothed problems with Coulomb's law (coulomb_path.hpp;
-// constraint_problem.hpp has dimensions and ranges). Gaps and impulses are scaled to the unit L
-// (M/T)^(1/2). Nothing is thrown; the caller must measure the residuals. Used by
-// constraint_solver.cpp. The constants change how long a solution takes, which of several solutions
-// is found, and results within the tolerances; a change of the order of sums changes results by
-// rounding errors.
+// The steps along the path of smoothed problems with Coulomb's law, docs/physics.md (5.20). Motions
+// are in [L, rad], mobilities of rows, > 0, in [T/M], impulses in [M L/T], in any consistent units;
+// inside, gaps and impulses are scaled to the unit L (M/T)^(1/2). Paths have the numbers 0, 1, 2;
+// the accuracy [1] is in (0, 1). `tau` [M L^2/T] is the common value of the products that must
+// become 0. Nothing is checked or thrown. A path that is lost ends early: reached() [1] is the
+// error at its best point divided by that at the start, and the caller must measure the residuals.
+// Used by constraint_solver.cpp. The constants change how long a solution takes, which of several
+// solutions is found, and results within the tolerances; a change of the order of sums changes
+// results by rounding errors.
 #include "viscontact/particles/constraints/coulomb_path.hpp"
 
 #include <algorithm>
@@ -408,6 +411,7 @@ void CoulombPath<D>::find_second(Step& step) {
       step.second);
 }
 
+/// Returns the number of factorisations, at most `max_iterations`, also if the path is lost.
 template <int D>
 int CoulombPath<D>::follow(int number, double accuracy, int max_iterations) {
   // Lengths of steps are changes of ln(tau) at their start. A step may be kGrowth times as long as

@@ -1,11 +1,12 @@
-// Iterations of the interior-point method for convex problems of contacts with friction and links
-// (interior_points.hpp; constraint_problem.hpp has dimensions and ranges). Each iteration computes
-// a predictor, whose goal is u.r = 0 for all pairs of a displacement u and an impulse r, and from
-// it the goal of a corrector, whose change of u, r and the motions y is made. u and r are scaled to
-// the unit L (M/T)^(1/2); y are the motions of all units, z the additional unknown of a contact
-// with a given bound of its friction. Nothing is thrown; the caller must measure the residuals.
-// Used by constraint_solver.cpp. The constants change how long a solution takes, and results within
-// the tolerances; a change of the order of sums changes results by rounding errors.
+// Iterations of the interior-point method for convex problems of contacts with friction and links.
+// Each iteration computes a predictor, whose goal is u.r = 0 for all pairs of a displacement u and
+// an impulse r, and from it the goal of a corrector, whose change of u, r and the motions y
+// [L, rad] of all units is made. u and r are scaled to the unit L (M/T)^(1/2), with mobilities of
+// rows > 0 [T/M]; z is the additional unknown of a contact with a given bound of its friction. The
+// accuracy [1] is in (0, 1), impulses are in [M L/T], units any consistent ones. Nothing is checked
+// or thrown. solve() does not tell whether it reached the accuracy: the caller must measure the
+// residuals. Used by constraint_solver.cpp. The constants change how long a solution takes, and
+// results within the tolerances; a change of the order of sums changes results by rounding errors.
 #include "viscontact/particles/constraints/interior_points.hpp"
 
 #include <algorithm>
@@ -389,6 +390,7 @@ void InteriorPoints<D>::start(double size) {
   }
 }
 
+/// Returns the number of iterations, at most `max_iterations`, also if `accuracy` is not reached.
 template <int D>
 int InteriorPoints<D>::solve(double accuracy, int max_iterations) {
   // If the error is below kNear times its size at the start, and an iteration does not reduce it to

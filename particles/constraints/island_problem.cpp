@@ -1,7 +1,9 @@
-// Makes the problem of an island of a ConstraintSystem (constraint_system.hpp, which has the shapes
-// and ranges): its units, the rows and bounds of its contacts, the equations of its links, and the
-// motions of its units without contacts. Lengths [L], masses [M] and times [T] are in
-// any consistent units. Nothing is checked or thrown. A change of the order of rows changes results
+// Makes the problem of an island of a ConstraintSystem, a set of particles that contacts and links
+// connect: its units (particles and rigid bodies), the rows and bounds of its contacts, the
+// equations of its links, and the motions of its units without contacts. Rows and allowed
+// residuals > 0 are in [L] ([rad] for angles), impulses in [M L/T], turns in [rad], mobilities in
+// [T/M], in any consistent units. Contacts and links are given by their numbers from 0. Nothing is
+// checked or thrown. constraint_system.cpp uses it. A change of the order of rows changes results
 // by rounding errors.
 #include <algorithm>
 #include <cmath>

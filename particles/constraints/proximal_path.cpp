@@ -1,12 +1,12 @@
 // The path that a step of the proximal method for contacts with friction follows if no step of
-// Newton's method reduces its error (proximal_step.hpp). b + J y are the gaps and slips of contacts
-// [L] after the motions y, with the coefficients J of their rows; P^k the impulses before the step
-// [M L/T], rho [M/T] stiffnesses of rows. On the path from the motions y_0 the error is (1 - share)
-// times that of y_0, and the solution is at share = 1. For discs only: the path consists of
-// straight pieces, on which no contact changes its branch (open, without friction, sticking,
-// slipping). Units are any consistent ones; proximal_step.hpp and constraint_problem.hpp have the
-// ranges. Nothing is thrown. proximal_step.cpp uses it. A change of the order of sums changes
-// results by rounding errors.
+// Newton's method reduces its error. b + J y are the gaps and slips of contacts [L] after the
+// motions y [L, rad], with the coefficients J of their rows; P^k the impulses before the step
+// [M L/T], rho > 0 [M/T] stiffnesses of rows. On the path from the motions y_0 the error is
+// (1 - share) times that of y_0, and the solution is at share = 1. For discs only: the path
+// consists of straight pieces, on which no contact changes its branch (open, without friction,
+// sticking, slipping). Units are any consistent ones. Nothing is checked or thrown: follow_path()
+// returns the share that it reached, 0 to 1. proximal_step.cpp uses it. A change of the order of
+// sums changes results by rounding errors.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,12 @@
-// Newton's method for a step of the proximal method for contacts with friction and links
-// (proximal_step.hpp; constraint_problem.hpp has the ranges). P^k and P^{k+1} are the impulses
-// before and after the step [M L/T], y the motions of particles and bodies, y* those without
-// impulses, M/h masses over the length of a time step, b + J y the values of the rows (gaps, slips
-// and equations of links) [L] with the coefficients J, rho [M/T] stiffnesses of the rows. Nothing
-// is thrown; failed() tells whether a step was solved. Used by constraint_solver.cpp. The constants
-// change how long a solution takes, and results within the tolerances; a change of the order of
-// sums changes results by rounding errors.
+// Newton's method for a step of the proximal method for contacts with friction and links. P^k and
+// P^{k+1} are the impulses before and after the step [M L/T], y the motions of particles and bodies
+// [L, rad], y* those without impulses, M/h masses over the length of a time step, b + J y the
+// values of the rows (gaps, slips and equations of links) [L] with the coefficients J, rho > 0
+// [M/T] stiffnesses of the rows. Rows of angles have [rad], [M L^2/T] and [M L^2/T] instead.
+// Nothing is checked or thrown; the step may be unsolved if failed() is true or solve() returns
+// max_iterations or more. Used by constraint_solver.cpp. The constants change how long a solution
+// takes, and results within the tolerances; a change of the order of sums changes results by
+// rounding errors.
 #include "viscontact/particles/constraints/proximal_step.hpp"
 
 #include <algorithm>

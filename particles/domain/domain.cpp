@@ -1,8 +1,9 @@
-// Motion of planes, and areas, volumes and walls of domains; domain.hpp has the dimensions and
-// ranges. Lengths and times are in any consistent units. All of particles/ and freefem_flow/ use
-// it. The motion of a plane is a rotation about its pivot and then a translation. Nothing is
-// checked or thrown. A change must keep the position of a plane at rest bit for bit, and the order
-// of the walls, by which files number obstacles.
+// Motion of planes, and areas, volumes and walls of domains. Lengths [L] and times [T], >= 0, are
+// in any consistent units, angular velocities in [rad/T]; a normal has length 1 and points to the
+// free side; radii and heights are > 0. The motion of a plane is a rotation about its pivot and
+// then a translation. Nothing is checked or thrown; case/ checks the values. All of particles/ and
+// freefem_flow/ use it. A change must keep the position of a plane at rest bit for bit, and the
+// order of the walls, by which files number obstacles.
 #include "viscontact/particles/domain/domain.hpp"
 
 #include <cmath>
@@ -82,6 +83,7 @@ std::vector<Plane> walls(const CylinderDomain& cylinder) {
 
 }  // namespace
 
+/// Area [L^2] in the plane, otherwise volume [L^3]; 0 without a domain.
 double measure(const Domain& domain) {
   using std::numbers::pi;
   if (const auto* disc = std::get_if<DiscDomain>(&domain)) return pi * disc->radius * disc->radius;

@@ -1,8 +1,10 @@
-// Numbers the particles that take part in a step, finds the sets that contacts connect (islands),
-// and calls the solver for the impulses. contact_system.hpp has the symbols, dimensions and ranges;
-// units are any consistent ones. projection/ and constraints/ use it. Nothing is thrown; an
-// unsolved problem has SolverResult::residual > 1. A change must keep the order of bodies, which
-// rounding errors depend on.
+// Numbers the particles that take part in a step, which are then called bodies, finds the sets that
+// contacts connect (islands), and calls the solver for the impulses. Displacements and gaps are in
+// [L], D (2 or 3) numbers for each particle; mobilities (length of the step over mass) are > 0
+// [T/M], impulses in [M L/T], in any consistent units. Particles, bodies and contacts are numbered
+// from 0; -1 is an obstacle, or a particle that takes no part. projection/ and constraints/ use it.
+// Nothing is checked or thrown; an unsolved problem has SolverResult::residual > 1. A change must
+// keep the order of bodies, which rounding errors depend on.
 #include "viscontact/particles/dual_problem/contact_system.hpp"
 
 #include <algorithm>

@@ -1,9 +1,12 @@
-// Solves the dual problem of a time step (mass_dual_problem.hpp, which has the equations,
-// dimensions and ranges; units are any consistent ones): chooses between conjugate gradients, a
-// sparse factor of the matrix W and Newton's method. A problem that is not solved is reported by
-// its residual, not thrown. contact_system.cpp uses it. The constants change how long a solution
-// takes, and results within the tolerances. A change must keep results independent of the number of
-// threads.
+// Solves the dual problem of a time step, docs/physics.md (5.4), for the scaled impulses z of
+// contacts: chooses between conjugate gradients, a sparse factor of the matrix W and Newton's
+// method. With the mobility w > 0 [T/M] and the impulse p [M L/T] of a contact, z is w^(1/2) p, and
+// a gradient is a gap [L] over w^(1/2), both in L (M/T)^(1/2) for any consistent units. W has no
+// dimension, and its diagonal is 1; B takes z to the displacements of bodies [L]. Nothing is
+// checked or thrown: a problem that is not solved in max_iterations > 0 has
+// SolverResult::residual > 1, the largest residual over the allowed one. contact_system.cpp uses
+// it. The constants change how long a solution takes, and results within the tolerances. A change
+// must keep results independent of the number of threads.
 #include <algorithm>
 #include <cstddef>
 #include <span>

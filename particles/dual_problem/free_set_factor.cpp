@@ -1,7 +1,10 @@
-// FreeSetFactor (mass_dual_problem.hpp, which has the shapes): computes and applies a sparse
-// Cholesky factor of the matrix W of the dual problem with Eigen. W is scaled and has no dimension.
-// If the factor cannot be computed, nothing is thrown: exists() is then false. dual_solver.cpp uses
-// it. A change must keep that the order of elimination depends on the pattern of W alone.
+// FreeSetFactor: computes and applies a sparse Cholesky factor of the matrix W of the dual problem
+// between the free contacts, those whose impulse is above its bound, with Eigen. W is scaled and
+// has no dimension; its diagonal is 1. Arrays have one number for each contact. If the factor would
+// have too many entries or cannot be computed, nothing is thrown: factorise() returns false, and so
+// does exists(). solve() and precondition() need exists(), which is not checked.
+// contact_system.hpp, dual_solver.cpp and active_set_newton.hpp use it. A change must keep that the
+// order of elimination depends on the pattern of W alone.
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <utility>
@@ -72,6 +75,7 @@ bool FreeSetFactor<D>::exists() const {
   return factor_ != nullptr && factor_->complete;
 }
 
+/// Returns false, and leaves no factor, if it would have too many entries or cannot be computed.
 template <int D>
 bool FreeSetFactor<D>::factorise(const MassDualProblem<D>& problem, const std::vector<char>& free) {
   const auto w = lower_triangle(problem, free, epsilon_);

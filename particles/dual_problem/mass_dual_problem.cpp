@@ -1,7 +1,11 @@
-// Fills the arrays of a MassDualProblem, the problem for the impulses of contacts in a time step;
-// mass_dual_problem.hpp has the equations, dimensions and ranges; units are any consistent ones.
-// The sources of this folder use it. Nothing is checked or thrown. A change must keep the order of
-// all sums, because bits of results depend on it.
+// Fills the arrays of a MassDualProblem, the problem for the impulses of contacts in a time step.
+// Gaps and displacements, D (2 or 3) numbers for each body, are in [L], mobilities (length of the
+// step over mass) in [T/M], > 0, in any consistent units. The mobility of a contact, Contact::w,
+// must be the sum of those of its bodies. Impulses are scaled by the root of it, and gradients
+// divided by it, so that both are in L (M/T)^(1/2). A contact of an obstacle has first < 0; all
+// obstacles are one body, the last one, which does not move. The sources of this folder use it.
+// Nothing is checked or thrown. A change must keep the order of all sums, because bits of results
+// depend on it.
 #include "viscontact/particles/dual_problem/mass_dual_problem.hpp"
 
 #include <Eigen/Core>

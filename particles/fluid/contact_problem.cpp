@@ -1,11 +1,12 @@
-// Solves the contact problem of a step in a fluid (ContactProblem in fluid_contacts.hpp). W [T/M]
-// is the matrix of the changes of gaps per impulse of each contact, w its diagonal, and the scaled
-// W is W/(w_i w_j)^(1/2) [1]. A contact is free if its impulse is above the lowest value that is
-// allowed. If contacts are few, W is computed, otherwise only products with it. fluid_contacts.hpp
-// has dimensions and ranges; units are any consistent ones. Errors are those of the mobility;
-// solve() returns false if it misses the tolerances. fluid_contacts.cpp uses it. A change must keep
-// that results depend on nothing but the arguments, because a run that is continued must give the
-// same bits.
+// Solves the contact problem of a step in a fluid, ContactProblem. W [T/M] is the matrix of the
+// changes of gaps [L] per impulse [M L/T] of each contact, w its diagonal, and the scaled W is
+// W/(w_i w_j)^(1/2) [1]. The mobility gives the velocities [L/T, 1/T] by forces
+// [M L/T^2, M L^2/T^2], 3 numbers for each particle, or 1 on an axis. The length of the step
+// is > 0; units are any consistent ones. A contact is free if its impulse is above the lowest value
+// that is allowed. If contacts are few, W is computed, otherwise only products with it. Only errors
+// of the mobility are thrown; solve() returns false if it misses the tolerances. fluid_contacts.cpp
+// uses it. A change must keep that results depend on nothing but the arguments, because a run that
+// is continued must give the same bits.
 #include <Eigen/Core>
 #include <set>
 #include <utility>

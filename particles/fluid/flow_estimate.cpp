@@ -1,5 +1,7 @@
-// Computes a flow up to three times and compares the results (flow_estimate.hpp, which has the
-// shapes and dimensions). Units are any consistent ones. Errors are those of FluidSolver.
+// Computes a flow up to three times and compares the results: on its mesh, with another penalty,
+// and on another mesh. Velocities [L/T, 1/T] and forces [M L/T^2, M L^2/T^2] have 3 numbers for
+// each particle (x, y, rotation), or 1 on an axis; radii [L] are > 0, relative errors [1] >= 0.
+// Units are any consistent ones. Errors of FluidSolver are thrown; sizes are not checked.
 // fluid_simulation.cpp uses it. A change must keep the order of the calls, because vary_penalty()
 // and vary_mesh() replace the problem that the solver had before.
 #include "viscontact/particles/fluid/flow_estimate.hpp"

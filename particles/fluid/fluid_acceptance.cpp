@@ -1,9 +1,10 @@
 // Examines a step in a fluid and changes the state by it: functions of FluidSimulation that its
-// step() calls. Lengths, masses and times are in any consistent units; fluid_simulation.hpp and
-// fluid_motion.hpp have shapes and ranges. A step that is refused is an Error(kNotConverged), which
-// must leave the state as it was. In a fluid with inertia accept() also throws the errors of
-// FluidSolver::keep_flow(), before it changes the state. A change must also keep that a continued
-// run gives the same bits as one without a break.
+// step() calls. Velocities of all particles are in [L/T, 1/T], 3 numbers for each (x, y, rotation),
+// or 1 on an axis; impulses are in [M L/T], of discs per length, the length h of the step is > 0
+// [T]. Units are any consistent ones. A step that is refused is an Error(kNotConverged), which must
+// leave the state as it was. In a fluid with inertia accept() also throws the errors of
+// FluidSolver::keep_flow(), before it changes the state. Sizes of arrays are not checked. A change
+// must also keep that a continued run gives the same bits as one without a break.
 
 #include <algorithm>
 #include <limits>

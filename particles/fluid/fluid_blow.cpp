@@ -1,13 +1,13 @@
-// Solves the blow of a step in a fluid (solve_blow() in fluid_motion.hpp, docs/physics.md (6.11)):
-// all contacts that are hit in the step, in two phases. In the compression the solids come to rest,
-// in the restitution they give back the share e_d of the impulse that they took up. gamma <= 0 is
-// minus the impulse that the film of a contact has absorbed; the load of a contact is the impulse
-// that it bears if particles are at rest under the forces of the step. Gaps are in [L], rates at
-// which they grow in [L/T], impulses in [M L/T]. fluid_motion.hpp has the shapes of the arguments
-// of solve_blow(), fluid_contacts.hpp those of StepContacts and ContactConditions. Errors are those
-// of the mobility and of BlowStep::loaded. A contact problem whose iterations do not converge
-// throws nothing: the last impulses count, and the caller sees it from the result of solve_blow().
-// fluid_simulation.cpp uses it. A change must keep that the work of a blow is not positive.
+// Solves the blow of a step in a fluid, docs/physics.md (6.11): all contacts that are hit in the
+// step, in two phases. In the compression the solids come to rest, in the restitution they give
+// back the share e_d of the impulse that they took up. gamma <= 0 is minus the impulse that the
+// film of a contact has absorbed; the load of a contact is the impulse that it bears if particles
+// are at rest under the forces of the step. Gaps are in [L], rates at which they grow in [L/T],
+// impulses in [M L/T], velocities of all particles in [L/T, 1/T] with 3 numbers for each, or 1 on
+// an axis. Errors of the mobility and of BlowStep::loaded are thrown. If iterations do not
+// converge, the last impulses count and FluidBlow::is_solved is false, but that of the loads
+// (take_load()) is not reported. fluid_simulation.cpp uses it. A change must keep that the work of
+// a blow is not positive.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -1,10 +1,12 @@
 // Lists pairs that are close to contact, chooses the contacts of a step among them and measures
-// their residuals (fluid_contacts.hpp). gamma <= 0 is minus the impulse that the film of a pair has
-// absorbed. A plate is a particle with round ends: all points at one distance from a line, its
-// spine. fluid_contacts.hpp has dimensions and ranges; units are any consistent ones. The other
-// sources of this folder and membranes/ use it. Errors are those of the mobility, and
-// Error(kNotConverged) for plates that overlap. A change must keep the order of pairs, which files
-// of contacts and restart files have.
+// their residuals. Gaps and radii are in [L], impulses and gamma in [M L/T], velocities of all
+// particles in [L/T, 1/T], 3 numbers for each, or 1 on an axis; units are any consistent ones, of
+// discs per length. The gap of a contact is the distance less the threshold gap. gamma <= 0 is
+// minus the impulse that the film of a pair has absorbed. A plate is a particle with round ends:
+// all points at one distance from a line, its spine. The other sources of this folder and
+// membranes/ use it. Throws the errors of the mobility, and Error(kNotConverged) for plates that
+// overlap; sizes are not checked, and missed tolerances make StepContacts::is_solved false. A
+// change must keep the order of pairs, which files of contacts and restart files have.
 #include "viscontact/particles/fluid/fluid_contacts.hpp"
 
 #include <iterator>

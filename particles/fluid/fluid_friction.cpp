@@ -1,11 +1,11 @@
-// Solves Coulomb's law of contacts in a fluid (docs/physics.md (6.14), fluid_contacts.hpp): the
-// friction is at most mu_s, its coefficient, times the load of the solids, and equal to this bound
-// if they slide. There are rounds of two parts. First solve_listed() finds the normal impulses that
-// keep the gaps open with the friction found so far, and adds contacts whose gaps would close.
-// Then, if the law does not hold yet, solve_constraints() finds the normal and tangential impulses
-// of all these contacts together, as for particles without a fluid. Impulses are in [M L/T], gaps
-// and slips in [L]. fluid_contacts.hpp has the ranges. Errors are those of the mobility; if the law
-// is not reached, StepContacts::is_solved is false. fluid_contacts.cpp, fluid_acceptance.cpp and
+// Solves Coulomb's law of contacts in a fluid, docs/physics.md (6.14): the friction is at most
+// mu_s >= 0, its coefficient, times the load of the solids, and equal to this bound if they slide.
+// There are rounds of two parts. First solve_listed() finds the normal impulses that keep the gaps
+// open with the friction found so far, and adds contacts whose gaps would close. Then, if the law
+// does not hold yet, solve_constraints() finds the normal and tangential impulses of all these
+// contacts together. Impulses are in [M L/T], gaps and slips in [L], velocities of all particles in
+// [L/T, 1/T], 3 numbers for each. Only the errors of the mobility are thrown; if the law is not
+// reached, StepContacts::is_solved is false. fluid_contacts.cpp, fluid_acceptance.cpp and
 // fluid_simulation.cpp use it. A change must keep that the first part comes last, so that gaps are
 // exact for the friction found.
 #include <Eigen/Core>

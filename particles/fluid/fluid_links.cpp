@@ -1,12 +1,13 @@
 // Makes bodies rigid, and hinges and arms hold, at the end of a step in a fluid: functions of
 // FluidSimulation that its solve() calls. The fluid solver keeps linear conditions on velocities,
-// the rows (held_rows.hpp). These hold bodies and links to first order in the motion only, because
-// they turn by finite angles; here velocities are changed until the remaining error is within the
-// tolerance. Velocities are in [L/T, 1/T], forces of rows in [M L/T^2, M L^2/T^2];
-// fluid_simulation.hpp and held_rows.hpp have the shapes. hold_after_step() throws
-// Error(kNotConverged) if a length or place would be off by more than a mean radius;
-// hold_with_contacts() throws what solve_contacts() throws. A change must keep that a continued run
-// gives the same bits as one without a break.
+// the rows. These hold bodies and links to first order in the motion only, because they turn by
+// finite angles; here velocities are changed until the remaining error is within the tolerance.
+// Velocities are in [L/T, 1/T], 3 numbers for each particle, or 1 on an axis; forces of rows, one
+// for each row, in [M L/T^2, M L^2/T^2]; the length h of the step is > 0 [T]. hold_after_step()
+// throws Error(kNotConverged) if a length or place would be off by more than a mean radius;
+// hold_with_contacts() throws what solve_contacts() throws. A smaller error that is not allowed
+// makes Motion::links_hold false. A change must keep that a continued run gives the same bits as
+// one without a break.
 
 #include <cmath>
 

@@ -1,12 +1,13 @@
 // Computes a step of particles in a fluid: velocities without contact, contact impulses, and
-// velocities with them (fluid_simulation.hpp has the formulas). fluid_acceptance.cpp then changes
-// the state. U is the velocity that the fluid gives a particle at its place before the step, U^+
-// that with which the particle moves; theta, 1/2 to 1, says how implicit the step is. Links are
-// hinges, springs and arms between particles; bodies are rigid bodies of several particles.
-// Velocities are in [L/T, 1/T], forces in [M L/T^2, M L^2/T^2]. fluid_simulation.hpp has the shapes
-// and says when Error(kBadInput), Error(kNotConverged) and the errors of FluidSolver are thrown.
-// Used by run/ and the other sources of this folder. A change must keep that a continued run gives
-// the same bits as one without a break: a step may depend on nothing but the setting and the state.
+// velocities with them. fluid_acceptance.cpp then changes the state. U is the velocity that the
+// fluid gives a particle at its place before the step, U^+ that with which the particle moves;
+// theta, 1/2 to 1, says how implicit the step is. Links are hinges, springs and arms between
+// particles. Velocities are in [L/T, 1/T], forces in [M L/T^2, M L^2/T^2], 3 numbers for each
+// particle, or 1 on an axis. Throws Error(kBadInput) for a restart file without the flow that a
+// fluid with inertia needs, Error(kNotConverged) for a step that is refused, and the errors of
+// FluidSolver; the state is then as before the step. Used by run/ and the other sources of this
+// folder. A change must keep that a continued run gives the same bits as one without a break: a
+// step may depend on nothing but the setting and the state.
 #include "viscontact/particles/fluid/fluid_simulation.hpp"
 
 #include <fmt/format.h>
@@ -80,6 +81,7 @@ FluidSimulation::FluidSimulation(Setting setting, State state, std::unique_ptr<F
   solver_ = std::move(held);
 }
 
+/// Throws the errors of FluidSolver::saved_flow().
 State FluidSimulation::state_to_save() {
   auto state = state_;
   if (has_flow_) {
@@ -456,6 +458,7 @@ void FluidSimulation::check_ellipses() const {
   }
 }
 
+/// Throws Error(kNotConverged) and the errors of FluidSolver, and then leaves the state as it was.
 StepReport FluidSimulation::step(double end) {
   const auto interval = StepGrid(setting_.time_step).next(state_, end);
   if (!interval) return {.time = state_.time, .parts = 1};
@@ -472,6 +475,7 @@ StepReport FluidSimulation::step(double end) {
   return report;
 }
 
+/// Moves nothing. Throws the errors of step().
 FlowField FluidSimulation::flow_at_present() {
   const double h = setting_.time_step;
   begin_flow(h);

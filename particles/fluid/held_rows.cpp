@@ -1,9 +1,10 @@
 // Computes the rows, linear conditions on the velocities of particles in a fluid, that make bodies
-// rigid and hold links: hinges, arms, springs and torsion springs (held_rows.hpp). A unit is a
-// rigid body, or a particle without a body. Velocities are in [L/T, 1/T], forces in [M L/T^2,
-// M L^2/T^2]; held_rows.hpp has the shapes and ranges. Nothing is checked or thrown.
-// fluid_simulation.cpp, fluid_links.cpp and fluid_acceptance.cpp use it. A change must keep bodies
-// exactly rigid, and the order of the rows: bodies first, then links.
+// rigid and hold links: hinges, arms, springs and torsion springs. A unit is a rigid body, or a
+// particle without a body. Velocities are in [L/T, 1/T], 3 numbers for each particle, or 1 on an
+// axis; forces of rows, one for each row, are in [M L/T^2, M L^2/T^2]; the length of the step
+// is > 0 [T]. Nothing is checked or thrown. fluid_simulation.cpp, fluid_links.cpp and
+// fluid_acceptance.cpp use it. A change must keep bodies exactly rigid, and the order of the rows:
+// bodies first, then links.
 #include "viscontact/particles/fluid/held_rows.hpp"
 
 #include <fmt/format.h>

@@ -1,11 +1,13 @@
-// Finds the forces that keep linear conditions on the velocities of particles in a fluid
-// (held_solver.hpp). With the mobility S of the fluid (velocities per force), the velocities v and
-// the rows A of the conditions, the sums of the rows are A v, and forces l of the rows add A S A^T
-// l to them. Sums are in [L/T, 1/T], forces in [M L/T^2, M L^2/T^2]; held_solver.hpp has the shapes
-// and ranges. Conditions that contradict each other are an Error(kNotConverged); the errors of the
-// fluid solver are thrown, too. fluid_simulation.cpp and fluid_links.cpp use it. A change must keep
-// that redundant rows get the smallest forces, and that the forces of soft springs stay accurate
-// beside stiff ones.
+// Finds the forces that keep linear conditions on the velocities of particles in a fluid. With the
+// mobility S of the fluid (velocities per force), the velocities v and the rows A of the
+// conditions, the sums of the rows are A v, and forces l of the rows add A S A^T l to them.
+// Velocities have 3 numbers for each particle, or 1 on an axis. Sums are in [L/T, 1/T], forces in
+// [M L/T^2, M L^2/T^2], one for each row; the length h of the step is > 0 [T], the relative error
+// of velocities > 0 [1]. Conditions that contradict each other are an Error(kNotConverged) of
+// velocities() with `driving`; the errors of the fluid solver are thrown, too. Sizes and the order
+// hold(), place(), velocities() are not checked. fluid_simulation.cpp and fluid_links.cpp use it. A
+// change must keep that redundant rows get the smallest forces, and that the forces of soft springs
+// stay accurate beside stiff ones.
 #include "viscontact/particles/fluid/held_solver.hpp"
 
 #include <algorithm>
@@ -195,6 +197,8 @@ void HeldSolver::check(const Eigen::VectorXd& right, const Eigen::VectorXd& forc
                 names);
 }
 
+/// With `driving`, throws Error(kNotConverged), which names the rows, if rows contradict each
+/// other.
 std::vector<double> HeldSolver::velocities(std::span<const double> forces, bool driving) {
   auto velocities = solver_->velocities(forces, driving);
   if (rows_.empty()) return velocities;

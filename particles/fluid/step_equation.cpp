@@ -1,7 +1,8 @@
-// Computes the terms of the equation of motion of a step in a fluid (step_equation.hpp): forces,
-// inertia, given motions and theta, with which the velocities in the step are theta times those at
-// its end plus 1 - theta times those at its beginning. A component is a direction or the rotation
-// of a particle. step_equation.hpp has the shapes, dimensions and ranges; units are any consistent
+// Computes the terms of the equation of motion of a step in a fluid: forces [M L/T^2, M L^2/T^2],
+// inertia [M/T, M L^2/T], given motions [L/T, 1/T] and theta [1], 1/2 to 1, with which the
+// velocities in the step are theta times those at its end plus 1 - theta times those at its
+// beginning. A component is a direction or the rotation of a particle; arrays have 3 numbers for
+// each particle, or 1 on an axis. The length h of the step is > 0 [T]; units are any consistent
 // ones. Nothing is checked; given_in_step() throws std::out_of_range for a particle that is not
 // driven. fluid_simulation.cpp and fluid_links.cpp use it. A change must keep the second order in
 // time away from contact.
@@ -308,6 +309,7 @@ double StepEquation::share_of_change() const {
   return h_ <= kLargestRatioOfSteps * state_.earlier_step ? h_ / (2 * state_.earlier_step) : 0;
 }
 
+/// Throws std::out_of_range if the particle is not driven.
 std::array<double, 3> StepEquation::given_in_step(std::int32_t driven) const {
   return given_motion(setting_.given_motions.at(driven), state_.time, next_);
 }

@@ -1,9 +1,11 @@
-// Finds the blows of a time step, collisions of solids that rebound, in the order of their times
-// (impacts.hpp, which has the symbols, dimensions and ranges). Lengths, masses and times are in any
-// consistent units; a time `t` is counted from the beginning of the step, 0 to its length h. The
-// projection is the solution of the step without rebound, which follows. Nothing is thrown;
-// converged() says whether all blows are solved. simulation.cpp and projection/ use it. The order
-// of the particles must change results by rounding errors only.
+// Finds the blows of a time step, collisions of solids that rebound, in the order of their times.
+// The projection is the solution of the step without rebound, which follows. Displacements and gaps
+// are in [L], turns in [rad], velocities in [L/T, 1/T], in any consistent units; a time `t` [T] is
+// counted from the beginning of the step, 0 to its length h > 0. Particles and pairs are numbered
+// from 0; pairs of State::pairs come before those of State::walls, and an obstacle is a negative
+// number. u* and w* are velocities without contacts. Nothing is checked or thrown; converged() says
+// whether all blows are solved. simulation.cpp and projection/ use it. The order of the particles
+// must change results by rounding errors only.
 #include "viscontact/particles/impacts/impacts.hpp"
 
 #include <algorithm>

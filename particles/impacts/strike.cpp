@@ -1,10 +1,10 @@
 // Solves a blow: the collision of solids with all contacts of connected particles that are hit at
-// one time, in the phases compression and restitution (impacts.hpp, which has the ranges;
-// docs/physics.md (5.15)). The film of a contact has absorbed the impulse -gamma >= 0. Lengths,
-// masses and times are in any consistent units, impulses and gamma in [M L/T]; times within the
-// step are counted from its beginning, 0 to its length h. A blow that is not solved is reported,
-// not thrown. impacts.cpp uses it. A change must keep the momentum to rounding errors, and must not
-// let the energy grow.
+// one time, in the phases compression and restitution, docs/physics.md (5.15). The film of a
+// contact has absorbed the impulse -gamma >= 0. Velocities are in [L/T, 1/T], impulses and gamma in
+// [M L/T], displacements in [L, rad], in any consistent units; times within the step are counted
+// from its beginning, 0 to its length h > 0 [T]. Nothing is checked or thrown: a blow that is not
+// solved makes Impacts::converged() false, and its last impulses count. impacts.cpp uses it. A
+// change must keep the momentum to rounding errors, and must not let the energy grow.
 #include <algorithm>
 #include <array>
 #include <cmath>

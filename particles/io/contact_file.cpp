@@ -1,7 +1,9 @@
-// Writes contacts and their forces as CSV tables (contact_file.hpp, which has the columns and
-// dimensions), in the units of the case. Nothing is checked or thrown. A change must keep the names
-// and the order of the columns, which docs/file-formats.md states and users' scripts read. Used by
-// case/ and run/.
+// Writes contacts and their forces as CSV tables, in the units of the case: gaps are in [L], gamma
+// and impulses in [M L/T], forces in [M L/T^2], all of discs in a fluid per length. The stress is
+// in [M/(L T^2)], of discs without a fluid in [M/T^2]. contact_file.hpp has the columns. i and j
+// are ids of particles, or -1, -2, ... for obstacles. Nothing is checked or thrown; without a
+// domain the stress is divided by 0. A change must keep the names and the order of the columns,
+// which docs/file-formats.md states and users' scripts read. Used by case/ and run/.
 #include "viscontact/particles/io/contact_file.hpp"
 
 #include <fmt/format.h>

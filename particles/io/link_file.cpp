@@ -1,7 +1,10 @@
 // Writes bodies.csv, hinges.csv, springs.csv and arms.csv, and links as VTK PolyData; link_file.hpp
-// has the columns and their dimensions. Numbers are in the units of the case. Nothing is checked or
-// thrown. A change must keep the names and the order of the columns and arrays, and the numbers of
-// Kind, which docs/file-formats.md states and users' scripts read. Used by run/.
+// has the columns. Numbers are in the units of the case: times [T], lengths [L], angles [rad],
+// velocities [L/T, 1/T], forces [M L/T^2], torques [M L^2/T^2] and powers [M L^2/T^3], or of discs
+// in a fluid per length. Links and bodies are numbered from 0; forces are 0 before the first step.
+// Nothing is checked or thrown. A change must keep the names and the order of the columns and
+// arrays, and the numbers of Kind, which docs/file-formats.md states and users' scripts read. Used
+// by run/.
 #include "viscontact/particles/io/link_file.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,11 @@
-// Reads particles from CSV files and writes them, and writes the rows of motion.csv.
-// particle_file.hpp has the columns and the ranges; numbers are in the units of the case. A fault
-// of a file is an Error(kBadInput), with the line if it is in one; writing throws nothing. A change
-// must keep the names of the columns, which docs/file-formats.md states and users' files contain.
-// Used by case/, io/ and run/.
+// Reads particles from CSV files and writes them, and writes the rows of motion.csv;
+// particle_file.hpp has the columns. Numbers are in the units of the case: lengths [L], masses [M],
+// velocities [L/T, 1/T], angles [rad]. Radii and masses are 1e-100 to 1e100 (in a fluid a mass may
+// be 0), other numbers at most 1e100 in magnitude, ids whole numbers from 0 to 2^31 - 1. The
+// dimension is 1 (spheres on an axis), 2 (discs) or 3 (spheres). A fault of a file is an
+// Error(kBadInput), with the line if it is in one; writing throws nothing. A change must keep the
+// names of the columns, which docs/file-formats.md states and users' files contain. Used by case/,
+// io/ and run/.
 #include "viscontact/particles/io/particle_file.hpp"
 
 #include <fmt/format.h>
@@ -156,6 +159,7 @@ std::vector<std::int32_t> read_ids(const std::vector<Row>& rows, const std::stri
 
 }  // namespace
 
+/// Throws Error(kBadInput) if the file cannot be read or has an unknown column or a wrong number.
 ParticleFile read_particles(const std::filesystem::path& path, int dimension, bool in_fluid) {
   const auto& names = dimension == 1 ? kOnAxis : dimension == 2 ? kDiscs : kSpheres;
   const auto d = static_cast<std::size_t>(dimension);

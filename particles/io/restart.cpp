@@ -1,8 +1,10 @@
-// Writes and reads the binary restart file (restart.hpp). Numbers are in the units of the case;
-// state.hpp has their dimensions. A file that cannot be read, is damaged, or has another version or
-// byte order is an Error(kBadInput); writing throws nothing. The texts kWhat and kHash must not
-// change. Files of versions 6 to 12 must stay readable; a change of the fields of State or Pair
-// (state.hpp) needs a new version. Used by run/.
+// Writes and reads the binary restart file, a State bit for bit. Numbers are in the units of the
+// case: lengths [L], times [T], masses [M], gamma and impulses [M L/T]. A file that cannot be read,
+// is damaged (its hash or the sizes and signs of its arrays do not fit), or has another version or
+// byte order is an Error(kBadInput) with its path; whether it fits the case is not checked, and
+// writing throws nothing. The texts kWhat and kHash must not change. Files of versions 6 to 12 must
+// stay readable; a change of the fields of State or Pair (state.hpp) needs a new version. Used by
+// run/.
 #include "viscontact/particles/io/restart.hpp"
 
 #include <algorithm>
@@ -345,6 +347,7 @@ std::string write_restart(const State& state) {
   return text + bytes;
 }
 
+/// Throws Error(kBadInput), which names the file, if it cannot be read or is no valid restart file.
 State read_restart(const std::filesystem::path& path) {
   const std::string file = path.string();
   const std::string text = read_file(path);

@@ -1,9 +1,9 @@
-// Writes the frames of a simulation as VTK files (vtk.hpp, which has the shapes): particles are
-// points, contacts are cells. Numbers are in the units of the case: radius and gap [L], velocity
-// [L/T], angle [rad], angular velocity [1/T], mass [M], gamma [M L/T], forces [M L/T^2]. Nothing is
-// checked or thrown. A change must be made in vtk_reader.cpp and run/hdf5_file.cpp, too, which read
-// these files, and must keep the names of the arrays, by which users find them in ParaView. Used by
-// run/.
+// Writes the frames of a simulation as VTK files: particles are points, contacts are cells. Vectors
+// have three numbers, with z = 0 for discs and x = y = 0 on an axis. Numbers are in the units of
+// the case: radius and gap [L], velocity [L/T], angle [rad], angular velocity [1/T], mass [M],
+// gamma [M L/T], forces [M L/T^2], of discs in a fluid per length. Nothing is checked or thrown. A
+// change must be made in vtk_reader.cpp and run/hdf5_file.cpp, too, which read these files, and
+// must keep the names of the arrays, by which users find them in ParaView. Used by run/.
 #include "viscontact/particles/io/vtk.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,10 @@
-// Reads the VTK files that vtk.cpp writes (vtk.hpp, which has the shapes and dimensions), so that
-// pages can be made from them. Lengths, masses and times are in the units of the case. The reader
-// understands only the layout that vtk.cpp writes, not VTK's formats in general; another file is an
-// Error(kBadInput). Frames of earlier versions, which lack some arrays, must stay readable. Used by
-// run/.
+// Reads the VTK files that vtk.cpp writes, so that pages can be made from them. Numbers are in the
+// units of the case: positions, radii and gaps [L], velocities [L/T, 1/T], angles [rad], masses
+// [M], gamma [M L/T], forces [M L/T^2]; `dimension` is 1 (spheres on an axis), 2 or 3. The reader
+// understands only the layout that vtk.cpp writes, not VTK's formats in general; a file that is
+// missing, cut short or of another layout is an Error(kBadInput) with its path. Ranges of
+// positions, radii and forces are not checked. Frames of earlier versions, which lack some arrays,
+// must stay readable. Used by run/.
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -106,6 +108,7 @@ std::vector<CurrentContact> read_contacts(const AppendedReader& reader, std::int
 
 }  // namespace
 
+/// Throws Error(kBadInput), which names the file, if it cannot be read or is not such a file.
 VtpContent read_vtp(const std::filesystem::path& path, int dimension) {
   const std::string text = read_file(path);
   const AppendedReader reader(text, path.string(), "frame");
@@ -144,6 +147,8 @@ VtpContent read_vtp(const std::filesystem::path& path, int dimension) {
   return content;
 }
 
+/// Times [T] and names of files. Throws Error(kBadInput) if the file cannot be read or is no such
+/// list.
 std::vector<std::pair<double, std::string>> read_pvd(const std::filesystem::path& path) {
   const std::string text = read_file(path);
   if (text.find("</Collection>") == std::string::npos)

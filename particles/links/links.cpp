@@ -1,7 +1,9 @@
 // Piecewise linear and sinusoidal lengths of arms, links that keep the distance of two particles at
-// a given function of time (links.hpp, which has the ranges). Lengths [L] and times [T] are in any
-// consistent units. Nothing is checked or thrown. case/, fluid/held_rows.cpp and link_rows.cpp use
-// it. A change must keep that rate_at() is the derivative of length_at().
+// a given function of time. Lengths [L] are > 0, times [T] >= 0, rates in [L/T], phases in [rad],
+// in any consistent units. There is at least one point (time, length), times of points increase,
+// and a period is longer than all of them span, or 0 for none. Nothing is checked or thrown. case/,
+// fluid/held_rows.cpp and link_rows.cpp use it. A change must keep that rate_at() is the derivative
+// of length_at(), at a point that of the next piece.
 #include "viscontact/particles/links/links.hpp"
 
 #include <algorithm>

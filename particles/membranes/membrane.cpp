@@ -1,9 +1,11 @@
-// The functions of membrane.hpp, which has the dimensions and ranges: measures and output of
-// membranes (closed lines through particles, the beads), ellipses of a given perimeter and area,
-// and geometry of polygons. Lengths and masses are in the units of the case. simulation.cpp, io/,
-// run/ and the other sources of this folder use it. check_shapes() throws Error(kBadInput); nothing
-// else is checked or thrown. A change must keep the places of the beads of ellipse_of() bit for
-// bit.
+// Measures and output of membranes (closed lines through particles, the beads), ellipses of a given
+// perimeter and area, and geometry of polygons. Lengths [L], areas [L^2], times [T] and velocities
+// [L/T] are in the units of the case, angles in radians. A polygon or array of places has two
+// numbers for each corner, x and y, and at least three corners; perimeters, areas and distances
+// are > 0. simulation.cpp, io/, run/ and the other sources of this folder use it. check_shapes()
+// throws Error(kBadInput); nothing else is checked or thrown, but ellipse_of() returns
+// std::nullopt, and shape_curve() infinity, if they find no places. A change must keep the places
+// of the beads of ellipse_of() bit for bit.
 #include "viscontact/particles/membranes/membrane.hpp"
 
 #include <fmt/format.h>
@@ -51,6 +53,7 @@ bool keeps_distances(const Membrane& membrane, const Particles& particles, doubl
 
 }  // namespace
 
+/// Throws Error(kBadInput) if the particles of a restart file have other shapes than `membranes`.
 void check_shapes(std::span<const Membrane> membranes, const Particles& particles) {
   // Far above the errors with which a run keeps these numbers, and far below a change of the case.
   constexpr double kKept = 1e-6;
@@ -137,6 +140,7 @@ bool sides_cross(std::span<const double> first, std::size_t i, std::span<const d
 
 }  // namespace
 
+/// Two numbers for each bead [L]; std::nullopt if so few beads cannot have this shape.
 std::optional<std::vector<double>> ellipse_of(const Membrane& membrane, const Vector& centre,
                                               double angle) {
   // The semi-axes a and b have a b = area/pi = mean^2, and the perimeter grows with a/mean, which
@@ -178,7 +182,8 @@ std::optional<std::vector<double>> ellipse_of(const Membrane& membrane, const Ve
 
 namespace {
 
-/// Positions of the beads of a membrane (necklace.hpp), whose order is reversed if it is clockwise.
+/// Positions of the beads of a membrane, x of all and then y [L]. Their order is reversed if it is
+/// clockwise.
 Eigen::VectorXd ordered_necklace(Membrane& membrane, const Particles& particles) {
   const auto necklace = necklace_of(membrane, particles);
   if (area_of(necklace) >= 0) return necklace;
@@ -196,6 +201,8 @@ void shape_polygon(Membrane& membrane, const Particles& particles) {
   membrane.area = area_of(necklace);
 }
 
+/// Returns the largest displacement of a bead [L]; infinity, without a change, if no places are
+/// found.
 double shape_curve(Membrane& membrane, Particles& particles) {
   const auto given = ordered_necklace(membrane, particles);
   const MembraneCurve curve(membrane.count());
@@ -213,6 +220,8 @@ double shape_curve(Membrane& membrane, Particles& particles) {
   return (kept - given).lpNorm<Eigen::Infinity>();
 }
 
+/// The largest area [L^2] of a polygon with these sides [L], each > 0 and less than the sum of the
+/// others.
 double largest_area(std::span<const double> lengths) {
   // The sides are chords of the circle through the corners. Seen from its centre, their angles add
   // up to a full turn if the centre is inside the polygon; otherwise it lies beyond the longest

@@ -1,8 +1,11 @@
-// The closed curve through the particles (beads) of a membrane by trigonometric interpolation, its
-// lengths, area, moments and bending energy; membrane_curve.hpp has the shapes and units of all
-// arrays. Lengths are in any unit. Nothing is checked or thrown; restore_lengths_and_area() returns
-// false where it does not converge. The sources of this folder and freefem_flow/membranes/ use it.
-// A change must keep that all derivatives are exact.
+// The closed curve through the N >= 3 particles (beads) of a membrane by trigonometric
+// interpolation, its lengths [L], area [L^2], moments [L^4] and bending energy over the bending
+// rigidity [1/L]. Lengths are in any unit. An array of positions [L] or velocities [L/T] has x of
+// all beads and then y of all, 2 N numbers; bead k is at the parameter 2 pi k/N [1] of the curve.
+// Nothing is checked or thrown: restore_lengths_and_area() returns false where it does not
+// converge, and where the curve has the speed 0 derivatives are NaN or infinite. The sources of
+// this folder and freefem_flow/membranes/ use it. A change must keep that all derivatives are
+// exact.
 #include "viscontact/particles/membranes/membrane_curve.hpp"
 
 #include <array>
@@ -170,6 +173,7 @@ Eigen::MatrixXd MembraneCurve::bending_hessian(const Eigen::VectorXd& positions)
   return 0.5 * kTwoPi / n_ * hessian;
 }
 
+/// Returns false, with undefined positions, if it does not converge in 50 rounds.
 bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, double area,
                               Eigen::VectorXd& positions) {
   const int n = curve.beads();

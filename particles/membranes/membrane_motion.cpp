@@ -1,8 +1,11 @@
-// Solves a time step of membranes in a fluid by Newton's method; membrane_motion.hpp has the
-// equations, and the shapes and dimensions of all arrays. Units are any consistent ones; M is a
-// mass per length of the third dimension. membrane_simulation.cpp and membrane.cpp use it. Throws
-// Error(kNotConverged) if it cannot solve a step. A change must keep that step_matrix() is the
-// derivative of the equations, so that the method converges quadratically.
+// Solves a time step of membranes in a fluid by Newton's method, docs/physics.md (8.4) to (8.6). An
+// array of all beads has x of the beads of the first membrane, the second one and so on, and then
+// all y in the same order. Positions are in [L], velocities in [L/T], forces and tensions in
+// [M L/T^2], pressures in [M/T^2], the mobility, a symmetric matrix, in [T/M]; the time of a step
+// is > 0 [T]. Units are any consistent ones; M is a mass per length of the third dimension.
+// membrane_simulation.cpp and membrane.cpp use it. step() throws Error(kNotConverged) if it cannot
+// solve a step; sizes are not checked. A change must keep that step_matrix() is the derivative of
+// the equations, so that the method converges quadratically.
 #include "viscontact/particles/membranes/membrane_motion.hpp"
 
 #include <cmath>
@@ -218,6 +221,7 @@ bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const Fluid
   return false;
 }
 
+/// Throws Error(kNotConverged) if the step is not solved; `positions` are then undefined.
 MembraneMotion Membranes::step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
                                const Eigen::VectorXd& loads, Eigen::VectorXd& positions) const {
   const Eigen::VectorXd guess = positions;

@@ -1,7 +1,9 @@
-// Time steps of membranes (closed curves through particles, their beads) and rigid discs in a
-// fluid; membrane_simulation.hpp has the equations and dimensions; units are those of the case.
-// Throws Error(kBadInput) if a restart file has membranes of other shapes, Error(kNotConverged) if
-// a step is not solved or leaves a deep overlap, and the errors of FluidSolver.
+// Time steps of membranes (closed curves through particles, their beads) and rigid discs without
+// mass in a fluid without inertia, docs/physics.md (8.1) to (8.8). Units are those of the case:
+// places [L, rad], velocities [L/T, 1/T], forces [M L/T^2, M L^2/T^2], M a mass per length; arrays
+// for the fluid solver have 3 numbers for each particle. Throws Error(kBadInput) if a restart file
+// has membranes of other shapes, Error(kNotConverged) if a step is not solved or leaves a deep
+// overlap, and the errors of FluidSolver; the state is then as before the step.
 // run/particle_simulation.cpp uses it. A change must keep that a step depends on nothing but the
 // setting and the state, because a run that continues from a restart file must give the same bits
 // as one without a break.
@@ -434,6 +436,7 @@ StepReport MembraneSimulation::step(double end) { return implementation_->step(e
 
 const State& MembraneSimulation::state() const { return implementation_->state(); }
 
+/// There must have been a step (asserted). Throws the errors of FluidSolver.
 FlowField MembraneSimulation::flow() {
   assert(implementation_->before_step().particles.count() > 0);
   return implementation_->flow_at(implementation_->before_step());

@@ -1,7 +1,9 @@
-// Geometry of the polygon through the particles (beads) of a membrane; necklace.hpp has the shapes
-// and dimensions of all arrays; units are any consistent ones. Nothing is thrown;
-// restore_necklace() returns false where it does not converge. membrane.cpp and necklace_rows.cpp
-// use it. A change must keep that area_gradient() is the derivative of area_of().
+// Geometry of the polygon through the N >= 3 particles (beads) of a membrane. An array of positions
+// has x of all beads and then y of all, 2 N numbers [L]; distances [L] are > 0, areas [L^2] > 0 if
+// the beads go around counter-clockwise, turns in (-pi, pi] [rad]; units are any consistent ones.
+// Nothing is checked or thrown; restore_necklace() returns false where it does not converge, and
+// its positions are then undefined. membrane.cpp and necklace_rows.cpp use it. A change must keep
+// that area_gradient() is the derivative of area_of().
 #include "viscontact/particles/membranes/necklace.hpp"
 
 #include <cmath>
@@ -107,6 +109,7 @@ double bending_energy(const Eigen::VectorXd& necklace, const Eigen::VectorXd& le
   return energy;
 }
 
+/// Returns false, with undefined positions, if it does not converge in 50 rounds.
 bool restore_necklace(const Eigen::VectorXd& lengths, double area, Eigen::VectorXd& necklace) {
   const auto n = lengths.size();
   const double size = lengths.mean();

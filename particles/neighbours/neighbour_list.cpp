@@ -1,7 +1,9 @@
-// Checks whether the list of close pairs of a simulation is still valid, and makes it again
-// (neighbour_list.hpp, which has the shapes and ranges). Lengths are in the unit of the case file.
-// simulation.cpp, fluid/ and membranes/ use it. Throws Error(kNotConverged) if a particle moves too
-// far for a periodic cell. A change must keep the order of the pairs, because the bits of a
+// Checks whether the list of close pairs of a simulation is still valid, and makes it again.
+// Lengths [L] are in the unit of the case file; displacements have as many numbers for each
+// particle as there are dimensions, radii are > 0, skins and margins >= 0. simulation.cpp, fluid/
+// and membranes/ use it. rebuild_neighbour_list() throws Error(kNotConverged) if a particle moves
+// too far for a periodic cell; skins and positions of the list are then changed, but not its pairs.
+// Nothing else is checked. A change must keep the order of the pairs, because the bits of a
 // simulation depend on it.
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 
@@ -89,6 +91,7 @@ bool neighbour_list_is_valid(const State& state, std::span<const double> displac
   return pool.sum_of_blocks<MaximumOfBlocks>(p.count(), beyond_skin).value <= 0;
 }
 
+/// Throws Error(kNotConverged) if a particle moves further than a periodic cell allows.
 void rebuild_neighbour_list(State& state, std::span<const double> displacements, ThreadPool& pool) {
   const auto& p = state.particles;
   // A skin is at least kOfRadius times the radius of the particle, and kSteps times its

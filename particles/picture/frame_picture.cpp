@@ -1,10 +1,12 @@
-// Writes particles, planes, contacts, marks of rotation, rigid bodies and links as elements of SVG;
-// frame_picture.hpp has the dimensions and ranges. Points and radii are in the case's unit of
-// length [L]; coordinates, widths and sizes on the page are in page units, of which the picture is
-// 1000 wide. Sizes that stand below as numbers are free choices. Spheres must be drawn from the
-// back to the front, because SVG has no depth. Nothing is checked or thrown. Used by
-// particles_picture.cpp. A change must agree with view.js and picture.js in particles/picture/page,
-// which draw the same on a web page.
+// Writes particles, planes, contacts, marks of rotation, rigid bodies and links as elements of SVG.
+// Points and radii are in the case's unit of length [L]; coordinates, widths and sizes on the page
+// are in page units, of which the picture is 1000 wide, and the size of a panel and its scale
+// [page units per L] are > 0. Angles are in radians. Particles and frames are numbered from 0,
+// obstacles -1, -2, ...; a place that is NaN is that of a particle that is not there yet. Sizes
+// that stand below as numbers are free choices. Spheres must be drawn from the back to the front,
+// because SVG has no depth. Nothing is checked, but a contact with an obstacle that the frame does
+// not have throws std::out_of_range. Used by particles_picture.cpp. A change must agree with
+// view.js and picture.js in particles/picture/page, which draw the same on a web page.
 #include "viscontact/particles/picture/frame_picture.hpp"
 
 #include <fmt/format.h>

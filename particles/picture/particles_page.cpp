@@ -1,8 +1,11 @@
-// Writes the page that plays a motion of particles (particles_picture.hpp): words, controls, scales
-// of colours, and the blocks of page_data.hpp. Numbers are in the units of the case (scene.hpp has
-// their dimensions); a flow that cannot be read is an Error(kBadInput). run/particles_pages.cpp
-// calls particles_page(). The scripts in particles/picture/page read the keys of the JSON and find
-// elements by their ids, so a change of either must be made there, too.
+// Writes the page that plays a motion of particles: words, controls, scales of colours, and the
+// blocks of page_data.hpp. Numbers are in the units of the case: lengths [L], times [T], masses
+// [M], speeds [L/T], forces [M L/T^2], of discs in a fluid per length; shares are 0 to 1. Titles
+// and words are plain text. The page has at most about 24 MB and leaves out frames, particles or
+// contacts for that. A flow that cannot be read is an Error(kBadInput) with its path; other faults
+// of a motion are not looked for. run/particles_pages.cpp calls particles_page(). The scripts in
+// particles/picture/page read the keys of the JSON and find elements by their ids, so a change of
+// either must be made there, too.
 #include <fmt/format.h>
 
 #include <algorithm>

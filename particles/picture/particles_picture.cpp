@@ -1,9 +1,10 @@
-// Arranges frames of a motion of particles in an SVG, all at one scale, with the flow behind them
-// and the scales of colours below; particles_picture.hpp has the ranges. Sizes and coordinates on
-// the page are in page units, of which the picture is 1000 wide; sizes without a reason are free
-// choices. Lengths [L] and speeds [L/T] of the motion are in the units of the case. A flow that
-// cannot be read is an Error(kBadInput). Used by run/particles_pages.cpp. A change must keep one
-// complete SVG.
+// Arranges up to 6 frames of a motion of particles in an SVG, all at one scale, with the flow
+// behind them and the scales of colours below. Sizes and coordinates on the page are in page units,
+// of which the picture is 1000 wide; sizes without a reason are free choices. Lengths [L], times
+// [T] and speeds [L/T] of the motion are in the units of the case; a speed that is NaN belongs to a
+// point without flow. The title is plain text and may be empty. A flow that cannot be read is an
+// Error(kBadInput) with its path; other faults of a motion are not looked for. Used by
+// run/particles_pages.cpp. A change must keep one complete SVG.
 #include "viscontact/particles/picture/particles_picture.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,9 @@
-// Finds the box that is seen, reads the flows in it, and chooses the scales of colours and widths
-// (scene.hpp, which has the dimensions and ranges). Lengths [L], forces and speeds are in the units
-// of the case. A flow that cannot be read is an Error(kBadInput). Used by the other sources here. A
+// Finds the box that is seen, reads the flows in it, and chooses the scales of colours and widths.
+// Lengths [L], speeds [L/T], pressures [M/(L T^2)], gamma [M L/T] and forces [M L/T^2] are in the
+// units of the case, of discs in a fluid the last two per length. Indices of frames, particles and
+// planes count from 0; shares are 0 to 1; dimensions are 1 (spheres on an axis, drawn in the
+// plane), 2 or 3. A point without flow has the speed and pressure NaN. A flow that cannot be read
+// is an Error(kBadInput) with its path; nothing else is checked. Used by the other sources here. A
 // change alters picture and page.
 #include "viscontact/particles/picture/scene.hpp"
 
@@ -317,6 +320,7 @@ ShownFlows shown_flows(const Playback& playback) {
   return shown;
 }
 
+/// Throws Error(kBadInput), which names the file, if a flow cannot be read.
 Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
                const std::vector<std::size_t>& flow_frames, std::size_t points,
                const FlowFrames& known) {

@@ -1,8 +1,11 @@
 // Measures the residuals of the contacts and links of a time step after a solution of its problem
-// for impulses, and finds links that contradict each other (step_projection.hpp, which has the
-// ranges). A residual [L] is the distance of a gap or length from the value that its condition
-// demands. Lengths [L] and impulses [M L/T] are in any consistent units. Nothing is thrown. Used by
-// step_projection.cpp. A change must keep that every pair whose gap the solution closes is found.
+// for impulses, and finds links that contradict each other. A residual [L], of an angle times the
+// mean radius, is the distance of a gap or length from the value that its condition demands, and
+// must be at most ResidualScale::allowed_gap(). Lengths [L], mobilities [T/M], > 0, and impulses
+// [M L/T] are in any consistent units; the mean radius is > 0 [L]. Pairs, contacts, links and
+// particles are numbered from 0. Nothing is thrown: a residual that is too large or NaN makes
+// StepResiduals::converged false. Used by step_projection.cpp. A change must keep that every pair
+// whose gap the solution closes is found.
 #include <algorithm>
 #include <cmath>
 #include <vector>

@@ -1,10 +1,11 @@
-// Solves the projection of a time step, the problem for the impulses of contacts that keeps gaps
-// open (docs/particles.md): chooses contacts, solves in rounds that add further contacts, and
-// computes the scales with which residuals are compared; step_projection.hpp has the dimensions,
-// shapes and ranges. h [T] is the length of the step, u* are the velocities at its end without
-// contacts and links, v those with them, in any consistent units. The problem has the chosen
-// contacts, the links, and the particles of both. Particles that chosen contacts or links join,
-// directly or through other particles, form an island. Nothing is thrown. simulation.cpp uses it.
+// Solves the projection of a time step, the problem for the impulses [M L/T] of contacts that keeps
+// gaps [L] open, docs/physics.md (5.3) and (5.4): chooses contacts, solves in rounds that add
+// further contacts, and computes the scales with which residuals are compared. h > 0 [T] is the
+// length of the step, u* are the velocities [L/T] at its end without contacts and links, v those
+// with them; displacements h u* or h v [L] have D (2 or 3) numbers for each particle, mobilities
+// are > 0 [T/M]. Units are any consistent ones. Particles that chosen contacts or links join,
+// directly or through other particles, form an island. Nothing is checked or thrown: a step that is
+// not solved has StepResiduals::converged false in its ProjectionResult. simulation.cpp uses it.
 // Results must not depend on the number of threads; a change of a scale alters which steps
 // converge.
 #include "viscontact/particles/projection/step_projection.hpp"

@@ -1,8 +1,11 @@
 // Chooses the simulation for a setting, starts the fluid solver if there is a fluid, and passes
-// calls on (particle_simulation.hpp, which has dimensions and shapes). Numbers are in the units of
-// the case. Errors of solver and simulation are thrown, and Error(kWrongUsage) if a caller sets
-// forces on membranes in a fluid. A change must keep that no solver is started without a fluid:
-// FreeFEM may not be installed. Used by run/, sweep/ and python/.
+// calls on. Numbers are in the units of the case: times [T], forces [M L/T^2] in the order of
+// Particles::velocities, torques [M L^2/T^2]; `threads` is at least 1 and not used with a fluid.
+// Throws Error(kBadInput) for a state that does not fit the setting, Error(kNotConverged) for a
+// step that cannot be computed, Error(kExternalProgram) for a fluid solver that fails,
+// Error(kInterrupted) after a stop, and Error(kWrongUsage) if a caller sets forces on membranes in
+// a fluid. A change must keep that no solver is started without a fluid: FreeFEM may not be
+// installed. Used by run/, sweep/ and python/.
 #include "viscontact/particles/run/particle_simulation.hpp"
 
 #include <utility>
@@ -27,6 +30,7 @@ ParticleSimulation::ParticleSimulation(const Setting& setting, State state, int 
   in_fluid_ = std::make_unique<FluidSimulation>(setting, std::move(state), std::move(solver));
 }
 
+/// Makes no step if the state has reached the time `end` [T].
 StepReport ParticleSimulation::step(double end) {
   if (membranes_) return membranes_->step(end);
   return in_fluid_ ? in_fluid_->step(end) : dry_->step(end);

@@ -1,10 +1,10 @@
 // Decides whether the run in a folder can be continued, and reads its state and record. It can be
 // continued if restart.bin records the same inputs and the same version of Viscontact as this call
-// has. Times [T] are in the unit of the case, angles in [rad]; particles_earlier_run.hpp has the
-// ranges and errors. If the run cannot be continued, a message says so, and a new run begins at the
-// start; if a restart file that the user names does not fit the case, it is an Error(kBadInput). A
-// change must keep that a run with other inputs is never continued. Used by run/, sweep/ and
-// python/.
+// has. Times [T] are in the unit of the case, angles in [rad]; particles, sources and bodies count
+// from 0. If the run cannot be continued, a message on the terminal says so, and a new run begins
+// at the start; if a restart file that the user names cannot be read, does not fit the case or is
+// not earlier than its end, it is an Error(kBadInput) with its path. A change must keep that a run
+// with other inputs is never continued. Used by run/, sweep/ and python/.
 #include "viscontact/particles/run/particles_earlier_run.hpp"
 
 #include <fmt/format.h>
@@ -148,6 +148,7 @@ void check_stops(const State& state, const ParticlesCase& c, const fs::path& res
 
 }  // namespace
 
+/// Throws Error(kBadInput) if the file `restart` cannot be read or does not fit; empty: no file.
 State first_state(const ParticlesCase& c, const std::string& restart) {
   State state;
   if (restart.empty()) {
@@ -182,6 +183,7 @@ State first_state(const ParticlesCase& c, const std::string& restart) {
   return state;
 }
 
+/// Returns nothing, and throws no Error, if there is no run or it cannot be continued.
 std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c, const fs::path& folder,
                                            const results::Provenance& provenance,
                                            const RunLog& log) {
@@ -212,6 +214,7 @@ std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c, const fs::pat
   }
 }
 
+/// `tiny` >= 0 [T] is the largest difference of times that counts as none.
 bool is_finished(const EarlierRun& run, const ParticlesCase& c, double tiny,
                  const fs::path& folder) {
   if (run.state.time < c.end_time - tiny) return false;

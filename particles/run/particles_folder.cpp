@@ -1,10 +1,11 @@
 // Recognises the files of frames by their names, and files that Viscontact wrote by their
-// provenance; writes the rows of steps.csv, the record of restart.bin as JSON, and run.json
-// (particles_folder.hpp, which has the dimensions). Numbers of frames count from 0, times are in
-// the unit of the case, computing times in seconds. A file of the user that has the name of a
-// result, a damaged record, an input that a run would overwrite, and a file that cannot be removed
-// are an Error(kBadInput); a missing folder is a std::filesystem::filesystem_error. A change must
-// keep that only files that Viscontact wrote are removed, and the columns and keys, which users'
+// provenance; writes the rows of steps.csv, the record of restart.bin as JSON, and run.json.
+// Numbers of frames count from 0, those of steps from 1; times [T] are in the unit of the case,
+// computing times in seconds, residuals and overlaps in mean radii. A file of the user that has the
+// name of a result, a damaged record, an input that a run would overwrite, and a file that cannot
+// be removed are an Error(kBadInput); a missing folder is a std::filesystem::filesystem_error.
+// remove_results() goes by names alone: check_results() must come first, so that only files that
+// Viscontact wrote are removed. A change must keep this, and the columns and keys, which users'
 // scripts read. Used by run/.
 #include "viscontact/particles/run/particles_folder.hpp"
 
@@ -117,6 +118,7 @@ std::string record_comment(const RunRecord& record, std::int64_t step) {
   return fmt::format("{}{}: {}\n", kRecordOf, step, nlohmann::json(record).dump());
 }
 
+/// Throws Error(kBadInput), which names `restart`, if there is no record or a damaged one.
 RunRecord read_record(const std::string& head, const std::filesystem::path& restart) {
   const auto line = head.find(kRecordOf);
   const auto json = head.find('{', line);
@@ -211,6 +213,7 @@ std::string frame_name(const FrameKind& kind, std::uint64_t number) {
   return fmt::format("{}_{:05}{}", kind.begin, number, kind.end);
 }
 
+/// Throws Error(kBadInput) for a file with the name of a result that Viscontact did not write.
 void check_results(const fs::path& folder) {
   for (const auto* name : kParticleResults) results::refuse_other_kind(folder / name, "", "result");
   for (const auto& kind : {kFrameFile, kFlowFile, kLinksFile})
@@ -218,6 +221,7 @@ void check_results(const fs::path& folder) {
       results::refuse_other_kind(file, "", "result");
 }
 
+/// Throws Error(kBadInput) if a run into `folder` would overwrite one of its inputs.
 void check_inputs_stay(const ParticlesCase& c, const fs::path& restart, const fs::path& folder) {
   std::error_code none;
   if (!restart.empty() && fs::equivalent(fs::absolute(restart).parent_path(), folder, none))
@@ -234,6 +238,7 @@ void check_inputs_stay(const ParticlesCase& c, const fs::path& restart, const fs
   }
 }
 
+/// Throws Error(kBadInput) if a file cannot be removed.
 void remove_results(const fs::path& folder) {
   for (const auto* name : kParticleResults) remove_file(folder / name);
   remove_later_frames(folder, 0, 0);
