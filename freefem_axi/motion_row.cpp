@@ -109,7 +109,8 @@ double asymmetry(const Tabulation& tabulation, const std::vector<MotionRow>& row
   }
   const double allowed = kTorqueUnit * slide_error * std::abs(slide.force_factor) +
                          kForceUnit * roll_error * std::abs(roll.torque_factor);
-  return std::abs(difference) / allowed;
+  // Without this case, 0/0 would refuse a row whose numbers are all exact.
+  return difference == 0 ? 0 : std::abs(difference) / allowed;
 }
 
 }  // namespace

@@ -164,11 +164,13 @@ std::uint64_t run_rows(
   std::map<std::uint64_t, std::string> finished;
   std::uint64_t next = begin, taken = begin;
   std::exception_ptr error;
+  bool is_stopped = false;  // a row ended because of the stop, so that `taken` no longer grows
   const auto work = [&] {
     std::unique_lock lock(mutex);
     for (;;) {
-      row_taken.wait(lock, [&] { return error || next >= size || next < taken + window; });
-      if (error || next >= size || stop.stop_requested()) return;
+      row_taken.wait(
+          lock, [&] { return error || is_stopped || next >= size || next < taken + window; });
+      if (error || is_stopped || next >= size || stop.stop_requested()) return;
       const std::uint64_t index = next++;
       lock.unlock();
       std::string text;
@@ -179,9 +181,12 @@ std::uint64_t run_rows(
         thrown = std::current_exception();
       }
       lock.lock();
-      if (thrown && stop.stop_requested()) return;  // the stop came while a row was computed
       if (thrown) {
-        error = thrown;
+        // An exception after a stop is the answer of the row to the stop.
+        if (stop.stop_requested())
+          is_stopped = true;
+        else
+          error = thrown;
         row_taken.notify_all();
         return;
       }

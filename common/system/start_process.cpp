@@ -20,6 +20,7 @@
 #include <csignal>
 #include <cstring>
 #include <system_error>
+#include <utility>
 
 namespace viscontact {
 namespace {
@@ -32,10 +33,9 @@ struct Pipe {
 /// another number. If this process was started without such a stream, a new file can have its
 /// number, and dup2() of this number to itself would leave the file to be closed when the child
 /// becomes the program.
-Descriptor beyond_standard_streams(int number) {
-  if (number > STDERR_FILENO) return Descriptor(number);
-  const Descriptor standard(number);
-  const int other = ::fcntl(number, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+Descriptor beyond_standard_streams(Descriptor end) {
+  if (end.get() > STDERR_FILENO) return end;
+  const int other = ::fcntl(end.get(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
   if (other < 0) throw std::system_error(errno, std::generic_category(), "fcntl");
   return Descriptor(other);
 }
@@ -46,7 +46,8 @@ Pipe make_pipe() {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
     throw std::system_error(errno, std::generic_category(), "socketpair");
-  return {beyond_standard_streams(ends[0]), beyond_standard_streams(ends[1])};
+  Descriptor first(ends[0]), second(ends[1]);
+  return {beyond_standard_streams(std::move(first)), beyond_standard_streams(std::move(second))};
 }
 
 /// The variables of this process that `added` does not set, followed by `added`.

@@ -90,14 +90,18 @@ void SolverDialogue::ask(std::string_view name, std::string_view text) {
   process_->send(text);
 }
 
-std::string_view SolverDialogue::next_word() {
-  ChildProcess::Reading reading;
+SolverDialogue::Reading SolverDialogue::read(
+    Reading (ChildProcess::*what)(ChildProcess::Clock::time_point)) {
   try {
-    reading = process_->read_word(asked_at_ + limit());
+    return ((*process_).*what)(asked_at_ + limit());
   } catch (const Error&) {
     process_.reset();
     throw;
   }
+}
+
+std::string_view SolverDialogue::next_word() {
+  const auto reading = read(&ChildProcess::read_word);
   if (reading.state == ChildProcess::State::kRead) {
     if (reading.text == "error") fail_as_solver_says();
     return reading.text;
@@ -112,7 +116,7 @@ void SolverDialogue::expect(std::string_view word, bool skip_lines) {
     if (next_word() == word) return;
     if (!skip_lines) refuse(in_quotes(word));
     process_->put_word_back();
-    const auto line = process_->read_line(asked_at_ + limit());
+    const auto line = read(&ChildProcess::read_line);
     process_->keep(line.text);
     if (line.state != ChildProcess::State::kRead) fail_without_answer(line.state);
   }
@@ -159,7 +163,7 @@ void SolverDialogue::refuse(std::string_view needed) {
 }
 
 void SolverDialogue::fail_as_solver_says() {
-  const auto line = process_->read_line(asked_at_ + limit());
+  const auto line = read(&ChildProcess::read_line);
   const auto start = line.text.find_first_not_of(" \t\r");
   fail(fmt::format("it says: {}", start == std::string_view::npos ? "an error without a text"
                                                                   : line.text.substr(start)),

@@ -62,6 +62,10 @@ class SolverDialogue {
   [[noreturn]] void refuse(std::string_view needed);
 
  private:
+  using Reading = ChildProcess::Reading;
+  /// Reads by `what`, ChildProcess::read_word or read_line, within the time limit. A requested stop
+  /// ends the solver.
+  Reading read(Reading (ChildProcess::*what)(ChildProcess::Clock::time_point));
   std::string_view next_word();
   /// The time limit of the answer to the last request.
   std::chrono::milliseconds limit() const { return requests_ > 1 ? time_limit_ : first_limit_; }

@@ -22,7 +22,8 @@ std::vector<std::filesystem::path> pair_table_files(const std::vector<std::strin
 
 /// True if the tables are to be fitted by fit_pair_stage() and not as a single table of the
 /// approach: one of `paths` is a folder, there are several tables, or the only one is of another
-/// motion than the approach. `files` is the result of pair_table_files(paths). Throws nothing.
+/// motion than the approach. `files` is the result of pair_table_files(paths). Throws
+/// std::filesystem::filesystem_error for a path that the system cannot look up.
 bool are_of_pair(const std::vector<std::string>& paths,
                  const std::vector<std::filesystem::path>& files);
 

@@ -2,8 +2,7 @@
 // has 1, 2 or 3 numbers, as many as the space has dimensions, in the unit that the key says, each
 // at most 1e100 in magnitude; times [T] of pieces are > 0, increase, and reach the end of the run,
 // in the unit of the case. A wrong value is an Error(kBadInput) with its line. The sources in
-// particles/case/ and membranes/membrane_keys.cpp use it. A change must keep accepting users'
-// cases.
+// particles/case/ use it. A change must keep accepting users' cases.
 #include <fmt/format.h>
 
 #include <algorithm>

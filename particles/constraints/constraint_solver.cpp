@@ -181,7 +181,7 @@ class Iteration {
     best_.result.iterations += taken;
     gained_at_ += taken;
     proximal_->set_epsilon(epsilon_);  // because the path has overwritten its matrix
-    if (path.reached() > kFar) return {};
+    if (!(path.reached() <= kFar)) return {};
     return path.impulses();
   }
 
@@ -437,7 +437,8 @@ class Iteration {
   }
 
   /// Computes motions, values of rows and residuals for problem_.impulses, and stores this iterate
-  /// as the best one if its residual is the smallest so far.
+  /// as the best one if its residual is the smallest so far. The first iterate is stored in any
+  /// case, also with a residual that is not a number, because finish() must return an iterate.
   void update() {
     motions_ = motions<D>(problem_, problem_.impulses);
     values_.resize(problem_.rows.size());
@@ -454,8 +455,8 @@ class Iteration {
       if (block.is_contact && block.rows > 1 && problem_.impulses[block.row] > most_impulse_)
         residual_ = std::numeric_limits<double>::infinity();
     }
-    if (!(residual_ < best_.result.residual)) return;
-    best_.result.residual = residual_;
+    if (!best_.motions.empty() && !(residual_ < best_.result.residual)) return;
+    if (residual_ < best_.result.residual) best_.result.residual = residual_;
     best_.motions = motions_;
     best_.residuals = residuals_;
     best_impulses_ = problem_.impulses;

@@ -51,7 +51,7 @@ class CoulombPath {
   int follow(int number, double accuracy, int max_iterations);
 
   /// The root of the least tau of the last follow(), over its value at the start [1].
-  double reached() const { return size_ > 0 ? std::sqrt(best_.tau) / size_ : 0; }
+  double reached() const { return size_ == 0 ? 0 : std::sqrt(best_.tau) / size_; }
   /// The impulses at the point with the least tau of the last follow(), one for each row [M L/T].
   const std::vector<double>& impulses() const { return impulses_; }
 

@@ -5,9 +5,8 @@
 // are at rest under the forces of the step. Gaps are in [L], rates at which they grow in [L/T],
 // impulses in [M L/T], velocities of all particles in [L/T, 1/T] with 3 numbers for each, or 1 on
 // an axis. Errors of the mobility and of BlowStep::loaded are thrown. If iterations do not
-// converge, the last impulses count and FluidBlow::is_solved is false, but that of the loads
-// (take_load()) is not reported. fluid_simulation.cpp uses it. A change must keep that the work of
-// a blow is not positive.
+// converge, the last impulses count and FluidBlow::is_solved is false. fluid_simulation.cpp uses it.
+// A change must keep that the work of a blow is not positive.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -68,7 +67,7 @@ class Blow {
 
   bool find_hits();
   StepContacts problem() const;
-  void take_load();
+  bool take_load();
   bool share_impulses(const std::vector<Contact<2>>& compressed);
   void restrain(const StepContacts& compressed, StepContacts& restored) const;
   void move(FluidBlow& blow);
@@ -187,8 +186,9 @@ StepContacts Blow::problem() const {
 }
 
 /// Sets Part::load of the contacts that are closed or hit: the impulses that would keep these gaps
-/// from closing if the particles were at rest and the forces of the step acted on them.
-void Blow::take_load() {
+/// from closing if the particles were at rest and the forces of the step acted on them. Returns true
+/// if they reach the tolerances.
+bool Blow::take_load() {
   auto load = problem();
   std::vector<Contact<2>> contacts;
   std::vector<std::size_t> numbers;
@@ -209,6 +209,7 @@ void Blow::take_load() {
   iterations_ += load.iterations;
   for (std::size_t i = 0; i < numbers.size(); ++i)
     parts_[numbers[i]].load = load.contacts[i].impulse;
+  return load.is_solved;
 }
 
 /// Divides the impulses of the compression between films and solids. Returns true if the solids of
@@ -340,7 +341,7 @@ std::optional<FluidBlow> Blow::solve() {
   auto compressed = problem();
   solve_listed(compressed, mobility_, conditions);
   iterations_ += compressed.iterations;
-  take_load();
+  const bool knows_loads = take_load();
   if (!share_impulses(compressed.contacts)) return std::nullopt;
   auto restored = problem();
   for (std::size_t c = 0; c < parts_.size(); ++c) {
@@ -355,7 +356,7 @@ std::optional<FluidBlow> Blow::solve() {
   iterations_ += restored.iterations;
   restrain(compressed, restored);
   FluidBlow blow;
-  blow.is_solved = compressed.is_solved && restored.is_solved;
+  blow.is_solved = compressed.is_solved && knows_loads && restored.is_solved;
   blow.contacts = std::move(restored.contacts);
   blow.loads = std::move(restored.loads);
   blow.velocities = std::move(restored.velocities);

@@ -2,7 +2,7 @@
 // Lengths [L] are in the unit of the case file; displacements have as many numbers for each
 // particle as there are dimensions, radii are > 0, skins and margins >= 0. simulation.cpp, fluid/
 // and membranes/ use it. rebuild_neighbour_list() throws Error(kNotConverged) if a particle moves
-// too far for a periodic cell; skins and positions of the list are then changed, but not its pairs.
+// too far for a periodic cell, and the list is then the same as before.
 // Nothing else is checked. A change must keep the order of the pairs, because the bits of a
 // simulation depend on it.
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
@@ -103,17 +103,18 @@ void rebuild_neighbour_list(State& state, std::span<const double> displacements,
   };
   const Vector common = mean_of(p.count(), pool, displacement);
   const double half_period = half_shortest_period(p.cell);
-  state.positions_at_listing = p.positions;
-  state.skins.resize(p.count(), 0.0);
+  // The state gets the new skins when all particles have one, so that an error leaves it as it was.
+  auto skins = state.skins;
+  skins.resize(p.count(), 0.0);
   std::vector<double> extents(p.count());
   for (std::size_t k = 0; k < p.count(); ++k) {
-    state.skins[k] =
-        std::max({state.skins[k], kOfRadius * p.radii[k], kSteps * norm(displacement(k) - common)});
-    if (p.cell.is_periodic())
-      state.skins[k] =
-          skin_within_period(p, k, half_period, state.skins[k], norm(displacement(k) - common));
-    extents[k] = p.radii[k] + state.skins[k];
+    const double moved = norm(displacement(k) - common);
+    skins[k] = std::max({skins[k], kOfRadius * p.radii[k], kSteps * moved});
+    if (p.cell.is_periodic()) skins[k] = skin_within_period(p, k, half_period, skins[k], moved);
+    extents[k] = p.radii[k] + skins[k];
   }
+  state.skins = std::move(skins);
+  state.positions_at_listing = p.positions;
   // Only the pairs with something to keep are copied, which are few, so that the storage of the old
   // list is free while the search needs storage.
   std::vector<Pair> before;

@@ -20,6 +20,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/files/locks.hpp"
 #include "viscontact/common/text/csv.hpp"
+#include "viscontact/common/text/json.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/common/text/on_one_line.hpp"
 #include "viscontact/particles/arrangement/arrangement.hpp"
@@ -62,12 +63,13 @@ void add_last_step(const fs::path& path, const std::vector<std::string>& columns
 Values values_of(const ParticlesCase& c, const std::vector<std::string>& columns,
                  const fs::path& run) {
   Values values;
-  const auto json = Json::parse(read_file(run / "run.json"));
   add_last_step(run / "steps.csv", columns, values);
   // run.json decides if both files have a value, because its values are those of the whole run.
-  for (const auto& column : columns)
-    if (json.contains(column))
-      if (const auto value = number_of(json[column])) values[column] = *value;
+  read_json(run / "run.json", [&](const Json& json) {
+    for (const auto& column : columns)
+      if (json.contains(column))
+        if (const auto value = number_of(json[column])) values[column] = *value;
+  });
   if (c.arrangement)
     values[fraction_column(c)] =
         size_of(*c.arrangement, c.particles.dimension) / measure(c.setting.domain);

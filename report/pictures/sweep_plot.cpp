@@ -152,7 +152,12 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
     return found->second;
   };
   std::vector<double> xs, ys, lower_ends;
+  const auto has_curve = [&] {
+    return std::ranges::all_of(others,
+                               [&](const auto& key) { return !std::isnan(rows.value(key)); });
+  };
   while (rows.next()) {
+    if (!has_curve()) continue;
     const auto first = first_curve_of_row();
     for (std::size_t i = 0; i < places.size(); ++i) {
       const double at = rows.value(x), y = rows.value(places[i]);
@@ -244,9 +249,11 @@ std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot,
   std::set<double> xs, ys;
   std::vector<double> values;
   while (rows.next()) {
-    xs.insert(rows.value(x));
-    ys.insert(rows.value(y));
-    cells[{rows.value(y), rows.value(x)}] = rows.value(column);
+    const double at_x = rows.value(x), at_y = rows.value(y);
+    if (!std::isfinite(at_x) || !std::isfinite(at_y)) continue;  // NaN has no place in a set
+    xs.insert(at_x);
+    ys.insert(at_y);
+    cells[{at_y, at_x}] = rows.value(column);
     values.push_back(rows.value(column));
   }
   if (xs.size() < 2 || ys.size() < 2)

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <thread>
 
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
@@ -171,6 +172,22 @@ TEST_F(RunSweep, EndsEarlyWhenAStopIsRequested) {
   EXPECT_THAT(run(0, 2, take, StopToken(flag)), AllOf(Ge(6U), Lt(200U)));
   EXPECT_THAT(failure(ErrorKind::kInterrupted, [&] { (void)sweep_.row(0, StopToken(flag)); }),
               HasSubstr("interrupted; everything finished so far is kept"));
+}
+
+TEST(RunRows, EndsWhenARowFailsAfterAStopWhileAThreadWaitsForIt) {
+  std::atomic<bool> flag = false;
+  // One thread computes the first row until the stop, which the other one requests in the last row
+  // that it may compute before the first one.
+  const auto row = [&](std::uint64_t index, const StopToken& stop) -> std::string {
+    if (index == 63) flag = true;
+    while (index == 0) {
+      stop.throw_if_stop_requested();
+      std::this_thread::yield();
+    }
+    return "row";
+  };
+  const auto take = [](std::uint64_t, const std::string&) { FAIL() << "the first row is missing"; };
+  EXPECT_EQ(run_rows(1000, 0, 2, row, take, StopToken(flag)), 0U);
 }
 
 }  // namespace

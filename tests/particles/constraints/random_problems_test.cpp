@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "tests/particles/constraints/random_constraints.hpp"
@@ -173,6 +174,24 @@ TEST(InteriorPointsOfFriction, BeginWithTheImpulsesOfTheFilms) {
   interior.solve(1e-9, 100);
   EXPECT_NEAR(interior.impulses()[0], 0, 1e-8);
   EXPECT_NEAR(interior.impulses()[1], -0.3, 1e-8);
+}
+
+/// Numbers that overflowed before: all residuals are no numbers.
+TEST(ConstraintSolver, ReturnsAnIterateWithoutResiduals) {
+  RandomConstraints what;
+  what.has_links = true;
+  auto problem = random_constraints<3>(what, {}, 1);
+  allow(problem);
+  auto convex = problem;
+  make_convex(convex, {}, 1);
+  for (auto* one : {&problem, &convex}) {
+    for (auto& row : one->rows) row.offset = std::numeric_limits<double>::quiet_NaN();
+    const auto solution = solve_constraints(*one, 1000);
+    EXPECT_GT(solution.result.residual, 1);
+    EXPECT_EQ(solution.motions.size(), one->units.size());
+    EXPECT_EQ(solution.residuals.size(), one->blocks.size());
+    EXPECT_EQ(one->impulses.size(), one->rows.size());
+  }
 }
 
 /// Two rows that no motion satisfies, and a contact with friction.
