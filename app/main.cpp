@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "viscontact/app/arguments/command_options.hpp"
+#include "viscontact/app/arguments/interrupt.hpp"
 #include "viscontact/app/commands/commands.hpp"
 #include "viscontact/app/help/self_description.hpp"
-#include "viscontact/app/interrupt.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/results/exit_code.hpp"
 #include "viscontact/results/provenance.hpp"

@@ -1,6 +1,6 @@
 // A flag by which a long computation is asked to stop. All parts with long computations take a
 // StopToken and check it between two pieces of work; they do not know who requests the stop. Only
-// throw_if_stop_requested() throws, Error(kInterrupted). app/interrupt.cpp sets the flag
+// throw_if_stop_requested() throws, Error(kInterrupted). app/arguments/interrupt.cpp sets the flag
 // at Ctrl-C. A change must keep that checking is safe on any thread.
 #pragma once
 

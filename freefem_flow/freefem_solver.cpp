@@ -23,8 +23,8 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/freefem/freefem_command.hpp"
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
+#include "viscontact/freefem_flow/boundary/mesh_boundary.hpp"
 #include "viscontact/freefem_flow/membranes/membrane_process.hpp"
-#include "viscontact/freefem_flow/mesh_boundary.hpp"
 #include "viscontact/particles/fluid.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 

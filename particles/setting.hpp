@@ -1,7 +1,7 @@
 // What moves the particles of a simulation, how their motion is computed, and how accurately: the
 // content of a case file. Nothing is checked or thrown here; particles/case checks the values. The
-// number of a particle is its place in Particles, from 0. The simulations (simulation.hpp, fluid/,
-// membranes/) and the files in io/, picture/ and run/ read it. Lengths, masses and times are in any
+// number of a particle is its place in Particles, from 0. The simulations (simulation.hpp and
+// fluid/) and the files in io/, picture/ and run/ read it. Lengths, masses and times are in any
 // consistent units; masses and forces of discs in a fluid are per length. A change of a default of
 // SolverSettings changes the results of every case that does not set it.
 #pragma once

@@ -21,7 +21,7 @@
 #include <system_error>
 #include <thread>
 
-#include "viscontact/app/interrupt.hpp"
+#include "viscontact/app/arguments/interrupt.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/lubrication/terms.hpp"

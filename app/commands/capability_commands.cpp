@@ -8,8 +8,8 @@
 #include <string>
 
 #include "viscontact/app/arguments/command_options.hpp"
+#include "viscontact/app/arguments/interrupt.hpp"
 #include "viscontact/app/commands/commands.hpp"
-#include "viscontact/app/interrupt.hpp"
 #include "viscontact/freefem_flow/freefem_solver.hpp"
 #include "viscontact/particles/run/particles_stage.hpp"
 #include "viscontact/rolling/job/rolling_stage.hpp"

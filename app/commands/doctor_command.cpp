@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "viscontact/app/arguments/command_options.hpp"
+#include "viscontact/app/arguments/interrupt.hpp"
 #include "viscontact/app/commands/commands.hpp"
-#include "viscontact/app/interrupt.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/system/process.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"

@@ -15,8 +15,8 @@
 #include <utility>
 
 #include "viscontact/app/arguments/command_options.hpp"
+#include "viscontact/app/arguments/interrupt.hpp"
 #include "viscontact/app/commands/commands.hpp"
-#include "viscontact/app/interrupt.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/named.hpp"

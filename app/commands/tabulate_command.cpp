@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "viscontact/app/arguments/command_options.hpp"
+#include "viscontact/app/arguments/interrupt.hpp"
 #include "viscontact/app/commands/commands.hpp"
-#include "viscontact/app/interrupt.hpp"
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"

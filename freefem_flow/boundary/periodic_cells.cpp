@@ -12,7 +12,7 @@
 #include <map>
 #include <tuple>
 
-#include "viscontact/freefem_flow/mesh_boundary.hpp"
+#include "viscontact/freefem_flow/boundary/mesh_boundary.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {

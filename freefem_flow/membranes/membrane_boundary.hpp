@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "viscontact/freefem_flow/mesh_boundary.hpp"
+#include "viscontact/freefem_flow/boundary/mesh_boundary.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/outline.hpp"
 

@@ -21,7 +21,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/freefem_flow/dissipation_alone.hpp"
+#include "viscontact/freefem_flow/process/dissipation_alone.hpp"
 #include "viscontact/freefem_flow/process/opening.hpp"
 #include "viscontact/freefem_flow/process/solver_dialogue.hpp"
 

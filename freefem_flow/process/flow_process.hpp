@@ -13,7 +13,7 @@
 #include <string>
 
 #include "viscontact/common/stop_token.hpp"
-#include "viscontact/freefem_flow/mesh_boundary.hpp"
+#include "viscontact/freefem_flow/boundary/mesh_boundary.hpp"
 #include "viscontact/freefem_flow/process/solver_command.hpp"
 #include "viscontact/particles/fluid.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"

@@ -16,7 +16,7 @@
 
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/common/system/child_process.hpp"
-#include "viscontact/freefem_flow/mesh_boundary.hpp"
+#include "viscontact/freefem_flow/boundary/mesh_boundary.hpp"
 #include "viscontact/freefem_flow/process/solver_command.hpp"
 
 namespace viscontact::freefem_flow {

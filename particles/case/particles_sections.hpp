@@ -1,5 +1,5 @@
 // Reads the sections of a case of many particles, a TOML file of the user (particles_case.hpp).
-// Only sources in particles/case/ and particles/membranes/ include this file. The sections are
+// Only sources in particles/case/ include this file. The sections are
 // those of docs/case-file.md, "Many particles". Each function that reads or checks something throws
 // Error(kBadInput) with file, line, key and what is allowed if a key is unknown, missing or has a
 // wrong value; the other functions throw nothing. Numbers of particles count from 0. Lengths,

@@ -4,11 +4,11 @@
 // Units are any consistent ones. Errors of FluidSolver are thrown; sizes are not checked.
 // fluid_simulation.cpp uses it. A change must keep the order of the calls, because vary_penalty()
 // and vary_mesh() replace the problem that the solver had before.
-#include "viscontact/particles/fluid/flow_estimate.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <variant>
+
+#include "viscontact/particles/fluid/fluid_solver.hpp"
 
 namespace viscontact::particles {
 namespace {

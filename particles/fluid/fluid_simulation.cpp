@@ -19,9 +19,9 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/fluid/flow_estimate.hpp"
 #include "viscontact/particles/fluid/fluid_contacts.hpp"
 #include "viscontact/particles/fluid/fluid_motion.hpp"
+#include "viscontact/particles/fluid/fluid_solver.hpp"
 #include "viscontact/particles/fluid/held_rows.hpp"
 #include "viscontact/particles/fluid/held_solver.hpp"
 #include "viscontact/particles/fluid/step_equation.hpp"

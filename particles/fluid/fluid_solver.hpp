@@ -1,7 +1,7 @@
 // What a simulation asks of a fluid: the velocities that rigid particles take in it under given
-// forces. Lengths, masses and times are in any consistent units; in the plane masses, forces and
-// powers are per unit length of the third dimension. particles/fluid/ and particles/membranes/ ask;
-// freefem_flow/ answers, and app/ connects both. A solver that fails throws
+// forces, and estimates of their errors. Lengths, masses and times are in any consistent units; in
+// the plane masses, forces and powers are per unit length of the third dimension. Simulations in
+// particles/fluid/ ask, freefem_flow/ answers, and app/ connects both. A solver that fails throws
 // Error(kExternalProgram), places without a mesh and arguments that are not finite
 // Error(kNotConverged), a stop Error(kInterrupted). Sizes of arrays are only asserted. A change
 // must agree with docs/fluid-solver.md.
@@ -22,6 +22,7 @@
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/fluid.hpp"
 #include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/steps/step_report.hpp"
 
 namespace viscontact::particles {
 
@@ -181,5 +182,40 @@ inline void FluidSolver::load_flow(const std::string& /*flow*/) {}
 using StartFluidSolver = std::function<std::unique_ptr<FluidSolver>(
     const Fluid& fluid, const Domain& domain, std::span<const double> radii, int dimension,
     const StopToken& stop)>;
+
+/// A flow that is extrapolated from two meshes, with estimates of its errors.
+struct FlowEstimate {
+  /// Extrapolated, motion_components() numbers for each particle [L/T, 1/T].
+  std::vector<double> velocities;
+  FlowQuantities quantities;  ///< dissipation, apparent viscosity, forces are extrapolated
+  /// Errors of the velocities, with angular velocities multiplied by the radius. They are relative
+  /// to the largest velocity or, if it is larger, to the largest entry of the gradient of a linear
+  /// flow (LinearFlow) times the largest radius [1]; 0 if both are 0.
+  RelativeErrors of_velocities;
+  /// Errors of the forces of the fluid, with torques divided by the radius, relative to the largest
+  /// of these forces [1]; 0 if all are 0.
+  RelativeErrors of_forces;
+  /// Errors >= 0 of `quantities.fluid_forces`, as many numbers [M L/T^2, M L^2/T^2]. In the plane
+  /// both components of the force on a particle get the same error, and its torque this error times
+  /// the radius.
+  std::vector<double> force_errors;
+  /// Errors >= 0 of the results of `further` on the mesh of the placement, as many and in their
+  /// units; empty without `further`.
+  std::vector<double> further_errors;
+};
+
+/// Estimates the errors of solver.velocities(forces, true) and of the quantities of this flow.
+/// solver.place() must have been called with `particles`. It must be called again afterwards before
+/// any function of the solver but flow(), because the solver is left on another mesh.
+///
+/// `further` is called after each flow and returns more results that depend on it, such as the
+/// forces of links; empty: there are none. `forces` may contain contact forces, whose own errors
+/// are not in the estimates; they have motion_components() numbers for each particle [M L/T^2,
+/// M L^2/T^2]. If there is no penalty, or no second mesh, the part of the errors that it would
+/// cause is 0. Throws the errors of FluidSolver, such as Error(kInterrupted) if a stop is
+/// requested.
+FlowEstimate estimate_flow(FluidSolver& solver, std::span<const double> forces,
+                           const Particles& particles, const Fluid& fluid,
+                           const std::function<std::vector<double>()>& further = {});
 
 }  // namespace viscontact::particles

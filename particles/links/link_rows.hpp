@@ -1,10 +1,9 @@
 // The equations that hinges, springs, arms and membranes (the links) impose on the motions of
-// particles and rigid bodies in a time step, docs/physics.md (5.12) to (5.14) and
-// membranes/necklace.hpp. Lengths, masses and times are in any consistent units. Equations of
-// displacements [L] have impulses [M L/T], equations of turns [rad] moments of impulses [M L^2/T];
+// particles and rigid bodies in a time step, docs/physics.md (5.12) to (5.14) and (8.9) to (8.12).
+// Lengths, masses and times are in any consistent units. Equations of displacements [L] have impulses [M L/T], equations of turns [rad] moments of impulses [M L^2/T];
 // where a member has two dimensions, the first is that of displacements. Numbers and places count
 // from 0. Nothing is checked or thrown. constraints/ and fluid/ solve the equations;
-// simulation.cpp, membranes/ and run/ use them. A change must keep the order of forces in
+// simulation.cpp and run/ use them. A change must keep the order of forces in
 // State::link_forces, which restart files store.
 #pragma once
 
@@ -98,6 +97,13 @@ struct LinkTimes {
 std::vector<LinkEquations> link_equations(const Links& links, const Particles& particles,
                                           const LinkTimes& times);
 
+/// The equations of a membrane without a fluid, in the order of its forces in State::link_forces: N
+/// for the distances of neighbours, N for the turns of the N beads with the membrane, N for the
+/// bending springs of the beads if it resists bending, and one for the area if it is kept. The
+/// caller, link_equations(), sets `number` and `first_force`.
+std::vector<LinkEquations> membrane_equations(const Membrane& membrane, const Particles& particles,
+                                              const LinkTimes& times);
+
 /// The stops of all hinges. Each has one row, the angle that is left to the stop [rad], which must
 /// be >= 0 after a step. The stop exerts a moment of impulse >= 0, which is 0 where the angle is >
 /// 0. Its force has the place of the torsion spring of the hinge. Only discs have stops.
@@ -135,6 +141,12 @@ std::vector<double> values_after(const LinkEquations& equations, const Links& li
 /// Extension of a spring (kSpring) after these motions [L], < 0 if it is compressed.
 double extension_after(const LinkEquations& spring, const Links& links, const Particles& particles,
                        std::span<const UnitMotion> motions);
+
+/// Value of the row of a distance, a turn or the area of a membrane after these motions of the
+/// beads, which are in the order of the row's parts: the excess of the distance [L], of the turn
+/// [rad], or of the area over the mean distance [L].
+double membrane_value_after(const LinkEquations& equations, const Membrane& membrane,
+                            const Particles& particles, std::span<const UnitMotion> motions);
 
 /// Rate at which the length of an arm grows [L/T], with the direction that it has at the beginning
 /// of a step. `first` and `second` are the velocities [L/T, 1/T] of the units of its ends.

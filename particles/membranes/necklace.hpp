@@ -1,17 +1,13 @@
 // The polygon (necklace) through the particles (beads) of a membrane without a fluid,
-// docs/physics.md (8.9) to (8.12): its distances, area and bending, and its equations in a time
-// step, in the form of the equations of links. Lengths, masses and times are in any consistent
-// units. An array of positions has x of all N >= 3 beads of one membrane and then y of all [L].
-// Nothing is checked or thrown. links/link_rows.cpp and the sources of this folder use it. No
+// docs/physics.md (8.9) to (8.12): its distances, area and bending. Lengths, masses and times are in
+// any consistent units. An array of positions has x of all N >= 3 beads of one membrane and then y
+// of all [L]. Nothing is checked or thrown. links/membrane_rows.cpp and membrane.cpp use it. No
 // header that users of the library include may include it, because they need no Eigen. A change
-// must keep the order of the equations, which is that of State::link_forces.
+// must keep that area_gradient() is the derivative of area_of().
 #pragma once
 
 #include <Eigen/Core>
-#include <span>
-#include <vector>
 
-#include "viscontact/particles/links/link_rows.hpp"
 #include "viscontact/particles/membranes/membrane.hpp"
 #include "viscontact/particles/particles.hpp"
 
@@ -45,18 +41,5 @@ bool restore_necklace(const Eigen::VectorXd& lengths, double area, Eigen::Vector
 /// Measures a membrane without a fluid with the positions and velocities of these particles; the
 /// speed and the frequency are 0 if all beads have one velocity.
 MembraneMeasures measure_necklace(const Membrane& membrane, const Particles& particles);
-
-/// The equations of a membrane, in the order of its forces in State::link_forces: N for the
-/// distances of neighbours, N for the turns of the beads with the membrane, N for the bending
-/// springs of the beads if it resists bending, and one for the area if it is kept. The caller,
-/// link_equations(), sets `number` and `first_force`.
-std::vector<LinkEquations> membrane_equations(const Membrane& membrane, const Particles& particles,
-                                              const LinkTimes& times);
-
-/// Value of the row of a distance, a turn or the area after these motions of the beads, which are
-/// in the order of the row's parts: the excess of the distance [L], of the turn [rad], or of the
-/// area over the mean distance [L].
-double membrane_value_after(const LinkEquations& equations, const Membrane& membrane,
-                            const Particles& particles, std::span<const UnitMotion> motions);
 
 }  // namespace viscontact::particles

@@ -11,7 +11,7 @@
 
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/particles/fluid/fluid_simulation.hpp"
-#include "viscontact/particles/membranes/membrane_simulation.hpp"
+#include "viscontact/particles/fluid/membrane_simulation.hpp"
 #include "viscontact/particles/simulation.hpp"
 
 namespace viscontact::particles {

@@ -17,9 +17,9 @@
 #include <string>
 #include <vector>
 
+#include "viscontact/app/arguments/interrupt.hpp"
 #include "viscontact/app/commands/commands.hpp"
 #include "viscontact/app/commands/sweep/sweep_options.hpp"
-#include "viscontact/app/interrupt.hpp"
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/named.hpp"

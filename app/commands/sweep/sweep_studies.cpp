@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "viscontact/app/arguments/interrupt.hpp"
 #include "viscontact/app/commands/sweep/sweep_options.hpp"
-#include "viscontact/app/interrupt.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/freefem_flow/freefem_solver.hpp"
 #include "viscontact/particles/sweep/particles_sweep_stage.hpp"

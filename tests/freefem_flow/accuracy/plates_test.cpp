@@ -10,7 +10,7 @@
 #include "viscontact/freefem_flow/freefem_solver.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/fluid.hpp"
-#include "viscontact/particles/fluid/flow_estimate.hpp"
+#include "viscontact/particles/fluid/fluid_solver.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "viscontact/freefem_flow/mesh_boundary.hpp"
+#include "viscontact/freefem_flow/boundary/mesh_boundary.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {

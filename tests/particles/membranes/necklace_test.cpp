@@ -11,6 +11,7 @@
 
 #include "tests/common/failure.hpp"
 #include "tests/particles/systems.hpp"
+#include "viscontact/particles/links/link_rows.hpp"
 #include "viscontact/particles/membranes/membrane.hpp"
 #include "viscontact/particles/membranes/membrane_motion.hpp"
 

@@ -1,6 +1,6 @@
 // Dissipation of the fluid without particles, if it has a closed form. The apparent viscosity is
 // the dissipation with particles divided by this one. Units are those of the arguments; nothing is
-// thrown. process/flow_process.cpp uses it if the fluid solver does not know this dissipation, and
+// thrown. flow_process.cpp uses it if the fluid solver does not know this dissipation, and
 // membranes/membrane_process.cpp always. A change must keep that 0 means "not known".
 #pragma once
 

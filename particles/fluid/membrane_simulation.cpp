@@ -7,7 +7,7 @@
 // run/particle_simulation.cpp uses it. A change must keep that a step depends on nothing but the
 // setting and the state, because a run that continues from a restart file must give the same bits
 // as one without a break.
-#include "viscontact/particles/membranes/membrane_simulation.hpp"
+#include "viscontact/particles/fluid/membrane_simulation.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Installs a signal handler with sigaction (interrupt.hpp), for main.cpp and the commands of app/.
 // A change must keep that the handler does nothing but set a lock-free flag, because a signal can
 // come in the middle of any function. Nothing is thrown, and a failure of sigaction is ignored.
-#include "viscontact/app/interrupt.hpp"
+#include "viscontact/app/arguments/interrupt.hpp"
 
 #include <atomic>
 #include <csignal>

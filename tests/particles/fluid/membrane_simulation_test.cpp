@@ -1,6 +1,6 @@
 // Time stepping of membranes in a stand-in for the fluid: regularised Stokeslets in unbounded shear
 // flow (Cortez 2001, SIAM J. Sci. Comput. 23, 1204), whose flow is free of divergence.
-#include "viscontact/particles/membranes/membrane_simulation.hpp"
+#include "viscontact/particles/fluid/membrane_simulation.hpp"
 
 #include <gmock/gmock.h>
 

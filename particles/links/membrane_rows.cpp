@@ -2,11 +2,14 @@
 // particles (beads), numbered from 0 counter-clockwise, whose distances and area are kept. Values
 // of rows are in [L], of turns in [rad]; Membrane::lengths and the perimeter, > 0 [L], belong to
 // the polygon; the times LinkTimes::h and kick are > 0 [T]. Units are any consistent ones. Nothing
-// is checked or thrown: beads at one place give infinite numbers. links/link_rows.cpp uses them. A
+// is checked or thrown: beads at one place give infinite numbers. link_rows.cpp uses them. A
 // change must keep the order of the equations, which is that of State::link_forces, and that the
 // parts of a row are the derivatives of membrane_value_after() with respect to the motion.
 #include <cmath>
+#include <utility>
 
+#include "viscontact/particles/domain/periods.hpp"
+#include "viscontact/particles/links/link_rows.hpp"
 #include "viscontact/particles/membranes/necklace.hpp"
 
 namespace viscontact::particles {

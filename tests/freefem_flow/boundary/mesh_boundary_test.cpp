@@ -1,6 +1,6 @@
 // The boundary of a mesh as the fluid solver gets it: closed loops with the fluid on their left,
 // and labels. Lengths are in one unit.
-#include "viscontact/freefem_flow/mesh_boundary.hpp"
+#include "viscontact/freefem_flow/boundary/mesh_boundary.hpp"
 
 #include <gmock/gmock.h>
 

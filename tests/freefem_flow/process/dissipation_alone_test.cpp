@@ -1,5 +1,5 @@
 // Dissipation of a fluid without particles: linear flows, Couette flow, and where it is not known.
-#include "viscontact/freefem_flow/dissipation_alone.hpp"
+#include "viscontact/freefem_flow/process/dissipation_alone.hpp"
 
 #include <gtest/gtest.h>
 

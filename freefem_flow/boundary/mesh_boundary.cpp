@@ -7,7 +7,7 @@
 // EdgeLengths throws. A change must keep that opposite periodic sides get the same points, because
 // scripts/constraints.idp identifies these, and the labels, which scripts/ and docs/fluid-solver.md
 // repeat.
-#include "viscontact/freefem_flow/mesh_boundary.hpp"
+#include "viscontact/freefem_flow/boundary/mesh_boundary.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 // of the arguments, whose ranges are not checked (the viscosity [M/(L T)] and the lengths are
 // positive); nothing is thrown. A change must keep that the result is exactly 0 if no closed form
 // is known: callers take 0 for "not known".
-#include "viscontact/freefem_flow/dissipation_alone.hpp"
+#include "viscontact/freefem_flow/process/dissipation_alone.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {
