@@ -1,7 +1,7 @@
 // The boundary of the mesh of a fluid with particles, as the fluid solver gets it. Lengths are in
-// the unit of the arguments. freefem_solver.cpp and membranes/ make it, and process/ sends it. A gap
-// without room for an edge throws Error(kNotConverged). That particles are inside the domain is not
-// checked. A change of labels must also be made in scripts/ and in docs/fluid-solver.md.
+// the unit of the arguments. freefem_solver.cpp and membranes/ make it, and process/ sends it. A
+// gap without room for an edge throws Error(kNotConverged). That particles are inside the domain is
+// not checked. A change of labels must also be made in scripts/ and in docs/fluid-solver.md.
 #pragma once
 
 #include <array>

@@ -3,10 +3,10 @@
 // particles in [L/T, 1/T], 3 numbers for each, or 1 on an axis; units are any consistent ones, of
 // discs per length. The gap of a contact is the distance less the threshold gap. gamma <= 0 is
 // minus the impulse that the film of a pair has absorbed. A plate is a particle with round ends:
-// all points at one distance from a line, its spine. The other sources of this folder
-// use it. Throws the errors of the mobility, and Error(kNotConverged) for plates that
-// overlap; sizes are not checked, and missed tolerances make StepContacts::is_solved false. A
-// change must keep the order of pairs, which files of contacts and restart files have.
+// all points at one distance from a line, its spine. The other sources of this folder use it.
+// Throws the errors of the mobility, and Error(kNotConverged) for plates that overlap; sizes are
+// not checked, and missed tolerances make StepContacts::is_solved false. A change must keep the
+// order of pairs, which files of contacts and restart files have.
 #include "viscontact/particles/fluid/fluid_contacts.hpp"
 
 #include <iterator>

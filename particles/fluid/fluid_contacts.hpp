@@ -5,9 +5,9 @@
 // impulse that the film of a contact has absorbed, and gamma_min the gamma at which the solids
 // touch. Lengths, masses and times are in any consistent units; masses and impulses of discs are
 // per length. Arrays of velocities, forces and loads have MotionLayout::components numbers for each
-// particle [L/T, 1/T; M L/T^2, M L^2/T^2]. The other sources of this folder
-// use it. Sizes and ranges of arguments are not checked; functions throw only
-// what they say. A change must keep that the film carries no friction.
+// particle [L/T, 1/T; M L/T^2, M L^2/T^2]. The other sources of this folder use it. Sizes and
+// ranges of arguments are not checked; functions throw only what they say. A change must keep that
+// the film carries no friction.
 #pragma once
 
 #include <array>

@@ -2,11 +2,10 @@
 // of solids that rebound in a step, docs/physics.md (6.11): Poisson's law of restitution
 // (contact/restitution_law.hpp), in which the mobility of the fluid takes the place of the masses.
 // Arrays whose shape is not given have motion_components() numbers for each particle: velocities in
-// [L/T, 1/T], forces in [M L/T^2, M L^2/T^2]; forces and impulses of discs are per length. gamma
-// <= 0 is minus the impulse that the film of a contact has absorbed. The other sources of this
-// folder and case/ use it. Nothing is checked. A change must keep the state unchanged
-// until a step is accepted, and that results depend on the order of the particles by rounding
-// errors only.
+// [L/T, 1/T], forces in [M L/T^2, M L^2/T^2]; forces and impulses of discs are per length. gamma <=
+// 0 is minus the impulse that the film of a contact has absorbed. The other sources of this folder
+// and case/ use it. Nothing is checked. A change must keep the state unchanged until a step is
+// accepted, and that results depend on the order of the particles by rounding errors only.
 #pragma once
 
 #include <algorithm>

@@ -1,11 +1,10 @@
 // Makes the equations of hinges, springs, arms and stops for one time step. Values of displacements
-// are in [L], with impulses in [M L/T]; those of turns in [rad], with moments of impulses in
-// [M L^2/T]; stiffnesses in [M/T^2] or [M L^2/T^2]. The times LinkTimes::h and kick are > 0 [T];
+// are in [L], with impulses in [M L/T]; those of turns in [rad], with moments of impulses in [M
+// L^2/T]; stiffnesses in [M/T^2] or [M L^2/T^2]. The times LinkTimes::h and kick are > 0 [T];
 // motions of units are in [L, rad]; units are any consistent ones. Links, particles and places of
-// forces count from 0. Nothing is checked or thrown. constraints/, fluid/, run/ and
-// simulation.cpp use it. A change must keep the order of forces in State::link_forces, which
-// restart files store, and that the parts of a row are the derivatives of values_after() with
-// respect to the motion.
+// forces count from 0. Nothing is checked or thrown. constraints/, fluid/, run/ and simulation.cpp
+// use it. A change must keep the order of forces in State::link_forces, which restart files store,
+// and that the parts of a row are the derivatives of values_after() with respect to the motion.
 #include "viscontact/particles/links/link_rows.hpp"
 
 #include <fmt/format.h>

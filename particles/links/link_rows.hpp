@@ -1,10 +1,10 @@
 // The equations that hinges, springs, arms and membranes (the links) impose on the motions of
 // particles and rigid bodies in a time step, docs/physics.md (5.12) to (5.14) and (8.9) to (8.12).
-// Lengths, masses and times are in any consistent units. Equations of displacements [L] have impulses [M L/T], equations of turns [rad] moments of impulses [M L^2/T];
-// where a member has two dimensions, the first is that of displacements. Numbers and places count
-// from 0. Nothing is checked or thrown. constraints/ and fluid/ solve the equations;
-// simulation.cpp and run/ use them. A change must keep the order of forces in
-// State::link_forces, which restart files store.
+// Lengths, masses and times are in any consistent units. Equations of displacements [L] have
+// impulses [M L/T], equations of turns [rad] moments of impulses [M L^2/T]; where a member has two
+// dimensions, the first is that of displacements. Numbers and places count from 0. Nothing is
+// checked or thrown. constraints/ and fluid/ solve the equations; simulation.cpp and run/ use them.
+// A change must keep the order of forces in State::link_forces, which restart files store.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // The polygon (necklace) through the particles (beads) of a membrane without a fluid,
-// docs/physics.md (8.9) to (8.12): its distances, area and bending. Lengths, masses and times are in
-// any consistent units. An array of positions has x of all N >= 3 beads of one membrane and then y
-// of all [L]. Nothing is checked or thrown. links/membrane_rows.cpp and membrane.cpp use it. No
+// docs/physics.md (8.9) to (8.12): its distances, area and bending. Lengths, masses and times are
+// in any consistent units. An array of positions has x of all N >= 3 beads of one membrane and then
+// y of all [L]. Nothing is checked or thrown. links/membrane_rows.cpp and membrane.cpp use it. No
 // header that users of the library include may include it, because they need no Eigen. A change
 // must keep that area_gradient() is the derivative of area_of().
 #pragma once

@@ -1,10 +1,9 @@
 // Checks whether the list of close pairs of a simulation is still valid, and makes it again.
 // Lengths [L] are in the unit of the case file; displacements have as many numbers for each
 // particle as there are dimensions, radii are > 0, skins and margins >= 0. simulation.cpp and
-// fluid/ use it. rebuild_neighbour_list() throws Error(kNotConverged) if a particle moves
-// too far for a periodic cell, and the list is then the same as before.
-// Nothing else is checked. A change must keep the order of the pairs, because the bits of a
-// simulation depend on it.
+// fluid/ use it. rebuild_neighbour_list() throws Error(kNotConverged) if a particle moves too far
+// for a periodic cell, and the list is then the same as before. Nothing else is checked. A change
+// must keep the order of the pairs, because the bits of a simulation depend on it.
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // The neighbour list of a simulation: the pairs of particles that may touch soon, which is used in
 // many steps, and the particles near obstacles. Lengths are in the unit of the case file.
-// simulation.cpp and fluid/ use it. Only rebuild_neighbour_list() throws. A change must
-// keep the order of the pairs, because the bits of a simulation depend on it.
+// simulation.cpp and fluid/ use it. Only rebuild_neighbour_list() throws. A change must keep the
+// order of the pairs, because the bits of a simulation depend on it.
 #pragma once
 
 #include <span>

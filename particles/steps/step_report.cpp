@@ -4,8 +4,8 @@
 // in the units of the case file; the report has them divided by the mean radius, or by the impulses
 // at work, as numbers >= 0. A residual that is not a number makes `excess` infinite and `converged`
 // false. Throws Error(kNotConverged) from refuse_deep_overlap() only. simulation.cpp, projection/
-// and fluid/ use it. A change must keep that particles with masses and particles in a
-// fluid are measured in the same way.
+// and fluid/ use it. A change must keep that particles with masses and particles in a fluid are
+// measured in the same way.
 #include "viscontact/particles/steps/step_report.hpp"
 
 #include <fmt/format.h>

@@ -2,9 +2,8 @@
 // that decide whether the step is accepted. A residual [L] is the distance of a gap or a length
 // from the value that its condition demands; docs/particles.md, "The projection", says what is
 // allowed. Lengths, masses and times are in the units of the case file. simulation.cpp and
-// projection/ (particles with masses) and fluid/ fill the report, and particles/run
-// writes it. Only refuse_deep_overlap() throws. A change must keep what the columns of steps.csv
-// mean.
+// projection/ (particles with masses) and fluid/ fill the report, and particles/run writes it. Only
+// refuse_deep_overlap() throws. A change must keep what the columns of steps.csv mean.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // Decides where each time step ends: on a grid of equal steps, but for jumps of forces, torques or
-// velocities of planes (step_times.hpp has the reasons). simulation.cpp and fluid/ use it. Times [T] are in the unit of the case file. Nothing is checked or thrown. A change must keep
-// all ends of steps bit for bit.
+// velocities of planes (step_times.hpp has the reasons). simulation.cpp and fluid/ use it. Times
+// [T] are in the unit of the case file. Nothing is checked or thrown. A change must keep all ends
+// of steps bit for bit.
 #include "viscontact/particles/steps/step_times.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // Where each time step of a simulation ends. Steps end on a grid of points at the distance h, but
 // for steps near jumps of forces, torques or velocities of planes, docs/physics.md (5.10). Times
-// [T] are in the unit of the case file. Nothing is checked or thrown. simulation.cpp and fluid/
-// use it. A change must keep the ends of steps bit for bit, because a run that continues
-// from a restart file must take the same steps as one that was not interrupted.
+// [T] are in the unit of the case file. Nothing is checked or thrown. simulation.cpp and fluid/ use
+// it. A change must keep the ends of steps bit for bit, because a run that continues from a restart
+// file must take the same steps as one that was not interrupted.
 #pragma once
 
 #include <optional>
