@@ -27,7 +27,8 @@ constexpr std::size_t index(std::int32_t number) { return static_cast<std::size_
 // Products of blocks take most of the time of large packings of spheres. With vectors of four or
 // eight numbers and fused multiply-adds they are up to 1.7 times as fast, but the program must run
 // on processors that have neither. These functions therefore make GCC compile `work`, with all that
-// it calls, once more. (Clang compiles only the first call, so that nothing is gained.) (Packings of 1000 discs, whose blocks are small, gain nothing.)
+// it calls, once more. Clang compiles only the first call anew, so that nothing is gained. Discs,
+// whose blocks are small, gain nothing either, and do not use these functions.
 #ifdef __x86_64__
 template <class Work>
 [[gnu::target("avx512f,fma"), gnu::flatten]] bool with_avx512(const Work& work) {
