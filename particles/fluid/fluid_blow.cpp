@@ -5,8 +5,8 @@
 // are at rest under the forces of the step. Gaps are in [L], rates at which they grow in [L/T],
 // impulses in [M L/T], velocities of all particles in [L/T, 1/T] with 3 numbers for each, or 1 on
 // an axis. Errors of the mobility and of BlowStep::loaded are thrown. If iterations do not
-// converge, the last impulses count and FluidBlow::is_solved is false. fluid_simulation.cpp uses it.
-// A change must keep that the work of a blow is not positive.
+// converge, the last impulses count and FluidBlow::is_solved is false. fluid_simulation.cpp uses
+// it. A change must keep that the work of a blow is not positive.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -186,8 +186,8 @@ StepContacts Blow::problem() const {
 }
 
 /// Sets Part::load of the contacts that are closed or hit: the impulses that would keep these gaps
-/// from closing if the particles were at rest and the forces of the step acted on them. Returns true
-/// if they reach the tolerances.
+/// from closing if the particles were at rest and the forces of the step acted on them. Returns
+/// true if they reach the tolerances.
 bool Blow::take_load() {
   auto load = problem();
   std::vector<Contact<2>> contacts;

@@ -434,7 +434,8 @@ TEST_P(ConvexFriction, AParticleThatABeltDrivesIntoACornerIsHeldWhereTheRelaxati
   // slipping along one surface demands a larger opening of the other one. Friction then has the
   // loads of (5.17), and the particle stays in the corner. Without these loads, impulses grew to
   // 1e18, and the particle overlapped the wall by 6e-3. The loads are those without friction, m g h
-  // at the belt and 0 at the wall: friction at first turns the particle by mu_s g h r m/I in a step.
+  // at the belt and 0 at the wall. Friction at first turns the particle by mu_s g h r m/I in a
+  // step.
   const double h = 0.01, g = 1, inertia = GetParam() == 3 ? 0.4 : 0.5;
   for (const double mu_s : {1.1, 1.5, 2.0}) {
     SCOPED_TRACE(mu_s);

@@ -85,8 +85,8 @@ TEST_F(FlowCase, ADiscFalls) {
   EXPECT_NEAR(column("steps.csv", "reynolds_number").back(), 5.45 * 0.25 / 0.1, 0.3);
 }
 
-// On this mesh UMFPACK of FreeFEM 4.11 loses all digits. With 14 and 16 edges, where it does not, the
-// disc falls at 1.70 and 1.87 after this step, because the meshes are coarse.
+// On this mesh UMFPACK of FreeFEM 4.11 loses all digits. With 14 and 16 edges, where it does not,
+// the disc falls at 1.70 and 1.87 after this step, because the meshes are coarse.
 TEST_F(FlowCase, ADiscFallsOnAMeshOnWhichOneSolverFails) {
   compute(R"(title = "A disc falls on a fixed mesh"
 [space]
@@ -115,8 +115,8 @@ density = 1.5
   EXPECT_NEAR(column("motion.csv", "vy").back(), -1.75, 0.15);
 }
 
-// A mean pressure gradient balances the force on the disc. What it leaves, also because the mesh has
-// no exact area, accelerates this light fluid: with 1e-5 of the force by 1 in a unit of time.
+// A mean pressure gradient balances the force on the disc. What it leaves, also because the mesh
+// has no exact area, accelerates this light fluid: with 1e-5 of the force by 1 in a unit of time.
 TEST_F(FlowCase, AForceInAPeriodicCellMakesNoMomentum) {
   compute(R"(title = "A force in a periodic cell"
 [space]
