@@ -33,6 +33,13 @@ class ThreadPool {
   /// time than the thread saves.
   static constexpr std::size_t kBlock = 16384;
 
+  /// Number of threads, >= 1, with the calling one.
+  std::size_t threads() const;
+
+  /// Calls body(0) to body(blocks - 1), in this order, on the threads that are free. Throws as
+  /// for_blocks().
+  void run(std::size_t blocks, const std::function<void(std::size_t)>& body);
+
   /// Calls body(begin, end) for each block of [0, count), never for count = 0. The calls run on all
   /// threads of the pool. If one throws, the first exception is thrown again when all calls have
   /// ended; a pool of one thread throws at once and leaves out the remaining blocks.
@@ -63,8 +70,6 @@ class ThreadPool {
   }
 
  private:
-  void run(std::size_t blocks, const std::function<void(std::size_t)>& body);
-
   struct Workers;
   std::unique_ptr<Workers> workers_;  // null for one thread
 };

@@ -59,8 +59,9 @@ class BlockFactor {
 
   /// Replaces A by its factors. Returns false, with unusable factors, if a block on the diagonal
   /// becomes singular, infinite or NaN, or, for a symmetric A, is not positive definite. True if
-  /// there are no bodies.
-  bool factorise();
+  /// there are no bodies. The threads of `pool` share the work on a large matrix, with the same bits
+  /// for any number of threads; null: the calling thread works alone.
+  bool factorise(ThreadPool* pool = nullptr);
   /// Sign of the determinant of A, 1 or -1; 1 if A is symmetric. Needs a factorise() that returned
   /// true.
   int sign_of_determinant() const { return sign_; }
@@ -74,9 +75,17 @@ class BlockFactor {
     std::size_t entry;  // place of its blocks in below_ and above_
     std::size_t later;  // which body of the edge is eliminated later: 0 or 1
   };
+  // A block of L in a row, which says from where on its column changes the column of this row.
+  struct Update {
+    std::int32_t column;  // of the entry
+    std::uint32_t entry;
+  };
+  struct Shared;
   void find_pattern(std::span<const Edge> edges);
-  bool factorise_column(std::size_t j);
-  void enlist(std::size_t k, std::size_t entry);
+  void find_updates();
+  void find_tasks();
+  bool factorise_column(std::size_t j, Shared& shared, std::vector<std::size_t>& entry_in_row,
+                        int& sign);
 
   // An entry is a block of L; columns and rows are counted by places in the order of elimination.
   std::vector<std::int32_t> order_;   // body that is eliminated at each place
@@ -89,10 +98,16 @@ class BlockFactor {
   std::vector<std::array<unsigned char, static_cast<std::size_t>(K)>> pivots_;
   std::vector<Block> below_;  // blocks of A below the diagonal, then L
   std::vector<Block> above_;  // blocks of A above the diagonal, in the order of below_; then U
-  // For factorise(): for each row a linked list of the columns whose next entry is in it, ended by
-  // -1; the next entry of each column; the entry of the present column in each row.
-  std::vector<std::int32_t> first_in_row_, next_in_row_;
-  std::vector<std::size_t> next_entry_, entry_in_row_;
+  // For factorise(): the entries of each row, with increasing columns, and the first of each row.
+  std::vector<Update> updates_;
+  std::vector<std::size_t> update_offsets_;
+  // The tasks into which threads divide the work: their columns, which increase in a task, the first
+  // of each task, and the task of each column. A task needs no columns of later tasks.
+  std::vector<std::int32_t> task_columns_, task_of_;
+  std::vector<std::size_t> task_offsets_;
+  double products_ = 0;  // number of products of blocks in a factorisation
+  // For each thread the entry of its present column in each row.
+  std::vector<std::vector<std::size_t>> entries_in_rows_;
   mutable std::vector<Vec> permuted_;
   bool is_symmetric_ = false;
   int sign_ = 1;
@@ -116,7 +131,7 @@ class UnitMatrix {
   /// symmetric, other^T row must be added, too.
   void add_product(std::size_t b, std::size_t row, std::size_t other, double weight);
   /// Replaces the matrix by its factors, as BlockFactor::factorise(), and returns its result.
-  bool factorise() { return factor_.factorise(); }
+  bool factorise() { return factor_.factorise(problem_.pool); }
   /// Sign of its determinant, 1 or -1. Needs a factorise() that returned true.
   int sign_of_determinant() const { return factor_.sign_of_determinant(); }
   /// Replaces the impulses on all units, one Motion for each, by the motions that they cause. Needs

@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/contact/friction_law.hpp"
@@ -164,6 +165,9 @@ struct ConstraintProblem {
   bool is_near = false;
   /// False: the solver replaces each given_load by that of a first solution, and solves again.
   bool keeps_loads = false;
+  /// The threads that share the factorisations of large matrices, with the same bits for any number
+  /// of threads; null: the calling thread factorises alone.
+  ThreadPool* pool = nullptr;
 
   /// Adds a row with this offset [L], the parts `of_row`, and a guess of its impulse [M L/T].
   void add_row(double offset, std::span<const RowPart<D>> of_row, double impulse) {
