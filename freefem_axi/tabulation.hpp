@@ -40,7 +40,7 @@ struct Tabulation {
   double relative_accuracy = 0;  ///< largest relative error estimate of a row [1], in (0, 1)
   std::string geometry{default_geometry().name};  ///< name of a Geometry
   std::vector<double> geometry_parameters;        ///< in the order of Geometry::parameters
-  /// The motions that are tabulated, at least one, each once.
+  /// The motions that are tabulated, each once.
   std::vector<lubrication::MotionKind> motions = {lubrication::MotionKind::kApproach};
 };
 
