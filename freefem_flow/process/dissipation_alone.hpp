@@ -17,14 +17,12 @@ namespace viscontact::freefem_flow {
 /// L²/T³]. A closed form is known
 ///
 /// - for a linear flow u = E x with a constant matrix E, which walls or a cell that is periodic
-/// along
-///  both axes prescribe: 2 mu D:D times the area or volume of the domain;
+///   along both axes prescribe: 2 mu D:D times the area or volume of the domain;
 /// - for a box that is periodic along one axis, whose two walls move along this axis at constant
-/// speeds
-///  that do not depend on time: plane Couette flow.
+///   speeds that do not depend on time: plane Couette flow.
 ///
-/// In all other cases the result is 0. It is also 0 in three of these cases: if a pressure gradient
-/// drives fluid along a period, if the walls are at rest, and in a linear flow that is a rotation.
+/// Otherwise the result is 0. In the two cases of the list it is 0, too, if a pressure gradient
+/// drives fluid along a period, if the walls are at rest, or if the linear flow is a rotation.
 /// drives fluid along a period, if the walls are at rest, and in a linear flow that is a rotation.
 double dissipation_alone(const particles::Fluid& fluid, const particles::Domain& domain);
 
