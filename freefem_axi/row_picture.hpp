@@ -32,9 +32,10 @@ struct RowPicture {
   double gap = 0;                                                       ///< q [L], > 0
   double reference_velocity = 0;  ///< u0 [L/T], or w0 [1/T] of a sphere that turns; not 0
   /// The flow on the finest mesh in the half-plane (rho, z), whose origin is the point of the
-  /// neighbour that is nearest to the sphere. The pressure has the mean 0 in a container, and is 0
-  /// far away in unbounded fluid. If the sphere slides or rolls, the flow is (u_rho cos phi,
-  /// u_phi sin phi, u_z cos phi) and the pressure p cos phi; `flow` has u_rho, u_z and p.
+  /// neighbour that is nearest to the sphere: places [L], velocity [L/T] and pressure [M/(L T^2)]
+  /// at the nodes. The pressure has the mean 0 in a container, and is 0 far away in unbounded
+  /// fluid. If the sphere slides or rolls, the velocity is (u_rho cos phi, u_phi sin phi, u_z cos
+  /// phi) and the pressure p cos phi; `flow` has u_rho, u_z and p.
   FlowField flow;
   std::vector<BoundaryEdge> boundary;  ///< of the fluid; also lines inside it (kInterface)
   /// For the approach: the stream function psi [L^3/T], one number for each node, with u_rho =

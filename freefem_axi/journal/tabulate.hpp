@@ -39,16 +39,16 @@ struct RowWorker {
 };
 
 /// Computes the rows at `points` that are not finished, also those that failed before. `points` are
-/// points of `plan` (not checked); `table_path` is the path of the file of the table. Before a
-/// thread computes a row, it reads that file and the journals beside it again, because another
-/// process may have finished the row meanwhile. Each finished row, and the reason of each failed
-/// one, is written at once to the journal of the worker. `report` is called after each row, by one
-/// thread at a time. If no row is missing, neither `report` nor FreeFEM is called. A row that fails
-/// does not stop the others and is not thrown; read_row_record() returns its reason. Throws
-/// Error(kExternalProgram) if FreeFEM cannot be run at all, Error(kBadInput) if a journal cannot be
-/// written or read or if another process has locked it, Error(kInterrupted) if worker.freefem.stop
-/// requests a stop, and any other error of TablePlan::solve. This function does not write the
-/// table: the caller does, and then removes the journals.
+/// some of plan.points, in the units of the table (not checked); `table_path` is the path of the
+/// file of the table. Before a thread computes a row, it reads that file and the journals beside it
+/// again, because another process may have finished the row meanwhile. Each finished row, and the
+/// reason of each failed one, is written at once to the journal of the worker. `report` is called
+/// after each row, by one thread at a time. If no row is missing, neither `report` nor FreeFEM is
+/// called. A row that fails does not stop the others and is not thrown; read_row_record() returns
+/// its reason. Throws Error(kExternalProgram) if FreeFEM cannot be run at all, Error(kBadInput) if
+/// a journal cannot be written or read or if another process has locked it, Error(kInterrupted) if
+/// worker.freefem.stop requests a stop, and any other error of TablePlan::solve. This function does
+/// not write the table: the caller does, and then removes the journals.
 void compute_rows(const RowWorker& worker, const TablePlan& plan,
                   const std::vector<RowPoint>& points, const std::filesystem::path& table_path,
                   const TabulateReport& report);
