@@ -13,8 +13,8 @@ namespace viscontact::freefem_flow {
 /// The dissipation of the Stokes flow u of viscosity mu [M/(L T)] > 0 without particles, with the
 /// velocities of the walls that `fluid` gives: 2 mu times the integral of D(u):D(u) over the whole
 /// domain, >= 0. D(u) is the symmetric part of the gradient of u [1/T]. In a disc or box the
-/// dissipation is per unit length of the third dimension [M L/T³], in a cylinder it is in [M
-/// L²/T³]. A closed form is known
+/// dissipation is per unit length of the third dimension [M L/T³], in a cylinder it is in
+/// [M L²/T³]. A closed form is known
 ///
 /// - for a linear flow u = E x with a constant matrix E, which walls or a cell that is periodic
 ///   along both axes prescribe: 2 mu D:D times the area or volume of the domain;
