@@ -53,8 +53,8 @@ class EdgeLengths {
   double on_wall(const Point& x) const;
 
   /// The length at a point of the fluid, such as one on the axis or on a periodic side: it
-  /// increases with the distances from the two nearest surfaces, of which one may be a wall, to at
-  /// most the same as on_wall().
+  /// increases with the distances from the two nearest surfaces, of which one may be a wall. The
+  /// limit of on_wall() holds, too.
   double in_fluid(const Point& x) const;
 
   /// The length > 0 of an edge on the smallest particle, for meshes with edges of equal length.

@@ -23,7 +23,6 @@ namespace viscontact::freefem_flow {
 ///
 /// Otherwise the result is 0. In the two cases of the list it is 0, too, if a pressure gradient
 /// drives fluid along a period, if the walls are at rest, or if the linear flow is a rotation.
-/// drives fluid along a period, if the walls are at rest, and in a linear flow that is a rotation.
 double dissipation_alone(const particles::Fluid& fluid, const particles::Domain& domain);
 
 }  // namespace viscontact::freefem_flow
