@@ -1,8 +1,8 @@
-// The flow around a sphere at one gap and one velocity, with its meshes, for pictures. rho is the
-// distance from the axis of symmetry, z the height, phi the angle about the axis. Lengths, masses
-// and times are in the units of the case. If FreeFEM fails, also because its scripts refuse the
-// gap, Error(kExternalProgram) is thrown. Used by report/flow/ and pipeline/tabulate/. A change
-// must agree with scripts/pictures.idp, which writes what this file reads.
+// Computes the flow around a sphere at one gap and one velocity, with its meshes, for pictures. rho
+// [L] is the distance from the axis of symmetry, z [L] the height, phi the angle about the axis.
+// Lengths, masses and times are in the units of the case. Error(kExternalProgram) says that FreeFEM
+// failed, also because its scripts refuse the gap. report/flow/ and pipeline/tabulate/ use this
+// file. A change must agree with scripts/pictures.idp, which writes what row_picture.cpp reads.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ enum class BoundaryKind { kWall, kSphere, kAxis, kShearFree, kInterface };
 /// A curved edge of a boundary.
 struct BoundaryEdge {
   BoundaryKind kind = BoundaryKind::kWall;  ///< what is on the other side of the edge
-  /// Numbers, from 0, of the nodes at both ends, then in the middle.
+  /// The nodes at both ends of the edge and then the one in its middle, as numbers from 0.
   std::array<std::size_t, 3> nodes{};
 };
 
@@ -32,30 +32,32 @@ struct RowPicture {
   double gap = 0;                                                       ///< q [L], > 0
   double reference_velocity = 0;  ///< u0 [L/T], or w0 [1/T] of a sphere that turns; not 0
   /// The flow on the finest mesh in the half-plane (rho, z), whose origin is the point of the
-  /// neighbour that is nearest to the sphere. The pressure has the mean 0 in a container, and is 0
-  /// far away in unbounded fluid. If the sphere slides or rolls, the flow is (u_rho cos phi,
-  /// u_phi sin phi, u_z cos phi) and the pressure p cos phi; `flow` has u_rho, u_z and p.
+  /// neighbour that is nearest to the sphere: places [L], velocity [L/T] and pressure [M/(L T^2)]
+  /// at the nodes. The pressure has the mean 0 in a container, and is 0 far away in unbounded
+  /// fluid. If the sphere slides or rolls, the velocity is (u_rho cos phi, u_phi sin phi, u_z cos
+  /// phi) and the pressure p cos phi; `flow` has u_rho, u_z and p.
   FlowField flow;
   std::vector<BoundaryEdge> boundary;  ///< of the fluid; also lines inside it (kInterface)
-  /// Of the approach: the stream function psi [L^3/T] at the nodes, with u_rho = -(1/rho) dpsi/dz
-  /// and u_z = (1/rho) dpsi/drho, 0 on the axis. Empty for other motions.
+  /// For the approach: the stream function psi [L^3/T], one number for each node, with u_rho =
+  /// -(1/rho) dpsi/dz and u_z = (1/rho) dpsi/drho; psi is 0 on the axis. Empty for other motions.
   std::vector<double> stream_function;
-  /// Of the other motions: u_phi [L/T] at the nodes. Empty for the approach.
+  /// For the other motions: u_phi [L/T], one number for each node. Empty for the approach.
   std::vector<double> azimuthal_velocity;
   /// The mesh [L] from which the finest mesh was made, by repeated division of triangles into four.
   QuadraticMesh coarsest;
 };
 
 /// Solves the flow at the gap `gap` [L] > 0 and the velocity `reference_velocity` [L/T], or angular
-/// velocity [1/T] for kRoll and kSpin, not 0. Throws Error(kExternalProgram) if FreeFEM fails or
-/// writes an incomplete mesh, Error(kBadInput) for an unknown geometry, and the other errors of
-/// solve_row(), also Error(kInterrupted).
+/// velocity [1/T] for kRoll and kSpin. It must not be 0; only FreeFEM checks this, and only for the
+/// approach. Throws Error(kExternalProgram) if FreeFEM fails or writes an incomplete mesh,
+/// Error(kBadInput) for an unknown geometry or a force that a double cannot hold, std::out_of_range
+/// if geometry_parameters are missing, and Error(kInterrupted) if freefem.stop requests a stop.
 RowPicture solve_row_for_picture(
     const FreeFem& freefem, const Tabulation& tabulation, double gap, double reference_velocity,
     lubrication::MotionKind motion = lubrication::MotionKind::kApproach);
 
 /// The text of a VTK file (.vtu) for ParaView: the flow, and stream_function or azimuthal_velocity,
-/// in the units of `picture`.
+/// in the units of `picture`. Throws nothing; sizes of the arrays are not checked.
 std::string write_vtu(const RowPicture& picture);
 
 }  // namespace viscontact::freefem_axi

@@ -1,9 +1,9 @@
-// The lubrication force F_lub(q, u0) on a sphere at the gap q and the velocity u0, computed by
-// FreeFEM (docs/physics.md, section 2): the inputs of a table, and the solution of one of its rows.
-// Lengths, masses and times are in any consistent units. An unknown geometry throws
-// Error(kBadInput). Ranges are not checked here: the scripts of FreeFEM refuse wrong numbers, which
-// throws Error(kExternalProgram). Used by motion_row.hpp, row_picture.hpp, case_file/, rolling/,
-// bench/ and the command `doctor`. A change must keep the texts of geometry_in_words() and
+// Describes the inputs of a table of the lubrication force F_lub(q, u0) on a sphere at the gap q
+// and the velocity u0, and solves one of its rows by FreeFEM (docs/physics.md, section 2). Lengths,
+// masses and times are in any consistent units. An unknown geometry throws Error(kBadInput). Ranges
+// are not checked here: the scripts of FreeFEM refuse wrong numbers, which throws
+// Error(kExternalProgram). motion_row.hpp, row_picture.hpp, case_file/, rolling/, bench/ and the
+// command `doctor` use this file. A change must keep the texts of geometry_in_words() and
 // container_in_words(), because the heads of tables contain them and their hash decides whether a
 // table is up to date.
 #pragma once
@@ -31,11 +31,11 @@ struct Tabulation {
   double viscosity = 0;      ///< mu [M/(L T)], > 0
   double radius = 0;         ///< r [L], > 0
   std::vector<double> gaps;  ///< q [L], all > 0, at least one
-  /// u0 [L/T] of motions in which the sphere moves, w0 [1/T] of those in which it turns; at least
+  /// u0 [L/T] for motions in which the sphere moves, w0 [1/T] for those in which it turns; at least
   /// one, none of them 0.
   std::vector<double> reference_velocities;
-  /// Larger than Geometry::required_space for all gaps. Nothing: the fluid is unbounded, or the
-  /// neighbour encloses it.
+  /// The container must be larger than Geometry::required_space for all gaps. Nothing means that
+  /// the fluid is unbounded, or that the neighbour encloses it.
   std::optional<Container> container;
   double relative_accuracy = 0;  ///< largest relative error estimate of a row [1], in (0, 1)
   std::string geometry{default_geometry().name};  ///< name of a Geometry
@@ -47,19 +47,20 @@ struct Tabulation {
 /// The container in words for the head of a table: "closed cylinder, radius 40, height 80",
 /// "unbounded", or "none" if the neighbour encloses the fluid. This function and the next four
 /// throw Error(kBadInput) if there is no geometry with the name tabulation.geometry. The
-/// geometry_parameters must be complete: otherwise some functions throw std::out_of_range, and
-/// others read beyond the array.
+/// geometry_parameters must be complete: if some are missing, geometry_in_words() and
+/// row_arguments() throw std::out_of_range, and neighbour_ratio() and leading_coefficient() read
+/// beyond the array.
 std::string container_in_words(const Tabulation& tabulation);
 
 /// The neighbour in words for the head of a table: "sphere, radius 2, velocity_ratio 0".
 std::string geometry_in_words(const Tabulation& tabulation);
 
 /// The neighbour's velocity (approach, slide) or angular velocity (roll, spin) over that of the
-/// sphere [1]; 0 if the neighbour is always at rest.
+/// sphere [1], of either sign; 0 if the neighbour is always at rest.
 double neighbour_ratio(const Tabulation& tabulation, lubrication::MotionKind motion);
 
-/// Lubrication theory's coefficient k [M L/T] > 0 in the resistance -F_lub/u0 = k/q + ... near
-/// contact. Nothing if it is not known or too large for a double, or if the neighbour moves away at
+/// The coefficient k [M L/T] > 0 of lubrication theory in the resistance -F_lub/u0 = k/q + ... near
+/// contact. Nothing if k is not known or too large for a double, or if the neighbour moves away at
 /// least as fast as the sphere follows, so that k <= 0.
 std::optional<double> leading_coefficient(const Tabulation& tabulation);
 
@@ -80,11 +81,13 @@ struct SolveScale {
 SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity);
 
 /// Solves the approach at the gap `gap` [L] > 0 and the velocity `reference_velocity` [L/T], not 0,
-/// in a FreeFEM process. `further_arguments` are added to its command line. If `output` is not
-/// null, it is set to everything that FreeFEM printed, in the units of solve_scale(). Throws
-/// Error(kExternalProgram) with the last lines of FreeFEM if it fails or exceeds its time limit,
-/// Error(kBadInput) if the force is outside the range of a double or the geometry is not known, and
-/// Error(kInterrupted) if freefem.stop requests a stop.
+/// in a FreeFEM process. Returns the row with the force [M L/T^2] and its relative error estimate
+/// [1], which may be above relative_accuracy. `further_arguments` are added to the command line of
+/// FreeFEM. If `output` is not null, it is set to everything that FreeFEM printed, in the units of
+/// solve_scale(). Throws Error(kExternalProgram) with the error or the last lines that FreeFEM
+/// printed if FreeFEM fails or exceeds its time limit, Error(kBadInput) if the force is outside the
+/// range of a double or the geometry is not known, std::out_of_range if geometry_parameters are
+/// missing, and Error(kInterrupted) if freefem.stop requests a stop.
 lubrication::MotionRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap,
                                  double reference_velocity,
                                  const std::vector<std::string>& further_arguments = {},

@@ -1,8 +1,8 @@
-// How long the edges of the mesh are at a point of its boundary, and how a curve is cut into such
+// Says how long the edges of the mesh are at a point of its boundary, and cuts curves into such
 // edges. Lengths have the unit of the arguments. Functions throw only what they say; numbers of
 // particles and ranges of arguments are not checked. mesh_boundary.cpp and periodic_cells.hpp use
-// it; membranes/membrane_boundary.cpp uses the functions that cut. A change of a length changes all
-// meshes, and the errors of velocities in bench/README.md must be measured again.
+// this file; membranes/membrane_boundary.cpp uses the functions that cut. A change of a length
+// changes all meshes, and the errors of velocities in bench/README.md must be measured again.
 #pragma once
 
 #include <algorithm>
@@ -27,37 +27,41 @@ using Point = std::array<double, 2>;
 /// Throws std::bad_variant_access if there is no domain.
 double size_of(const particles::Domain& domain);
 
-/// Lengths [L] of the edges on surfaces of particles, walls, the axis of a cylinder and periodic
-/// sides; <= 0 where surfaces touch or overlap. In a periodic domain the images of a particle,
-/// which are the particle shifted by a period, count as particles.
+/// The lengths [L] of the edges on surfaces of particles, walls, the axis of a cylinder and
+/// periodic sides. They are > 0 if surfaces have gaps, and <= 0 where surfaces touch or overlap. In
+/// a periodic domain the images of a particle, which are the particle shifted by a period, count as
+/// particles.
 class EdgeLengths {
  public:
-  /// `fluid` gives the number of edges on the smallest particle; all lengths are multiplied by
-  /// `coarsening` > 0. `bodies.particles` must not be null; there may be no particles. Throws as
-  /// size_of().
+  /// `fluid` gives the number of edges on the smallest particle, > 0; all lengths are multiplied by
+  /// `coarsening` > 0. `bodies.particles` must not be null; there may be no particles. Throws
+  /// std::bad_variant_access if there is no domain.
   EdgeLengths(const particles::Fluid& fluid, const particles::Domain& domain,
               const particles::FluidParticles& bodies, double coarsening = 1);
 
-  /// At a point on the surface of particle k (from 0, must exist): the length of an edge on the
-  /// smallest particle, or less if another surface is near.
+  /// The length at a point on the surface of particle k (from 0, must exist): that of an edge on
+  /// the smallest particle, or less if another surface is near.
   double on_particle(std::size_t k, const Point& x) const;
 
-  /// The same at the point outlines()[k].at(t), for an outline of any shape; t is its parameter
-  /// [rad]. On an ellipse or plate it is also at most 2 pi/edges_per_particle times the radius of
-  /// curvature at the point.
+  /// The same at the point outlines()[k].at(t), for an outline of any shape; t is the parameter of
+  /// the outline [rad]. On an ellipse or plate the length is also at most `coarsening` times 2
+  /// pi/edges_per_particle times the radius of curvature at the point.
   double on_outline(std::size_t k, double t) const;
 
-  /// At a point on a wall: the length increases with the distance from the nearest particle.
+  /// The length at a point on a wall: it increases with the distance from the nearest particle, to
+  /// at most `coarsening` times a sixth of size_of() of the domain.
   double on_wall(const Point& x) const;
 
-  /// At a point of the fluid, such as one on the axis or on a periodic side: the length increases
-  /// with the distances from the two nearest surfaces, of which one may be a wall.
+  /// The length at a point of the fluid, such as one on the axis or on a periodic side: it
+  /// increases with the distances from the two nearest surfaces, of which one may be a wall. The
+  /// limit of on_wall() holds, too.
   double in_fluid(const Point& x) const;
 
   /// The length > 0 of an edge on the smallest particle, for meshes with edges of equal length.
+  /// Without particles it is the limit of on_wall().
   double uniform() const { return longest_; }
 
-  /// Outlines of all particles, in their order.
+  /// The outlines of all particles, in the order of the particles.
   const std::vector<particles::Outline>& outlines() const { return outlines_; }
 
  private:
@@ -81,15 +85,16 @@ class EdgeLengths {
 };
 
 /// Throws Error(kNotConverged) if an edge of the length `edge` [L] is not longer than 1e-7 times
-/// the curve of the length `length` [L], > 0, that it lies on, or if it is NaN, because FreeFEM
-/// merges its two ends.
+/// the length `length` [L], > 0, of its curve, or if `edge` is NaN, because FreeFEM merges the two
+/// ends of such an edge.
 void check_edge_length(double edge, double length);
 
-/// Cuts a curve of the length `length` [L], > 0, into at least `least` edges and returns their
-/// ends, increasing distances [L] along the curve from 0 to `length`; one more than edges.
-/// `edge_length(s)` [L], > 0, is the wanted length at the distance s. All edges are shorter than
-/// wanted by one common factor, so that a whole number of them fits. Throws as check_edge_length()
-/// if a wanted length is too short.
+/// Cuts a curve of the length `length` [L], > 0, into at least `least` >= 0 edges. Returns the ends
+/// of the edges as increasing distances [L] along the curve from 0 to `length`, one more than
+/// edges. `edge_length(s)` [L], > 0, is the wanted length at the distance s. All edges are shorter
+/// than wanted by one common factor, so that a whole number of them fits. Throws
+/// Error(kNotConverged) if a wanted length is at most 1e-7 times `length` or NaN
+/// (check_edge_length()).
 template <class EdgeLength>
 std::vector<double> cut_curve(double length, std::size_t least, const EdgeLength& edge_length) {
   // cost[i] approximates the integral of 1/edge_length from 0 to place[i], which is the number of
@@ -124,9 +129,9 @@ std::vector<double> cut_curve(double length, std::size_t least, const EdgeLength
   return ends;
 }
 
-/// The points that cut the line from `from` to `to`, which must differ, into edges, with its ends:
-/// at least two. `edge_length(x)` [L], > 0, is the wanted length at the point x. Throws as
-/// cut_curve().
+/// Cuts the line from `from` to `to`, which must differ (not checked), into edges. Returns the ends
+/// of the edges, at least two points, with `from` and `to` themselves. `edge_length(x)` [L], > 0,
+/// is the wanted length at the point x. Throws Error(kNotConverged) as cut_curve() does.
 template <class EdgeLength>
 std::vector<Point> cut_line(const Point& from, const Point& to, const EdgeLength& edge_length) {
   const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
@@ -142,10 +147,10 @@ std::vector<Point> cut_line(const Point& from, const Point& to, const EdgeLength
   return points;
 }
 
-/// The points that cut an outline into edges, counter-clockwise; the last point is equal to the
+/// Cuts an outline into edges. Returns their ends counter-clockwise; the last point is equal to the
 /// first. There are at least `least` edges; on a plate at least least/4, rounded down, on each of
 /// its two sides and two round ends. `edge_length(t)` [L], > 0, is the wanted length at the point
-/// outline.at(t). Throws as cut_curve().
+/// outline.at(t). Throws Error(kNotConverged) as cut_curve() does.
 template <class EdgeLength>
 std::vector<Point> cut_outline(const particles::Outline& outline, std::size_t least,
                                const EdgeLength& edge_length) {

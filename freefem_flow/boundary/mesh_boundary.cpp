@@ -1,12 +1,12 @@
 // Puts the boundary of a mesh together from walls, periodic sides, the axis of a cylinder and the
 // surfaces of the particles, for freefem_solver.cpp. Lengths [L] are in the unit of the arguments;
-// radii and `coarsening` are > 0, and particles are inside the domain (not checked). Labels are 1
-// to 4 of walls, 5 of the axis, 8 of lines inside particles, 9 of periodic sides, and 100 + k of
-// particle k, from 0. A gap that is too narrow, or discs of one body that overlap across a periodic
-// side, are an Error(kNotConverged), and a missing domain is a std::bad_variant_access, which
-// EdgeLengths throws. A change must keep that opposite periodic sides get the same points, because
-// scripts/constraints.idp identifies these, and the labels, which scripts/ and docs/fluid-solver.md
-// repeat.
+// radii and `coarsening` are > 0, and particles are inside the domain (not checked). The labels are
+// 1 to 4 of walls, 5 of the axis, 8 of lines inside particles, 9 of periodic sides, and 100 + k of
+// particle k, from 0. A gap that is too narrow for an edge, or discs of one body that overlap
+// across a periodic side, throw Error(kNotConverged). Without a domain the constructor of
+// EdgeLengths throws std::bad_variant_access. A change must keep that opposite periodic sides get
+// the same points, because scripts/constraints.idp identifies these, and the labels, which scripts/
+// and docs/fluid-solver.md repeat.
 #include "viscontact/freefem_flow/boundary/mesh_boundary.hpp"
 
 #include <algorithm>
@@ -23,7 +23,8 @@
 namespace viscontact::freefem_flow {
 namespace {
 
-constexpr std::size_t kLeastOnCircle = 6;  // edges; as few as a case may ask for
+// The least number of edges on a circle, as few as a case may ask for.
+constexpr std::size_t kLeastOnCircle = 6;
 
 class BoundaryMaker {
  public:
@@ -77,8 +78,8 @@ class BoundaryMaker {
     boundary_.add(cut_line(from, to, edge_length), label);
   }
 
-  /// Adds a closed curve. `edge_length(t)` is the wanted length at the point outline.at(t). The
-  /// curve of a hole is clockwise.
+  /// Adds a closed curve. `edge_length(t)` [L] is the wanted length at the point outline.at(t). The
+  /// curve of a hole is clockwise, so that the fluid is on its left.
   template <class EdgeLength>
   void add_outline(const particles::Outline& outline, int label, bool is_hole,
                    const EdgeLength& edge_length) {
@@ -88,9 +89,11 @@ class BoundaryMaker {
   }
 
   /// Adds the surfaces of the particles. If the inside of a particle is meshed, too, a polygon in
-  /// it with few edges, kOfRadius times as large, makes this part of the mesh coarse: FreeFEM
-  /// derives the size of triangles from the nearest edges, and a few triangles represent a rigid
-  /// motion exactly. Both constants are free choices.
+  /// it with few edges makes this part of the mesh coarse. The polygon is kOfRadius times as large
+  /// as the outline, and its edges may be as long as kLongest radii. FreeFEM derives the size of
+  /// triangles from the nearest edges, and a few triangles represent a rigid motion exactly.
+  /// kLongest is a free choice, kOfRadius one between 0.2 and 0.7: curved_mesh.idp looks for both
+  /// parts of a particle at these shares of its radius.
   void add_particles() {
     if (!fitted_) return;
     for (std::size_t k = 0; k < lengths_.outlines().size(); ++k) {
@@ -217,9 +220,9 @@ class BoundaryMaker {
   MeshBoundary boundary_;
 };
 
-/// Throws Error(kNotConverged) if discs of one body overlap across a periodic side. The chords here
-/// are those of discs that overlap inside the box, so that the area that they cut off a disc then
-/// differs from that in fluid.cut_areas.
+/// Throws Error(kNotConverged) if discs of one body overlap across a periodic side. chords_of()
+/// takes only discs that overlap inside the box. If others overlap across a side, the area that the
+/// chords cut off a disc differs from that in fluid.cut_areas.
 void check_unions(const particles::Fluid& fluid, const particles::Particles& particles) {
   for (std::size_t k = 0; k < fluid.cut_areas.size(); ++k) {
     double area = 0;
@@ -236,7 +239,7 @@ void check_unions(const particles::Fluid& fluid, const particles::Particles& par
 
 }  // namespace
 
-/// bodies.particles must not be null, which is not checked.
+/// That bodies.particles is not null is not checked.
 MeshBoundary mesh_boundary(const particles::Fluid& fluid, const particles::Domain& domain,
                            const particles::FluidParticles& bodies, double coarsening) {
   check_unions(fluid, *bodies.particles);

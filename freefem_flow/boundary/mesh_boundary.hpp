@@ -1,7 +1,8 @@
-// The boundary of the mesh of a fluid with particles, as the fluid solver gets it. Lengths are in
-// the unit of the arguments. freefem_solver.cpp and membranes/ make it, and process/ sends it. A
-// gap without room for an edge throws Error(kNotConverged). That particles are inside the domain is
-// not checked. A change of labels must also be made in scripts/ and in docs/fluid-solver.md.
+// Makes the boundary of the mesh of a fluid with particles, as the fluid solver gets it. Lengths
+// are in the unit of the arguments. freefem_solver.cpp and membranes/ make boundaries, and process/
+// sends them. A gap without room for an edge throws Error(kNotConverged). That particles are inside
+// the domain is not checked. A change of labels must also be made in scripts/ and in
+// docs/fluid-solver.md.
 #pragma once
 
 #include <array>
@@ -29,12 +30,12 @@ struct MeshBoundary {
   struct Curve {
     int first = 0;  ///< the curve goes through the points first, first + 1, ..., first + edges
     int edges = 0;  ///< number of edges, > 0
-    int label = 0;  ///< as above, or that of a membrane (membranes/membrane_boundary.hpp)
+    int label = 0;  ///< one of those above, or of a membrane (membranes/membrane_boundary.hpp)
   };
   std::vector<std::array<double, 2>> points;  ///< (x, y), or (distance from the axis, z) [L]
-  std::vector<Curve> curves;                  ///< they may share points
+  std::vector<Curve> curves;                  ///< curves may share points
 
-  /// Adds the curve through these points, at least two (not checked), and the points.
+  /// Adds the curve through the points `more` [L], at least two (not checked), and these points.
   void add(const std::vector<std::array<double, 2>>& more, int label) {
     curves.push_back({static_cast<int>(points.size()), static_cast<int>(more.size()) - 1, label});
     points.insert(points.end(), more.begin(), more.end());
@@ -42,14 +43,15 @@ struct MeshBoundary {
 };
 
 /// The boundary of a mesh for these particles. The edges are about `coarsening` > 0 times as long
-/// as `fluid.edges_per_particle` says. With `fluid.mesh` kFixed the particles are not in it. With
-/// kFitted their surfaces are curves, which are holes of the mesh if `fluid.constraint` is kRigid,
-/// and else lines inside it; edges are shorter where a gap is narrow (boundary/edge_lengths.hpp);
-/// and a box with periodic sides ends on lines between particles, because these sides would cut
-/// particles (boundary/periodic_cells.hpp). All gaps must be > 0, but discs of one body may overlap
-/// with kRigid. Throws Error(kNotConverged) if a gap is too narrow for an edge, or if discs of one
-/// body overlap across a periodic side, and std::bad_variant_access if there is no domain. Other
-/// arguments are not checked.
+/// as `fluid.edges_per_particle` says. If `fluid.mesh` is kFixed, the particles are not in the
+/// boundary. If it is kFitted, their surfaces are curves of the boundary. These curves are holes of
+/// the mesh if `fluid.constraint` is kRigid, and otherwise lines inside the mesh. Edges are shorter
+/// where a gap is narrow (boundary/edge_lengths.hpp). In a box with periodic sides a fitted mesh
+/// ends on lines between particles, because these sides would cut particles
+/// (boundary/periodic_cells.hpp). All gaps must be > 0, but discs of one body may overlap with
+/// kRigid. Throws Error(kNotConverged) if a gap is too narrow for an edge, or if discs of one body
+/// overlap across a periodic side, and std::bad_variant_access if there is no domain.
+/// bodies.particles must not be null; this and other arguments are not checked.
 MeshBoundary mesh_boundary(const particles::Fluid& fluid, const particles::Domain& domain,
                            const particles::FluidParticles& bodies, double coarsening = 1);
 

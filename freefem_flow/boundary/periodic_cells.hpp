@@ -1,7 +1,8 @@
-// Where a mesh of a periodic box ends if it follows the particles. The sides of the box would cut
-// particles; instead the mesh ends on lines between particles and their images, which are particles
-// shifted by whole periods. Lengths are in the unit of the arguments; nothing is thrown.
-// mesh_boundary.cpp uses it. A change must keep that each edge that is not on a wall has a partner.
+// Finds the lines on which a mesh of a periodic box ends if the mesh follows the particles. The
+// sides of the box would cut particles. Therefore the mesh ends on lines between particles and
+// their images, which are particles shifted by whole periods. Lengths are in the unit of the
+// arguments; nothing is checked or thrown. mesh_boundary.cpp uses this file. A change must keep
+// that each edge that is not on a wall has a partner.
 #pragma once
 
 #include <span>
@@ -18,8 +19,8 @@ struct CellEdge {
       to;      ///< last end [L]
   /// Label of the wall that the edge lies on (1 left, 2 right, 3 bottom, 4 top), or kPeriodicLabel.
   int label = 0;
-  /// Place in the list of the edge that differs from this one by a shift of whole periods and has
-  /// the opposite direction; -1 for a wall.
+  /// Place, from 0, in the list of edges, of the edge that differs from this one by a shift of
+  /// whole periods and has the opposite direction; -1 if this edge lies on a wall.
   int partner = -1;
 };
 
@@ -28,11 +29,12 @@ struct CellEdge {
 /// distance |x - c|^2 - r^2 from the centre c of the particle with radius r is smaller than that
 /// from any other particle or image. Exactly one shift by whole periods takes a point of the plane
 /// into the region, and no cell cuts a particle, so that the region can take the place of the box.
-/// An edge shorter than a tenth of the distance of its end from the particles is left out; its ends
-/// are joined.
+/// An edge is left out if it is shorter than a tenth of the distance of its end from the particles;
+/// its ends are joined.
 ///
-/// `circles`: the particles, at least one, with centres in the box. An ellipse or plate is
-/// represented by the circle around it. The circles must not overlap. None of this is checked.
+/// `box` is periodic along at least one axis. `circles` are the particles, at least one, with
+/// centres in the box. An ellipse or plate is represented by the circle around it. The circles must
+/// not overlap. None of this is checked.
 std::vector<CellEdge> periodic_cells(const particles::BoxDomain& box,
                                      std::span<const particles::Outline> circles);
 

@@ -1,8 +1,9 @@
 // Starts FreeFEM with scripts/membranes.edp, which computes Stokes flow with membranes and rigid
 // discs in the plane. All numbers have the units of the arguments; freefem_solver.cpp, which calls
-// it, scales the case so that radii and viscosity are about 1. A FreeFEM that fails throws
-// Error(kExternalProgram), a domain or membranes that it cannot take Error(kBadInput), particles
-// for which there is no mesh Error(kNotConverged). A change must agree with the script.
+// this file, scales the case so that radii and viscosity are about 1. Error(kExternalProgram) says
+// that FreeFEM failed, Error(kBadInput) that the domain or the number of membranes is not allowed,
+// Error(kNotConverged) that there is no mesh around the particles. A change must agree with the
+// script.
 #pragma once
 
 #include <memory>
@@ -14,22 +15,23 @@
 namespace viscontact::freefem_flow {
 
 /// Starts the process and waits until it is ready. `domain` is a disc, or a box that is not
-/// periodic along y; `fluid` has membranes, no inertia, and no solver of the user's own; `radii`
-/// [L], > 0, are those of all particles: the beads of the membranes, which are points of them and
-/// feel no torque, and rigid discs, free or driven. `limits` are those of FlowProcess. `unit` > 0
-/// is the unit of length of the arguments, measured in that of the case; only messages use it.
-/// Throws Error(kExternalProgram) if FreeFEM cannot be run or is not ready in time,
-/// Error(kInterrupted) if a stop is requested, and Error(kBadInput) if there are more than
-/// kMostMembranes membranes or no domain in the plane (opening()); a period along y is not checked.
-/// The result is never null; its functions throw as FluidSolver says.
+/// periodic along y. `fluid` has membranes, no inertia, and no solver of the user's own. `radii`
+/// [L], > 0, are those of all particles. Particles are either beads, which are points of the
+/// membranes and feel no torque, or rigid discs, free or driven. `limits` says when the process is
+/// killed. `unit` > 0 is the unit of length of the arguments, measured in that of the case; only
+/// messages use it. Throws Error(kExternalProgram) if FreeFEM cannot be run or is not ready in
+/// time, Error(kInterrupted) if a stop is requested, and Error(kBadInput) if there are more than 80
+/// membranes (kMostMembranes) or no domain in the plane (opening()). A period along y and the other
+/// conditions are not checked. The result is never null; its functions throw the errors that
+/// FluidSolver names.
 ///
 /// The mesh has `edges_per_particle` edges on each membrane, but at least two thirds as many as any
 /// membrane has beads. In a box that is periodic along x the mesh ends at a straight line that no
-/// membrane or disc crosses. place() needs the beads of each membrane at images without jumps by a
-/// period between neighbours (not checked); they may be outside the box. It throws
-/// Error(kNotConverged) if there is no such line, and if a membrane meets a disc or leaves the
-/// domain. vary_penalty() and vary_mesh() return zeros: there is neither a penalty nor a second
-/// mesh.
+/// membrane or disc crosses. place() of the result needs the beads of each membrane at images
+/// without jumps by a period between neighbours (not checked); beads may be outside the box.
+/// place() throws Error(kNotConverged) if there is no such line, and if a membrane meets a disc or
+/// a membrane or disc leaves the domain. vary_penalty() and vary_mesh() return zeros: there is
+/// neither a penalty nor a second mesh.
 std::unique_ptr<particles::FluidSolver> start_membrane_solver(const particles::Fluid& fluid,
                                                               const particles::Domain& domain,
                                                               std::span<const double> radii,

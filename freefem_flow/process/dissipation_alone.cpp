@@ -1,9 +1,9 @@
-// Dissipation of the fluid without particles, >= 0, in closed form, for linear flows and plane
-// Couette flow: in a disc or box per unit length of the third dimension [M L/T^3], in a cylinder
-// [M L^2/T^3]. process/flow_process.cpp and membranes/membrane_process.cpp use it. Units are those
-// of the arguments, whose ranges are not checked (the viscosity [M/(L T)] and the lengths are
+// Computes the dissipation of the fluid without particles, >= 0, in closed form, for linear flows
+// and plane Couette flow: in a disc or box per unit length of the third dimension [M L/T^3], in a
+// cylinder [M L^2/T^3]. process/flow_process.cpp and membranes/membrane_process.cpp use it. Units
+// are those of the arguments. Ranges are not checked (the viscosity [M/(L T)] and the lengths are
 // positive); nothing is thrown. A change must keep that the result is exactly 0 if no closed form
-// is known: callers take 0 for "not known".
+// is known, because callers take 0 for "not known".
 #include "viscontact/freefem_flow/process/dissipation_alone.hpp"
 
 namespace viscontact::freefem_flow {
@@ -19,7 +19,8 @@ double twice_strain_squared(const particles::LinearFlow& flow) {
   return 2 * (g[0] * g[0] + 2 * shear * shear + g[3] * g[3]);
 }
 
-/// True if the pressure gradient drives fluid along a period, which no closed form below contains.
+/// True if the pressure gradient drives fluid along a period of the box: no closed form below is
+/// valid then. Without a box (null) it is false.
 bool has_driving_pressure(const particles::Fluid& fluid, const BoxDomain* box) {
   if (box == nullptr) return false;
   const auto drives = [&](std::size_t d) {
@@ -28,9 +29,9 @@ bool has_driving_pressure(const particles::Fluid& fluid, const BoxDomain* box) {
   return drives(0) || drives(1);
 }
 
-/// Square [1/T^2] of the shear rate between two walls at the distance `height` [L] that move along
-/// the axis `axis` (0: x, 1: y) with constant velocities; 0 if one of them moves otherwise, or if
-/// its velocity depends on time.
+/// The square [1/T^2] of the shear rate between two walls at the distance `height` [L] > 0 that
+/// move along the axis `axis` (0: x, 1: y) with constant velocities. It is 0 if a wall moves in
+/// another way, or if its velocity depends on time.
 double shear_rate_squared(const WallVelocity& low, const WallVelocity& high, std::size_t axis,
                           double height) {
   const auto moves_along = [&](const WallVelocity& wall) {

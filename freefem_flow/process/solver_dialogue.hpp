@@ -1,9 +1,9 @@
 // Sends requests to the process of a fluid solver, and reads and checks its answers word by word,
 // by the protocol of docs/fluid-solver.md. A solver that ends, is late or answers wrongly throws
 // Error(kExternalProgram), which names the solver, the request and the last lines that the solver
-// wrote. Numbers have the units of the caller. flow_process.cpp and membrane_process.cpp use it. A
-// change must keep that each answer has a time limit, and that numbers read back to the same
-// double.
+// wrote. Numbers have the units of the caller. flow_process.cpp and membrane_process.cpp use this
+// file. A change must keep that each answer has a time limit, and that numbers read back to the
+// same double.
 #pragma once
 
 #include <chrono>
@@ -23,13 +23,14 @@ namespace viscontact::freefem_flow {
 
 /// The dialogue with one process. All functions that read or write throw Error(kExternalProgram) if
 /// the solver ends, answers wrongly or too late, and Error(kInterrupted) if a stop is requested.
-/// The process is then ended, and ask() throws Error(kExternalProgram); the other functions must
-/// not be called then (not checked).
+/// The process is ended then. After that ask() throws Error(kExternalProgram), and the other
+/// functions must not be called (not checked).
 class SolverDialogue {
  public:
   /// Starts the solver. `first_limit` > 0 is the time limit of the answer to the first request,
-  /// `time_limit` > 0 that of each other answer, from the request on. Throws
-  /// Error(kExternalProgram) if the program cannot be run. `stop` may be empty.
+  /// `time_limit` > 0 that of each other answer, both counted from the request on. Throws
+  /// Error(kExternalProgram) if the program cannot be run, and std::system_error if the system has
+  /// no free sockets. `stop` may be a token that never requests a stop.
   SolverDialogue(const SolverCommand& command, std::chrono::milliseconds time_limit,
                  std::chrono::milliseconds first_limit, const StopToken& stop);
   SolverDialogue(const SolverDialogue&) = delete;
@@ -37,28 +38,31 @@ class SolverDialogue {
   /// Asks the solver to end, and kills it if it does not within two seconds.
   ~SolverDialogue();
 
-  /// Sends the request `text`, which messages call `name`. It is an error if the solver wrote more
-  /// than the answer to the request before.
+  /// Sends the request `text`, which messages call `name`. Throws Error(kExternalProgram) if the
+  /// solver wrote more than the answer to the request before.
   void ask(std::string_view name, std::string_view text);
 
-  /// Reads the first word of the answer. It is an error if it is not `word`; but with `skip_lines`,
-  /// up to a thousand lines before it are skipped that begin with neither `word` nor `error`.
+  /// Reads the first word of the answer. Throws Error(kExternalProgram) if it is not `word`. With
+  /// `skip_lines`, up to a thousand lines before `word` are skipped, except one that begins with
+  /// the word `error`, which throws Error(kExternalProgram).
   void expect(std::string_view word, bool skip_lines = false);
 
-  /// Reads the next word of the answer. If it is `error`, the error contains the rest of the line.
+  /// Reads the next word of the answer. If the word is `error`, Error(kExternalProgram) is thrown,
+  /// which contains the rest of the line.
   std::string word();
-  double number();            ///< a finite number
-  double number_from_zero();  ///< a finite number >= 0
-  /// The next `count` >= 0 words of the answer, as finite numbers, in their order.
+  double number();            ///< reads a finite number; throws Error(kExternalProgram) otherwise
+  double number_from_zero();  ///< the same, but the number must be >= 0
+  /// Reads the next `count` >= 0 words of the answer as finite numbers, in their order.
   std::vector<double> numbers(std::size_t count);
-  /// A whole number from 0 to `largest` >= 0; anything else is an error.
+  /// Reads a whole number from 0 to `largest` >= 0. Throws Error(kExternalProgram) for anything
+  /// else.
   std::int64_t whole_number(std::int64_t largest);
 
   /// The largest resident memory of the solver so far [kB]; 0 after an error.
   long peak_memory_kb() const { return process_ ? process_->peak_memory_kb() : 0; }
 
-  /// Ends the solver and throws Error(kExternalProgram): it answered the last word that was read in
-  /// place of `needed`.
+  /// Ends the solver and throws Error(kExternalProgram). The message says that the solver answered
+  /// the last word that was read in place of `needed`.
   [[noreturn]] void refuse(std::string_view needed);
 
  private:
@@ -90,8 +94,9 @@ class SolverDialogue {
 /// for example "a force".
 void append(std::string& text, std::span<const double> values, const char* what);
 
-/// The boundary of a mesh as a part of a request: the numbers of points and curves, the points, and
-/// the curves with first point, number of edges and label. Throws as append().
+/// The boundary of a mesh as a part of a request: the numbers of points and curves, the points [L],
+/// and the curves with first point, number of edges and label. Throws Error(kNotConverged) if a
+/// coordinate is not finite.
 std::string words_of(const MeshBoundary& boundary);
 
 }  // namespace viscontact::freefem_flow
