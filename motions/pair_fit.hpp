@@ -43,8 +43,8 @@ struct NamedEntry {
 /// All entries, in the order of PairEntry.
 std::span<const NamedEntry> pair_entries();
 
-/// Name of the basis that is fitted if the user chooses none; any name of pair_bases() is possible,
-/// but docs and results of users rely on this one.
+/// Name of the basis that is fitted if the user chooses none. Any name of pair_bases() is possible,
+/// but another one changes the fits of all users who choose none.
 inline constexpr std::string_view kDefaultPairBasis = "asymptotic_cubic";
 
 /// The names of the bases for the entries of a pair. `asymptotic` has the terms 1/q, ln q, 1, q ln
