@@ -42,11 +42,11 @@ struct State;
 class Pouring {
  public:
   /// `state` is the state from which the simulation goes on. Its array State::sources has an entry
-  /// for each source that has begun: how many particles it has poured already, and when it began.
-  /// The constructor adds an entry for each further source, and sets Source::begin of all `sources`
-  /// to the times in State::sources. A further source whose Source::begin is before state.time
-  /// begins at state.time. Otherwise a run that continues another one with a new source would pour
-  /// at once all particles that were due before.
+  /// for each source of the run that made the state: how many particles it has poured already, and
+  /// when it began. The constructor adds an entry for each further source, and sets Source::begin
+  /// of all `sources` to the times in State::sources. A further source whose Source::begin is
+  /// before state.time begins at state.time. Otherwise a run that continues another one with a new
+  /// source would pour at once all particles that were due before.
   Pouring(std::vector<Source>& sources, State& state);
 
   /// Adds the particles that are due at state.time. The centre of each is put at a random place in
