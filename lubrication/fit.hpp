@@ -83,10 +83,10 @@ struct FitDiagnostics {
   double largest_error_estimate = 0;
   /// Largest |relative residual| of the rows that are not outliers, >= 0.
   double largest_inlier_residual = 0;
-  /// Root mean square and largest magnitude of the leave-one-out residuals [1]. That of a row is
-  /// its relative residual in the fit of the other rows, r_i/(1 - h_i) with the residual r_i and
-  /// the leverage h_i of row i (PRESS, Allen 1974). Nothing if the coefficients cannot be
-  /// determined without one of the rows.
+  /// Root mean square and largest magnitude of the leave-one-out residuals [1]. The leave-one-out
+  /// residual of a row is its relative residual in the fit of the other rows, r_i/(1 - h_i) with
+  /// the residual r_i and the leverage h_i of row i (PRESS, Allen 1974). Nothing if the
+  /// coefficients cannot be determined without one of the rows.
   std::optional<double> leave_one_out_rms{},  ///< the root mean square, >= 0
       leave_one_out_largest{};                ///< the largest magnitude, >= 0
   /// Gap [L] of the row with the residual leave_one_out_largest; nothing if leave_one_out_largest

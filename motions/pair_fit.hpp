@@ -23,8 +23,8 @@ namespace viscontact::motions {
 
 /// The resistances of a pair, called entries. The neighbour is at rest, and the axis z goes from
 /// the neighbour to the sphere. With the velocities u along x and u_z along z [L/T] of the sphere,
-/// and its angular velocities w about y and w_z about z [1/T], the fluid exerts these forces F [M
-/// L/T^2] and torques T [M L^2/T^2] on the sphere:
+/// and its angular velocities w about y and w_z about z [1/T], the fluid exerts these forces F
+/// [M L/T^2] and torques T [M L^2/T^2] on the sphere:
 ///   F_z = -squeeze u_z,            F_x = -slide u + slide_roll w,
 ///   T_y = slide_roll u - roll w,   T_z = -spin w_z.
 enum class PairEntry { kSqueeze, kSlide, kRoll, kSlideRoll, kSpin };

@@ -52,9 +52,9 @@ class Pouring {
   /// Adds the particles that are due at state.time. The centre of each is put at a random place in
   /// the box of its source where it touches no other particle and no obstacle (wall of the domain
   /// or plane). If 1000 random places are not free, the particle waits for the next call, and the
-  /// later particles of its source wait too. If a particle is added, State::positions_at_listing is
-  /// cleared, so that the next step makes a new neighbour list. `setting` contains the sources that
-  /// the constructor got.
+  /// later particles of its source wait too. (The number 1000 bounds the time; another one changes
+  /// runs.) If a particle is added, State::positions_at_listing is cleared, so that the next step
+  /// makes a new neighbour list. `setting` contains the sources that the constructor got.
   void pour(const Setting& setting, State& state);
 
  private:

@@ -107,11 +107,11 @@ class BlockFactor {
 };
 
 /// The matrix M/h + sum of weight * row^T other over pairs of rows. M/h are the masses and moments
-/// of inertia of all units (particles and rigid bodies) over the length h > 0 of the step [M/T, M
-/// L^2/T]. A row holds the coefficients by which a gap, a tangential displacement or a link's
-/// equation depends on the motions of its units; a block of constraints holds the rows of one
-/// contact or link. A Motion is a displacement [L] and a rotation [rad], or an impulse [M L/T] and
-/// its moment [M L^2/T].
+/// of inertia of all units (particles and rigid bodies) over the length h > 0 of the step
+/// [M/T, M L^2/T]. A row holds the coefficients by which a gap, a tangential displacement or a
+/// link's equation depends on the motions of its units; a block of constraints holds the rows of
+/// one contact or link. A Motion is a displacement [L] and a rotation [rad], or an impulse [M L/T]
+/// and its moment [M L^2/T].
 template <int D>
 class UnitMatrix {
  public:

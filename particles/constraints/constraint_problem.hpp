@@ -8,8 +8,8 @@
 // solve them. A change must keep that contacts without friction obey (5.4), and that the impulses
 // of a pair of particles do not change the angular momentum of the pair.
 //
-// Symbols: h > 0 [T] is the length of the step, M are the masses m [M] and moments of inertia I [M
-// L^2] of all units, u the velocities and w the angular velocities, u* and w* those without
+// Symbols: h > 0 [T] is the length of the step, M are the masses m [M] and moments of inertia I
+// [M L^2] of all units, u the velocities and w the angular velocities, u* and w* those without
 // contacts and links, J the coefficients of all rows, p the impulses of the rows. Units are any
 // consistent ones; a row of angles has [rad] in place of [L], and [M L^2/T] in place of [M L/T].
 // The film of a contact is a thin layer of fluid that takes up a part of its normal impulse;
