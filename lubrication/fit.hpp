@@ -1,12 +1,12 @@
-// The data of a fit, and its file: a fit approximates the lubrication force F_lub(q, u0) on a
-// sphere at the gap q and one velocity u0 by the sum of coefficient * term(q) over functions of q,
-// the terms (terms.hpp, docs/physics.md (3.2)). A Fit holds the coefficients, the interval of gaps,
-// and diagnostics, which say how far it can be trusted. Lengths, masses and times are in the units
-// of the table of forces to which it was fitted. Relative residuals, fit over table minus 1, have
-// no dimension. fitting/ makes fits; lubrication_force.hpp, motions/, case_file/, results/,
-// reduced_model/ and sweep/ use them. A wrong file or word throws Error(kBadInput). The members of
-// a Fit that did not come from a file are not checked here. A change must keep names and keys of
-// fit files, and agree with docs/fit.schema.json.
+// Defines what a fit is, and reads and writes its file. A fit approximates the lubrication force
+// F_lub(q, u0) on a sphere at the gap q and one velocity u0 by the sum of coefficient * term(q)
+// over functions of q, the terms (terms.hpp, docs/physics.md (3.2)). A Fit holds the coefficients,
+// the interval of gaps, and diagnostics, which say how far it can be trusted. Lengths, masses and
+// times are in the units of the table of forces to which it was fitted. Relative residuals, fit
+// over table minus 1, have no dimension. fitting/ makes fits; lubrication_force.hpp, motions/,
+// case_file/, results/, reduced_model/ and sweep/ use them. A wrong file or word throws
+// Error(kBadInput). The members of a Fit that did not come from a file are not checked here. A
+// change must keep names and keys of fit files, and agree with docs/fit.schema.json.
 #pragma once
 
 #include <array>
@@ -27,12 +27,15 @@ namespace viscontact::lubrication {
 
 /// The cause of the residuals.
 enum class Misfit {
-  /// The basis: the residuals are larger than the error estimates of the rows explain, both in the
-  /// sum of squares (chi-squared) and in at least one row. Another basis can fit better.
+  /// The basis is the cause: the residuals are larger than the error estimates of the rows explain,
+  /// both in the sum of squares (chi-squared) and in at least one row. Another basis can fit
+  /// better.
   kBasis,
-  /// The data: the error estimates explain the residuals. Only a better table can reduce them.
+  /// The data are the cause: the error estimates explain the residuals. Only a better table can
+  /// reduce them.
   kData,
-  /// Not known: a row of the table has no error estimate, or no degrees of freedom are left.
+  /// The cause is not known: a row of the table has no error estimate, or no degrees of freedom are
+  /// left.
   kUnknown
 };
 

@@ -61,8 +61,8 @@ std::vector<Column> columns_of(const TableHead& head, MotionRow& row);
 void prepare(const TableHead& head, MotionRow& row);
 
 /// Computes a force or torque that is NaN from its factor, and a factor that is NaN from the force
-/// or torque. If a force of the neighbour is NaN with its factor, or a torque, the neighbour is
-/// removed from the row. Throws nothing.
+/// or torque. The neighbour is removed from the row if its force and its force factor are both NaN,
+/// or its torque and its torque factor. Throws nothing.
 void complete(const TableHead& head, MotionRow& row);
 
 /// Throws Error(kBadInput) with the position `here` if a factor is not finite, or if the neighbour

@@ -13,8 +13,8 @@ namespace viscontact::lubrication {
 //
 // Relative errors are below 1e-15 for 1e-300 <= eps <= 1e300: at 6000 values of eps from exp(-9) to
 // exp(5) the largest difference from sums of the series in 45 digits is 6e-16. The values at 0 and
-// infinity are not defined. Each call computes one logarithm and one or two polynomials,
-// and allocates no memory.
+// infinity are not defined. Each call computes one logarithm and one or two polynomials, and
+// allocates no memory.
 
 /// The drag factor K, > 1.
 double plane_drag_factor(double eps);

@@ -1,9 +1,9 @@
-// Defines what all tables have in common that FreeFEM computes and from which fits are made: a
-// head, and rows with named columns. It also names the motions of a sphere beside another body, its
-// neighbour. Lengths, masses and times are in any consistent units. A name that is no motion throws
-// Error(kBadInput). The ranges below are checked only when files are read (table_codec.hpp).
-// motion_table.hpp, freefem_axi/ and swimmer/ use this file. A change must keep the keys of the
-// head and the names of the motions, which published tables have.
+// Defines what all tables of FreeFEM's results have in common: a head, and rows with named columns.
+// It also names the motions of a sphere beside another body, its neighbour. Lengths, masses and
+// times are in any consistent units. A name that is no motion throws Error(kBadInput). The ranges
+// below are checked only when files are read (table_codec.hpp). motion_table.hpp, freefem_axi/ and
+// swimmer/ use this file. A change must keep the keys of the head and the names of the motions,
+// which published tables have.
 //
 // There are two kinds of tables, that of motion_table.hpp and the resistance matrices of spheres on
 // a line (swimmer/resistance/). A kind of table is a struct Row and four functions beside it:

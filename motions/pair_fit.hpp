@@ -1,10 +1,10 @@
-// The fits of a pair, and their file: a pair is a sphere beside another body at rest, its
-// neighbour, and the fits give the resistances of the sphere to all its motions as functions of the
-// gap (docs/physics.md (2.12)). Lengths, masses and times are in the units of the tables from which
-// the fits were made. motions/fit/ makes and exports the fits; rolling/ and the Python module read
-// them. A wrong file, an unknown basis and a resistance (entry) that a fit lacks throw
-// Error(kBadInput). Gaps, radii and viscosities of arguments are not checked. A change must keep
-// the names of entries, bases and keys, which files contain; further bases may be added.
+// Defines the fits of a pair, and reads and writes their file. A pair is a sphere beside another
+// body at rest, its neighbour. The fits give the resistances of the sphere to all its motions as
+// functions of the gap (docs/physics.md (2.12)). Lengths, masses and times are in the units of the
+// tables from which the fits were made. motions/fit/ makes and exports the fits; rolling/ and the
+// Python module read them. A wrong file, an unknown basis and a resistance (entry) that a fit lacks
+// throw Error(kBadInput). Gaps, radii and viscosities of arguments are not checked. A change must
+// keep the names of entries, bases and keys, which files contain; further bases may be added.
 #pragma once
 
 #include <array>
@@ -74,7 +74,7 @@ struct PairFit {
   double viscosity = 0;                         ///< mu [M/(L T)], > 0
   double radius = 0;                            ///< r [L], > 0
   std::string geometry;                         ///< the neighbour in words; may be empty
-  std::array<double, 2> gap_interval = {};      ///< [L], 0 < first < second; all tables have it
+  std::array<double, 2> gap_interval = {};      ///< [L], 0 < first < second; all tables contain it
   std::map<PairEntry, EntryFit> entries;        ///< at least one: those that the tables determine
   std::map<std::string, std::string> versions;  ///< program name to version
 };

@@ -28,8 +28,8 @@ struct PairFitSettings {
 /// Fits the resistances, called entries, that the tables determine: squeeze by the approach, slide,
 /// roll and spin by the tables of these names, slide_roll by those of sliding or rolling. Residuals
 /// are relative to the entry. Those of slide_roll, which can be 0, are relative to sqrt(slide
-/// roll); without a table of rolling to slide r, and without one of sliding to roll/r, with the
-/// radius r of the sphere. `versions` of the result is empty.
+/// roll). If there is no table of rolling, they are relative to slide r, and if there is none of
+/// sliding, to roll/r, with the radius r of the sphere. `versions` of the result is empty.
 ///
 /// Throws Error(kBadInput) if there is no table; if viscosity, radius, geometry or container of two
 /// tables differ, or their intervals of gaps do not overlap; if the neighbour moves; if the table

@@ -128,8 +128,8 @@ struct ParticleLines {
 /// domain that is no disc or box; and if its particles do not fit.
 ParticleLines read_particles_of_case(const case_file::TomlSection& root, ParticlesCase& c);
 
-/// Reads [arrangement], which read_particles_of_case() calls, into c.arrangement, and adds its
-/// particles, at rest and at random places, after those that c.particles has.
+/// Reads [arrangement] into c.arrangement, and adds its particles, at rest and at random places,
+/// after those that c.particles has. read_particles_of_case() calls it.
 void read_arrangement(const case_file::TomlSection& section, ParticlesCase& c);
 /// The tables of docs/case-file.md for the keys of [arrangement] and of species.
 std::vector<case_file::KeyTable> arrangement_tables();
@@ -218,9 +218,8 @@ void read_ids(const case_file::TomlSection& section, std::string_view key,
               std::vector<std::int32_t>& place, const ParticleIds& ids);
 
 /// Reads the sections [[body]], rigid bodies of several particles, into c.particles.bodies. The
-/// particles and their motions must have been read.
-/// Also throws for a particle that does not exist, is named twice or belongs to an earlier body;
-/// and for a particle whose motion is given.
+/// particles and their motions must have been read. Also throws for a particle that does not exist,
+/// is named twice or belongs to an earlier body; and for a particle whose motion is given.
 void read_bodies(const case_file::TomlSection& root, ParticlesCase& c);
 
 /// Reads the sections [[hinge]], [[spring]] and [[arm]] into c.setting.links. Particles and bodies
@@ -252,7 +251,7 @@ class ParticleNames {
 /// A gap at the start between two particles, or an obstacle and a particle.
 struct StartGap {
   std::int32_t first;   ///< number of a particle, or -1 - k for obstacle k
-  std::int32_t second;  ///< number of a particle
+  std::int32_t second;  ///< number of the other particle
   double gap;           ///< [L], < 0 if they overlap
 };
 /// All gaps at the start that are smaller than `limit` >= 0 [L], also across periods. Gaps of

@@ -12,9 +12,9 @@
 // [M L^2] of all units, u the velocities and w the angular velocities, u* and w* those without
 // contacts and links, J the coefficients of all rows, p the impulses of the rows. Units are any
 // consistent ones; a row of angles has [rad] in place of [L], and [M L^2/T] in place of [M L/T].
-// The film of a contact is a thin layer of fluid that takes up a part of its normal impulse;
-// gamma^n
-// <= 0 [M L/T] is minus the impulse that it has absorbed, and gamma_min <= 0 the least value.
+// The film of a contact is a thin layer of fluid that takes up a part of its normal impulse. The
+// number gamma^n <= 0 [M L/T] is minus the impulse that the film has absorbed, and gamma_min <= 0
+// is the least value that gamma^n can have.
 #pragma once
 
 #include <array>
