@@ -1,11 +1,12 @@
-// A fit of the lubrication force F_lub(q, u0) = sum of coefficient * term(q), with functions of the
-// gap q (terms.hpp) at one velocity u0 of the sphere (docs/physics.md (3.2)): its coefficients, its
-// interval of gaps, and its diagnostics, which say how far it can be trusted. Lengths, masses and
-// times are in the units of the table of forces. Relative residuals, fit over table minus 1, have
-// no dimension. fitting/ makes fits; lubrication_force.hpp, motions/, case_file/, results/,
-// reduced_model/ and sweep/ use them. A wrong file or word throws Error(kBadInput). The members of
-// a Fit that did not come from a file are not checked here. A change must agree with
-// docs/fit.schema.json.
+// Defines what a fit is, and reads and writes its file. A fit approximates the lubrication force
+// F_lub(q, u0) on a sphere at the gap q and one velocity u0 by the sum of coefficient * term(q)
+// over functions of q, the terms (terms.hpp, docs/physics.md (3.2)). A Fit holds the coefficients,
+// the interval of gaps, and diagnostics, which say how far it can be trusted. Lengths, masses and
+// times are in the units of the table of forces to which it was fitted. Relative residuals, fit
+// over table minus 1, have no dimension. fitting/ makes fits; lubrication_force.hpp, motions/,
+// case_file/, results/, reduced_model/ and sweep/ use them. A wrong file or word throws
+// Error(kBadInput). The members of a Fit that did not come from a file are not checked here. A
+// change must keep names and keys of fit files, and agree with docs/fit.schema.json.
 #pragma once
 
 #include <array>
@@ -26,52 +27,58 @@ namespace viscontact::lubrication {
 
 /// The cause of the residuals.
 enum class Misfit {
-  /// The basis: the residuals are larger than the error estimates of the rows explain, both in the
-  /// sum of squares (chi-squared) and in at least one row. Another basis can fit better.
+  /// The basis is the cause: the residuals are larger than the error estimates of the rows explain,
+  /// both in the sum of squares (chi-squared) and in at least one row. Another basis can fit
+  /// better.
   kBasis,
-  /// The data: the error estimates explain the residuals. Only a better table can reduce them.
+  /// The data are the cause: the error estimates explain the residuals. Only a better table can
+  /// reduce them.
   kData,
-  /// Not known: a row of the table has no error estimate, or no degrees of freedom are left.
+  /// The cause is not known: a row of the table has no error estimate, or no degrees of freedom are
+  /// left.
   kUnknown
 };
 
-/// The word for the cause in fit files: "basis", "data" or "unknown". Throws nothing.
+/// The word for the cause of the residuals in fit files: "basis", "data" or "unknown". Throws
+/// nothing.
 std::string_view to_string(Misfit misfit);
 
-/// The inverse of to_string(). Throws Error(kBadInput) for another word.
+/// The cause for which to_string(Misfit) gives this word. Throws Error(kBadInput) for another word.
 Misfit parse_misfit(std::string_view word);
 
-/// A row with a residual so large that a robust loss reduces its weight (FitDiagnostics::outliers).
+/// A row of the table of forces that a fit with a robust loss (kHuber or kCauchy) does not follow:
+/// its residual is more than 5 times the scale of all residuals (Loss).
 struct Outlier {
   double gap = 0;                 ///< [L], > 0
   double reference_velocity = 0;  ///< [L/T], not 0
   double relative_residual = 0;   ///< fit / table - 1, any sign
 };
 
-/// A row, compared with the prediction of the fit of all other rows.
+/// A row of the table of forces, compared with the prediction of the fit of all other rows.
 struct LeftOutRow {
   double gap = 0;                ///< [L], > 0
   double relative_residual = 0;  ///< |prediction / table - 1|, >= 0
 };
 
-/// The row with the largest ratio of the residual to the error estimate of the same row.
+/// The row of the table of forces with the largest ratio of its residual to its own error estimate.
 struct WorstToEstimate {
   double gap = 0;                ///< [L], > 0
   double relative_residual = 0;  ///< fit / table - 1, any sign
   double ratio = 0;              ///< |relative_residual| / error estimate of this row, >= 0
 };
 
-/// Diagnostics of a fit. Relative residuals are fit/table - 1. Every row counts as an independent
-/// measurement. If a table has rows of one gap at several velocities, whose F/u agree because
-/// Stokes flow is linear, standard errors and leave-one-out residuals are therefore too small.
+/// Diagnostics of a fit. Relative residuals are fit/table - 1 [1]. Every row of the table of forces
+/// counts as an independent measurement. If a table has rows of one gap at several velocities,
+/// whose F/u agree because Stokes flow is linear, standard errors and leave-one-out residuals are
+/// therefore too small.
 struct FitDiagnostics {
-  /// Number of rows of the table, outliers included.
+  /// Number of rows of the table of forces, outliers included.
   std::size_t rows = 0;
   /// Number of rows that the table lacks because they could not be computed.
   std::size_t failed_rows = 0;
   /// Number of fitted coefficients; a fixed coefficient does not count.
   std::size_t free_coefficients = 0;
-  /// Gap [L] > 0 of the row with the largest |relative residual|.
+  /// Gap [L], > 0, of the row with the largest |relative residual|.
   double worst_gap = 0;
   /// The relative residual at worst_gap, with its sign.
   double worst_relative_residual = 0;
@@ -79,31 +86,35 @@ struct FitDiagnostics {
   double largest_error_estimate = 0;
   /// Largest |relative residual| of the rows that are not outliers, >= 0.
   double largest_inlier_residual = 0;
-  /// Root mean square and largest size of the relative residuals that each row has in the fit of
-  /// the other rows, r_i/(1 - h_i) with the residual r_i and the leverage h_i of row i (PRESS,
-  /// Allen 1974). Nothing if the coefficients cannot be determined without one of the rows.
+  /// Root mean square and largest magnitude of the leave-one-out residuals [1]. The leave-one-out
+  /// residual of a row is its relative residual in the fit of the other rows, r_i/(1 - h_i) with
+  /// the residual r_i and the leverage h_i of row i (PRESS, Allen 1974). Nothing if the
+  /// coefficients cannot be determined without one of the rows.
   std::optional<double> leave_one_out_rms{},  ///< the root mean square, >= 0
-      leave_one_out_largest{};                ///< the largest size, >= 0
-  /// Gap [L] of the row with the residual leave_one_out_largest; nothing if this residual is
-  /// nothing.
+      leave_one_out_largest{};                ///< the largest magnitude, >= 0
+  /// Gap [L] of the row with the residual leave_one_out_largest; nothing if leave_one_out_largest
+  /// is nothing.
   std::optional<double> leave_one_out_gap{};
-  /// The inner row and the end row with the largest of these residuals. An end row is the only row
-  /// at the smallest or largest gap, to which the fit of the other rows extrapolates; to all other,
-  /// inner rows it interpolates. The inner row shows how large the error of the formula may be
-  /// between rows. Nothing if leave_one_out_rms is nothing, or if the table has no such row.
+  /// The inner row and the end row with the largest leave-one-out residuals. An end row is the only
+  /// row at the smallest or at the largest gap, so that the fit of the other rows extrapolates to
+  /// it. All other rows are inner rows, to which the fit of the others interpolates. The inner row
+  /// shows how large the error of the formula may be between rows. Nothing if leave_one_out_rms is
+  /// nothing, or if the table has no such row.
   std::optional<LeftOutRow> left_out_inner{},  ///< the inner row
       left_out_end{};                          ///< the end row
-  /// Number of rows, without outliers, whose |residual| is larger than their own error estimate; 0
-  /// also in fit files of earlier versions, which lack it.
+  /// Number of rows, without outliers, whose |relative residual| is larger than their own error
+  /// estimate. It is 0 for fit files of earlier versions, which lack it.
   std::size_t rows_beyond_estimate = 0;
-  /// The row with the largest ratio among the rows that are not outliers. Nothing if none of them
-  /// has an error estimate, or in fit files of earlier versions, which lack it.
+  /// The row with the largest ratio of residual to error estimate among the rows that are not
+  /// outliers. Nothing if none of them has an error estimate, or if the fit file, of an earlier
+  /// version, lacks it.
   std::optional<WorstToEstimate> worst_to_estimate{};
-  /// Sum of (relative residual/error estimate)^2 over the rows; nothing if a row has no estimate.
+  /// Chi-squared [1], >= 0: the sum of (relative residual/error estimate)^2 over the rows. Nothing
+  /// if a row has no error estimate.
   std::optional<double> chi_squared{};
-  std::size_t degrees_of_freedom = 0;  ///< rows - free coefficients
-  /// kBasis if chi-squared of the rows that are not outliers is beyond the 99 % quantile of its
-  /// distribution and rows_beyond_estimate > 0.
+  std::size_t degrees_of_freedom = 0;  ///< rows - free_coefficients
+  /// The cause of the residuals. It is kBasis if chi-squared of the rows that are not outliers is
+  /// beyond the 99 % quantile of its distribution and rows_beyond_estimate > 0.
   Misfit misfit = Misfit::kUnknown;
   /// Akaike's information criterion with the correction for small samples (Hurvich & Tsai 1989),
   ///     n ln(sum of squares/n) + 2 K + 2 K (K + 1)/(n - K - 1),   K = free coefficients + 1,
@@ -111,51 +122,57 @@ struct FitDiagnostics {
   /// value is better. Only fits of the same rows with the same weights can be compared. Nothing if
   /// n <= K + 1, if all residuals are 0, or for a robust loss, whose weights depend on the fit.
   std::optional<double> information_criterion{};
-  /// Rows with |residual| > 5 times the scale of all residuals; only a robust loss has outliers.
+  /// The outliers: rows whose |residual| is more than 5 times the scale of all residuals (Loss).
+  /// With kSquared there are none.
   std::vector<Outlier> outliers;
   std::vector<std::string> warnings;  ///< sentences for the user
 };
 
-/// The residuals that the fit makes small: kRelative, fit/force - 1; kAbsolute, fit - force.
+/// The residuals that the fit makes small. With kRelative they are fit/force - 1 [1], with
+/// kAbsolute fit - force [M L/T^2].
 enum class Weights { kRelative, kAbsolute };
 
-/// The word for the weights in fit files: "relative" or "absolute".
+/// The word for the weights in fit files: "relative" or "absolute". Throws nothing.
 std::string_view to_string(Weights weights);
 
 /// Translates "relative" or "absolute". Throws Error(kBadInput) for another word.
 Weights parse_weights(std::string_view word);
 
 /// What a row adds to the sum that the fit minimises. z is the residual of the row, divided by the
-/// scale of all residuals:
+/// scale of all residuals (RobustSolution::scale in fitting/robust_least_squares.hpp), which
+/// estimates their standard deviation from their median, so that outliers hardly change it:
 ///   kSquared  z^2/2
 ///   kHuber    z^2/2, and linear in |z| for |z| > 1.345 (Huber 1964)
 ///   kCauchy   (c^2/2) ln(1 + (z/c)^2), c = 2.385
 /// With the constants 1.345 and 2.385, which robust_least_squares.cpp repeats, the efficiency on
-/// Gaussian residuals is 95 % of that of least squares (Holland & Welsch 1977).
+/// Gaussian residuals is 95 % of that of least squares (Holland & Welsch 1977). kHuber and kCauchy
+/// are the robust losses.
 enum class Loss { kSquared, kHuber, kCauchy };
 
-/// The word for the loss in fit files: "none", "huber" or "cauchy".
+/// The word for the loss in fit files: "none" for kSquared, "huber" or "cauchy". Throws nothing.
 std::string_view to_string(Loss loss);
 
-/// The inverse of to_string(). Throws Error(kBadInput) for another word.
+/// The loss for which to_string(Loss) gives this word. Throws Error(kBadInput) for another word.
 Loss parse_loss(std::string_view word);
 
-/// What a fitted resistance must be, according to theory, at all gaps of the interval: kDrag,
-/// positive and falling with the gap; kPositive, positive; kAny, anything.
+/// The shape that a fitted resistance must have, according to theory, at all gaps of the interval.
+/// With kDrag it must be positive and fall with the gap, with kPositive it must be positive, and
+/// with kAny it may have any values. The fit of another shape gets a warning (fitting/).
 enum class FittedShape { kDrag, kPositive, kAny };
 
 /// One term of a fit with its coefficient.
 struct FitTerm {
   std::string name;        ///< name of a Term (terms.hpp); read_fit() refuses other names
-  double coefficient = 0;  ///< in units of a force [M L/T^2] over that of the term
-  /// Standard error of the coefficient, in the same unit, >= 0. Its formula treats the residuals as
-  /// independent random noise, which the misfit of a basis is not.
+  double coefficient = 0;  ///< of any sign, in the unit of force [M L/T^2] over that of the term
+  /// Standard error of the coefficient, in the unit of the coefficient, >= 0. Its formula treats
+  /// the residuals as independent random noise, which residuals of kBasis are not.
   double standard_error = 0;
   /// True for a fixed coefficient: it was given and not fitted, and its standard error is 0.
   bool is_fixed = false;
 };
 
-/// F_lub(q, u0) = sum of coefficient * term(q) for q in gap_interval.
+/// A fit: F_lub(q, u0) = sum of coefficient * term(q) for the gaps q in gap_interval. read_fit()
+/// checks the ranges below, but not that leading_coefficient is > 0.
 struct Fit {
   /// Name of a Basis, kOwnTerms for a user's list of terms, or kExactPlane.
   std::string basis;
@@ -167,7 +184,8 @@ struct Fit {
   Weights weights = Weights::kRelative;
   /// The loss function of these residuals.
   Loss loss = Loss::kSquared;
-  /// The terms with their coefficients, at least one.
+  /// The terms with their coefficients: at least one, each only once; none if the basis is
+  /// kExactPlane.
   std::vector<FitTerm> terms;
   /// Largest |fit/force - 1| of all rows, outliers included, >= 0.
   double largest_relative_residual = 0;
@@ -176,14 +194,14 @@ struct Fit {
   /// Condition number of the matrix of the scaled, weighted columns, >= 1.
   double condition_number = 1;
   /// Covariance matrix of the coefficients, in the order of `terms`; entry (i, j) has the dimension
-  /// of coefficient i times coefficient j. Empty if the file has none.
+  /// of coefficient i times coefficient j. Empty if there are no terms. A file must contain it.
   std::vector<std::vector<double>> covariance;
   /// What the sphere approaches, in the words of the table; may be empty.
   std::string geometry;
   /// The walls around the fluid, in the words of the table; may be empty.
   std::string container;
-  /// Coefficient k of 1/q in the resistance -F_lub/u0 by lubrication theory [M L/T], > 0, if the
-  /// table states it.
+  /// Coefficient k of 1/q in the resistance -F_lub/u0 by lubrication theory [M L/T], > 0. Nothing
+  /// if the table did not state it.
   std::optional<double> leading_coefficient{};
   std::optional<FitDiagnostics> diagnostics{};  ///< nothing in a fit that was written by hand
   std::string table_sha256;                     ///< SHA-256 of the table file; may be empty
@@ -191,38 +209,43 @@ struct Fit {
 };
 
 /// The name that stands in place of a basis for the exact drag of a sphere near a plane in a
-/// half-space (plane_drag.hpp). A fit with this name has no terms, and a force at every gap > 0.
+/// half-space (plane_drag.hpp). A fit with this name has no terms. Its force is known at gaps from
+/// 1e-300 to 1e300 radii.
 inline constexpr std::string_view kExactPlane = "exact_plane";
 
 /// A fit without terms and residuals that stands for the exact drag of a plane. Its gap_interval
-/// has no meaning. `viscosity` [M/(L T)] > 0, `radius` [L] > 0 (not checked).
+/// has no meaning. `viscosity` [M/(L T)] and `radius` [L] must be > 0, which is not checked.
 Fit exact_plane_fit(double viscosity, double radius);
 
 /// True if `fit` stands for the exact drag of a plane.
 bool is_exact_plane(const Fit& fit);
 
-/// The fit for a fluid of another viscosity [M/(L T)] > 0 (not checked). The force is proportional
-/// to the viscosity, so all coefficients are multiplied by the same factor.
+/// The fit for a fluid of another viscosity [M/(L T)], which must be > 0 (not checked). The force
+/// is proportional to the viscosity, so that all coefficients and their errors are multiplied by
+/// the ratio of the viscosities.
 Fit with_viscosity(Fit fit, double viscosity);
 
-/// Reads or writes the keys of a fit file (common/text/json_fields.hpp). Reading throws the errors
-/// of read_fit().
+/// Reads or writes the keys of a fit file (common/text/json_fields.hpp). Reading throws
+/// Error(kBadInput) for a key that is missing, unknown or has a wrong value.
 void fields_of(JsonFields& json, Fit& fit);
 
-/// Reads a fit file and checks it against docs/fit.schema.json. Throws Error(kBadInput) with the
-/// line, the key and what is allowed, or if the file cannot be read.
+/// Reads a fit file, of which docs/fit.schema.json lists keys, types and ranges. Throws
+/// Error(kBadInput) with the line, the key and what is allowed if a key is missing, unknown or has
+/// a wrong value, and also if the file cannot be read.
 Fit read_fit(const std::filesystem::path& path);
 
-/// As read_fit(), for the text of a fit file. `file` is its name in messages.
+/// Reads the text of a fit file and throws as read_fit(). `file` is the name of the file in
+/// messages.
 Fit parse_fit(const std::string& text, const std::string& file);
 
-/// The text of the fit file (JSON), without provenance.
+/// The text of the fit file (JSON), without the key `provenance`, which the caller adds. Throws
+/// nothing; the values are not checked.
 std::string write_fit(const Fit& fit);
 
 /// `count` >= 2 gaps [L] in geometric progression on `interval`, 0 < first < second, at which fits
-/// are checked and exported. The first and the last gap are exactly its ends. Neither `count` nor
-/// `interval` is checked. The default of 201 points is also stated in the help of `export` and in
-/// docs/file-formats.md.
+/// are checked and exported. The first and the last gap are exactly the ends of `interval`. Neither
+/// `count` nor `interval` is checked. The default of 201 is a free choice, but the help of the
+/// command `export` and docs/file-formats.md also state it.
 std::vector<double> spread_gaps(const std::array<double, 2>& interval, int count = 201);
 
 }  // namespace viscontact::lubrication

@@ -1,10 +1,10 @@
-// The lubrication force as a function of gap and velocity, F_lub(q, u) = -R(q) u, with its
-// resistance R and the primitive Gamma of R. R is a sum of fitted terms, or the exact series for a
-// plane (docs/physics.md (2.3), (2.4), (3.2), (4.2)). Lengths, masses and times are in any
-// consistent units. A gap at which the force is not known throws Error(kBadInput), a result beyond
-// the range of a double Error(kNotConverged). Used by reduced_model/, fitting/, rolling/,
-// pipeline/, report/ and the Python module. A change must keep R continuous at the ends of the
-// interval, and Gamma a primitive of R.
+// Computes the lubrication force on a sphere as a function of the gap q [L] and the velocity u
+// [L/T], F_lub(q, u) = -R(q) u, its resistance R [M/T], and the primitive Gamma of R [M L/T]. R is
+// a sum of fitted terms, or the exact series for a plane (docs/physics.md (2.3), (2.4), (3.2),
+// (4.2)). Lengths, masses and times are in any consistent units. A gap at which the force is not
+// known throws Error(kBadInput), a result beyond the range of a double Error(kNotConverged). Used
+// by reduced_model/, fitting/, rolling/, pipeline/, report/ and the Python module. A change must
+// keep R continuous at the ends of the interval, and Gamma a primitive of R.
 #pragma once
 
 #include <array>
@@ -24,7 +24,8 @@ enum class BelowInterval {
   /// only as ln q; this limit takes it as constant. If the fit has no k > 0, functions of such a
   /// gap throw Error(kBadInput).
   kLubricationLimit,
-  /// The same formula with the coefficient k of theory (Fit::leading_coefficient).
+  /// R(q) = R(q1) + k (1/q - 1/q1), with the coefficient k of theory (Fit::leading_coefficient),
+  /// which the constructor requires to be > 0.
   kTheoryLimit
 };
 
@@ -32,10 +33,11 @@ enum class BelowInterval {
 enum class AboveInterval {
   /// Not known: functions of such a gap throw Error(kBadInput).
   kError,
-  /// R(q) = R_S (1 + c/(q + r)), with Stokes' R_S = 6 pi mu r and c such that R is continuous at
-  /// q2. So R approaches R_S as it does far from a plane (Happel & Brenner 1983, section 7-4: R_S
-  /// (1 + (9/8) r/h) at the distance h of the centre). Far from a second sphere at rest R - R_S
-  /// falls faster, as 1/h^2. All other walls of a container are neglected.
+  /// R(q) = R_S (1 + c/(q + r)), with Stokes' resistance R_S = 6 pi mu r for the viscosity mu and
+  /// the radius r of the sphere, and with the c for which R is continuous at q2. So R approaches
+  /// R_S as it does far from a plane (Happel & Brenner 1983, section 7-4: R_S (1 + (9/8) r/h) at
+  /// the distance h of the centre). Far from a second sphere at rest R - R_S falls faster, as
+  /// 1/h^2. All other walls of a container are neglected.
   kStokesLimit
 };
 
@@ -44,7 +46,8 @@ struct OutsideInterval {
   BelowInterval below = BelowInterval::kError;  ///< at gaps in (0, q1)
   AboveInterval above = AboveInterval::kError;  ///< at gaps > q2
 
-  /// A copy with kLubricationLimit in place of a kError below, and with kStokesLimit above.
+  /// A copy that throws no error for a gap > 0: `below` is kLubricationLimit if it was kError, and
+  /// `above` is kStokesLimit.
   OutsideInterval with_limits() const;
 };
 
@@ -56,12 +59,14 @@ class LubricationForce {
  public:
   /// Throws Error(kBadInput) if the fit's resistance is not positive and finite at one of the 201
   /// gaps of spread_gaps() on its interval, if a term has an unknown name, or if `outside` asks for
-  /// theory's k and the fit states none > 0. A fit whose basis is kExactPlane gives exact_plane().
+  /// theory's k and the fit states none > 0. A fit whose basis is kExactPlane gives exact_plane(),
+  /// for which `outside` has no effect.
   explicit LubricationForce(const Fit& fit, const OutsideInterval& outside = {});
 
   /// The exact drag of a sphere near a no-slip plane in a half-space (plane_drag.hpp), for gaps
-  /// from 1e-300 to 1e300 radii. A smaller gap >= 0 throws Error(kNotConverged). `viscosity`
-  /// [M/(L T)] > 0, `radius` [L] > 0 (not checked).
+  /// from 1e-300 to 1e300 radii. A smaller gap >= 0 throws Error(kNotConverged), a gap < 0 or a
+  /// larger one Error(kBadInput). `viscosity` [M/(L T)] and `radius` [L] must be > 0, which is not
+  /// checked.
   static LubricationForce exact_plane(double viscosity, double radius);
 
   /// R(q) = -F_lub(q, u)/u [M/T], > 0. Throws Error(kNotConverged) if R is larger than the largest
@@ -71,15 +76,17 @@ class LubricationForce {
   /// dR/d ln q = q dR/dq [M/T], of any sign.
   double resistance_log_slope(double gap) const;
 
-  /// R(q) - k/q [M/T] with the fitted k (0 without a term 1/q), for q >= 0. Below the
-  /// interval it is constant: the value at the smallest fitted gap.
+  /// R(q) - k/q [M/T], of any sign, with the fitted k (0 without a term 1/q), for q >= 0. Below the
+  /// interval it is constant, the value at the smallest fitted gap, whatever `outside` says.
   double regular_resistance(double gap) const;
 
-  /// int_0^q (R(s) - k/s) ds [M L/T] for q >= 0, with the same constant below the interval.
+  /// int_0^q (R(s) - k/s) ds [M L/T] for q >= 0. Below the interval R(s) - k/s is the constant of
+  /// regular_resistance().
   double regular_impulse(double gap) const;
 
-  /// Gamma(q) = int_r^q R(s) ds [M L/T], r the sphere's radius. It is computed from a closed form
-  /// and increases with q; it is < 0 for q < r.
+  /// Gamma(q) = int_r^q R(s) ds [M L/T], where r is the sphere's radius. It is computed from a
+  /// closed form and increases with q; it is < 0 for q < r. Code that
+  /// fitting/export/ writes has the same lower end r.
   double impulse(double gap) const;
 
   /// The gap q [L] with Gamma(q) = impulse [M L/T], to round-off. Throws Error(kBadInput) if the
@@ -93,8 +100,9 @@ class LubricationForce {
   /// Error(kBadInput) if the fit has no term 1/q or if k is not positive.
   double leading_coefficient() const;
 
-  /// The smallest and the largest gap [L] that the functions above accept. With a limit below the
-  /// first is 0; with a limit above the second is infinity.
+  /// The smallest and the largest gap [L] at which the force is known. The first is 0 if
+  /// OutsideInterval::below is not kError, and the second is infinity if `above` is not kError; the
+  /// gaps 0 and infinity themselves are not accepted.
   std::array<double, 2> interval() const;
 
   double radius() const { return radius_; }        ///< r [L], > 0

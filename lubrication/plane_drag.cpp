@@ -1,9 +1,10 @@
-// The drag factor K = drag/(6 pi mu r |u|) of a sphere near a plane, with the viscosity mu, the
-// radius r and the velocity u, as a function of eps = gap/r, by three expansions: near contact, far
-// away, and in the range between. K and eps have no dimension. For eps from 1e-300 to 1e300 errors
-// are below the bound that plane_drag.hpp has; eps < 0 and NaN give NaN. Nothing is thrown. Used by
-// lubrication_force.cpp. The constants are computed from Brenner's series and depend on each other,
-// so that none may be changed alone.
+// Computes the drag factor K = drag/(6 pi mu r |u|) of a sphere that moves toward or away from a
+// plane, with the viscosity mu, the radius r and the velocity u, as a function of eps = gap/r, and
+// the derivative and integrals of K. It uses three expansions: near contact, far away, and in the
+// range between. K and eps have no dimension. For eps from 1e-300 to 1e300 relative errors are
+// below 1e-15 (plane_drag.hpp says which are absolute); eps < 0 and NaN give NaN. Nothing is
+// thrown. lubrication_force.cpp uses it. The constants are computed from Brenner's exact series
+// (Brenner 1961) and depend on each other, so that none may be changed alone.
 #include "viscontact/lubrication/plane_drag.hpp"
 
 #include <algorithm>
@@ -22,12 +23,12 @@ namespace {
 // K and dK/dx are sums of terms of equal sign (R > 0 > dR/dx) and lose no digits. R, dR/dx and the
 // mean M = S/eps of R vary slowly with x, so that polynomials represent them well.
 
-/// Coefficients of 1, t, t^2, ...
+/// Coefficients of the powers 1, t, t^2, ... of a variable t.
 template <std::size_t count>
 using Polynomial = std::array<double, count>;
 
-/// Value of a polynomial by Estrin's scheme, a tree of products that the processor computes in
-/// parallel. In Horner's rule each product needs the one before.
+/// Value of a polynomial at t. Estrin's scheme is a tree of products, which the processor computes
+/// in parallel. In Horner's rule each product needs the one before it.
 template <std::size_t count>
 double value(const Polynomial<count>& polynomial, double t) {
   if constexpr (count == 1) {
@@ -41,10 +42,10 @@ double value(const Polynomial<count>& polynomial, double t) {
   }
 }
 
-// Near contact, x < kNear: R = sum over k = 0..4 of eps^k (constant_k + logarithm_k x), with the
-// coefficients kConstants and kLogarithms. The term k = 5 would be 1.2e-16 at x = kNear.
+// Near contact, for x < kNear, R is the sum over k = 0..4 of eps^k (constant_k + logarithm_k x),
+// with the coefficients kConstants and kLogarithms. The term k = 5 would be 1.2e-16 at x = kNear.
 constexpr double kNear = -6;
-// After Cox & Brenner 1967 and Cooley & O'Neill 1969; the digits are those of
+// The expansion is that of Cox & Brenner 1967 and Cooley & O'Neill 1969. The digits are those of
 // data/reference/near_contact_expansion.csv.
 constexpr Polynomial<5> kConstants = {0.9712799310357215124, 0.1670170048120648131,
                                       -0.0148746313563976885, 0.0026239942748169500,
@@ -52,9 +53,9 @@ constexpr Polynomial<5> kConstants = {0.9712799310357215124, 0.16701700481206481
 constexpr Polynomial<5> kLogarithms = {-1.0 / 5, -1.0 / 21, 8.0 / 1125, -15416.0 / 9095625,
                                        910732.0 / 1773646875};
 
-// In the range between, kNear <= x < kFar, M is a polynomial in t = -1..1 on each of 8 pieces of
-// length 1 in x. M is analytic for |Im x| < pi, so its Chebyshev coefficients of degree n fall at
-// least like 12^-n.
+// In the range between, for kNear <= x < kFar, M is a polynomial in t on each of 8 pieces of length
+// 1 in x, on which t goes from -1 to 1. M is analytic for |Im x| < pi, so its Chebyshev
+// coefficients of degree n fall at least like 12^-n.
 constexpr double kFar = 2;
 constexpr int kPieces = 8;
 // Coefficients of M in powers of t, computed with mpmath in 45 digits in these steps: Brenner's
@@ -105,10 +106,11 @@ constexpr std::array<Polynomial<20>, kPieces> kMean = {{
 }};
 // clang-format on
 
-// Far away, x >= kFar: R = sum_k b_k h^k with h = 1/(1 + eps) < 0.12. Because 1/eps = h + h^2 +
-// ..., the coefficients of K are 1 + b_k for k > 0: 9/8, 81/64, 473/512, 4113/4096, ... They are
-// computed in rational arithmetic from the expansion of Brenner's series in exp(-alpha), with
-// cosh(alpha) = 1/h, and all are fractions whose denominator is a power of 2.
+// Far away, for x >= kFar, R is the sum over k of b_k h^k with h = 1/(1 + eps) < 0.12; kFarRegular
+// has the b_k. Because 1/eps = h + h^2 + ..., the coefficients of K are 1 + b_k for k > 0: 9/8,
+// 81/64, 473/512, 4113/4096, ... They are computed in rational arithmetic from the expansion of
+// Brenner's series in exp(-alpha), with cosh(alpha) = 1/h, and all are fractions whose denominator
+// is a power of 2.
 // clang-format off
 constexpr Polynomial<18> kFarRegular = {
     1, 0.125, 0.265625, -0.076171875, 0.004150390625, 0.215118408203125,
@@ -123,8 +125,8 @@ constexpr double kFarConstant = 0.30139129923623441053;
 // S(1), computed in the same way as kMean.
 constexpr double kRegularIntegralToOne = 1.26158388768896730636;
 
-/// A function of eps, by its coefficients in the three ranges: near contact (constants,
-/// logarithms), between (pieces) and far away (far).
+/// A function of eps, given by its coefficients in the three ranges. Those near contact are
+/// `constants` and `logarithms`, those in the range between are `pieces`, those far away `far`.
 struct Expansion {
   Polynomial<5> constants, logarithms;
   std::array<Polynomial<20>, kPieces> pieces;
@@ -166,8 +168,9 @@ consteval Expansion slope_expansion() {
   return slope;
 }
 
-/// The coefficients of M near contact and between. Far away they are those of S - eps - x/8
-/// instead, from R = 1 + h/8 + ..., int h^(k+1) d eps = -h^k/k and ln(1 + eps) - x = sum h^k/k.
+/// The coefficients of M near contact and in the range between. Far away they are those of S - eps
+/// - x/8 instead, which follow from R = 1 + h/8 + ..., int h^(k+1) d eps = -h^k/k and ln(1 + eps) -
+/// x = sum h^k/k.
 consteval Expansion mean_expansion() {
   Expansion mean = {kConstants, kLogarithms, kMean, {}};
   for (std::size_t k = 0; k < kConstants.size(); ++k) {
@@ -185,8 +188,8 @@ constexpr Expansion kRegular = regular_expansion();
 constexpr Expansion kSlope = slope_expansion();
 constexpr Expansion kMeanRegular = mean_expansion();
 
-/// The value at eps, with x = ln eps. If eps < 0, x is NaN: both comparisons are false, and the
-/// last line returns NaN.
+/// The value of f at eps, with x = ln eps. If eps < 0, x is NaN: both comparisons are false, and
+/// the last line returns NaN.
 double value(const Expansion& f, double eps, double x) {
   if (x >= kFar) return value(f.far, 1 / (1 + eps));
   if (x >= kNear) {

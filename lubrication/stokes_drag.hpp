@@ -1,6 +1,7 @@
-// The drag of a sphere in an unbounded fluid, by which drag factors in tables and fits are divided.
-// Nothing is checked or thrown. Used by lubrication/, freefem_axi/, fitting/ and report/. A change
-// must keep the value, because published tables contain these factors.
+// Stokes' drag of a sphere in an unbounded fluid. A drag divided by it is the drag factor in tables
+// and fits. Units are any consistent ones. Nothing is checked or thrown: arguments of other signs
+// or NaN give a number without meaning. lubrication/, freefem_axi/, fitting/ and report/ use it. A
+// change must keep the value, because published tables contain drag factors.
 #pragma once
 
 #include <numbers>

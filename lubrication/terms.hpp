@@ -1,8 +1,9 @@
-// The functions of the gap q that a fit of a force may combine, and named lists of them, the bases
-// (docs/physics.md (3.2)). q is a number > 0 in the unit of length of the fit. Used by fitting/,
-// lubrication/, motions/, rolling/, case_file/ and app/. A change must keep names and formulas,
-// which fit files and exports contain. No function checks that q > 0: values at other q are NaN,
-// infinite, or without meaning.
+// Lists the terms, the functions of the gap q that a fit of a force may combine, and the bases,
+// named lists of terms (docs/physics.md (3.2)). q is a number > 0 in the unit of length of the fit.
+// No function checks that q > 0: values at other q are NaN, infinite, or without meaning. An
+// unknown name throws Error(kBadInput) if the comment of the function does not say otherwise.
+// fitting/, lubrication/, motions/, rolling/, case_file/ and app/ use this file. A change must keep
+// names and formulas, which fit files and exports contain; terms and bases may be added.
 #pragma once
 
 #include <cmath>
@@ -13,7 +14,7 @@
 
 namespace viscontact::lubrication {
 
-/// A function of the gap q > 0 and of l = ln q. The logarithm is an argument, so that it is
+/// A function of the gap q > 0 and of its logarithm l = ln q, which is an argument so that it is
 /// computed only once for a sum of terms.
 struct Formula {
   /// The expression in q and l, with + - * / ( ) and numbers. Exported code of C, Fortran, Python
@@ -29,31 +30,33 @@ struct Formula {
 /// over that of phi. In another unit of length ln q differs by a constant; the coefficients of 1,
 /// q, ... then change by multiples of those of ln q, q ln q, ...
 struct Term {
-  std::string_view name;  ///< as fit files and `--terms` give it: "q ln q"
+  std::string_view name;  ///< in fit files and the option `--terms`, such as "q ln q"
   Formula value;          ///< phi(q)
   /// q phi'(q) = d phi/d ln q: the derivative in a form that does not overflow near contact.
   Formula log_slope;
-  /// A primitive of phi.
+  /// A primitive of phi: a function whose derivative is phi.
   Formula antiderivative;
 };
 
 /// Name of the leading term of lubrication, 1/q.
 inline constexpr std::string_view kLeadingTerm = "1/q";
 
-/// All terms. A new term needs only a row in the table of terms.cpp.
+/// All terms: 1/q, ln q, 1, q ln q, q, q^2 ln q, q^2, q^3 ln q, q^3, q^4 ln q, q^4. A new term
+/// needs only a row in the table of terms.cpp.
 std::span<const Term> all_terms();
 
 /// The term with this name, or nothing if there is none. Throws nothing.
 std::optional<Term> find_term(std::string_view name);
 
-/// Sum of weight * value over all_terms() at a gap > 0. `weights` has an entry for each of these
-/// terms, in the same order (not checked); a term of weight 0 is not evaluated. The result has the
-/// dimension of a weight times that of its term. For the speed of inner loops this function and the
-/// next two compute one logarithm and call no function pointer.
+/// The sum of weight * value over all_terms() at a gap > 0. `weights` has an entry for each of
+/// these terms, in the same order (not checked); a term of weight 0 is not evaluated. The result
+/// has the dimension of a weight times that of its term. For the speed of inner loops this function
+/// and the next two compute one logarithm and call no function pointer.
 double sum_values(std::span<const double> weights, double gap);
-/// Sum of weight * log_slope over all_terms(), as sum_values().
+/// The sum of weight * log_slope over all_terms(); arguments are those of sum_values().
 double sum_log_slopes(std::span<const double> weights, double gap);
-/// Sum of weight * antiderivative over all_terms(), as sum_values().
+/// The sum of weight * antiderivative over all_terms(); arguments are those of sum_values(). The
+/// result has the dimension of sum_values() times a length.
 double sum_antiderivatives(std::span<const double> weights, double gap);
 
 /// The index, from 0, of the term in all_terms(). Throws Error(kBadInput) if no term has this name.
@@ -69,14 +72,13 @@ struct Basis {
 inline constexpr std::string_view kOwnTerms = "terms";
 
 /// All named bases, with q in units of the table:
-///   lecture              1/q, 1, q, q^2, q^3
-///                        Lefebvre 2008, physics.md (3.1): a/q + b + c q + d q^2 + e q^3
-///   asymptotic           1/q, ln q, 1, q ln q, q
-///                        the expansion near contact: Cox & Brenner 1967; Cooley & O'Neill 1969
-///   asymptotic_extended  those of `asymptotic`, and q^2 ln q, q^2, q^3
+///   lecture              1/q, 1, q, q^2, q^3; used by Lefebvre 2008, physics.md (3.1)
+///   asymptotic           1/q, ln q, 1, q ln q, q; these terms are those of the expansion near
+///                        contact by Cox & Brenner 1967 and Cooley & O'Neill 1969
+///   asymptotic_extended  the terms of `asymptotic`, and q^2 ln q, q^2, q^3
 const std::vector<Basis>& all_bases();
 
-/// The basis of a fit for which a user names none: lecture.
+/// The basis `lecture`, which is fitted if a user names no basis.
 const Basis& default_basis();
 
 /// The basis with this name. Throws Error(kBadInput), which lists the names, if there is none.

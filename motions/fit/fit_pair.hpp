@@ -1,8 +1,9 @@
-// Fits all resistances of a pair, a sphere beside a body at rest (pair_fit.hpp), to the tables of
-// force and torque in its motions: approach, slide, roll, spin. Lengths, masses and times are in
-// the units of the tables. Tables that are not those of one pair throw Error(kBadInput); other
-// errors are those of fit_force_table(). Used by motions/job/ (commands `fit` and `rolling`) and
-// the Python module. A change must keep the check that the matrix of resistances is symmetric.
+// Fits all resistances of a pair, which is a sphere beside a body at rest (pair_fit.hpp), to tables
+// of force and torque on the sphere in its motions: approach, slide, roll, spin. Lengths, masses
+// and times are in the units of the tables. Tables that are not those of one pair throw
+// Error(kBadInput); other errors are those of fit_force_table(). motions/job/ (commands `fit` and
+// `rolling`) and the Python module use it. A change must keep the check that the matrix of
+// resistances is symmetric.
 #pragma once
 
 #include <map>
@@ -14,24 +15,29 @@
 
 namespace viscontact::motions {
 
-/// The tables of one pair by their motions, at least one table.
+/// The tables of one pair by their motions: at least one table, each with at least one row.
 using PairTables = std::map<lubrication::MotionKind, lubrication::MotionTable>;
 
 /// The choices of the fits of a pair, the same for all resistances.
 struct PairFitSettings {
-  std::string basis{kDefaultPairBasis};  ///< one of pair_bases()
-  /// kSquared: least squares; kHuber, kCauchy: large residuals count less.
+  std::string basis{kDefaultPairBasis};  ///< a name of pair_bases(); a free choice
+  /// kSquared is plain least squares; with kHuber and kCauchy large residuals count less.
   lubrication::Loss loss = lubrication::Loss::kSquared;
 };
 
-/// Fits the resistances (entries) that the tables determine. Residuals are relative to the entry,
-/// but those of slide_roll, which can be 0, are relative to sqrt(slide roll), or, if one of these
-/// tables is missing, to slide r or roll/r, with the radius r of the sphere. Throws
-/// Error(kBadInput) if there is no table, if the tables are of different pairs or have no gaps in
-/// common, if the neighbour moves, if the table of rolling lacks a gap of that of sliding, or if
-/// their slide_roll differ by more than their error estimates, or if `settings.basis` is not known;
-/// and errors of fit_force_table(): Error(kNotConverged), and Error(kInterrupted) if `stop`
-/// requests a stop during a robust fit. The versions in the result are empty.
+/// Fits the resistances, called entries, that the tables determine: squeeze by the approach, slide,
+/// roll and spin by the tables of these names, slide_roll by those of sliding or rolling. Residuals
+/// are relative to the entry. Those of slide_roll, which can be 0, are relative to sqrt(slide
+/// roll). If there is no table of rolling, they are relative to slide r, and if there is none of
+/// sliding, to roll/r, with the radius r of the sphere. `versions` of the result is empty.
+///
+/// Throws Error(kBadInput) if there is no table; if viscosity, radius, geometry or container of two
+/// tables differ, or their intervals of gaps do not overlap; if the neighbour moves; if the table
+/// of rolling lacks a gap of that of sliding; if the slide_roll of both differ by more than their
+/// error estimates, or without estimates by more than 1e-3 sqrt(slide roll); if a table has fewer
+/// gaps than the basis has terms; or if `settings.basis` is not known. Throws Error(kNotConverged)
+/// if the terms cannot be told apart on these gaps or a robust fit does not converge, and
+/// Error(kInterrupted) if `stop` requests a stop during a robust fit.
 PairFit fit_pair(const PairTables& tables, const PairFitSettings& settings,
                  const StopToken& stop = {});
 

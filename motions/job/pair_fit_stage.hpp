@@ -1,9 +1,12 @@
-// Reads the tables of force and torque on a sphere beside a body at rest, fits all its resistances,
-// writes the fit and reports to the user (docs/motions.md). Lengths, masses and times are in the
-// units of the tables. Used by the command `fit` (app/commands/), rolling/job/ and the Python
-// module. Besides the errors below, functions that read or fit throw those of read_motion_table()
-// and fit_pair(); if `stop` requests a stop, Error(kInterrupted). A change must keep that a fit
-// that did not change is not written again.
+// Fits the resistances of a pair, which is a sphere beside a body at rest: reads its tables of
+// force and torque (docs/motions.md), fits them, writes the fit and reports to the user. Lengths,
+// masses and times are in the units of the tables. The command `fit` (app/commands/), rolling/job/
+// and the Python module use it. Besides the errors below, functions that read tables throw
+// Error(kBadInput) for a wrong table (read_motion_table()). Functions that fit throw
+// Error(kBadInput) for tables that do not belong together or have too few gaps,
+// Error(kNotConverged) if terms cannot be told apart, and, if `stop` requests a stop during a
+// robust fit, Error(kInterrupted) (fit_pair()). A change must keep the file names approach.csv,
+// slide.csv, roll.csv and spin.csv, and that a fit that did not change is not written again.
 #pragma once
 
 #include <filesystem>
@@ -15,32 +18,37 @@
 
 namespace viscontact::motions {
 
-/// The tables that the paths name: files, or folders with some of approach.csv, slide.csv, roll.csv
-/// and spin.csv. Throws Error(kBadInput) for a folder with none of these tables, and for a folder
-/// that lacks a table which, by the head of another one, was asked for together with it.
+/// The paths of the tables that `paths` names. Each of these is a file, or a folder with some of
+/// approach.csv, slide.csv, roll.csv and spin.csv; whether a file exists is not checked. Throws
+/// Error(kBadInput) for a folder with none of these tables, and for a folder that lacks a table
+/// which, by the head of another table, was computed together with it.
 std::vector<std::filesystem::path> pair_table_files(const std::vector<std::string>& paths);
 
-/// True if the tables are to be fitted by fit_pair_stage() and not as a single table of the
-/// approach: one of `paths` is a folder, there are several tables, or the only one is of another
-/// motion than the approach. `files` is the result of pair_table_files(paths). Throws
-/// std::filesystem::filesystem_error for a path that the system cannot look up.
+/// True if fit_pair_stage() must fit the tables, false if they are a single table of the approach,
+/// which pipeline/ fits. It is true if one of `paths` is a folder, if there are several tables, or
+/// if the only table is of another motion than the approach. `files` is the result of
+/// pair_table_files(paths). Throws std::filesystem::filesystem_error for a path that the system
+/// cannot look up.
 bool are_of_pair(const std::vector<std::string>& paths,
                  const std::vector<std::filesystem::path>& files);
 
-/// Reads the tables. Throws Error(kBadInput) if two of them are of the same motion.
+/// Reads the tables in `files`. Throws Error(kBadInput) if two of them are of the same motion.
 PairTables read_pair_tables(const std::vector<std::filesystem::path>& files);
 
-/// Fits the tables, writes the fit (JSON) to `fit_path`, and prints the residuals and the leading
-/// coefficients beside those of theory. If `fit_path` already contains this fit, it is not written.
-/// `files` has at least one element (not checked). Throws Error(kBadInput) if the fit cannot be
-/// written.
+/// Fits the tables in `files`, at least one (not checked), and writes the fit (JSON, PairFit) to
+/// `fit_path`. Prints, for each resistance, the largest relative residual [1] and the coefficient
+/// of its leading term beside that of theory. If `fit_path` already contains this fit, it is not
+/// written. Throws Error(kBadInput) if the fit cannot be written.
 void fit_pair_stage(const std::vector<std::filesystem::path>& files,
                     const std::filesystem::path& fit_path, const PairFitSettings& settings,
                     const StopToken& stop);
 
-/// Fits the tables in each of pair_bases(), and prints the largest relative residual of each
-/// resistance as a table, or, if `json`, as JSON with further diagnostics. The basis in `settings`
-/// is not used. The first basis that cannot be fitted ends the comparison with its error.
+/// Fits the tables in `files`, at least one (not checked), with each basis of pair_bases(), and
+/// prints the largest relative residual [1] of each resistance as a table. If `json`, it prints an
+/// object for each basis with an object for each resistance, whose keys are
+/// largest_relative_residual, condition_number and, if it is known, left_one_out, the largest
+/// relative residual of an inner row that was left out. The basis in `settings` is not used. The
+/// first basis that cannot be fitted ends the comparison with its error.
 void compare_pair_bases_stage(const std::vector<std::filesystem::path>& files,
                               PairFitSettings settings, bool json, const StopToken& stop);
 

@@ -1,8 +1,9 @@
-// Random arrangements of discs or spheres that do not overlap, in a disc or a box. Lengths are in
-// the unit of the case file. particles/case places the particles of a case file with it, and
+// Places discs or spheres at random in a disc or a box such that they do not overlap. Lengths are
+// in the unit of the case file. particles/case places the particles of a case file with it, and
 // particles/sweep reports their area fraction. Particles for which no places are found throw
 // Error(kBadInput). Radii and gaps are not checked. A change must keep the arrangement of each seed
-// bit for bit, because users repeat runs by their seeds.
+// bit for bit, because users repeat runs by their seeds. The numbers of tries and moves below
+// therefore must stay, too.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +17,13 @@ namespace viscontact::particles {
 /// The particles that are to be placed, and the gaps that they must have.
 struct Arrangement {
   std::vector<double> radii;  ///< of the particles [L], > 0; at least one (not checked)
-  double smallest_gap = 0;    ///< between two particles, and between one and a wall [L], >= 0
-  /// Seed of the random numbers: the same seed gives the same arrangement, bit for bit.
+  double smallest_gap = 0;    ///< between two particles, or a particle and a wall [L], >= 0
+  /// Seed of the random numbers, any number: the same seed gives the same arrangement, bit for bit.
   std::uint64_t seed = 1;
 };
 
-/// Sum of the areas (dimension 2) [L^2] or volumes (3) [L^3] of the particles of an arrangement.
+/// Sum of the areas [L^2] of the particles of `asked` if `dimension` is 2, or of their volumes
+/// [L^3] if it is 3. Throws nothing.
 double size_of(const Arrangement& asked, int dimension);
 
 /// Places new particles in the domain, which must be a disc or a box; periodic sides are no walls.
@@ -34,20 +36,21 @@ double size_of(const Arrangement& asked, int dimension);
 /// with this gap (all arrangements are equally likely), as far as a Monte Carlo simulation of a
 /// limited number of moves reaches it:
 ///
-/// 1. Each particle, the largest first, is put at a random place where its gaps are large enough
-///    (random sequential addition, Widom 1966), or at any random place if 1000 tries fail.
+/// 1. The particles are put, the largest first, at random places where their gaps are large enough
+///    (random sequential addition, Widom 1966). A particle for which 1000 tries fail is put at any
+///    random place.
 /// 2. Particles that are too close are pushed apart until all gaps are large enough.
 /// 3. Each particle is moved at random, on average 500 times, or 20 to 500 times if there are more
-///    than 40 000. A move is kept if the gaps stay large enough (Metropolis et al. 1953).
+///    than 40 000 particles. A move is kept if the gaps stay large enough (Metropolis et al. 1953).
 ///
 /// 1000 equal discs in a periodic box, with gaps of 0.05 radii and an area fraction of 0.6, take
 /// less than a second. On every machine with IEEE 754 arithmetic the same arguments give the same
 /// bits.
 ///
 /// Throws Error(kBadInput) if the particles do not fit, or if step 2 fails for ten random
-/// beginnings, which can happen although an arrangement exists. The message has the number of
-/// particles and their area or volume fraction; the caller adds file and line. Throws
-/// std::bad_variant_access if `domain` is neither a disc nor a box.
+/// arrangements of step 1, which can happen although an arrangement with these gaps exists. The
+/// message has the number of particles and their area or volume fraction; the caller adds file and
+/// line. Throws std::bad_variant_access if `domain` is neither a disc nor a box.
 std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
                             const Particles& present);
 

@@ -1,12 +1,12 @@
-// Rigid bodies of several discs or spheres, which keep their places in the body, and their motion
-// in a time step, docs/physics.md (5.11). Lengths, masses and times are in any consistent units.
-// `dimension` is 2 (discs) or 3 (spheres); for discs only the third component of turns, torques and
-// angular momenta is used. Nothing is checked or thrown here; particles/case checks the bodies. The
-// number of a particle or body is its place in its array, from 0. Used in simulation.hpp,
-// particles.hpp, constraints/, dual_problem/, fluid/, impacts/ and links/. io/restart.cpp stores
-// BodyMotion in restart files, which take the rest of RigidBody from the case file; a change must
-// keep that. Without force, torque and constraints, momentum and angular momentum must stay
-// constant to rounding.
+// Makes rigid bodies of several discs or spheres, and moves them in a time step (docs/physics.md
+// (5.11)). The particles keep their places in the body. Lengths, masses and times are in any
+// consistent units. `dimension` is 2 (discs) or 3 (spheres); for discs only component 2 of turns,
+// torques and angular momenta is used. The number of a particle or body is its place in its array,
+// from 0. Nothing is checked or thrown here; particles/case checks the bodies. simulation.hpp,
+// particles.hpp, constraints/, dual_problem/, fluid/, impacts/ and links/ use it. io/restart.cpp
+// stores BodyMotion in restart files; the rest of RigidBody comes from the case file. A change must
+// keep that, and that momentum and angular momentum stay constant to rounding without force, torque
+// and constraints.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ inline Vector operator*(const Matrix3& a, const Vector& x) {
           a[6] * x[0] + a[7] * x[1] + a[8] * x[2]};
 }
 
-/// The place, orientation and motion of a rigid body. Restart files store it as it is.
+/// The place, orientation and motion of a rigid body. Restart files store all its members.
 struct BodyMotion {
   Vector centre{};    ///< centre of mass [L]
   Vector velocity{};  ///< of the centre [L/T]
@@ -42,21 +42,21 @@ struct BodyMotion {
   /// Angular momentum about the centre [M L^2/T]; of discs only component 2. It is constant where
   /// no torque acts, unlike the angular velocity in three dimensions.
   Vector angular_momentum{};
-  Vector angular_velocity{};  ///< [1/T]; of discs only component 2
+  Vector angular_velocity{};  ///< [1/T]; of discs only component 2 is used
 };
 
 /// A body that consists of particles, its members. Forces and torques on members act on the body.
-/// "At the start" is when add_rigid_body() makes it.
+/// "At the start" means when add_rigid_body() made the body.
 struct RigidBody : BodyMotion {
   std::vector<std::int32_t> members;  ///< numbers of particles, increasing, at least one
-  /// For each member the vector from `centre` to its centre at the start [L].
+  /// For each member the vector from `centre` to the centre of the member at the start [L].
   std::vector<Vector> offsets;
   /// Angle of each member at the start [rad]. Not used for spheres, which have the body's
   /// orientation.
   std::vector<double> member_angles;
-  double mass = 0;  ///< [M], > 0; >= 0 in a fluid
-  /// Moment of inertia about the centre, with the orientation at the start [M L^2], positive
-  /// definite; discs use only the last entry.
+  double mass = 0;  ///< [M], > 0; in a fluid it may be 0
+  /// Moment of inertia about the centre, with the orientation at the start [M L^2]. It is positive
+  /// definite, or 0 for a body without a mass; discs use only the last entry.
   Matrix3 inertia{};
 };
 
@@ -83,9 +83,10 @@ struct RigidBodies {
 /// What a case says about a body.
 struct RigidBodyRequest {
   std::vector<std::int32_t> members;  ///< numbers of particles, at least one, each only once
-  double mass = -1;                   ///< [M]; < 0: the sum of the members' masses
-  /// Moment of inertia about the centre of mass [M L^2]; < 0: computed from the members at their
-  /// places, whose masses and moments are scaled if `mass` is given. For spheres it must be < 0.
+  double mass = -1;                   ///< [M], >= 0; < 0 stands for the sum of the members' masses
+  /// Moment of inertia about the centre of mass [M L^2], >= 0. A number < 0 means that it is
+  /// computed from the members at their places, whose masses and moments are scaled if `mass` is
+  /// given. For spheres it must be < 0.
   double moment_of_inertia = -1;
 };
 
@@ -95,9 +96,9 @@ struct RigidBodyRequest {
 /// replaced by those of the rigid motion.
 ///
 /// In a periodic cell (Particles::cell) the body consists of those images of the members with which
-/// it is shortest along each axis; the velocities are those of these images. Its diameter() must be
-/// less than the periods. If several choices of images are equally short (ambiguous_images()), the
-/// choice depends on the order of the particles.
+/// the body is shortest along each axis; the velocities are those of these images. The diameter()
+/// of the body must be less than the periods, which is not checked. If several choices of images
+/// are equally short (ambiguous_images()), the choice depends on the order of the particles.
 ///
 /// The particles must turn (add_rotation() in particles.hpp) and belong to no other body.
 void add_rigid_body(Particles& particles, const RigidBodyRequest& request);
@@ -108,26 +109,29 @@ struct AmbiguousImages {
   double distance = 0;   ///< the largest distance between neighbours, which occurs repeatedly [L]
 };
 
-/// The first such axis for a body of these members, at least one; the body need not exist yet.
-/// std::nullopt if the choice is unique along each axis, or if the cell is not periodic.
+/// The first axis along which the images of these members, at least one, are ambiguous; the body
+/// need not exist yet. std::nullopt if the choice is unique along each axis, or if the cell is not
+/// periodic.
 std::optional<AmbiguousImages> ambiguous_images(const Particles& particles,
                                                 const std::vector<std::int32_t>& members);
 
-/// Diameter of the circle or sphere about the centre of a body that contains its members [L].
+/// Diameter [L], > 0, of the smallest circle or sphere about the centre of a body that contains its
+/// members.
 double diameter(const RigidBody& body, const Particles& particles);
 
-/// Numbers of periods from the position of member number `m` (from 0) to its image in the body; 0
-/// along axes without a period.
+/// For each axis the number of periods from the position of member number `m` (from 0) to its image
+/// in the body; 0 along axes without a period.
 Periods periods_of_member(const RigidBody& body, std::size_t m, const Particles& particles);
 
-/// Vector from the centre of a body to the centre of its member number `m` [L].
+/// The present vector from the centre of a body to the centre of its member number `m`, from 0 [L].
 Vector present_offset(const RigidBody& body, std::size_t m, int dimension);
 
-/// The place of a particle, from 0, among the members of its body; the number of members if it is
-/// none.
+/// The place of particle number `particle`, from 0, among the members of `body`. If the particle is
+/// not a member, the result is the number of members.
 std::size_t member_number(const RigidBody& body, std::int32_t particle);
 
-/// Vector from the centre of its body to the centre of a particle [L]; 0 without a body.
+/// Vector from the centre of the body of a particle to the centre of the particle [L]; 0 for a
+/// particle without a body.
 Vector offset_in_body(const Particles& particles, std::int32_t particle);
 
 /// The present value of a vector, of any unit, that is fixed to the body and was `at_start` at the
@@ -137,19 +141,21 @@ Vector turned_with(const RigidBody& body, const Vector& at_start, int dimension)
 /// The present moment of inertia about the centre [M L^2]; of discs only the last entry counts.
 Matrix3 present_inertia(const RigidBody& body, int dimension);
 
-/// Sets the angular velocity from the angular momentum. It stays if the last entry of inertia is 0.
+/// Sets the angular velocity from the angular momentum. If the last entry of the inertia is 0, the
+/// angular velocity stays as it is.
 void update_angular_velocity(RigidBody& body, int dimension);
 
 /// The masses of the members [M], scaled so that their sum is the mass of the body. If no member
-/// has a mass, each gets an equal part.
+/// has a mass, each gets an equal part of the mass of the body.
 std::vector<double> member_masses(const RigidBody& body, const Particles& particles);
 
-/// Sets positions, velocities, orientations and angular velocities of all members to those of their
-/// bodies. In a periodic cell that is not sheared, centres of bodies are first moved into it.
+/// Sets positions, velocities, orientations and angular velocities of all members to those that
+/// follow from their bodies. In a periodic cell that is not sheared, the centres of bodies are
+/// first moved into the cell.
 void place_members(Particles& particles);
 
-/// Inverse of a symmetric positive definite matrix, in the inverse of its unit; the entries of that
-/// of a singular matrix are infinite or NaN.
+/// Inverse of a symmetric positive definite matrix, in the inverse of its unit. If the matrix is
+/// singular, entries of the result are infinite or NaN.
 Matrix3 inverse_of(const Matrix3& a);
 
 /// The product of a number and a matrix, in the product of their units.
@@ -161,36 +167,39 @@ struct BodyLoad {
   Vector torque{};  ///< [M L^2/T^2]
 };
 
-/// The motion of a body in a step of length h [T], with the velocity u, angular velocity w, mass m
-/// and inertia I: first without contacts and links (free_step()), then with them (constrain()).
+/// The motion of a body in a step of length h [T], with the velocity u [L/T], angular velocity w
+/// [1/T], mass m [M] and moment of inertia I [M L^2] of the body. free_step() makes the motion
+/// without contacts and links, and constrain() changes it to that with them.
 struct BodyStep {
   Vector displacement{};      ///< h u of the centre [L]
   Vector turn{};              ///< h w [rad]; of discs only component 2
-  Vector angular_momentum{};  ///< at the end [M L^2/T]
+  Vector angular_momentum{};  ///< at the end of the step [M L^2/T]
   /// Velocity of the centre at the end of the step minus displacement/h [L/T]. It is 0 unless
   /// rebounds (impacts/) changed the velocity within the step.
   Vector late_velocity{};
-  /// For discs: angular momentum at the end minus moment of inertia times turn/h [M L^2/T]; 0
-  /// without rebounds.
+  /// For discs: angular momentum at the end of the step minus moment of inertia times turn/h
+  /// [M L^2/T]; 0 without rebounds.
   Vector late_momentum{};
   double mobility = 0;              ///< h/m [T/M]
   Matrix3 turn_mobility{};          ///< h I^-1 [T/(M L^2)]; discs use only the last entry
   Matrix3 inverse_turn_mobility{};  ///< I/h [M L^2/T]
 };
 
-/// The motion of a body without contacts and links in a step of length `h` > 0 [T]. Its mass and
-/// inertia must be > 0; with 0 the result is infinite or NaN. `load` changes its momentum by the
-/// load times `kick` [T], which is h, or another time with the leapfrog scheme
-/// (Simulation::kick_length()).
+/// The motion of a body without contacts and links in a step of length `h` > 0 [T]. Mass and
+/// inertia of the body must be > 0; with 0 the result is infinite or NaN. `load` changes momentum
+/// and angular momentum by the load times `kick` [T], which is h, or another time with the leapfrog
+/// scheme (Simulation::kick_length()).
 ///
 /// For spheres the turn is that of the implicit midpoint rule: h w = h I^-1 L, with the angular
-/// momentum L and the moment of inertia I after half of the turn. If its iteration does not
-/// converge in 50 steps (turns of more than about half a radian), the last value is taken.
+/// momentum L and the moment of inertia I after half of the turn. If the iteration for the turn
+/// does not converge in 50 rounds (for turns of more than about half a radian), its last value is
+/// taken.
 BodyStep free_step(const RigidBody& body, const BodyLoad& load, double h, double kick,
                    int dimension);
 
-/// Replaces displacement [L] and turn [rad] of a step by those with contacts and links, and adds
-/// the moments of their impulses to the angular momentum.
+/// Replaces displacement [L] and turn [rad] of `step` by the arguments, which are those with
+/// contacts and links, and adds the moments of the impulses of contacts and links to the angular
+/// momentum.
 void constrain(BodyStep& step, const Vector& displacement, const Vector& turn, int dimension);
 
 /// Displacement [L] of a point of a body: the sum of the displacement of the centre and of the

@@ -1,8 +1,9 @@
-// Reads the case file of many particles, a TOML file in which a user describes a simulation
-// (docs/case-file.md, "Many particles"). Lengths, masses and times are in any one consistent system
-// of units. run/, sweep/, python/ and the sweep of particles_study.hpp use it. Every fault of a
-// case throws Error(kBadInput), with the line and the key if it is in one of them. A change must
-// keep accepting the cases that users have written.
+// Reads and checks the case file of many particles, a TOML file in which a user describes a
+// simulation (docs/case-file.md, "Many particles", lists keys, ranges and defaults). Lengths,
+// masses and times are in any one consistent system of units. particles/run/, particles/sweep/,
+// python/ and the sweep of particles_study.hpp use it. Every fault of a case throws
+// Error(kBadInput), with the line and the key if the fault is in one of them. A change must keep
+// accepting the cases that users have written, with the same defaults.
 #pragma once
 
 #include <filesystem>
@@ -17,20 +18,21 @@
 
 namespace viscontact::particles {
 
-/// Content of a case file of many particles.
+/// Content of a case file of many particles. read_particles_case() checks the ranges below.
 struct ParticlesCase {
   std::filesystem::path path;  ///< the case file
   std::string text;            ///< content of the file
   std::string title;           ///< a title for pages and pictures; may be empty
   Units units{};               ///< words for the units, for pages and pictures; may be empty
-  /// Everything that the simulation needs besides the particles.
+  /// What the simulation needs besides the particles: domain, fluid, laws of contact, planes,
+  /// links, given motions, sources, gravity, step and solver.
   Setting setting;
   /// The particles at time 0: those of the CSV file, of the tables [[particle]], of [arrangement]
-  /// and of [[membrane]], in this order.
+  /// and of [[membrane]], in this order. Their dimension is 1 (spheres on an axis), 2 or 3.
   Particles particles;
   std::filesystem::path particles_file;  ///< the CSV file; empty if there is none
-  double end_time = 0;                   ///< time at which the run ends [T], > 0
-  double frame_interval = 0;             ///< time between two outputs (frames) [T], > 0
+  double end_time = 0;                   ///< time at which the run ends [T], 1e-100 to 1e100
+  double frame_interval = 0;             ///< time between outputs (frames) [T], 1e-100 to 1e100
   double average_from = 0;          ///< time at which means over time begin [T], >= 0, < end_time
   std::vector<std::string> tables;  ///< names of tables that the case asks for, of kAskedTables
                                     ///< (io/contact_file.hpp)
@@ -40,26 +42,30 @@ struct ParticlesCase {
   std::optional<case_file::SweepRequest> sweep;
 };
 
-/// Reads and checks a case file. Throws Error(kBadInput) if the file cannot be read or is no TOML,
-/// or, with the file, the line, the key, its value and what is allowed, for a wrong key. Also
-/// throws if there is neither a particle nor a source; if, at the start, two particles overlap or a
-/// particle is on the wrong side of a plane by more than solver.tolerance mean radii; if a radius
-/// is less than a hundred times that length; if a coordinate exceeds largest_resolved_distance() in
-/// magnitude; or if a particle is outside the domain or touches its own periodic image. A case with
-/// a fluid has further conditions (check_fluid_start() in particles_sections.hpp).
+/// Reads and checks a case file. Throws Error(kBadInput) if the file cannot be read or is not TOML.
+/// For a wrong key it throws Error(kBadInput) with the file, the line, the key, its value and what
+/// is allowed. It also throws Error(kBadInput) if there is neither a particle nor a source, or if
+/// the particles cannot be there at the start: with the tolerance of gaps, `solver.tolerance` times
+/// the mean radius, two particles must not overlap, and no particle may reach behind a plane or a
+/// wall, by more than this tolerance; each radius must be at least a hundred times the tolerance;
+/// each coordinate must be at most largest_resolved_distance() (setting.hpp) in magnitude; and each
+/// centre must be in the domain, with no particle touching its own periodic image. A case with a
+/// fluid has further conditions (check_fluid_start() in particles_sections.hpp).
 ParticlesCase read_particles_case(const std::filesystem::path& path);
 
-/// Reads a case from the root table of its file (case_file/case_template.hpp). Throws as
-/// read_particles_case().
+/// Reads a case into `c` from the root table of its file (case_file/case_template.hpp); c.path must
+/// have been set, and other members of `c` must be as they are after construction. Throws
+/// Error(kBadInput) for the faults of the case that read_particles_case() lists.
 void read_root(const case_file::TomlSection& root, ParticlesCase& c);
 
-/// What docs/case-file.md says about the keys of each section.
+/// The tables of docs/case-file.md, which describe the keys of each section: name, allowed values,
+/// default and meaning. Throws nothing.
 std::vector<case_file::KeyTable> tables_of_particles_case();
 
-/// The text of the case file at `path` with the root table `root`, with absolute paths of the files
-/// that it names, so that a file with this text may be in any folder. Cases that differ only in
-/// comments and layout give equal texts. Throws Error(kBadInput) if fluid.solver is not a list of
-/// texts.
+/// The text of a case file with the contents of the root table `root`, which was read from the case
+/// file at `path`. The files that it names have absolute paths, so that a file with this text may
+/// be in any folder. Cases that differ only in comments and layout give equal texts. Throws
+/// Error(kBadInput) if fluid.solver is not a list of texts.
 std::string text_for_any_folder(const case_file::TomlSection& root,
                                 const std::filesystem::path& path);
 

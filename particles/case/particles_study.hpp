@@ -1,10 +1,11 @@
-// A sweep over a case of many particles: which runs it has, and the tables of their results. A
-// point of the sweep is a set of values of the varied keys of the case. At each point the case is
-// run once, or with several random arrangements of its particles (draws), and each run gives a row
-// of results (docs/file-formats.md). Lengths, masses and times are in the units of the case. sweep/
-// and app/ use it. A wrong case throws Error(kBadInput), a wrong choice of what varies
-// Error(kWrongUsage), both before a row is computed. A run that fails throws nothing: its row says
-// why. A change must keep the names of the columns, because scripts of users read them.
+// Plans a sweep over a case of many particles: its runs and the tables of their results. A point of
+// the sweep is a set of values of the varied keys of the case. At each point the case is run once,
+// or with several random arrangements of its particles (draws), and each run gives a row of results
+// (docs/file-formats.md lists the columns and their units). Lengths, masses and times are in the
+// units of the case. particles/sweep/ and app/commands/sweep/ use it. A wrong case throws
+// Error(kBadInput) and a wrong choice of what varies Error(kWrongUsage), or Error(kBadInput) if the
+// case makes the choice, both before a row is computed. A run that fails throws nothing: its row
+// says why. A change must keep the names of the columns, because scripts of users read them.
 #pragma once
 
 #include <cstdint>
@@ -19,30 +20,34 @@
 
 namespace viscontact::particles {
 
-/// Name of the column with the fraction of the domain that the particles of [arrangement] cover.
+/// Name of the column with the fraction [1] of the domain that the particles of [arrangement]
+/// cover.
 inline const char* fraction_column(const ParticlesCase& c) {
   return c.particles.dimension == 3 ? "volume_fraction" : "area_fraction";
 }
 
-/// The points of the section [sweep] of a case of particles; nothing is varied if the case has no
-/// such section. Throws Error(kBadInput) if the case is wrong or a range in [sweep] is not valid.
+/// The points of the section [sweep] of a case of particles. If the case has no such section, the
+/// result varies nothing. Throws Error(kBadInput) if the case is wrong or a range in [sweep] is not
+/// valid.
 sweep::Points planned_particles(const std::filesystem::path& case_path);
 
-/// Runs the case of row `index`, from 0. It is called by several threads at once. If only this run
-/// fails, the results have a `failure`; an Error that it throws ends the whole sweep.
+/// Runs the case of row `index`, from 0, and returns its results. Several threads call it at once.
+/// If only this run fails, the results have a text `failure`. An Error that it throws ends the
+/// whole sweep; it throws Error(kInterrupted) if `stop` requests a stop.
 using ParticlesRunner =
     std::function<sweep::RowResults(std::uint64_t index, const StopToken& stop)>;
 
-/// The points of a sweep of particles, and the cases of its rows. `index` is the number of a row, 0
-/// to points().rows() - 1, which is not checked.
+/// The points of a sweep of particles, and the cases of its rows. The argument `index` is the
+/// number of a row, from 0 to points().rows() - 1, which is not checked.
 class ParticlesSweep {
  public:
-  /// Reads the case. Throws Error(kBadInput) if the case cannot be read or is wrong, or the first
-  /// or the last row gives no valid case, and Error(kWrongUsage) if nothing is varied and there are
-  /// no draws, if a key is varied twice or changes nothing, if there are random samples but no
-  /// varied key, if draws make more than 1e12 rows, if there are draws but the case has no
-  /// [arrangement], or if the seed of the last draw exceeds 2^31 - 1. Points::first_draw becomes
-  /// arrangement.seed of the case.
+  /// Reads the case. Points::first_draw becomes arrangement.seed of the case. Throws
+  /// Error(kBadInput) if the case cannot be read or is wrong, or if the first or the last row gives
+  /// no valid case. Throws Error(kWrongUsage) if nothing is varied and there are no draws; if a key
+  /// is varied twice, or is in a section, [sweep] or [output], that changes no motion; if a grid
+  /// leaves out the end of a range; if there are random samples but no varied key; if draws make
+  /// more than 1e12 rows; if there are draws but the case has no [arrangement], or arrangement.seed
+  /// is varied; or if the seed of the last draw exceeds 2^31 - 1.
   ParticlesSweep(const std::filesystem::path& case_path, sweep::Points points);
 
   /// The points, with the number of draws at each and the seed of the first draw.
@@ -50,7 +55,7 @@ class ParticlesSweep {
   /// The case file, as the constructor was given it.
   const std::filesystem::path& case_path() const { return cases_.path(); }
 
-  /// Names of the columns with results. Those of the fluid are missing if the case has no fluid.
+  /// Names of the columns with results. Columns of the fluid are missing if the case has no fluid.
   const std::vector<std::string>& result_columns() const { return result_columns_; }
 
   /// The case of row `index`. Throws Error(kBadInput) if it is not valid.
@@ -60,19 +65,19 @@ class ParticlesSweep {
   /// are absolute. Rows with equal cases have equal texts.
   std::string case_text(std::uint64_t index) const;
 
-  /// The text of a case file without changed values. The file may be in any folder, too.
+  /// The text of a case file in which no key has been varied. The file may be in any folder.
   std::string base_text() const;
 
   /// The CSV file of particles that the case names; empty if there is none.
   const std::filesystem::path& particles_file() const { return particles_file_; }
 
-  /// Hash (SHA-256) of everything that determines the results of row `index`: `version`, that of
-  /// Viscontact, the case, and the CSV file of particles. Throws Error(kBadInput) if this file
-  /// cannot be read.
+  /// Hash (SHA-256) of everything that determines the results of row `index`: the version of
+  /// Viscontact, which is `version`, the case, and the CSV file of particles. Throws
+  /// Error(kBadInput) if this file cannot be read.
   std::string identity(std::uint64_t index, const std::string& version) const;
 
   /// The sweep in the form that sweep/study.hpp computes and writes; `run` computes its rows.
-  /// `version` is that of Viscontact. Throws Error(kBadInput) if the case or its CSV file of
+  /// `version` is the version of Viscontact. Throws Error(kBadInput) if the case or its CSV file of
   /// particles cannot be read.
   sweep::Study study(const std::string& version, ParticlesRunner run) const;
 
@@ -83,12 +88,13 @@ class ParticlesSweep {
   std::vector<std::string> result_columns_;
 };
 
-/// The table of means of a finished file of rows: for each point of the sweep its varied keys, the
-/// number of draws that succeeded, the number of those that failed, and, for each column of
-/// results, COLUMN.mean and COLUMN.standard_error over the draws that succeeded. The standard error
-/// is the standard deviation (with n - 1) over the root of n; it is empty if n < 2. Units are those
-/// of the columns. Throws Error(kBadInput) if the file cannot be read or has other rows than the
-/// sweep.
+/// The table of means, as CSV, of the finished file of rows at `path`. For each point of the sweep
+/// it has the varied keys, the number of draws that succeeded (`draws`), the number of draws that
+/// failed (`failed`), and, for each column of results, COLUMN.mean and COLUMN.standard_error over
+/// the draws that succeeded. The standard error is the standard deviation (with n - 1) of n draws
+/// over the root of n; it is empty if n < 2. Both are empty if no draw has a finite value. Units
+/// are those of the columns. Throws Error(kBadInput) if the file cannot be read or has other rows
+/// than the sweep.
 std::string table_of_means(const ParticlesSweep& sweep, const std::filesystem::path& path);
 
 /// The path of the table of means beside a file of rows: "rows.csv" gives "rows_means.csv".

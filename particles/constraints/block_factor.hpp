@@ -1,10 +1,10 @@
-// Sparse LU factorisation of a matrix of small dense blocks with a symmetric pattern (BlockFactor),
-// and the matrices of contacts and links that it factorises (UnitMatrix). A row of blocks belongs
-// to a body: a particle, or a rigid body of several. Units are any consistent ones. A singular
-// matrix makes factorise() return false; nothing else is checked (numbers of bodies, edges, blocks
-// and rows, the order of calls), and nothing is thrown. Used by constraint_system.cpp,
-// coulomb_path.hpp, interior_points.hpp and proximal_step.hpp. Results depend on the order of sums,
-// and by rounding errors on the instructions that the processor has.
+// Factorises sparse matrices of small dense blocks with a symmetric pattern (BlockFactor), and
+// makes such matrices for contacts and links (UnitMatrix). A row of blocks belongs to a body: a
+// particle, or a rigid body of several particles. Units are any consistent ones. A singular matrix
+// makes factorise() return false. Nothing else is checked (numbers of bodies, edges, blocks and
+// rows, the order of calls), and nothing is thrown. constraint_solver.cpp, coulomb_path.hpp,
+// interior_points.hpp and proximal_step.hpp use it. A change of the order of sums changes results
+// by rounding errors, as do the instructions that the processor has.
 #pragma once
 
 #include <array>
@@ -17,26 +17,30 @@
 
 namespace viscontact::particles {
 
-/// Factorises A = (L + D) (I + U), with blocks L below, D on and U above the diagonal and the
-/// identity I. A has blocks of K x K numbers (K = 3: discs, 6: spheres) in any unit, and two blocks
-/// off the diagonal for each pair of bodies that are connected. Rows are exchanged within a block
-/// only. Dense blocks are several times as fast as a sparse factorisation of single numbers. Few
-/// bodies are eliminated in the order of minimum degree (AMD: Amestoy, Davis & Duff 1996, "An
-/// approximate minimum degree ordering algorithm"), many in that of nested dissection (METIS:
-/// Karypis & Kumar 1998, "A fast and high quality multilevel scheme for partitioning irregular
-/// graphs"). If A is declared symmetric, it must be positive definite. It becomes L L^T (Cholesky),
-/// in half of the time of LU, because blocks above the diagonal are not needed.
+/// Factorises a square matrix A = (L + D) (I + U): L has the blocks below the diagonal, D those on
+/// it, U those above it, and I is the identity. A has blocks of K x K numbers (K = 3: discs, 6:
+/// spheres) in any unit, and two blocks off the diagonal for each pair of bodies that are
+/// connected. Rows are exchanged within a block only. Dense blocks are several times as fast as a
+/// sparse factorisation of single numbers. Few bodies are eliminated in the order of minimum degree
+/// (AMD: Amestoy, Davis & Duff 1996, "An approximate minimum degree ordering algorithm"), many in
+/// the order of nested dissection (METIS: Karypis & Kumar 1998, "A fast and high quality multilevel
+/// scheme for partitioning irregular graphs"). If A is declared symmetric, it must be positive
+/// definite. Its factorisation is then L L^T (Cholesky), which takes half of the time of LU,
+/// because blocks above the diagonal are not needed. The caller calls analyse(), then clear(), adds
+/// to the blocks, and calls factorise() and solve(); the steps from clear() on can be repeated.
 template <int K>
 class BlockFactor {
  public:
   using Block = std::array<double, static_cast<std::size_t>(K* K)>;  ///< row by row
-  using Vec = std::array<double, static_cast<std::size_t>(K)>;       ///< numbers of one body
+  using Vec = std::array<double, static_cast<std::size_t>(K)>;       ///< K numbers of one body
 
-  /// The numbers of two connected bodies, which differ; from 0 to the number of bodies - 1.
+  /// The numbers of two different bodies that are connected, each from 0 to the number of bodies -
+  /// 1.
   using Edge = std::array<std::int32_t, 2>;
 
-  /// Finds the order of elimination and the pattern of L for `bodies` bodies that `edges` connect,
-  /// each once or several times. `is_symmetric`: A will be symmetric. Must be called first.
+  /// Finds the order of elimination and the pattern of L for a number `bodies` >= 0 of bodies and
+  /// the pairs of them, `edges`, that are connected. A pair may occur several times. If
+  /// `is_symmetric`, A must be symmetric. analyse() must be called before the other functions.
   void analyse(std::size_t bodies, std::span<const Edge> edges, bool is_symmetric);
 
   /// Number of bodies that analyse() was given.
@@ -46,28 +50,32 @@ class BlockFactor {
 
   /// Sets A to 0.
   void clear();
-  /// Block of A on the diagonal, to which the caller adds. Needs clear() after factorise().
+  /// Block of A on the diagonal, to which the caller adds. After factorise(), clear() must be
+  /// called before.
   Block& diagonal(std::size_t body) { return diagonal_[place_[body]]; }
-  /// Block of A for edge number `edge` of analyse(), to which the caller adds. Its rows belong to
-  /// the body edge[from], its columns to the other one. If A is symmetric, only with is_below().
+  /// Block of A for edge number `edge` of analyse(), to which the caller adds. `from` is 0 or 1:
+  /// the rows of the block belong to this body of the edge, its columns to the other one. If A is
+  /// symmetric, only blocks for which is_below() is true may be used.
   Block& off_diagonal(std::size_t edge, std::size_t from) {
     const auto& place = edges_[edge];
     return (place.later == from ? below_ : above_)[place.entry];
   }
-  /// True if this block is below the diagonal: edge[from] is eliminated after the other body.
+  /// True if the block off_diagonal(edge, from) is below the diagonal: body `from` of the edge is
+  /// eliminated after the other one.
   bool is_below(std::size_t edge, std::size_t from) const { return edges_[edge].later == from; }
 
-  /// Replaces A by its factors. Returns false, with unusable factors, if a block on the diagonal
-  /// becomes singular, infinite or NaN, or, for a symmetric A, is not positive definite. True if
-  /// there are no bodies. The threads of `pool` share the work on a large matrix, with the same bits
-  /// for any number of threads; null: the calling thread works alone.
+  /// Replaces A by its factors. Returns false if a block on the diagonal becomes singular, infinite
+  /// or NaN, or, for a symmetric A, is not positive definite; the factors are then unusable. Returns
+  /// true otherwise, also if there are no bodies. The threads of `pool` share the work on a large
+  /// matrix, with the same bits for any number of threads; null: the calling thread works alone.
   bool factorise(ThreadPool* pool = nullptr);
-  /// Sign of the determinant of A, 1 or -1; 1 if A is symmetric. Needs a factorise() that returned
-  /// true.
+  /// Sign of the determinant of A, 1 or -1; 1 if A is symmetric. It has a meaning only after a
+  /// factorise() that returned true.
   int sign_of_determinant() const { return sign_; }
 
-  /// Replaces `values`, one Vec for each body, by A^-1 times them. Needs a factorise() that
-  /// returned true. Not for two threads at once: it uses a work array of the object.
+  /// Replaces `values`, one Vec for each body, by A^-1 times `values`. It has a meaning only after
+  /// a factorise() that returned true. Two threads must not call it at once, because it uses a work
+  /// array of the object.
   void solve(std::span<Vec> values) const;
 
  private:
@@ -113,29 +121,32 @@ class BlockFactor {
   int sign_ = 1;
 };
 
-/// The matrix M/h + sum of weight * row^T other. M/h are the masses and moments of inertia of all
-/// units (particles and rigid bodies) over the length h of the step [M/T, M L^2/T]. A row holds the
-/// coefficients by which a gap, a tangential displacement or a link's equation depends on the
-/// motions of its units; a block of constraints holds the rows of one contact or link. A Motion is
-/// a displacement [L] and a rotation [rad], or an impulse [M L/T] and its moment [M L^2/T].
+/// The matrix M/h + sum of weight * row^T other over pairs of rows. M/h are the masses and moments
+/// of inertia of all units (particles and rigid bodies) over the length h > 0 of the step
+/// [M/T, M L^2/T]. A row holds the coefficients by which a gap, a tangential displacement or a
+/// link's equation depends on the motions of its units; a block of constraints holds the rows of
+/// one contact or link. A Motion is a displacement [L] and a rotation [rad], or an impulse [M L/T]
+/// and its moment [M L^2/T].
 template <int D>
 class UnitMatrix {
  public:
-  /// `problem` must outlive this object and keep its units, blocks and parts of rows.
-  /// `is_symmetric`: the matrix will be symmetric; it is then factorised in half of the time.
+  /// `problem` must outlive this object, and its units, blocks and parts of rows must not change.
+  /// If `is_symmetric`, the matrix must be symmetric, and is factorised in half of the time.
   UnitMatrix(const ConstraintProblem<D>& problem, bool is_symmetric);
 
   void set_to_masses();  ///< sets the matrix to M/h
-  /// Adds weight * row^T other, for two rows of constraint block `b`, by their places in
-  /// ConstraintProblem::rows, with a weight [M/T] (for rows of angles [M L^2/T]). If the matrix is
-  /// symmetric, other^T row must be added, too.
+  /// Adds weight * row^T other for two rows of constraint block `b`, which may be the same. `row`
+  /// and `other` are their places in ConstraintProblem::rows, and `weight` has any sign and the
+  /// unit [M/T] (for rows of angles [M L^2/T]). If the matrix is symmetric and the rows differ,
+  /// other^T row must be added, too.
   void add_product(std::size_t b, std::size_t row, std::size_t other, double weight);
-  /// Replaces the matrix by its factors, as BlockFactor::factorise(), and returns its result.
+  /// Replaces the matrix by its factors. Returns false if this fails (BlockFactor::factorise()).
   bool factorise() { return factor_.factorise(problem_.pool); }
-  /// Sign of its determinant, 1 or -1. Needs a factorise() that returned true.
+  /// Sign of the determinant of the matrix, 1 or -1. It has a meaning only after a factorise() that
+  /// returned true.
   int sign_of_determinant() const { return factor_.sign_of_determinant(); }
-  /// Replaces the impulses on all units, one Motion for each, by the motions that they cause. Needs
-  /// a factorise() that returned true.
+  /// Replaces the impulses on all units, one Motion for each unit, by the motions that the impulses
+  /// cause. It has a meaning only after a factorise() that returned true.
   void solve(std::span<Motion<D>> values) const { factor_.solve(values); }
   /// The motions of solve() as a new array.
   std::vector<Motion<D>> solution_of(std::span<const Motion<D>> impulses) const {

@@ -1,13 +1,15 @@
-// The second-order cone (x_1^2 + x_2^2)^(1/2) <= x_0 of two and three dimensions, with the
-// operations that the method of interior points needs: products, the distance to the boundary, and
+// Computes with points of the second-order cone, the set of points x = (x_0, x_1, x_2) with (x_1^2
+// + x_2^2)^(1/2) <= x_0; in two dimensions x_2 is 0 and the cone is |x_1| <= x_0. The operations
+// are those that the method of interior points needs: products, the distance to the boundary, and
 // the scaling of Nesterov & Todd between a point of the cone and a dual point (Alizadeh & Goldfarb
 // 2003, "Second-order cone programming"; Vandenberghe 2010, "The CVXOPT linear and quadratic cone
-// program solvers"). In two dimensions the cone is |x_1| <= x_0.
+// program solvers").
 //
 // All components of a point have the same unit, which the caller chooses: the root of [M L^2/T] in
 // interior_points.hpp, [M L/T] in constraint_solver.cpp. Only these two use this header. Nothing is
-// checked or thrown: operations that need a point inside the cone give NaN or infinity for another
-// one. A change must keep the accuracy near the boundary, where solutions are.
+// checked or thrown: operations that need a point inside the cone give NaN, infinity or numbers
+// without meaning for other points. A change must keep the accuracy near the boundary, where
+// solutions are.
 #pragma once
 
 #include <algorithm>
@@ -20,10 +22,10 @@
 
 namespace viscontact::particles {
 
-/// A point of a cone of two or three dimensions; a component beyond the dimension is 0.
+/// A point or direction in two or three dimensions; a component beyond the dimension is 0.
 using ConePoint = std::array<double, 3>;
 
-/// Sum of the products of the components, in the product of both units.
+/// The inner product of two points, in the product of their units.
 inline double inner(const ConePoint& x, const ConePoint& y) {
   return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
 }
@@ -31,8 +33,9 @@ inline double inner(const ConePoint& x, const ConePoint& y) {
 /// The distance of a point from the axis of the cone, (x_1^2 + x_2^2)^(1/2).
 inline double beside_axis(const ConePoint& x) { return std::hypot(x[1], x[2]); }
 
-/// x_0^2 - x_1^2 - x_2^2, for x_0 > 0 positive inside the cone and 0 on its boundary. The product
-/// of two factors has fewer rounding errors than the difference of squares.
+/// The determinant x_0^2 - x_1^2 - x_2^2 of a point. If x_0 > 0, it is positive inside the cone and
+/// 0 on its boundary. It is computed as the product of two factors, which has fewer rounding errors
+/// than the difference of squares.
 inline double determinant(const ConePoint& x) {
   const double beside = beside_axis(x);
   return (x[0] - beside) * (x[0] + beside);
@@ -43,7 +46,7 @@ inline ConePoint jordan_product(const ConePoint& x, const ConePoint& y) {
   return {inner(x, y), x[0] * y[1] + y[0] * x[1], x[0] * y[2] + y[0] * x[2]};
 }
 
-/// The y with jordan_product(x, y) = z, for an x inside the cone.
+/// The point y for which jordan_product(x, y) = z, for an x inside the cone.
 inline ConePoint jordan_quotient(const ConePoint& z, const ConePoint& x) {
   const double y = (x[0] * z[0] - x[1] * z[1] - x[2] * z[2]) / determinant(x);
   return {y, (z[1] - y * x[1]) / x[0], (z[2] - y * x[2]) / x[0]};
@@ -52,12 +55,14 @@ inline ConePoint jordan_quotient(const ConePoint& z, const ConePoint& x) {
 /// A point inside a cone.
 struct InnerPoint {
   ConePoint x{};  ///< the point, in the coordinates of SecondOrderCone or LinearCones
-  /// In a SecondOrderCone x_0 - (x_1^2 + x_2^2)^(1/2), > 0, with a small relative error, which the
-  /// difference computed from `x` does not have near the boundary. Not used by LinearCones.
+  /// In a SecondOrderCone this is x_0 - (x_1^2 + x_2^2)^(1/2), > 0, with a small relative error,
+  /// which the difference computed from `x` does not have near the boundary. LinearCones does not
+  /// use it.
   double inside = 0;
 };
 
-/// The largest t > 0 [1] with u + t d in the second-order cone; infinity if all of them are in it.
+/// The largest t > 0 [1] for which u + t d is in the second-order cone, with a point `u` inside it
+/// and any direction `d`; infinity if u + t d is in the cone for all t > 0.
 inline double length_to_boundary(const InnerPoint& u, const ConePoint& d) {
   const auto& x = u.x;
   double length = std::numeric_limits<double>::infinity();
@@ -74,16 +79,17 @@ inline double length_to_boundary(const InnerPoint& u, const ConePoint& d) {
   return length;
 }
 
-/// The scaling of Nesterov & Todd between a point u and a dual point r, both inside a cone: the
-/// symmetric matrix W with W^-1 u = W r that maps the cone onto itself. W is diagonal in numbers
-/// that `Frame` computes from the coordinates of a point. Its first two numbers are those in which
-/// W differs most from a multiple of the identity: near a solution one of them is small in u and
-/// one in r, with a small relative error. A `Frame` is made from u and r and has numbers() of a
-/// point and of an InnerPoint, and its inverse point(). Both keep inner products.
+/// The scaling of Nesterov & Todd between a point u and a dual point r, both inside a cone. It is
+/// the symmetric matrix W with W^-1 u = W r that maps the cone onto itself. `Frame` describes a
+/// point by three numbers, in which W is diagonal, in place of its coordinates. In the first two
+/// numbers W differs most from a multiple of the identity: near a solution one of these numbers is
+/// small in u and the other one in r, with a small relative error. A `Frame` is made from u and r.
+/// Its function numbers() gives the numbers of a point or of an InnerPoint, and point() is the
+/// inverse of numbers(). Both keep inner products.
 template <class Frame>
 class NesterovToddScaling {
  public:
-  NesterovToddScaling() = default;  ///< W = I
+  NesterovToddScaling() = default;  ///< W is the identity
   /// W of a point `u` and a dual point `r`, both inside the cone.
   NesterovToddScaling(const InnerPoint& u, const InnerPoint& r) : frame_(u, r) {
     const auto of_u = frame_.numbers(u), of_r = frame_.numbers(r);
@@ -110,19 +116,22 @@ class NesterovToddScaling {
     for (std::size_t k = 0; k < 3; ++k) y[k] /= std::sqrt(square_[k]);
     return point(y);
   }
-  /// The coordinates of (W^2 + shift I)^-1 times the point with the numbers `y`, shift >= 0.
+  /// The coordinates of (W^2 + shift I)^-1 times the point with the numbers `y`, with the identity
+  /// I and `shift` >= 0.
   ConePoint solve(double shift, const ConePoint& y) const {
     return point(
         {y[0] / (square_[0] + shift), y[1] / (square_[1] + shift), y[2] / (square_[2] + shift)});
   }
-  /// The coordinates of the point z with the component z_0 = 0 that solves all rows of (W^2 + shift
-  /// I) z = the point with the numbers `y` but that of component 0, shift >= 0.
+  /// The coordinates of the point z whose component z_0 is 0 and which solves the equation (W^2 +
+  /// shift I) z = (the point with the numbers `y`), without its row of component 0; `shift` >= 0.
   ConePoint solve_beside(double shift, const ConePoint& y) const {
     const double along = (y[0] - y[1]) / (square_[0] + square_[1] + 2 * shift);
     return point({along, -along, y[2] / (square_[2] + shift)});
   }
-  /// The component 0 of du with which the second number of W^2 dr + du is goal[1]. `goal` are
-  /// numbers, `dr` coordinates, and `du` coordinates of the point whose component 0 is 0.
+  /// Completes a change of u whose other components are known: returns the component 0 with which
+  /// the second number of W^2 dr + du is goal[1]. `goal` has numbers of a point, `dr` has
+  /// coordinates, and `du` has the coordinates of the change of u with 0 in place of the unknown
+  /// component.
   double first_change(const ConePoint& goal, const ConePoint& dr, const ConePoint& du) const {
     return std::numbers::sqrt2 * (goal[1] - square_[1] * numbers(dr)[1] - numbers(du)[1]);
   }
@@ -138,13 +147,13 @@ class NesterovToddScaling {
   ConePoint scaled_{};         // numbers of W r
 };
 
-/// The frame of NesterovToddScaling for a second-order cone: with a unit vector d in the plane of
-/// x_1 and x_2, and the vector d' at right angles to d in this plane, the numbers of a point x are
-/// (x_0 + d.x)/2^0.5, (x_0 - d.x)/2^0.5 and d'.x.
+/// The Frame of NesterovToddScaling for a second-order cone. It has a unit vector d in the plane of
+/// x_1 and x_2, and the unit vector d' at right angles to d in this plane. The numbers of a point x
+/// are (x_0 + d.x)/2^0.5, (x_0 - d.x)/2^0.5 and d'.x.
 class DirectionOfScaling {
  public:
   DirectionOfScaling() = default;  ///< d = (1, 0)
-  /// The d for which W of these points is diagonal.
+  /// The direction d for which W of the points `u` and `r`, both inside the cone, is diagonal.
   DirectionOfScaling(const InnerPoint& u, const InnerPoint& r) {
     const double of_u = std::sqrt(u.inside * (u.x[0] + beside_axis(u.x)));
     const double of_r = std::sqrt(r.inside * (r.x[0] + beside_axis(r.x)));
@@ -158,8 +167,9 @@ class DirectionOfScaling {
     return {(x[0] + along) * kHalfRoot, (x[0] - along) * kHalfRoot,
             direction_[0] * x[2] - direction_[1] * x[1]};
   }
-  /// The numbers of a point inside the cone. The smaller one of x_0 + d.x and x_0 - d.x is
-  /// InnerPoint::inside plus (d'.x)^2/(b + |d.x|) = b - |d.x|, with the distance b from the axis.
+  /// The numbers of a point inside the cone. With the distance b of the point from the axis, the
+  /// smaller one of x_0 + d.x and x_0 - d.x is InnerPoint::inside plus b - |d.x|, and this
+  /// difference is computed as (d'.x)^2/(b + |d.x|), without loss of digits.
   ConePoint numbers(const InnerPoint& of) const {
     auto y = numbers(of.x);
     const double beside = beside_axis(of.x), along = along_direction(of.x);
@@ -184,18 +194,19 @@ class DirectionOfScaling {
 
 /// The operations of interior_points.hpp on a cone of three dimensions (contacts of spheres).
 struct SecondOrderCone {
-  using Scaling = NesterovToddScaling<DirectionOfScaling>;  ///< of two points
+  using Scaling = NesterovToddScaling<DirectionOfScaling>;  ///< the scaling of two points
   /// The product of the cone, jordan_product().
   static ConePoint product(const ConePoint& x, const ConePoint& y) { return jordan_product(x, y); }
-  /// The y with product(x, y) = z, jordan_quotient().
+  /// The point y for which product(x, y) = z, with x inside the cone; jordan_quotient().
   static ConePoint quotient(const ConePoint& z, const ConePoint& x) {
     return jordan_quotient(z, x);
   }
-  /// The largest t > 0 with u + t d in the cone; infinity if all of them are in it.
+  /// The largest t > 0 [1] for which u + t d is in the cone; infinity if it is so for all t > 0.
   static double length_to_boundary(const InnerPoint& u, const ConePoint& d) {
     return particles::length_to_boundary(u, d);
   }
-  /// Adds t d to a point, which must stay inside the cone, without loss of digits of `inside`.
+  /// Adds t d to the point `u`, without loss of digits of InnerPoint::inside. The point must stay
+  /// inside the cone, which is not checked.
   static void move(InnerPoint& u, double t, const ConePoint& d) {
     const double before = beside_axis(u.x);
     const double twice = 2 * (u.x[1] * d[1] + u.x[2] * d[2]) + t * (d[1] * d[1] + d[2] * d[2]);
@@ -203,14 +214,17 @@ struct SecondOrderCone {
     const double sum = before + beside_axis(u.x);
     u.inside += t * (d[0] - (sum > 0 ? twice / sum : 0));
   }
-  /// The unit of the product, product(kUnit, x) = x.
+  /// The neutral element of the product: product(kUnit, x) = x.
   static constexpr ConePoint kUnit{1, 0, 0};
-  /// An estimate of the dual point at the solution, where u.r = 0, from points u and r near it. It
-  /// is 0 if u is farther from the boundary than r is large; otherwise it is r.
+  /// An estimate of the dual point at the solution, where the inner product of point and dual point
+  /// is 0, from a point u and a dual point r near the solution. It is 0 if the distance of u from
+  /// the boundary, u_0 - (u_1^2 + u_2^2)^(1/2), is larger than r_0 + (r_1^2 + r_2^2)^(1/2);
+  /// otherwise it is r.
   static ConePoint without_open_part(const ConePoint& u, const ConePoint& r) {
     return u[0] - beside_axis(u) > r[0] + beside_axis(r) ? ConePoint{} : r;
   }
-  /// The coordinates in which the other functions take points: here the components `x`.
+  /// The coordinates in which the other functions of this struct take points. Here they are the
+  /// components `x` themselves.
   static ConePoint coordinates(const ConePoint& x) { return x; }
 };
 
@@ -219,10 +233,10 @@ struct SecondOrderCone {
 /// x_1)/2^0.5 and 0. The first two are > 0 inside the cone, and have small relative errors also
 /// near the boundary.
 struct LinearCones {
-  /// The frame of NesterovToddScaling: the numbers of a point are its coordinates.
+  /// The Frame of NesterovToddScaling: the numbers of a point are its coordinates.
   struct Coordinates {
     Coordinates() = default;
-    /// All points have the same frame.
+    /// The Frame does not depend on the points.
     Coordinates(const InnerPoint&, const InnerPoint&) {}
     /// The numbers of a point.
     static ConePoint numbers(const ConePoint& x) { return x; }
@@ -231,37 +245,38 @@ struct LinearCones {
     /// The point with the numbers `y`.
     static ConePoint point(const ConePoint& y) { return y; }
   };
-  using Scaling = NesterovToddScaling<Coordinates>;  ///< of two points
+  using Scaling = NesterovToddScaling<Coordinates>;  ///< the scaling of two points
   /// The products of the coordinates, one by one.
   static ConePoint product(const ConePoint& x, const ConePoint& y) {
     return {x[0] * y[0], x[1] * y[1], x[2] * y[2]};
   }
-  /// The y with product(x, y) = z.
+  /// The point y for which product(x, y) = z, with x inside the cone.
   static ConePoint quotient(const ConePoint& z, const ConePoint& x) {
     return {z[0] / x[0], z[1] / x[1], 0};
   }
-  /// The largest t > 0 with u + t d in the cone; infinity if all of them are in it.
+  /// The largest t > 0 [1] for which u + t d is in the cone; infinity if it is so for all t > 0.
   static double length_to_boundary(const InnerPoint& u, const ConePoint& d) {
     double length = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 2; ++k)
       if (d[k] < 0) length = std::min(length, -u.x[k] / d[k]);
     return length;
   }
-  /// Adds t d to a point, which must stay inside the cone.
+  /// Adds t d to the point `u`, which must stay inside the cone (not checked).
   static void move(InnerPoint& u, double t, const ConePoint& d) {
     for (std::size_t k = 0; k < 3; ++k) u.x[k] += t * d[k];
   }
-  /// The unit of the product: each coordinate is 1.
+  /// The neutral element of the product: both coordinates are 1.
   static constexpr ConePoint kUnit{1, 1, 0};
-  /// An estimate of the dual point at the solution, where in each coordinate u or r is 0, from
-  /// points u and r near it: each coordinate of r that is smaller than that of u is set to 0.
+  /// An estimate of the dual point at the solution, where in each coordinate the point or the dual
+  /// point is 0, from a point u and a dual point r near the solution: each coordinate of r that is
+  /// smaller than that of u is replaced by 0.
   static ConePoint without_open_part(const ConePoint& u, const ConePoint& r) {
     ConePoint left{};
     for (std::size_t k = 0; k < 3; ++k) left[k] = u[k] > r[k] ? 0 : r[k];
     return left;
   }
-  /// The coordinates of a point with these components. The same function computes
-  /// components from coordinates, because it is its own inverse.
+  /// The coordinates of a point with the components `x`. The same function computes components from
+  /// coordinates, because it is its own inverse.
   static ConePoint coordinates(const ConePoint& x) {
     const double half = std::numbers::sqrt2 / 2;
     return {half * (x[0] + x[1]), half * (x[0] - x[1]), 0};

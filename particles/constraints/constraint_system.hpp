@@ -1,10 +1,11 @@
-// The contacts with friction, rigid bodies and links (hinges, springs, arms, membranes) of a time
-// step on particles that turn; a unit is a particle or rigid body that moves as one. Makes the
-// problem of constraint_problem.hpp, solves it, and writes the solution to contacts, particles and
-// bodies. Lengths [L], masses [M] and times [T] are in any consistent units; D is 2 (discs) or 3
-// (spheres). Nothing is checked or thrown; residual() and link_residual() tell whether a step is
-// solved. projection/ uses it. Results depend on the order of units, contacts and links; restart
-// files store the link forces in their order.
+// Solves a time step of particles that turn, with the contacts with friction, rigid bodies and
+// links (hinges, springs, arms, membranes). It makes the problem of constraint_problem.hpp, solves
+// it, and writes the solution to contacts, particles and bodies. A unit is a particle or rigid body
+// that moves as one. Lengths [L], masses [M] and times [T] are in any consistent units; D is 2
+// (discs) or 3 (spheres). Numbers such as (5.9) are equations of docs/physics.md. Nothing is
+// checked or thrown; solve(), residual() and link_residual() tell whether a step is solved.
+// projection/ uses it. Results depend on the order of units, contacts and links. A change must keep
+// the order of the link forces, which restart files store.
 #pragma once
 
 #include <cstddef>
@@ -24,9 +25,10 @@
 
 namespace viscontact::particles {
 
-/// A time step and what its constraints depend on, besides contacts. The arrays that can be written
+/// A time step, and what its constraints depend on besides contacts. The arrays that are not const
 /// belong to the simulation: before solve() they hold the motion without contacts and links, after
-/// it that with them. h [T] is the step's length, w are angular velocities, I moments of inertia.
+/// solve() the motion with them. h = end - begin > 0 [T] is the length of the step, w are angular
+/// velocities [1/T], I moments of inertia [M L^2].
 struct ConstraintStep {
   const ContactLaws& laws;           ///< the laws of all contacts
   std::span<const Plane> obstacles;  ///< planes, which may move, and circles
@@ -38,8 +40,8 @@ struct ConstraintStep {
   std::span<const double> turn_mobilities;  ///< h/I of all particles [T/(M L^2)], > 0
   std::span<BodyStep> bodies;               ///< motions of all rigid bodies
   const Links* links = nullptr;             ///< must not be null, but may contain no links
-  /// Forces and torques of all links [M L/T^2, M L^2/T^2], as State::link_forces: before solve()
-  /// the first guess, after it the solution.
+  /// Forces and torques of all links [M L/T^2, M L^2/T^2], in the order of State::link_forces:
+  /// before solve() the first guess, after solve() the solution.
   std::span<double> link_forces;
   /// The threads that share large factorisations; null: the calling thread works alone.
   ThreadPool* pool = nullptr;
@@ -49,56 +51,65 @@ struct ConstraintStep {
 template <int D>
 class ConstraintSystem {
  public:
-  /// All arguments must outlive this object. `displacements`: of all particles without contacts and
-  /// links [L], D for each; solve() changes them. `mobilities`: h/m, with the masses m [T/M].
+  /// All arguments must outlive this object. `displacements` are those of all particles without
+  /// contacts and links [L], D numbers for each particle; solve() changes them. `mobilities` has
+  /// h/m > 0 [T/M] for each particle, with its mass m.
   ConstraintSystem(const ConstraintStep& step, const Particles& particles,
                    std::span<double> displacements, std::span<const double> mobilities);
 
-  /// Adds the particles of all links to `system`. Must be called before a contact is added.
+  /// Adds the particles of all links to `system`. It must be called before a contact is added.
   void join_linked(ContactSystem<D>& system) const;
 
-  /// True if an arm keeps the particles of `pair` from overlapping at the end of the step by more
-  /// than 1e-6 of the sum of their radii, which cases may leave as rounding errors of its length.
-  /// Their contact would repeat the equation of the arm to first order in the arm's turn, and
-  /// contradict it to second order. Its load would not be unique. It must therefore not be added.
+  /// True if an arm keeps the particles of `pair` from overlapping, at the end of the step, by more
+  /// than 1e-6 of the sum of their radii. (Cases may leave such an overlap, because they give the
+  /// length of the arm with rounding errors.) The contact of such a pair would repeat the equation
+  /// of the arm to first order in the arm's turn, and contradict it to second order, and its load
+  /// would not be unique. The contact must therefore not be added.
   bool is_held_apart(const Pair& pair) const;
 
-  /// Adds the contact of `pair`. `memory` holds the guess of the friction. Call it for each contact
-  /// of the ContactSystem in order.
+  /// Adds the contact of `pair`. `memory` holds the guess of its friction. The caller must add the
+  /// contacts of the ContactSystem in their order there.
   void add(const Contact<D>& contact, const Pair& pair, const PairMemory& memory);
 
-  /// The equations of all links, then those of the stops of hinges (bounds of their angles).
+  /// The equations of all links, and then those of the stops of hinges, which bound their angles.
   const std::vector<LinkEquations>& links() const { return links_; }
-  /// Allowed residuals of links() [L], > 0; of angles times the mean radius. Set before solve().
+  /// Allowed residuals of links() [L], > 0; those of angles are multiplied by the mean radius. The
+  /// caller sets them before solve().
   std::vector<double> links_allowed;
-  /// Allowed residuals of the slips of all contacts [L], > 0, in the order of add(). Set before
-  /// solve().
+  /// Allowed residuals of the slips, the tangential displacements of all contacts [L], > 0, in the
+  /// order of add(). The caller sets them before solve().
   std::vector<double> slips_allowed;
 
-  /// Solves the step, each island of `system` by itself, so that its solution does not depend on
-  /// the others. An island without contacts that were added since it was solved as accurately
-  /// remains as it is. Sets the impulses of the contacts of `system`, the displacements and turns
-  /// of its particles, the motions of the rigid bodies, and the forces of the links. If `is_rough`,
-  /// all residuals may be `roughly_allowed` [L], > 0. Otherwise those of gaps, slips and links may
-  /// be Contact::allowed, slips_allowed and links_allowed. Returns the number of iterations of the
-  /// island with the most in all calls, at most about `max_iterations`, and the largest residual of
-  /// the last problems plus the largest correction that would follow, both over what is allowed
-  /// [1].
+  /// Solves the step. Each island of `system`, a set of particles that contacts and links connect,
+  /// is solved by itself, so that its solution does not depend on the other islands. If an earlier
+  /// call has solved an island as accurately as this call asks, and no contact was added to the
+  /// island since, the solution of the island remains as it is. Sets the impulses of the contacts
+  /// of `system`, the displacements and turns of its particles, the motions of the rigid bodies,
+  /// and the forces of the links. If `is_rough`, all residuals may be up to `roughly_allowed` [L],
+  /// > 0. Otherwise those of gaps, slips and links may be up to Contact::allowed, slips_allowed and
+  /// links_allowed.
+  ///
+  /// Returns the number of iterations, in all calls together, of the island with the most, which is
+  /// at most about `max_iterations` > 0. The returned residual is the largest one of the last
+  /// problems plus the largest correction that would follow, both divided by what is allowed [1].
+  /// If it is at most 1, the problems are solved, with given loads where has_given_up() says so.
   ///
   /// The equations of a problem are linear in the motions. The problem is therefore solved again,
   /// with offsets corrected by the difference between the lengths of links and the gaps of bodies
   /// after finite turns and their linear values, until this difference is below half of what is
   /// allowed. If the links of an island were solved before it had contacts, and their motion leaves
-  /// all contacts open, that motion is the solution. Equations about the beginning of the step
-  /// would stop a particle that a hinge or arm takes past an obstacle. Gaps are at first taken
-  /// along the normals at the beginning of the step. If the corrected problem is not solved, or
-  /// corrections diverge, ContactSystem::use_distances() applies, and the solution begins anew.
+  /// all contacts open, that motion is the solution. (Equations that are linear about the beginning
+  /// of the step would stop a particle that a hinge or arm takes past an obstacle.) Gaps are at
+  /// first taken along the normals at the beginning of the step. If the corrected problem is not
+  /// solved, or corrections diverge, gaps become distances of the particles
+  /// (ContactSystem::use_distances()), and the solution begins anew.
   ///
-  /// If Coulomb's law is not solved in `max_iterations`, the friction of the island is bounded by
-  /// the loads of the best iterate, so that at least gaps, films and links are exact. The given
-  /// loads remain in all later calls. If these loads are so large that this fails, too, the
-  /// friction is bounded by the loads of a solution without friction. residual() remains that of
-  /// Coulomb's law.
+  /// An island gives up if its friction must be bounded by given loads (has_given_up()), in the
+  /// cases of this and the next three paragraphs. If Coulomb's law is not solved in
+  /// `max_iterations`, these are the loads of the best iterate, so that at least gaps, films and
+  /// links are exact. The given loads remain in all later calls. If they are so large that this
+  /// fails, too, the friction is bounded by the loads of a solution without friction. residual()
+  /// remains that of Coulomb's law.
   ///
   /// The convex relaxation (5.9) has no solution where friction locks particles that must move. If
   /// iterations no longer reduce its residual, the friction is bounded by the loads of a solution
@@ -108,32 +119,36 @@ class ConstraintSystem {
   /// without friction with either law, unless all loads are given already.
   ///
   /// Friction may lock a body that turns about the line through two contacts. The corrected problem
-  /// then has no solution with Coulomb's law, and the friction is bounded by the loads of a solution
-  /// without friction. With (5.9) its loads are more than ten times those without corrections and
-  /// give the island 1 % more energy. The friction is then bounded by the loads without corrections.
+  /// then has no solution with Coulomb's law, and the friction is bounded by the loads of a
+  /// solution without friction. With (5.9) the corrected problem has a solution, but its loads are
+  /// more than ten times those without corrections and give the island 1 % more energy. If this
+  /// happens, the friction is bounded by the loads without corrections.
   SolverResult solve(ContactSystem<D>& system, bool is_rough, double roughly_allowed,
                      int max_iterations);
 
-  /// True if solve() did not solve the problem that was asked for in an island, and given loads
-  /// bound its friction.
+  /// True if solve() did not solve the problem of some island with the friction law that was asked
+  /// for, and given loads bound the friction there.
   bool has_given_up() const { return has_given_up_; }
 
-  /// Writes friction of contact `c`, and the impulse that its solids carry, to memory [M L/T]. This
-  /// and the next functions need solve().
+  /// Writes the friction of contact number `c`, from 0 in the order of add(), and the impulse that
+  /// its solids carry to `memory` [M L/T]. solve() must have been called before this and the next
+  /// functions.
   void remember(std::size_t c, PairMemory& memory) const {
     memory.set_friction(contact_states_[c].friction);
     memory[Remembered::kCarried] = contact_states_[c].carried;
   }
   /// Residual of contact number `c`, from 0 in the order of add(), in the last solution [L].
   const BlockResidual& residual(std::size_t c) const { return contact_states_[c].residual; }
-  /// Residual of link `l` of links() in the last solution [L]; of angles times the mean radius.
+  /// Residual of link number `l` of links() in the last solution [L]; that of angles is multiplied
+  /// by the mean radius.
   double link_residual(std::size_t l) const { return link_residuals_[l]; }
   /// For each constraint of the last solve(), first all contacts, then all links, its violation
-  /// [L], >= 0, angles times the mean radius, by the motion that violates all of them least. That
-  /// motion has the least sum of v^2/w over the rows of rigid links and the negative gaps, with the
-  /// value v and the mobility w of a row. If some motion satisfies all of these constraints, the
-  /// result is 0 but for rounding errors. Otherwise they contradict each other: together the
-  /// impulses v/w move nothing (Farkas' lemma), and constraints without a part in this have 0.
+  /// [L], >= 0, by the motion that violates all constraints least. Violations of angles are
+  /// multiplied by the mean radius. That motion has the least sum of v^2/w over the rows of rigid
+  /// links and the negative gaps, with the value v and the mobility w of a row. If some motion
+  /// satisfies all of these constraints, the result is 0 but for rounding errors. Otherwise the
+  /// constraints contradict each other: together the impulses v/w move nothing (Farkas' lemma), and
+  /// constraints without a part in the contradiction have 0.
   std::vector<double> least_violations() const;
 
  private:
