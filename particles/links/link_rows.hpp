@@ -142,7 +142,7 @@ LinkEquations turned_equations(const LinkEquations& equations, const Links& link
                                const Particles& particles, std::span<const UnitMotion> motions);
 
 /// For each row of a link its value plus the sum of its parts after these motions [L, rad]. The
-/// sum is exact, except for springs and stops, where it is of first order in the motions.
+/// result is exact, except for springs, where it is of first order in the motions.
 std::vector<double> values_after(const LinkEquations& equations, const Links& links,
                                  const Particles& particles, const LinkTimes& times,
                                  std::span<const UnitMotion> motions);

@@ -23,8 +23,8 @@ namespace viscontact::particles {
 struct PiecewiseLinearLength {
   std::vector<std::array<double, 2>>
       points;  ///< (time [T], length [L] > 0), at least one (not checked); times increase
-  /// Period [T], larger than the last time minus the first time; between the last point and the
-  /// first point of the next period the length is linear. 0: not periodic.
+  /// Period [T], larger than the time of the last point (the reader of a case checks it); between
+  /// the last point and the first point of the next period the length is linear. 0: not periodic.
   double period = 0;
 };
 
@@ -46,8 +46,7 @@ double length_at(const ArmLength& length, double t);
 /// linear length it is the rate of the piece that begins there.
 double rate_at(const ArmLength& length, double t);
 
-/// Least length [L] at the decisive_times() from 0 to `end` >= 0 [T]. A sinusoidal length has its
-/// minimum at one of them, and a piecewise linear one, too, if no periods are omitted.
+/// Least length [L] from 0 to `end` >= 0 [T], which is found at one of the decisive_times().
 double least_length(const ArmLength& length, double end);
 
 /// Times from 0 to `end` >= 0 [T] at which the reader of a case checks a length: 0, `end`, and in
