@@ -50,7 +50,8 @@ struct Outline {
   /// Ends of the spine [L], of which the first lies in the direction `angle`. Both ends are the
   /// centre if the outline is no plate.
   std::array<std::array<double, 2>, 2> spine() const;
-  /// Circumference of a circle or plate [L]; it is wrong for an ellipse, without a check.
+  /// Circumference of a circle or plate [L]. For an ellipse the result is wrong, and nothing checks
+  /// this.
   double length() const;
 };
 

@@ -65,9 +65,9 @@ struct ImpactStep {
 ///
 /// A contact is left to the projection, without rebound, if its bounce would last less than a
 /// twentieth of the step, or after 1000 hits of the pair in the step (30 if it bore a load). These
-/// four numbers, set in impacts.cpp, are free choices: smaller bounds of rest follow more bounces,
-/// and larger numbers of hits cost more time. A blow that cannot be solved keeps its last impulses
-/// and makes converged() false.
+/// numbers and the factor five above are free choices in impacts.cpp. With a smaller factor or
+/// fraction, smaller bounces are computed; larger numbers of hits cost more time. A blow that
+/// cannot be solved keeps its last impulses and makes converged() false.
 template <int D>
 class Impacts {
  public:

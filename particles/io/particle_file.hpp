@@ -14,7 +14,7 @@
 
 namespace viscontact::particles {
 
-/// Particles from a file, and where each stands in it.
+/// Particles from a file, and the line of each particle in it.
 struct ParticleFile {
   Particles particles;     ///< in the order of the file
   std::vector<int> lines;  ///< line of each particle in the file, from 1
@@ -32,13 +32,13 @@ struct ParticleFile {
 /// particles turn (Particles::turn) if a row has a value in the columns angle and angular_velocity
 /// of discs, or angular_velocity_x, _y and _z of spheres. Particles::inertias are not set.
 ///
-/// Throws Error(kBadInput) with file and line if the file is no CSV file with the required columns
-/// (read_csv()); for a value in a column of another dimension, such as z of a disc; for any column
-/// that is not named above, such as the semi-axes of ellipses that write_particles() writes; if
-/// some but not all components of the velocity have columns; for a radius or mass below 1e-100 (in
-/// a fluid a mass may be 0); for a number above 1e100 in magnitude; for more than 2^31 - 1
-/// particles; and for an id that occurs twice, is not a whole number from 0 to 2^31 - 1, or is
-/// missing although another row has one.
+/// Throws Error(kBadInput), which names the file and the line (if the fault is in one), if the file
+/// cannot be read or is no CSV file with the required columns (common/text/csv.hpp); for a value in
+/// a column of another dimension, such as z of a disc; for any column that is not named above, such
+/// as the semi-axes of ellipses that write_particles() writes; if some but not all components of
+/// the velocity have columns; for a radius or mass below 1e-100 (in a fluid a mass may be 0); for a
+/// number above 1e100 in magnitude; for more than 2^31 - 1 particles; and for an id that occurs
+/// twice, is not a whole number from 0 to 2^31 - 1, or is missing although another row has one.
 ParticleFile read_particles(const std::filesystem::path& path, int dimension,
                             bool in_fluid = false);
 

@@ -20,7 +20,7 @@ namespace viscontact::particles {
 
 /// Particles, planes and contacts at one time.
 struct Frame {
-  double time = 0;  ///< [T]
+  double time = 0;  ///< time of the frame [T]
   /// Flat array [L], Playback::dimension numbers for each particle; single precision is enough for
   /// a picture. They are NaN for a particle that a source has not added yet.
   std::vector<float> positions;
@@ -47,7 +47,7 @@ struct DrawnLinks {
 
 /// All frames that a page or a picture shows.
 struct Playback {
-  int dimension = 2;         ///< of space: 1, 2 or 3
+  int dimension = 2;         ///< dimension of space: 1, 2 or 3
   Units units{};             ///< names of the units of the case, such as "m"; may be empty
   std::vector<float> radii;  ///< radius of each particle [L], > 0
   /// Mass of each particle [M], >= 0, of discs in a fluid per length [M/L]; empty: not known.

@@ -65,8 +65,9 @@ inline constexpr const char* kPvdHead =
 inline constexpr const char* kPvdFoot = "</Collection>\n</VTKFile>\n";
 std::string pvd_line(double time, const std::string& file);  ///< the line of a frame at `time` [T]
 
-/// Times [T] and names of the files of all frames in a PVD file of this form. Throws
-/// Error(kBadInput), which names the file, if it cannot be read or is not such a file.
+/// Times [T] and names of the files of all frames, in the order of a PVD file that consists of
+/// kPvdHead, lines of pvd_line() and kPvdFoot. Throws Error(kBadInput), which names the file, if it
+/// cannot be read or is not such a file. Whether the files of the frames exist is not checked.
 std::vector<std::pair<double, std::string>> read_pvd(const std::filesystem::path& path);
 
 }  // namespace viscontact::particles

@@ -125,8 +125,8 @@ double image_rate(const LinkRow& row, const PeriodicCell& cell);
 
 /// Motion of a unit in a step.
 struct UnitMotion {
-  Vector displacement{},  ///< of its centre [L]
-      turn{};             ///< [rad]; of discs only the component z
+  Vector displacement{},  ///< displacement of the centre of the unit [L]
+      turn{};             ///< turn of the unit [rad]; that of a disc has only the component z
 };
 
 // In the following functions, `motions` has the motion of each unit of a link, in the order of the
@@ -158,9 +158,9 @@ double extension_after(const LinkEquations& spring, const Links& links, const Pa
 double membrane_value_after(const LinkEquations& equations, const Membrane& membrane,
                             const Particles& particles, std::span<const UnitMotion> motions);
 
-/// Rate at which the length of an arm grows [L/T], if the arm has the direction in which
-/// `particles` are. `first` and `second` are the velocities of the units of its two ends, with
-/// UnitMotion::displacement in [L/T] and UnitMotion::turn in [1/T].
+/// Rate at which the length of an arm grows [L/T], in the direction from its first to its second
+/// particle at their positions in `particles`. `first` and `second` are the velocities of the units
+/// of its two ends, with UnitMotion::displacement in [L/T] and UnitMotion::turn in [1/T].
 double rate_of_arm(const Arm& arm, const Particles& particles, const UnitMotion& first,
                    const UnitMotion& second);
 

@@ -30,8 +30,8 @@ struct PiecewiseLinearLength {
 
 /// The length mean + amplitude sin(angular_frequency t + phase) at the time t [T].
 struct SinusoidalLength {
-  double mean = 0,               ///< [L], > |amplitude|
-      amplitude = 0;             ///< [L]
+  double mean = 0,               ///< mean length [L], > |amplitude|
+      amplitude = 0;             ///< largest difference from the mean [L], of any sign
   double angular_frequency = 0,  ///< [1/T], of any sign; 0: constant
       phase = 0;                 ///< [rad]
 };

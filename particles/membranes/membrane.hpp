@@ -72,8 +72,8 @@ struct Membrane {
 /// larger number may be chosen freely.
 inline constexpr std::int32_t kLeastBeads = 12;
 
-/// The membranes of a case, in a fluid or without one; empty if it has none. It refers to
-/// `setting`.
+/// The membranes of a case, in a fluid or without one; empty if it has none. The result is a
+/// reference into `setting`.
 const std::vector<Membrane>& membranes_of(const Setting& setting);
 
 /// The numbers that membranes.csv has for a membrane at one time.
@@ -84,8 +84,9 @@ struct MembraneMeasures {
   double area = 0;            ///< area inside [L^2], > 0 if beads go around counter-clockwise
   double perimeter = 0;       ///< length of the closed line [L], > 0
   double membrane_speed = 0;  ///< mean speed of beads relative to their mean velocity [L/T], >= 0
-  /// How often per time the membrane runs around the area inside, relative to the long axis of this
-  /// area [1/T]; > 0 if counter-clockwise; 0 if membrane_speed is 0.
+  /// Frequency with which the membrane runs around the area inside, relative to the long axis of
+  /// this area [1/T]. It is > 0 if the membrane runs counter-clockwise, and 0 if membrane_speed is
+  /// 0.
   double tank_treading_frequency = 0;
 };
 
@@ -131,7 +132,7 @@ void shape_polygon(Membrane& membrane, const Particles& particles);
 /// Sets perimeter and area of a membrane in a fluid to those of the curve through its particles,
 /// reverses the order of its beads if it is clockwise, and moves them to equal distances along the
 /// curve. Returns the largest component of a displacement [L], >= 0. If no such places are found,
-/// it returns infinity and moves no bead.
+/// it returns infinity and moves no bead, but perimeter, area and order are set nevertheless.
 double shape_curve(Membrane& membrane, Particles& particles);
 
 /// The largest area [L^2] that a polygon with sides of these lengths can have. The polygon with

@@ -175,12 +175,12 @@ Contacts choose_content(PageData& data, const Scene& scene, std::size_t other_by
   const bool are_added =
       !playback.frames.empty() &&
       std::ranges::any_of(playback.frames.front().positions, [](float x) { return std::isnan(x); });
-  // Radii, masses, ids, bodies, first frames, semi-axes and plates.
+  // The bytes of a particle for its radius, mass, id, body, first frame, semi-axes and plate.
   const auto of_particle = four(true) + four(!playback.masses.empty()) +
                            four(!playback.ids.empty()) + four(!playback.bodies.empty()) +
                            four(are_added) + 2 * four(!playback.semi_axes.empty()) +
                            (playback.plates.empty() ? 0 : 1);
-  // Characters of a hinge, and of the two numbers of a spring or arm, at most.
+  // The largest numbers of characters that a hinge, and the two numbers of a spring or arm, take.
   constexpr std::size_t kHinge = 80, kEnds = 16;
   const auto& links = playback.links;
   const auto of_links =
@@ -238,7 +238,7 @@ Bytes speeds_of(PageData& data, const Playback& playback) {
 
 constexpr double kLevels = 254;            // byte of the upper end of a scale; the lower end has 0
 constexpr unsigned char kNothing = 255;    // byte of a point without flow
-constexpr std::uint16_t kNoArrow = 65535;  // stands for the number of the arrow's point if no arrow
+constexpr std::uint16_t kNoArrow = 65535;  // stands for the point of the arrow: there is no arrow
 constexpr double kLineSteps = 65535;       // a coordinate at the right or upper side of the grid
 
 /// Appends a byte for each point of the field, which has rows of `columns` points. share(value) is

@@ -41,11 +41,11 @@ struct ViewBox {
 
 /// The flow around the particles of a frame, at the points of FlowFrames::grid.
 struct FlowFrame {
-  std::size_t frame = 0;  ///< its index in Playback::frames, from 0
+  std::size_t frame = 0;  ///< index of the frame in Playback::frames, from 0
   /// Speed [L/T] and pressure [M/(L T^2)] at each point of the grid, row by row from the bottom and
-  /// each row from the left; NaN where there is no flow.
-  /// The mean of the pressure over the points outside the particles is 0, because the equations of
-  /// a closed domain determine the pressure up to a constant only.
+  /// each row from the left; NaN where there is no flow. The mean of the pressure over the points
+  /// outside the particles is 0, because the equations of a closed domain determine the pressure up
+  /// to a constant only.
   std::vector<float> speed, pressure;
   std::vector<report::StreamLine> lines;  ///< streamlines in the grid's window
 };

@@ -27,8 +27,9 @@ struct EarlierRun {
 /// The state at the start: that of the restart file at the path `restart`, or that of the case if
 /// `restart` is empty. Throws Error(kBadInput) if the restart file cannot be read; if it has other
 /// particles, sources, rigid bodies or links than the case, or contacts with obstacles that the
-/// case does not have; if a hinge is turned beyond its stops by more than 1e-3 rad or ten times the
-/// tolerance of the solver (free choices); or if its time is not before the end of the case.
+/// case does not have; if a hinge is turned beyond its stops by more than 1e-3 rad and by more than
+/// ten times the tolerance of the solver (free choices); or if its time is not before the end of
+/// the case.
 State first_state(const ParticlesCase& c, const std::string& restart);
 
 /// The run in the folder, if it can be continued. It must have been made from the same inputs by

@@ -49,8 +49,8 @@ inline constexpr FrameKind kFrameFile{"particles", ".vtp"}, kFlowFile{"flow", ".
 std::string frame_name(const FrameKind& kind, std::uint64_t number);
 
 /// Throws Error(kBadInput) if a file in the folder has the name of a result or of a frame, but
-/// Viscontact did not write it. The folder must exist, for this function and for those declared
-/// after it; otherwise they throw std::filesystem::filesystem_error.
+/// Viscontact did not write it. If the folder does not exist, this function, remove_results() and
+/// remove_later_frames() throw std::filesystem::filesystem_error.
 void check_results(const std::filesystem::path& folder);
 
 /// Throws Error(kBadInput) if a run into `folder` would overwrite one of its inputs: the case, its
@@ -121,8 +121,12 @@ struct RunRecord {
   std::map<std::string, FileEnd> files;  ///< for the name of each growing file where it ends
 };
 
-/// The line with the names of the columns of steps.csv. A run in a fluid has more columns, and one
-/// in a fluid with inertia still more.
+/// The line with the names of the columns of steps.csv: step, time [T], contacts, glued (numbers of
+/// contacts), iterations, residual and largest_overlap [mean radii], converged (0 or 1),
+/// impulse_residual [1], parts and unresolved (numbers). A run in a fluid also has dissipation
+/// [M L^2/T^3], in two dimensions [M L/T^3], apparent_viscosity [1] and fluid_seconds [s]. With
+/// inertia there are also the kinetic energy of the fluid, the Reynolds and the Courant number, and
+/// the given force.
 std::string steps_header(const std::optional<Fluid>& fluid);
 /// The line with the names of the columns of probes.csv.
 inline constexpr std::string_view kProbesHeader = "time,name,flow,pressure\n";
@@ -141,7 +145,9 @@ std::string record_comment(const RunRecord& record, std::int64_t step);
 /// Error(kBadInput), which names the file, if it has no such line or the line is damaged.
 RunRecord read_record(const std::string& head, const std::filesystem::path& restart);
 
-/// The text of run.json at the end of a run with these sums and this last state.
+/// The text of run.json at the end of a run with these sums and this last state: one JSON object,
+/// whose keys docs/file-formats.md has, with the numbers of StepTotals in their units. A number
+/// that is not known is null.
 std::string run_json(const ParticlesCase& c, const StepTotals& totals, const State& state);
 
 }  // namespace viscontact::particles

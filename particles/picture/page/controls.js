@@ -98,7 +98,7 @@ canvas.addEventListener('wheel', event => {
 }, {passive: false});
 canvas.addEventListener('dblclick', () => { showAll(); redraw(); });
 
-const kSeconds = 10;  // [s] for the whole motion at speed 1, a free choice
+const kSeconds = 10;  // time in which the whole motion plays at speed 1 [s], a free choice
 const slider = document.getElementById('time'), clock = document.getElementById('clock');
 const button = document.getElementById('play');
 const speed = document.getElementById('speed');

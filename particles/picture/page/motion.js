@@ -65,14 +65,16 @@ const middle = low.map((l, d) => (l + high[d]) / 2);
 const diagonal = Math.hypot(...low.map((l, d) => high[d] - l));
 const firstTime = frames ? times[0] : 0, lastTime = frames ? times[frames - 1] : 0;
 
-const positions = new Float32Array(count * dim);  // at the time given to setTime()
+// The following variables belong to the time that was given to setTime(): first the positions [L],
+// the angles [rad] of discs and the orientations (unit quaternions) of spheres.
+const positions = new Float32Array(count * dim);
 const angles = new Float32Array(writtenAngles ? count : 0);
 const orientations = new Float32Array(writtenOrientations ? 4 * count : 0);
-// The obstacles at that time: {point, normal, radius}. A plane has the radius 0. A circle has a
-// radius > 0, its centre as `point` and the normal 0; the particles are inside.
+// The obstacles as objects {point, normal, radius}. A plane has the radius 0. A circle has a radius
+// > 0 [L], its centre as `point` and the normal 0; the particles are inside the circle.
 let planes = [];
-let presentFrame = 0;  // the last frame that is not after that time
-let strain = [0, 0, 0, 0];  // strain of the cell until that time, in the order of motion.gradient
+let presentFrame = 0;  // the last frame that is not after the time
+let strain = [0, 0, 0, 0];  // strain of the cell until the time, in the order of motion.gradient
 // The contacts of frame number `frame` (-1: none read yet), as readContacts() decodes them. Each
 // array has an entry for each of `count` contacts; entries beyond are not used.
 const lines = {
