@@ -1,10 +1,11 @@
-// What contact laws remember from step to step of a pair of touching bodies besides gamma
-// (state.hpp), in the units of the case. The numbers are declared once, in kMemoryFields, and the
-// restart file, contacts.csv, final_contacts.csv and the VTK files take their names from there. To
-// add a number, add a row to kMemoryFields and a place to Remembered, with the unit in its comment.
-// Names must not change, because restart files contain them. A pair loses its memory when its gamma
-// is 0 and it leaves the lists of close pairs. All contact laws and solvers use this file. Nothing
-// is checked (fields, numbers of rows) or thrown.
+// Stores the numbers that contact laws remember from step to step of a pair of touching bodies
+// besides Pair::gamma (state.hpp), in the units of the case. The numbers are declared once, in
+// kMemoryFields, and the restart file, contacts.csv, final_contacts.csv and the VTK files take the
+// names of the numbers from there. To add a number, add a row to kMemoryFields and a place to
+// Remembered, with the unit in its comment. Names must not change, because restart files contain
+// them. A pair loses its memory when its gamma is 0 and it leaves the lists of close pairs. All
+// contact laws and solvers use this file. Nothing is thrown, and it is not checked whether a field
+// or a row exists.
 #pragma once
 
 #include <algorithm>
@@ -19,23 +20,24 @@
 
 namespace viscontact::particles {
 
-/// The numbers in a PairMemory, in the order of kMemoryFields; of discs in a fluid per length.
+/// The numbers in a PairMemory, in the order of kMemoryFields. Those of discs in a fluid are per
+/// length.
 enum class Remembered : std::uint8_t {
   /// x of the impulse of friction on Pair::second in the last step [M L/T]. This vector is
   /// tangential; the solver of the next step takes it as its first guess.
   kFrictionX,
-  kFrictionY,  ///< y of that vector
-  kFrictionZ,  ///< z of that vector
+  kFrictionY,  ///< y of the impulse of friction [M L/T]
+  kFrictionZ,  ///< z of the impulse of friction [M L/T]
   kCarried,    ///< part of the normal impulse of the last step that the solids carried and not the
                ///< film [M L/T], >= 0: p_s of docs/physics.md (5.7), which bounds the friction
-  kCount,      ///< how many numbers there are
+  kCount,      ///< how many numbers there are; it must stay the last one
 };
 
 /// A number that a law remembers, as files show it.
 struct MemoryField {
-  std::string_view name;  ///< in restart files and as a column
+  std::string_view name;  ///< name of the number in restart files and of its column in tables
   bool is_impulse;        ///< whether it is an impulse, added over the parts of a divided step
-  bool is_shown;          ///< whether contacts.csv and the frames have the number
+  bool is_shown;          ///< whether contacts.csv and the VTK files of output times have it
 };
 
 /// All numbers that laws remember. Restart files store them by name.
@@ -49,16 +51,16 @@ inline constexpr std::array kMemoryFields = {
 static_assert(kMemoryFields.size() == static_cast<std::size_t>(Remembered::kCount),
               "each place of Remembered needs its row, in the same order");
 
-/// The shown numbers of one pair, in the order of kMemoryFields.
+/// The numbers of one pair whose MemoryField::is_shown is true, in the order of kMemoryFields.
 using ShownMemory = std::array<double, static_cast<std::size_t>(std::ranges::count_if(
                                            kMemoryFields, &MemoryField::is_shown))>;
 
 /// All numbers of one pair. They are 0 if nothing is remembered.
 class PairMemory {
  public:
-  /// The number in one place, in the unit that Remembered says.
+  /// The number in one place, in the unit that its comment in Remembered states.
   double& operator[](Remembered field) { return values_[static_cast<std::size_t>(field)]; }
-  /// The number in one place, in the unit that Remembered says.
+  /// The number in one place, in the unit that its comment in Remembered states.
   double operator[](Remembered field) const { return values_[static_cast<std::size_t>(field)]; }
   /// All numbers, in the order of kMemoryFields.
   std::array<double, kMemoryFields.size()>& values() { return values_; }
@@ -94,16 +96,16 @@ class PairMemory {
 /// it, so that cases without such laws need no space in memory.
 class PairMemories {
  public:
-  /// In place of the number of a row: the pair has no row.
+  /// Stands for the number of a row if the pair has no row.
   static constexpr std::int32_t kNone = -1;
 
-  /// The memory with number `row` (Pair::memory), from 0; zeros if it is kNone.
+  /// The memory with number `row` (Pair::memory), from 0; a memory of zeros if `row` is kNone.
   const PairMemory& of(std::int32_t row) const {
     static constexpr PairMemory kZeros{};
     return row == kNone ? kZeros : rows_[static_cast<std::size_t>(row)];
   }
   /// The memory with number `row`, which the caller may change. If `row` is kNone, a row of zeros
-  /// is made and `row` becomes its number.
+  /// is made and `row` becomes its number; references to other rows are then no longer valid.
   PairMemory& make(std::int32_t& row) {
     if (row == kNone) {
       row = static_cast<std::int32_t>(rows_.size());
@@ -118,8 +120,8 @@ class PairMemories {
   }
   bool empty() const { return rows_.empty(); }  ///< whether nothing is remembered
 
-  /// Drops the rows of pairs that are in none of `lists` (containers of Pair), and the rows of
-  /// zeros. Pair::memory of each pair is changed to the new number of its row.
+  /// Drops the rows of all pairs that are in none of `lists` (containers of Pair), and the rows of
+  /// zeros. Pair::memory of each pair in `lists` becomes the new number of its row, or kNone.
   template <class... Lists>
   void keep_only(Lists&... lists) {
     if (rows_.empty()) return;

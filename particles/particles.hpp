@@ -1,9 +1,10 @@
-// The particles of a simulation: rigid discs or spheres, and how they turn. Lengths, masses and
-// times are in any consistent units; turns and angles are in radians. The restart file stores these
-// arrays as they are (io/restart.cpp), so that a change of their layout needs a new version of that
-// file. A change must keep quaternions at length 1. All of particles/ uses this file. Nothing is
-// checked or thrown: numbers of particles must be < count(), and arrays as long as stated. The
+// Declares the particles of a simulation, rigid discs or spheres, and computes how they turn.
+// Lengths, masses and times are in any consistent units; turns and angles are in radians. The
 // number of a particle is its place in the arrays, from 0; its id is its name in the user's files.
+// Nothing is checked or thrown: the caller must pass numbers < count() and arrays of the stated
+// lengths. All of particles/ uses this file. A change must keep quaternions at length 1. The
+// restart file stores these arrays as they are (io/restart.cpp), so that a change of their layout
+// needs a new version of that file.
 #pragma once
 
 #include <algorithm>
@@ -28,15 +29,15 @@ constexpr std::size_t index_of(std::int32_t number) { return static_cast<std::si
 struct Particles {
   /// 2: discs, 3: spheres, 1: spheres on the axis z of a cylinder. z is component 0 of a Vector.
   int dimension = 2;
-  std::vector<double> positions;   ///< of the centres [L]
-  std::vector<double> velocities;  ///< of the centres [L/T]
-  std::vector<double> radii;       ///< [L], > 0
-  std::vector<double> masses;      ///< [M], of discs in a fluid [M/L]; > 0, in a fluid >= 0
+  std::vector<double> positions;   ///< positions of the centres [L]
+  std::vector<double> velocities;  ///< velocities of the centres [L/T]
+  std::vector<double> radii;       ///< radii [L], > 0
+  std::vector<double> masses;      ///< masses [M], of discs in a fluid [M/L]; > 0, in a fluid >= 0
   /// Id of each particle, >= 0; no two are equal. Empty: particle k has the id k.
   std::vector<std::int32_t> ids{};
   // The next four arrays describe rotation. They are empty if nothing in the case depends on
   // rotation (docs/particles.md), and for particles on an axis.
-  std::vector<double> angles{};  ///< of discs, counter-clockwise [rad]; empty for spheres
+  std::vector<double> angles{};  ///< angles of discs, counter-clockwise [rad]; empty for spheres
   /// Orientations of spheres: unit quaternions, four numbers (w, x, y, z) for each particle. They
   /// are the rotations from the start until now; empty for discs.
   std::vector<double> orientations{};
@@ -51,13 +52,14 @@ struct Particles {
   /// Rigid bodies of several particles, from the case. The restart file stores their motion only.
   RigidBodies bodies{};
   /// For each particle of a membrane (a closed chain of particles) the numbers of its two
-  /// neighbours in the chain, -1 for other particles; empty without membranes, and in a fluid. They
-  /// come from the case; the restart file does not store them.
+  /// neighbours in the chain, and {-1, -1} for other particles; empty without membranes, and in a
+  /// fluid. The numbers come from the case; the restart file does not store them.
   std::vector<std::array<std::int32_t, 2>> neighbours{};
 
   std::size_t count() const { return radii.size(); }         ///< number of particles
   bool turn() const { return !angular_velocities.empty(); }  ///< whether rotation is computed
-  /// True if two particles of one body, or neighbours on a membrane, which make no contact.
+  /// True if the two particles belong to one body, or are neighbours on a membrane. Such particles
+  /// make no contact.
   bool are_joined(std::int32_t first, std::int32_t second) const {
     if (bodies.are_one(first, second)) return true;
     if (neighbours.empty()) return false;
@@ -80,7 +82,8 @@ inline std::int32_t largest_id(const Particles& particles) {
                                : std::ranges::max(particles.ids);
 }
 
-/// How many ids of std::int32_t are larger than largest_id(), for particles that are added.
+/// How many ids (numbers up to 2^31 - 1) are larger than largest_id(), and therefore free for
+/// particles that are added.
 inline std::size_t ids_left(const Particles& particles) {
   return static_cast<std::size_t>(std::int64_t{std::numeric_limits<std::int32_t>::max()} -
                                   largest_id(particles));
@@ -94,15 +97,16 @@ inline void add_missing_ids(Particles& particles) {
   while (particles.ids.size() < particles.count()) particles.ids.push_back(++largest);
 }
 
-/// Area of a disc (dimension 2) [L^2], volume of a sphere (dimension 1 or 3) [L^3].
+/// Area of a disc (dimension 2) [L^2], or volume of a sphere (dimension 1 or 3) [L^3], of the given
+/// radius [L].
 inline double size_of_particle(int dimension, double radius) {
   constexpr double kPi = 3.141592653589793;
   return dimension == 2 ? kPi * radius * radius : 4 * kPi / 3 * radius * radius * radius;
 }
 
-/// Moment of inertia about its centre [M L^2] of a homogeneous disc (dimension 2), m r^2/2, or
-/// sphere (3), 2 m r^2/5. For dimension 1 it returns that of a disc, which is meaningless: spheres
-/// on an axis do not turn, and nothing calls it for them.
+/// Moment of inertia about its centre [M L^2] of a homogeneous disc (dimension 2) of the mass m and
+/// radius r, m r^2/2, or of a sphere (dimension 3), 2 m r^2/5. For dimension 1 the result is that
+/// of a disc, which is meaningless: spheres on an axis do not turn, and no code asks for it.
 inline double homogeneous_inertia(int dimension, double mass, double radius) {
   return (dimension == 3 ? 0.4 : 0.5) * mass * radius * radius;
 }
@@ -112,7 +116,8 @@ inline double size_of_ellipse(const std::array<double, 2>& semi_axes) {
   return size_of_particle(2, 1) * semi_axes[0] * semi_axes[1];
 }
 
-/// Moment of inertia of a homogeneous ellipse about its centre, m (a^2 + b^2)/4 [M L^2].
+/// Moment of inertia of a homogeneous ellipse about its centre, m (a^2 + b^2)/4 [M L^2], where m is
+/// the mass and a, b are the semi-axes [L].
 inline double homogeneous_inertia_of_ellipse(double mass, const std::array<double, 2>& semi_axes) {
   return mass / 4 * (semi_axes[0] * semi_axes[0] + semi_axes[1] * semi_axes[1]);
 }
@@ -136,12 +141,13 @@ inline double homogeneous_inertia_of_plate(double mass, const std::array<double,
 }
 
 /// Extends `angular_velocities`, `inertias` and, for discs, `angles`, for spheres `orientations` to
-/// all particles, so that all can turn. Entries that exist stay. The new ones are those of
-/// particles at rest in the orientation of the start, with the homogeneous_inertia(). The dimension
-/// is 2 or 3.
+/// all particles, so that all can turn. Existing entries stay. The new entries say that a particle
+/// does not turn, has not turned since the start, and has its homogeneous_inertia(). The dimension
+/// must be 2 or 3.
 void add_rotation(Particles& particles);
 
-/// Mean radius [L], the unit of residuals and overlaps; 1 if there are no particles.
+/// Mean radius [L], to which residuals of solvers and overlaps are compared; 1 if there are no
+/// particles.
 inline double mean_radius(const Particles& particles) {
   if (particles.count() == 0) return 1;
   double sum = 0;
@@ -164,8 +170,8 @@ Vector rotated(const Quaternion& q, const Vector& a);
 /// Number of components of a rotation: 1 for discs, 3 for spheres.
 constexpr std::size_t turn_components(int dimension) { return dimension == 3 ? 3 : 1; }
 
-/// Turns all particles by `turns` [rad], turn_components() numbers for each particle, in a step of
-/// length h [T] > 0, and sets their angular velocities to turns/h.
+/// Turns all particles by `turns` [rad], which has turn_components() numbers for each particle, in
+/// a step of length h > 0 [T], and sets their angular velocities to turns/h [1/T].
 void turn_particles(Particles& particles, std::span<const double> turns, double h);
 
 }  // namespace viscontact::particles

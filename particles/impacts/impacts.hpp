@@ -1,11 +1,11 @@
-// The blows of a time step, that is, the collisions of solids that rebound, at their times within
-// the step: docs/physics.md (5.15) and (5.16). One blow has all contacts of connected particles
-// that are hit at one time. Afterwards the projection (projection/), the problem of the step for
-// the impulses of contacts, decides all remaining contacts without rebound. Lengths, masses and
-// times are in any consistent units. Arrays named after particles or bodies are in their order; D
-// (2 or 3) is the dimension. Nothing is checked or thrown. simulation.cpp and projection/ use this
-// file. A change must keep that results depend on the order of the particles by rounding errors
-// only.
+// Finds and solves the blows of a time step, at their times within the step: docs/physics.md (5.15)
+// and (5.16). A blow is a collision of solids that rebound, with all contacts of connected
+// particles that are hit at one time. The projection (projection/) then computes the impulses of
+// all remaining contacts of the step, without rebound. Lengths, masses and times are in any
+// consistent units. Arrays have their entries in the order of the particles or bodies, which are
+// numbered from 0; D (2 or 3) is the dimension. Nothing is checked or thrown; converged() tells
+// whether all blows were solved. simulation.cpp and projection/ use this file. A change must keep
+// that results depend on the order of the particles by rounding errors only.
 #pragma once
 
 #include <array>
@@ -27,10 +27,12 @@
 
 namespace viscontact::particles {
 
-/// The step that the blows belong to. u* and w* are the velocities and angular velocities at its
-/// end without contacts. The arrays belong to the simulation; run() adds what the blows change.
+/// The step that the blows belong to. u* and w* are the velocities [L/T] and angular velocities
+/// [1/T] that the particles would have at the end of the step without contacts. The arrays belong
+/// to the simulation; Impacts::run() adds the changes by blows to `displacements`, `turns` and
+/// `bodies`.
 struct ImpactStep {
-  const ContactLaws& laws;           ///< of all contacts
+  const ContactLaws& laws;           ///< laws of all contacts, with the coefficient of restitution
   std::span<const Plane> obstacles;  ///< planes, which may move, and circles
   double begin = 0,                  ///< time at which the step begins [T]
       end = 0;                       ///< time at which the step ends [T], > begin
@@ -41,34 +43,41 @@ struct ImpactStep {
   std::span<const double> mobilities;  ///< h/m of all particles of the mass m [T/M], > 0
   /// h w* of all particles [rad], 1 (discs) or 3 numbers for each; empty if no particle turns.
   std::span<double> turns;
-  std::span<const double> turn_mobilities;  ///< h/I, I: inertias [T/(M L^2)], > 0; empty likewise
-  std::span<BodyStep> bodies;               ///< motions of all rigid bodies
+  /// h/I of all particles of the moment of inertia I [T/(M L^2)], > 0; empty if no particle turns.
+  std::span<const double> turn_mobilities;
+  std::span<BodyStep> bodies;  ///< motions of all rigid bodies
 };
 
-/// Finds the blows of a step in the order of their times. Between blows each particle flies on a
-/// parabola: with the acceleration a of its forces, its velocity at the time t of the step is u* +
-/// a (t - h/2), plus the changes by its blows so far. A blow at the time t_c that changes the
-/// velocity by d therefore moves the particle by (h - t_c) d until the end of the step. So does the
-/// centre of a rigid body, which turns with a constant angular velocity between blows.
+/// Finds the blows of a step in the order of their times, which are counted from the beginning of
+/// the step. Between blows each particle flies on a parabola: if forces give it the acceleration a
+/// [L/T^2], its velocity at the time t is u* + a (t - h/2), plus the changes by its blows so far. A
+/// blow at the time t_c that changes the velocity by d therefore moves the particle by (h - t_c) d
+/// until the end of the step. The centre of a rigid body moves in the same way, and the body turns
+/// with a constant angular velocity between blows.
 ///
-/// A pair is hit when its gap closes. A pair that touches and bore no load in the step before is
-/// hit if it approached before the step. A pair that bore a load is hit only if it approaches
-/// faster than five times the velocity that forces give its particles in the step. Hits of one time
-/// with a common particle or rigid body are one blow, others are decided one after the other. A
-/// particle that leaves a blow towards a neighbour that it touches hits this neighbour next, so
-/// that a row of equal spheres passes a blow on (Newton's cradle).
+/// A pair (two particles, or a particle and an obstacle) is hit when its gap closes. A pair that
+/// touches and bore no load in the step before is hit if it approached before the step. A pair that
+/// bore a load is hit only if it approaches faster than five times the velocity that forces give
+/// its particles in the step. Hits at one time that have a common particle or rigid body form one
+/// blow; other hits are solved one after the other. A particle that leaves a blow towards a
+/// neighbour that it touches hits this neighbour next, so that a row of equal spheres passes a blow
+/// on (Newton's cradle).
 ///
-/// The projection decides without rebound when a bounce would last less than a twentieth of the
-/// step, and after 1000 hits of a pair in a step (30 if it bore a load). A blow that could not be
-/// solved is reported by converged().
+/// A contact is left to the projection, without rebound, if its bounce would last less than a
+/// twentieth of the step, or after 1000 hits of the pair in the step (30 if it bore a load). These
+/// numbers and the factor five above are free choices in impacts.cpp. With a smaller factor or
+/// fraction, smaller bounces are computed; larger numbers of hits cost more time. A blow that
+/// cannot be solved keeps its last impulses and makes converged() false.
 template <int D>
 class Impacts {
  public:
-  /// `state` must outlive this object. Its lists must contain all pairs that may meet in the step.
+  /// `state` must outlive this object. State::pairs and State::walls must contain all pairs that
+  /// may meet in the step; a pair that is missing there is never hit.
   Impacts(State& state, const ImpactStep& step);
 
   /// Finds and solves all blows, adds what they change to the motions of the ImpactStep, and
-  /// changes gamma of the pairs (minus the impulse that the film of a pair has absorbed).
+  /// changes gamma of the pairs: minus the impulse that the film of a pair has absorbed [M L/T],
+  /// <= 0.
   void run();
   /// Gives all pairs gamma and the memory that they had before run(). The motions are not restored.
   void undo();
@@ -79,7 +88,8 @@ class Impacts {
   const std::vector<BlowImpulse>& impulses() const { return impulses_; }
   /// Number of iterations of the solver in all blows, >= 0.
   int iterations() const { return iterations_; }
-  /// Whether all blows were solved, to 1e-8 of the velocity of approach (strike.cpp).
+  /// Whether all blows were solved: the residuals of velocities are at most 1e-8 of the fastest
+  /// approach in the blow (a free choice in strike.cpp).
   bool converged() const { return converged_; }
   /// The numbers of the particles that blows changed.
   const std::vector<std::int32_t>& touched() const { return touched_; }
@@ -89,23 +99,23 @@ class Impacts {
   }
   /// Displacement of particle `k` in the step with its blows but without the projection [L].
   Vector displacement(std::int32_t k) const;
-  /// Adds to velocities and angular velocities, which are displacements and turns over h, what they
-  /// lack: a blow at the time t_c that changes the velocity by d adds only (h - t_c) d to the
-  /// displacement, so that t_c d/h is missing.
+  /// Corrects velocities and angular velocities that were computed as displacements and turns over
+  /// h. A blow at the time t_c that changes the velocity by d adds only (h - t_c) d to the
+  /// displacement. The quotient therefore lacks t_c d/h, which this function adds.
   void add_late_changes(Particles& particles) const;
 
  private:
-  // What blows change in the motion of a particle, or of the centre of its rigid body: in `change`
-  // the sum of the changes of its velocity [L/T], in `late` the sum of the changes times the times
-  // of the blows [L], and the same for its angular velocity in `turn_change` [1/T] and `late_turn`
-  // [rad].
+  // What blows change in the motion of a particle, or of the centre of its rigid body. `change` is
+  // the sum of the changes of its velocity [L/T]. `late` is the sum of these changes, each times
+  // the time of its blow [L]. `turn_change` [1/T] and `late_turn` [rad] are the same two sums for
+  // its angular velocity.
   struct Flight {
     Vector change{}, late{}, turn_change{}, late_turn{};
     Vector displacement{};  // in the step, with all blows [L]
     int version = 0;        // number of blows
   };
-  // A hit of a pair that is expected at `time` [T], unless another blow changes one of the
-  // particles first: their Flight::version are then no longer `versions`.
+  // A hit of a pair that is expected at `time` [T]. It is void if another blow has changed one of
+  // the two particles since: their numbers Flight::version then differ from `versions`.
   struct Expected {
     double time;
     std::size_t pair;
@@ -114,14 +124,14 @@ class Impacts {
       return time != other.time ? time > other.time : pair > other.pair;
     }
   };
-  // The turning of a rigid body around its centre, for the place of a particle in it: after the
-  // time t of the step the body has turned by t rate - late. Without a body all members are 0.
+  // The place of a particle in its rigid body, which turns around its centre: at the time t of the
+  // step the body has turned by t rate - late. All members are 0 for a particle without a body.
   struct Arm {
     Vector offset{};  // of the particle from the centre at the beginning of the step [L]
     Vector rate{};    // angular velocity, with the blows so far [1/T]
     Vector late{};    // Flight::late_turn [rad]
-    // Part of `rate` that the step has changed [1/T]: by torques, and in space also by the free
-    // precession of the body.
+    // The change of `rate` in this step [1/T] by torques, and in space also by the free precession
+    // of the body.
     Vector by_step{};
     // The change of the offset from the beginning of the step to the time t [L].
     Vector swing(double t) const {
@@ -151,8 +161,8 @@ class Impacts {
       return 2.0 * b + cross(second.rate, cross(second.rate, second.at(t))) -
              cross(first.rate, cross(first.rate, first.at(t)));
     }
-    // velocity() without what forces and torques have changed in the step, where forces act for
-    // the time `kick` until the middle of the step at h/2.
+    // velocity() minus the changes by forces and torques in this step. Forces have acted for the
+    // time `kick` when the step is at its middle, at h/2.
     Vector velocity_without_forces(double t, double kick, double h) const {
       return velocity(t) - (2 * (kick + t - h / 2)) * b - cross(second.by_step, second.at(t)) +
              cross(first.by_step, first.at(t));
@@ -208,7 +218,8 @@ class Impacts {
   ImpactStep step_;
   std::vector<BodyStep> free_bodies_;  // motions of the rigid bodies without blows
   std::priority_queue<Expected, std::vector<Expected>, std::greater<>> expected_;
-  std::vector<std::int32_t> flight_of_;  // place in flights_, -1: none; empty without a blow
+  // For each particle its place in flights_, or -1 if no blow changed it; empty without a blow.
+  std::vector<std::int32_t> flight_of_;
   std::vector<Flight> flights_;
   std::vector<std::int32_t> touched_;
   std::optional<PairsOfParticles> pairs_of_;

@@ -1,7 +1,9 @@
-// Writes contacts and their forces as CSV tables: those at the end of a run, and those over time
-// that a case asks for. Lengths, masses and times are in the units of the case; forces and impulses
-// of discs in a fluid are per length. Nothing is checked or thrown. run/ writes the tables into
-// files, and case/ checks their names. A change must keep the columns, which users' scripts read.
+// Writes contacts and their forces as CSV tables: the contacts at the end of a run, the rebounds,
+// and the tables over time that a case asks for. Lengths, masses and times are in the units of the
+// case; forces and impulses of discs in a fluid are per length. Nothing is checked or thrown; the
+// caller must not pass contacts of particles or obstacles that do not exist. run/ writes the tables
+// into files, and case/ refuses a case that asks for other tables. A change must keep the columns,
+// which users' scripts read.
 #pragma once
 
 #include <array>
@@ -15,34 +17,45 @@
 
 namespace viscontact::particles {
 
-/// CSV text with the columns i,j, the members gap,gamma,gamma_error,normal_force of CurrentContact,
-/// the tangential force on CurrentContact::second [M L/T^2] (x and y, in space also z; not on an
-/// axis) and those of kMemoryFields that are shown. i and j are the ids of two particles, of which
-/// j is the second; or of a particle, and -1, -2, ... for the first, second obstacle.
+/// CSV text: a line "# rows: N" with the number of contacts, the names of the columns, and a row
+/// for each contact. The columns are
+///
+/// - i,j: j is the id (>= 0) of the second particle; i is the id of the first particle, or -1, -2,
+///   ... for the first, second obstacle of the case;
+/// - gap [L], < 0 where the two overlap;
+/// - gamma [M L/T], <= 0, minus the impulse that the fluid film between both has absorbed, and
+///   gamma_error, an estimate >= 0 of its error;
+/// - normal_force, > 0 where it pushes both apart, and the components tangential_force_x and _y, in
+///   space also _z (none on an axis), of the friction on the second particle [M L/T^2];
+/// - the numbers that contact laws remember and kMemoryFields marks as is_shown: at present none.
 std::string write_contacts(const Particles& particles, std::span<const CurrentContact> contacts);
 
 /// The line with the names of the columns of rebounds.csv.
 inline constexpr const char* kReboundsHeader =
     "time,first,second,approach_velocity,solid_impulse,velocity\n";
-/// The rows of rebounds.csv (rebound.hpp), one for each of `rebounds`; empty without any. first and
-/// second are as i and j in write_contacts().
+/// The rows of rebounds.csv, one for each of `rebounds`; empty without rebounds. The columns are
+/// the members of Rebound (rebound.hpp): time [T], velocities [L/T] and impulse [M L/T]. `first` is
+/// the id of a particle, or -1, -2, ... for the first, second obstacle; `second` is an id.
 std::string rebound_rows(const Particles& particles, std::span<const Rebound> rebounds);
 
-/// Tables over time that a case may ask for (output.tables). A run in a fluid has the first two.
+/// Tables over time that a case may ask for (output.tables). A run in a fluid always writes the
+/// first two. The order must be that of the tables in asked_tables().
 inline constexpr auto kAskedTables =
     std::to_array<std::string_view>({"motion", "contacts", "walls", "stress"});
 
-/// The tables that `names`, some of kAskedTables, ask for, and in a fluid the first two; other
-/// names are ignored:
+/// The tables whose names, some of kAskedTables, are in `names`. In a fluid the first two are
+/// always among them. Other names are ignored. Each row begins with its time [T]:
 ///
-/// - motion.csv: time,id, the position, the angle of discs that turn, the velocity, and the angular
-///   velocity of particles that turn, each with its components;
+/// - motion.csv: time,id, the position [L], the angle of discs that turn [rad], the velocity [L/T],
+///   and the angular velocity of particles that turn [1/T], each with its components;
 /// - contacts.csv: time and the columns of write_contacts() without gamma_error;
-/// - walls.csv: time,wall,force_x,force_y[,force_z], on an axis force_z: the mean force of all
-///   contacts on each obstacle in the last step, with its blows [M L/T^2]; wall is -1, -2, ...;
-/// - stress.csv: time,stress_xx,stress_xy,stress_yx,stress_yy, on an axis stress_zz: the mean
-///   stress of the contacts in the domain in the last step, with its blows [M/(L T^2)],
-///   docs/physics.md (5.19). It needs a domain.
+/// - walls.csv: time,wall,force_x,force_y[,force_z], on an axis time,wall,force_z: the mean force
+///   of all contacts on each obstacle in the last step [M L/T^2], which includes collisions; wall
+///   is -1, -2, ... for the first, second obstacle;
+/// - stress.csv: time,stress_xx,stress_xy,stress_yx,stress_yy, in space nine components, on an axis
+///   time,stress_zz: the mean stress of the contacts in the domain in the last step [M/(L T^2)], of
+///   discs without a fluid [M/T^2], which includes collisions, docs/physics.md (5.19). The case
+///   must have a domain; without one the numbers are not finite, because its size 0 divides them.
 std::vector<TimeTable> asked_tables(const Setting& setting, const Particles& particles,
                                     std::span<const std::string> names);
 

@@ -1,8 +1,9 @@
 // Writes the motion of rigid bodies and the forces of links (hinges, springs, arms and membranes)
 // as CSV tables over time, and the links at one time as a VTK file. Lengths, masses and times are
 // in the units of the case; forces of discs in a fluid are per length. Nothing is checked or
-// thrown. run/run_log.cpp writes the files. A change must keep the names of the columns and arrays,
-// which users' scripts read.
+// thrown; State::link_forces must be empty or have Links::force_count() entries. run/run_log.cpp
+// writes the files. A change must keep the names of the columns and arrays, which users' scripts
+// read.
 #pragma once
 
 #include <span>
@@ -13,12 +14,13 @@
 
 namespace viscontact::particles {
 
-/// A table with rows for each output time.
+/// A table to which a run adds rows at each output time.
 struct TimeTable {
-  std::string name;    ///< name of its file
-  std::string header;  ///< line with the names of its columns
-  /// Makes the rows of a state. `force_errors` are estimates >= 0 of the errors of
-  /// State::link_forces, in the same order and units; empty: not known.
+  std::string name;    ///< name of its file, such as "arms.csv"
+  std::string header;  ///< line with the names of its columns, with a line break at its end
+  /// Makes the rows of a state, each with a line break at its end. `force_errors` are estimates
+  /// >= 0 of the errors of State::link_forces, in the same order and units, [M L/T^2] of forces and
+  /// [M L^2/T^2] of torques; an empty list means that the errors are not known.
   std::string (*rows)(const Setting& setting, const State& state,
                       std::span<const double> force_errors);
 };
@@ -48,13 +50,14 @@ std::vector<TimeTable> time_tables(const Setting& setting, const Particles& part
 
 /// Content of a VTK XML PolyData file (VTK's file formats, "XML file formats"; appended raw data)
 /// with a vertex at the place of each hinge, and a line between the centres of two particles for
-/// each spring, for each arm, and for neighbouring beads of a membrane without a fluid. In a
-/// periodic domain the line goes to the nearest image of the second particle. Each cell has
+/// each spring, for each arm, and for each two neighbouring particles (beads) of a membrane without
+/// a fluid. In a periodic domain the line goes to the nearest image of the second particle. Each
+/// vertex and each line has three arrays:
 ///
-/// - kind: 0 hinge, 1 spring, 2 arm, 3 line of a membrane;
-/// - id: number of the link or membrane in its list of the case, from 0;
-/// - force: in the last step, on the body of a hinge or on the second particle [M L/T^2]; 0 before
-///   the first step.
+/// - kind: 0 for a hinge, 1 for a spring, 2 for an arm, 3 for a line of a membrane;
+/// - id: the number of the link or membrane in its list of the case, from 0;
+/// - force: the mean force in the last step on the body that a hinge holds, or on the second
+///   particle of a line [M L/T^2], with three components; 0 before the first step.
 std::string write_links(const Setting& setting, const State& state);
 
 }  // namespace viscontact::particles

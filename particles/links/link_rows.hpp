@@ -3,8 +3,9 @@
 // Lengths, masses and times are in any consistent units. Equations of displacements [L] have
 // impulses [M L/T], equations of turns [rad] moments of impulses [M L^2/T]; where a member has two
 // dimensions, the first is that of displacements. Numbers and places count from 0. Nothing is
-// checked or thrown. constraints/ and fluid/ solve the equations; simulation.cpp and run/ use them.
-// A change must keep the order of forces in State::link_forces, which restart files store.
+// checked or thrown; numbers of particles and links must exist. constraints/ and fluid/ solve the
+// equations; simulation.cpp and run/ use them. A change must keep the order of forces in
+// State::link_forces, which restart files store.
 #pragma once
 
 #include <cstddef>
@@ -17,13 +18,14 @@
 
 namespace viscontact::particles {
 
-/// What one unit, a rigid body or a particle without a body, adds to an equation. Without `is_turn`
-/// this is the inner product of `direction` and the displacement of a point of the unit, otherwise
-/// the turn of the unit about z [rad], times the third component of `direction`.
+/// What one unit adds to an equation. A unit is a rigid body or a particle without a body. If
+/// `is_turn` is false, the part is the inner product of `direction` and the displacement of a point
+/// of the unit; otherwise it is the turn of the unit about z [rad], times the third component of
+/// `direction`.
 struct LinkPart {
   std::int32_t particle = 0;  ///< number of the particle, or of a member of the body
-  /// A unit vector, or for a membrane any vector [1], in its rows of turns [1/L]. With `is_turn` it
-  /// is (0, 0, 1) or (0, 0, -1).
+  /// A unit vector; of a membrane any vector [1], and [1/L] in the rows for the turns of its beads.
+  /// With `is_turn` it is (0, 0, 1) or (0, 0, -1).
   Vector direction{};
   Vector arm{};          ///< vector from the centre of the unit to the point [L]
   bool is_turn = false;  ///< true: the turn about z; false: the displacement
@@ -31,28 +33,30 @@ struct LinkPart {
   Periods image{};
 };
 
-/// One equation of a link: value + sum of the parts + compliance * impulse = 0 after the step. In a
-/// sheared periodic cell, h image_rate() is added to the sum.
+/// One equation of a link: value + sum of the parts + compliance * impulse = 0 after the step. The
+/// impulse is the unknown that the solver finds. In a sheared periodic cell, h image_rate() is
+/// added to the sum, where h is the length of the step [T].
 struct LinkRow {
-  std::vector<LinkPart> parts;  ///< of all units that the link holds; a fixed end has none
-  /// Value of the sum without motion [L, rad]: for example the distance of the ends of an arm
-  /// before the step minus its length at the end of the step.
+  /// Parts of all units that the link holds. A place in space, where a hinge is fixed, has no part.
+  std::vector<LinkPart> parts;
+  /// Value of the equation if no unit moves [L, rad]: for example the distance of the ends of an
+  /// arm before the step minus its length at the end of the step.
   double value = 0;
   double compliance = 0;  ///< >= 0 [T/M, T/(M L^2)]; 0: the link is rigid
-  // Of springs: value and compliance are computed from these two.
-  double extension = 0;  ///< before the step [L, rad]
+  // In rows of springs, `value` and `compliance` are computed from the next two members.
+  double extension = 0;  ///< extension of the spring before the step [L, rad]
   double stiffness = 0;  ///< > 0 [M/T^2, M L^2/T^2]; 0 for other links
 };
 
 /// The equations of one link. All rows have parts of the same units in the same order.
 struct LinkEquations {
   /// The kind of link; kTorsion is the torsion spring of a hinge, kStop one of its stops. The last
-  /// four belong to a membrane: the distance of two neighbouring beads, the bending spring at a
-  /// bead, the turn of a bead, and the area inside.
+  /// four belong to a membrane, a closed line through particles (beads): the distance of two
+  /// neighbouring beads, the bending spring at a bead, the turn of a bead, and the area inside.
   enum class Kind { kHinge, kTorsion, kSpring, kArm, kStop, kDistance, kBend, kTurn, kArea };
   Kind kind = Kind::kArm;       ///< the kind of this link
   std::size_t number = 0;       ///< place of the link in its list in Links
-  std::int32_t bead = 0;        ///< of a membrane, except for its area: place in Membrane::beads
+  std::int32_t bead = 0;        ///< place in Membrane::beads; 0 for other links and the area
   std::size_t first_force = 0;  ///< place of the first row's force in State::link_forces
   /// The equations, at least one.
   std::vector<LinkRow> rows{};
@@ -80,14 +84,15 @@ struct LinkTimes {
   double kick = 0;        ///< time for which forces act on the velocities in it [T], > 0
   double end = 0;         ///< time at its end [T]
   bool is_first = false;  ///< whether it is the first step of a simulation
-  /// In a fluid with inertia the velocities of a step are those at its beginning. The rate of an
-  /// arm in them is then the mean rate of its length from the time rate_from to rate_to [T].
-  /// Elsewhere both are 0.
+  /// In a fluid with inertia the velocities of a step are those at its beginning. The ends of an
+  /// arm then move apart with the mean rate of its length from the time rate_from to the time
+  /// rate_to [T]. In all other cases both times are 0.
   double rate_from = 0;
   double rate_to = 0;  ///< see rate_from
 
-  /// Parameter of Newmark's method for springs [1]: 1/4 is the least one that is stable for every
-  /// stiffness. The first step takes 1/2, because no step before it has a share in the force.
+  /// Parameter of Newmark's method for springs [1]. The value 1/4 is the least one that is stable
+  /// for every stiffness, and must be kept. The first step takes 1/2, because no step before it has
+  /// a share in the force.
   double beta() const { return is_first ? 0.5 : 0.25; }
 };
 
@@ -97,19 +102,21 @@ struct LinkTimes {
 std::vector<LinkEquations> link_equations(const Links& links, const Particles& particles,
                                           const LinkTimes& times);
 
-/// The equations of a membrane without a fluid, in the order of its forces in State::link_forces: N
-/// for the distances of neighbours, N for the turns of the N beads with the membrane, N for the
-/// bending springs of the beads if it resists bending, and one for the area if it is kept. The
-/// caller, link_equations(), sets `number` and `first_force`.
+/// The equations of a membrane of N >= 3 beads without a fluid, in the order of its forces in
+/// State::link_forces: N for the distances of neighbours; N by which each bead turns with the
+/// membrane; N for the bending springs of the beads if the membrane resists bending; and one for
+/// the area if it is kept. The caller, link_equations(), sets `number` and `first_force`.
 std::vector<LinkEquations> membrane_equations(const Membrane& membrane, const Particles& particles,
                                               const LinkTimes& times);
 
-/// The stops of all hinges. Each has one row, the angle that is left to the stop [rad], which must
-/// be >= 0 after a step. The stop exerts a moment of impulse >= 0, which is 0 where the angle is >
-/// 0. Its force has the place of the torsion spring of the hinge. Only discs have stops.
+/// The stops of all hinges; none unless the particles are discs. Each stop has one row, the angle
+/// that is left to the stop [rad], which must be >= 0 after a step. The stop exerts a moment of
+/// impulse >= 0, which is 0 if the angle is > 0. Its torque is added to that of the torsion spring
+/// of the hinge, at the same place in State::link_forces.
 std::vector<LinkEquations> stop_equations(const Links& links, const Particles& particles);
 
-/// Numbers of periods from a particle to its image that belongs to its body; 0 without a body.
+/// Numbers of periods from a particle to its periodic image that belongs to its rigid body, three
+/// whole numbers; 0 for a particle without a body.
 Periods periods_in_unit(const Particles& particles, std::int32_t particle);
 
 /// Rate at which the sum of the parts of a row changes [L/T, 1/T] because images move relative to
@@ -118,22 +125,24 @@ double image_rate(const LinkRow& row, const PeriodicCell& cell);
 
 /// Motion of a unit in a step.
 struct UnitMotion {
-  Vector displacement{},  ///< of its centre [L]
-      turn{};             ///< [rad]; of discs only the component z
+  Vector displacement{},  ///< displacement of the centre of the unit [L]
+      turn{};             ///< turn of the unit [rad]; that of a disc has only the component z
 };
 
-// In the following, `motions` are those of the units of a link, in the order of its parts, with
-// finite turns. In a sheared periodic cell they contain the motion of the images.
+// In the following functions, `motions` has the motion of each unit of a link, in the order of the
+// parts of its rows (not checked). Turns may be of any size. In a sheared periodic cell the caller
+// must have added the motion of the images to the displacements.
 
 /// Value of a part for the motion of its unit, to first order in the turn [L, rad].
 double value_of(const LinkPart& part, const UnitMotion& motion);
 
-/// A copy in which LinkPart::arm, and directions of arms and springs, are those after the motions.
+/// A copy of `equations` for the places after the motions: LinkPart::arm has turned with its unit,
+/// and LinkPart::direction of arms and springs is along the line between their ends.
 LinkEquations turned_equations(const LinkEquations& equations, const Links& links,
                                const Particles& particles, std::span<const UnitMotion> motions);
 
-/// For each row of a link its value plus the sum of its parts after these motions [L, rad]; of
-/// springs to first order, otherwise exactly.
+/// For each row of a link its value plus the sum of its parts after these motions [L, rad]. The
+/// result is exact, except for springs, where it is of first order in the motions.
 std::vector<double> values_after(const LinkEquations& equations, const Links& links,
                                  const Particles& particles, const LinkTimes& times,
                                  std::span<const UnitMotion> motions);
@@ -143,18 +152,20 @@ double extension_after(const LinkEquations& spring, const Links& links, const Pa
                        std::span<const UnitMotion> motions);
 
 /// Value of the row of a distance, a turn or the area of a membrane after these motions of the
-/// beads, which are in the order of the row's parts: the excess of the distance [L], of the turn
-/// [rad], or of the area over the mean distance [L].
+/// beads: by how much the distance is too large [L], by how much more the bead turns than the line
+/// between its neighbours [rad], or by how much the area is too large, divided by the mean distance
+/// of neighbours [L].
 double membrane_value_after(const LinkEquations& equations, const Membrane& membrane,
                             const Particles& particles, std::span<const UnitMotion> motions);
 
-/// Rate at which the length of an arm grows [L/T], with the direction that it has at the beginning
-/// of a step. `first` and `second` are the velocities [L/T, 1/T] of the units of its ends.
+/// Rate at which the length of an arm grows [L/T], in the direction from its first to its second
+/// particle at their positions in `particles`. `first` and `second` are the velocities of the units
+/// of its two ends, with UnitMotion::displacement in [L/T] and UnitMotion::turn in [1/T].
 double rate_of_arm(const Arm& arm, const Particles& particles, const UnitMotion& first,
                    const UnitMotion& second);
 
-/// "arm 2 (particles 3 and 4)": the name of a link in messages, with its number from 0 on, as in
-/// files, and the ids of its particles.
+/// Name of a link in messages, such as "arm 2 (particles 3 and 4)": its number counts from 0, as in
+/// the files of a run, and the particles are named by their ids.
 std::string name_of(const LinkEquations& equations, const Links& links, const Particles& particles);
 
 }  // namespace viscontact::particles

@@ -1,8 +1,9 @@
-// The links of a case: hinges, springs, arms and membranes that hold particles and rigid bodies.
-// Lengths, masses and times are in any consistent units. Nothing is checked or thrown here;
-// particles/case checks the values. setting.hpp, case/, constraints/, fluid/, io/ and run/ use
-// them. A change must keep the order of the forces in State::link_forces, which restart files
-// contain, and that rate_at() is the derivative of length_at().
+// Declares the links of a case: hinges, springs, arms and membranes that hold particles and rigid
+// bodies. Lengths, masses and times are in any consistent units. Nothing is checked or thrown here;
+// particles/case checks the values. setting.hpp, case/, constraints/, fluid/, io/ and run/ use this
+// file. A change must keep the order of the forces in State::link_forces, which restart files
+// contain: all hinges, springs, arms, membranes. It must also keep that rate_at() is the derivative
+// of length_at().
 #pragma once
 
 #include <array>
@@ -22,15 +23,15 @@ namespace viscontact::particles {
 struct PiecewiseLinearLength {
   std::vector<std::array<double, 2>>
       points;  ///< (time [T], length [L] > 0), at least one (not checked); times increase
-  /// Period [T], larger than the last time minus the first time; between the last point and the
-  /// first point of the next period the length is linear. 0: not periodic.
+  /// Period [T], larger than the time of the last point (the reader of a case checks it); between
+  /// the last point and the first point of the next period the length is linear. 0: not periodic.
   double period = 0;
 };
 
 /// The length mean + amplitude sin(angular_frequency t + phase) at the time t [T].
 struct SinusoidalLength {
-  double mean = 0,               ///< [L], > |amplitude|
-      amplitude = 0;             ///< [L]
+  double mean = 0,               ///< mean length [L], > |amplitude|
+      amplitude = 0;             ///< largest difference from the mean [L], of any sign
   double angular_frequency = 0,  ///< [1/T], of any sign; 0: constant
       phase = 0;                 ///< [rad]
 };
@@ -41,47 +42,51 @@ using ArmLength = std::variant<PiecewiseLinearLength, SinusoidalLength>;
 /// Length at time `t` >= 0 [T].
 double length_at(const ArmLength& length, double t);
 
-/// Rate at which the length grows at time `t` >= 0 [L/T]; at a point that of the next piece.
+/// Rate at which the length grows at time `t` >= 0 [L/T]. At the time of a point of a piecewise
+/// linear length it is the rate of the piece that begins there.
 double rate_at(const ArmLength& length, double t);
 
-/// Least length [L] at the decisive_times() from 0 to `end` >= 0 [T].
+/// Least length [L] from 0 to `end` >= 0 [T], which is found at one of the decisive_times().
 double least_length(const ArmLength& length, double end);
 
-/// Times from 0 to `end` [T] for the checks of a case: 0, `end`, and in between all points of a
-/// piecewise linear length, or times an eighth of a period apart, with all extrema, of a sinusoidal
-/// one. There are at most about 10 000; later periods are then omitted. Between two of them, the
-/// length is linear, or differs from a linear one by at most 8 percent of the amplitude.
+/// Times from 0 to `end` >= 0 [T] at which the reader of a case checks a length: 0, `end`, and in
+/// between the times of all points of a piecewise linear length, or, for a sinusoidal one, times an
+/// eighth of a period apart that include all extrema. Later periods are omitted after about 10 000
+/// times (a free choice, which bounds the duration of the checks). Between two times, the length is
+/// linear, or differs from a linear one by at most 8 percent of the amplitude.
 std::vector<double> decisive_times(const ArmLength& length, double end);
 
 /// A point that moves with a particle or with its rigid body.
 struct LinkedPoint {
   /// Number of a particle, from 0. If it belongs to a rigid body, the point moves with the body.
   std::int32_t particle = 0;
-  /// Vector to the point [L]: from the centre of the body, in its orientation at the start; or from
-  /// the centre of a particle without a body, in the orientation in which its angle is 0.
+  /// Vector to the point [L]. Of a body it begins at the centre of the body, which has its
+  /// orientation at the start; of a particle without a body it begins at the centre of the
+  /// particle, whose angle or rotation is 0.
   Vector offset{};
 };
 
 /// Holds a point of a particle or body at a fixed place, about which the particle or body can turn.
-/// Discs may have a torsion spring and stops.
+/// In the plane the hinge may have a torsion spring, and stops that limit the angle.
 struct Hinge {
   LinkedPoint point;     ///< the point that is held
   Vector at{};           ///< the place where it is held [L]
-  double stiffness = 0;  ///< of the torsion spring [M L^2/T^2], >= 0; 0: no spring
+  double stiffness = 0;  ///< stiffness of the torsion spring [M L^2/T^2], >= 0; 0: no spring
   /// Angle at which the spring exerts no torque [rad]. The angle of a body is 0 at the start; that
   /// of a particle without a body is Particles::angles.
   double rest_angle = 0;
   std::int32_t body = -1;  ///< number of the body for messages; -1: the hinge holds a particle
-  // The angle stays between these two [rad].
+  // The angle stays between these two angles [rad]; the first must be less than the second.
   double lowest_angle = -std::numeric_limits<double>::infinity(),  ///< -infinity without a stop
       highest_angle = std::numeric_limits<double>::infinity();     ///< infinity without a stop
 };
 
-/// Pulls or pushes the centres of two particles with the force stiffness * (distance - length).
+/// Pulls the centres of two particles together with the force stiffness * (distance - length); a
+/// negative force pushes them apart.
 struct Spring {
   std::int32_t first = 0,  ///< number of a particle
       second = 0;          ///< number of another particle, not of the same body
-  double stiffness = 0;    ///< [M/T^2], > 0
+  double stiffness = 0;    ///< stiffness [M/T^2], > 0
   double length = 0;       ///< distance at which it exerts no force [L], >= 0
 };
 
@@ -97,7 +102,8 @@ struct Links {
   std::vector<Hinge> hinges;    ///< in the order of the case
   std::vector<Spring> springs;  ///< in the order of the case
   std::vector<Arm> arms;        ///< in the order of the case
-  /// Membranes without a fluid, in the order of the case. Those in a fluid are in the struct Fluid.
+  /// Membranes without a fluid, in the order of the case. Membranes in a fluid are in the struct
+  /// Fluid.
   std::vector<Membrane> membranes{};
 
   /// True if there are no links.
@@ -114,6 +120,8 @@ struct Links {
   static std::size_t forces_of_hinge(int dimension) {
     return static_cast<std::size_t>(dimension) + (dimension == 2 ? 1 : 0);
   }
+  // The next functions do not check that the spring, arm or membrane exists.
+
   /// Place of the force of spring `k` (from 0) in State::link_forces.
   std::size_t place_of_spring(std::size_t k, int dimension) const {
     return hinges.size() * forces_of_hinge(dimension) + k;
@@ -128,8 +136,9 @@ struct Links {
     for (std::size_t k = 0; k < m; ++k) place += forces_of_membrane(membranes[k]);
     return place;
   }
-  /// Number of forces of one membrane in State::link_forces: of the distances and the turns of all
-  /// beads, of the bends if it resists bending, and of the area if it is kept.
+  /// Number of forces of one membrane in State::link_forces: one for the distance and one for the
+  /// turn of each bead, one for the bending spring of each bead if the membrane resists bending,
+  /// and one for the area if it is kept.
   static std::size_t forces_of_membrane(const Membrane& membrane) {
     return (membrane.resists_bending() ? 3 : 2) * membrane.beads.size() +
            (membrane.keeps_area ? 1 : 0);

@@ -1,10 +1,12 @@
-// The equations of a membrane without a fluid in a time step: a closed polygon of at least 3
-// particles (beads), numbered from 0 counter-clockwise, whose distances and area are kept. Values
-// of rows are in [L], of turns in [rad]; Membrane::lengths and the perimeter, > 0 [L], belong to
-// the polygon; the times LinkTimes::h and kick are > 0 [T]. Units are any consistent ones. Nothing
-// is checked or thrown: beads at one place give infinite numbers. link_rows.cpp uses them. A
-// change must keep the order of the equations, which is that of State::link_forces, and that the
-// parts of a row are the derivatives of membrane_value_after() with respect to the motion.
+// Makes the equations of a membrane without a fluid in a time step: a closed polygon of at least 3
+// particles (beads), numbered from 0 counter-clockwise, whose distances and area are kept. A row is
+// one equation, value + sum of its parts + compliance * impulse = 0. Values are in [L], of turns in
+// [rad]. Membrane::lengths and the perimeter, > 0 [L], belong to the polygon; the times
+// LinkTimes::h and kick are > 0 [T]. Units are any consistent ones. Nothing is checked or thrown:
+// beads at one place give numbers that are not finite. link_rows.cpp uses this file. A change must
+// keep the order of the equations, which is that of State::link_forces, and that the parts of a
+// row, except of a bending spring, are the derivatives of membrane_value_after() with respect to
+// the motion.
 #include <cmath>
 #include <utility>
 
@@ -17,7 +19,8 @@ namespace {
 
 using Kind = LinkEquations::Kind;
 
-/// The vector from bead `from` to the nearest image of bead `to` [L].
+/// The vector from bead `from` to the nearest periodic image of bead `to` [L]. Numbers of beads may
+/// be any whole numbers, which Membrane::bead() takes modulo the number of beads.
 Vector apart(const Membrane& membrane, const Particles& p, std::int32_t from, std::int32_t to) {
   return nearest_image(
       p.cell, p.position(index_of(membrane.bead(to))) - p.position(index_of(membrane.bead(from))));
@@ -62,8 +65,9 @@ LinkRow distance_row(const Membrane& membrane, const Particles& p, std::int32_t 
 
 /// The bending spring at bead k, docs/physics.md (8.12). Its extension [L] is the angle by which
 /// the polygon turns at the bead, times the mean length l of its two sides, so that its stiffness
-/// is bending rigidity/l^3 [M/T^2]. It is integrated by Newmark's method as other springs are; the
-/// bending viscosity acts on the change of the extension in the step.
+/// is bending rigidity/l^3 [M/T^2]. It is integrated by Newmark's method with the parameter
+/// LinkTimes::beta(), as other springs are. The bending viscosity opposes the change of the
+/// extension in the step. Rigidity or viscosity must be > 0, because their sum divides.
 LinkRow bend_row(const Membrane& membrane, const Particles& p, std::int32_t k,
                  const LinkTimes& times) {
   const auto n = membrane.lengths.size(), i = static_cast<std::size_t>(k);
@@ -88,7 +92,8 @@ LinkRow bend_row(const Membrane& membrane, const Particles& p, std::int32_t k,
   return row;
 }
 
-/// The row of a turn: by how much more bead k turns than the line between its neighbours [rad].
+/// The row of a turn: by how much more bead k turns in the step than the line between its
+/// neighbours [rad]. Its value without motion is 0.
 LinkRow turn_row(const Membrane& membrane, const Particles& p, std::int32_t k) {
   const Vector chord = across(membrane, p, k);
   const Vector of_ends = (1 / dot(chord, chord)) * left_of(chord);

@@ -1,10 +1,10 @@
-// The closed curve through the particles (beads) of a membrane in a fluid, docs/physics.md (8.2)
-// and (8.3): its lengths, its area, and its bending energy with the first and second derivatives;
-// and the measures of a closed line. Lengths are in any unit. Nothing is checked or thrown;
-// derivatives of a curve with a speed of 0 are NaN or infinite. The sources of this folder and
-// freefem_flow/membranes/ use it. No header that users of the library include may include it,
-// because they need no Eigen. A change must keep that derivatives are exact, because Newton's
-// method in membrane_motion.cpp uses them.
+// Computes the closed curve through the particles (beads) of a membrane in a fluid, docs/physics.md
+// (8.2) and (8.3): its lengths, its area, and its bending energy with the first and second
+// derivatives; and the measures of a closed line. Lengths are in any unit. Nothing is checked or
+// thrown; derivatives of a curve with a speed of 0 are NaN or infinite. The sources of this folder
+// and freefem_flow/membranes/ use this file. No header that users of the library include may
+// include it, because their programs must compile without the library Eigen. A change must keep
+// that derivatives are exact, because Newton's method in membrane_motion.cpp uses them.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,14 +17,15 @@ namespace viscontact::particles {
 
 inline constexpr double kTwoPi = 2 * std::numbers::pi;  ///< range of the parameter of a curve
 
-/// The trigonometric polynomial of least degree that is 1 at the angle 0 and 0 at the other angles
-/// 2 pi k/beads, or its derivative of order `derivative` (0 to 2; others give 0), at the angle
-/// `theta` [rad], without dimension; `beads` > 0. The interpolation of the values f_k at the angles
-/// 2 pi k/beads is the sum of f_k cardinal(beads, theta - 2 pi k/beads, 0).
+/// The value [1] at the angle `theta` [rad] of the trigonometric polynomial of least degree that is
+/// 1 at the angle 0 and 0 at the other angles 2 pi k/beads; or of its derivative of the order
+/// `derivative` (0 to 2; other orders give 0). `beads` must be > 0. The interpolation of values f_k
+/// at the angles 2 pi k/beads is the sum of f_k cardinal(beads, theta - 2 pi k/beads, 0).
 double cardinal(int beads, double theta, int derivative);
 
-/// Curves through N beads. The parameter of a curve is s in [0, 2 pi), and bead k is at s = 2 pi
-/// k/N. An array of positions has x of all beads and then y of all: 2 N numbers [L].
+/// Curves through N beads. The parameter of a curve is s in [0, 2 pi), and bead k (from 0) is at s
+/// = 2 pi k/N. An array of positions has x of all beads and then y of all: 2 N numbers [L]. Other
+/// sizes are an error of the caller that is not checked.
 class MembraneCurve {
  public:
   /// `beads` >= 3 is N.
@@ -32,15 +33,15 @@ class MembraneCurve {
 
   int beads() const { return n_; }  ///< N
 
-  /// The speeds |dx/ds| >= 0 at the parameters halfway between beads, N numbers [L]; number k is
-  /// that after bead k. A curve of the perimeter P that keeps them at P/(2 pi) does not stretch.
-  /// They are not taken at the beads, because a displacement that changes its sign from bead to
-  /// bead has the derivative 0 there.
+  /// The speeds |dx/ds| >= 0, where x(s) is the point of the curve, at the parameters halfway
+  /// between beads: N numbers [L], of which number k is the speed after bead k. A curve of the
+  /// perimeter P whose speeds stay P/(2 pi) does not stretch. Speeds are not taken at the beads,
+  /// because a displacement that changes its sign from bead to bead has the derivative 0 there.
   Eigen::VectorXd speeds(const Eigen::VectorXd& positions) const;
   /// Derivatives of the speeds with respect to the positions [1]: N rows, 2 N columns.
   Eigen::MatrixXd speed_rows(const Eigen::VectorXd& positions) const;
-  /// Second derivatives of the sum of `factors` (N numbers) times the speeds, a symmetric matrix
-  /// with 2 N rows [1/L, times the unit of `factors`].
+  /// Second derivatives of the sum of factor k times speed k over all k, a symmetric matrix with
+  /// 2 N rows [1/L, times the unit of `factors`]; `factors` has N numbers of any unit.
   Eigen::MatrixXd speeds_hessian(const Eigen::VectorXd& positions,
                                  const Eigen::VectorXd& factors) const;
   /// Perimeter [L], >= 0: the mean of the speeds times 2 pi.
@@ -74,17 +75,17 @@ class MembraneCurve {
 
 /// Moves the positions as little as possible until all speeds are `perimeter`/(2 pi) [L] and the
 /// area is `area` [L^2], to rounding errors. Returns false if Newton's method finds no such
-/// positions in 50 rounds; `positions`, 2 N numbers, are then undefined.
+/// positions in 50 rounds (a free choice); `positions`, 2 N numbers, are then undefined.
 bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, double area,
                               Eigen::VectorXd& positions);
 
 /// The centre of the area inside a line [L], and the second moments about it [L^4].
 struct AreaMoments {
-  double x = 0,   ///< of the centre [L]
-      y = 0;      ///< of the centre [L]
-  double xx = 0,  ///< integral of x^2 over the area, with x from the centre [L^4]
-      yy = 0,     ///< integral of y^2, likewise [L^4]
-      xy = 0;     ///< integral of x y, likewise [L^4]
+  double x = 0,   ///< x of the centre [L]
+      y = 0;      ///< y of the centre [L]
+  double xx = 0,  ///< integral of x^2 over the area, with x measured from the centre [L^4]
+      yy = 0,     ///< integral of y^2 over the area, with y measured from the centre [L^4]
+      xy = 0;     ///< integral of x y over the area, both measured from the centre [L^4]
   /// The angle from the direction of x to the long axis, in (-pi/2, pi/2] [rad].
   double inclination() const;
   /// Changes moments about another point (x, y) to those about the centre. `area` [L^2] is the area
@@ -92,7 +93,8 @@ struct AreaMoments {
   void move_to_centre(double area, double mx, double my);
 };
 
-/// What measure() must know of a closed line: of a MembraneCurve or the polygon of necklace.hpp.
+/// What measure() must know of a closed line, which is a MembraneCurve or the polygon of
+/// necklace.hpp.
 struct MeasuredLine {
   double area = 0;       ///< area inside [L^2]
   double perimeter = 0;  ///< length of the line [L]
@@ -107,7 +109,8 @@ struct MeasuredLine {
 /// tank_treading_frequency of the result are 0.
 MembraneMeasures measure(const MeasuredLine& line, const Eigen::VectorXd& positions,
                          const Eigen::VectorXd& velocities);
-/// The same for the curve of a membrane in a fluid.
+/// Measures the membrane whose line is the given curve of a membrane in a fluid, with arrays as in
+/// the function above.
 MembraneMeasures measure(const MembraneCurve& curve, const Eigen::VectorXd& positions,
                          const Eigen::VectorXd& velocities);
 

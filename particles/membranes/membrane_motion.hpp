@@ -1,12 +1,12 @@
-// The motion of membranes in a Stokes flow, docs/physics.md (8.4) to (8.6). A membrane is a closed
-// curve through particles, its beads. The fluid is represented by the velocities of the beads as a
-// linear function of the forces on them (FluidAnswer). Lengths, masses and times are in any
-// consistent units; M stands for a mass per length of the third dimension. Only step() throws;
-// sizes and numbers of membranes are not checked. An array of all beads has x of the beads of the
-// first membrane, of the second one and so on, and then all y in the same order: 2 beads() numbers.
-// membrane_simulation.cpp and membrane.cpp use it. Only sources of this folder and tests may
-// include this header, because users of the library need no Eigen. A change must keep lengths and
-// areas exact after each step.
+// Computes the motion of membranes in a Stokes flow, docs/physics.md (8.4) to (8.6). A membrane is
+// a closed curve through particles, its beads. The fluid is represented by the velocities of the
+// beads as a linear function of the forces on them (FluidAnswer). Lengths, masses and times are in
+// any consistent units; M stands for a mass per length of the third dimension. Only step() throws;
+// sizes of arrays and numbers of membranes are not checked. An array of all beads has x of the
+// beads of the first membrane, of the second one and so on, and then all y in the same order: 2
+// beads() numbers. membrane.cpp and fluid/membrane_simulation.cpp use this file. Headers must not
+// include it, because programs of users must compile without the library Eigen. A change must keep
+// lengths and areas exact after each step.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,37 +28,40 @@ struct FluidAnswer {
 /// The forces of the membranes on the fluid at the beads, and the velocities of the beads. The
 /// first two arrays have 2 beads() numbers.
 struct MembraneMotion {
-  Eigen::VectorXd forces;      ///< sum of bending, tension and loads [M L/T^2]
-  Eigen::VectorXd velocities;  ///< [L/T]
-  /// T of step() [M L/T^2], one number for each bead: the tension that keeps the length between
-  /// this bead and the next one. Only step() sets this array and the two that follow.
+  Eigen::VectorXd forces;      ///< sum of the forces of bending, of tension and of loads [M L/T^2]
+  Eigen::VectorXd velocities;  ///< velocities of the beads [L/T]
+  /// Tensions T of step() [M L/T^2], one number for each bead: the tension that keeps the length
+  /// between this bead and the next one. Only step() sets this array and the two that follow.
   Eigen::VectorXd tension;
-  Eigen::VectorXd pressure;     ///< q of step(), one number for each membrane [M/T^2]
+  /// Pressures q of step(), one number for each membrane [M/T^2].
+  Eigen::VectorXd pressure;
   Eigen::VectorXd flow_forces;  ///< `forces` minus those of the pressure, 2 beads() [M L/T^2]
 };
 
-/// How the result of step() changes under small loads: 2 beads() rows, a column for each column of
-/// `moves` (Membranes::response).
+/// How the result of Membranes::step() changes under small loads. The matrices have 2 beads() rows,
+/// and a column for each load, that is, for each column of `moves` of Membranes::response().
 struct LoadResponse {
-  Eigen::MatrixXd positions;  ///< changes of the positions z [L]
-  Eigen::MatrixXd forces;     ///< changes of P f, without the loads themselves [M L/T^2]
+  Eigen::MatrixXd positions;  ///< changes of the positions z of step() [L]
+  Eigen::MatrixXd forces;     ///< changes of P f of step(), without the loads [M L/T^2]
 };
 
 /// All membranes of a case in a fluid.
 class Membranes {
  public:
-  /// The membranes, those of a fluid, must outlive this object.
+  /// `membranes` are those of Fluid::membranes, and must outlive this object.
   explicit Membranes(std::span<const Membrane> membranes);
 
   Eigen::Index beads() const { return first_.back(); }  ///< number of beads of all membranes
 
   /// Positions of all beads [L]. `positions` has two numbers for each particle. In a periodic
-  /// domain each bead is taken at its image nearest to the bead before it, and the first bead of
-  /// each membrane, if `near` is given, at its image nearest to its place in the array `near`.
+  /// domain each bead is taken at its image nearest to the bead before it. If `near`, an array of
+  /// all beads [L], is given, the first bead of each membrane is taken at its image nearest to its
+  /// place in `near`.
   Eigen::VectorXd places(std::span<const double> positions, const PeriodicCell& cell,
                          const Eigen::VectorXd* near = nullptr) const;
 
-  /// An array of all beads from the first two of the `components` >= 2 numbers of each particle.
+  /// An array of all beads, from `numbers`, which has `components` >= 2 numbers of any unit for
+  /// each particle. The first two numbers of a particle are x and y of its bead.
   Eigen::VectorXd from_particles(std::span<const double> numbers, std::size_t components) const;
   /// The inverse of from_particles(): writes the array `all` into `numbers`, whose size it does not
   /// change.
@@ -74,29 +77,32 @@ class Membranes {
   /// velocities change no length. Sets the first two arrays of MembraneMotion.
   MembraneMotion motion_at(const Eigen::VectorXd& positions, const FluidAnswer& answer) const;
 
-  /// Solves a step that is implicit in bending and lengths. It finds positions z and tensions T
-  /// with
+  /// Solves a step of the length `time`, implicit in bending and lengths. It finds positions z [L]
+  /// and tensions T with
   ///
   ///     (z - from)/time = flow + mobility (loads + P f),
   ///     f = -grad E(z) - G(z)^T T,   lengths(z) kept,
   ///
-  /// where E is the bending energy, lengths(z) are |dx/ds| halfway between beads
-  /// (MembraneCurve::speeds), and G is their derivative. The pressure q inside a membrane exerts
-  /// the forces q a, where a is the derivative of the area inside. They make no flow, because the
-  /// fluid is incompressible, and are therefore subtracted: P f = f - q a, with q such that the
-  /// inner product of a and P f is 0 for each membrane. At the end z is changed by the smallest
-  /// displacements with which lengths and areas are exact. `from` [L] and `time` > 0 [T] belong to
-  /// the time scheme of the caller, `loads` are further forces on the beads [M L/T^2], and
-  /// `positions` is a first guess of z, and z afterwards [L]; all have 2 beads() numbers. Throws
-  /// Error(kNotConverged) if Newton's method fails, also with 12 halvings of the step, or if no
+  /// where E is the bending energy [M L^2/T^2], lengths(z) are the speeds of the curve halfway
+  /// between beads (MembraneCurve::speeds), and G is the derivative of lengths(z). The pressure q
+  /// inside a membrane exerts the forces q a, where a is the derivative of the area inside. These
+  /// forces make no flow, because the fluid is incompressible, and are therefore subtracted: P f =
+  /// f - q a, with q such that the inner product of a and P f is 0 for each membrane. At the end z
+  /// is changed by the smallest displacements with which lengths and areas are exact.
+  ///
+  /// The caller's time scheme sets `from` [L] and `time` > 0 [T]. `loads` are further forces on the
+  /// beads [M L/T^2]. `positions` is a first guess of z before, and z afterwards [L]. These three
+  /// arrays have 2 beads() numbers. Throws Error(kNotConverged) if Newton's method fails, also with
+  /// a series of shorter steps (time/2^12, time/2^11, ..., time; the 12 is a free choice), or if no
   /// places near z have exact lengths and areas; `positions` are then undefined.
   MembraneMotion step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
                       const Eigen::VectorXd& loads, Eigen::VectorXd& positions) const;
 
-  /// The linear response of step(), whose arguments are the same, to small loads. `moves` [L] has a
-  /// column for each load with the displacements that the load alone would cause; the response also
-  /// contains the bending forces and tensions that oppose them. `motion` is what step() returned
-  /// with these `positions`.
+  /// How the result of step() changes to first order under small further loads. `time`, `answer`
+  /// and `loads` are those of the call of step(), `motion` is what it returned, and `positions` are
+  /// those after it. `moves` [L] has 2 beads() rows and a column for each further load, with the
+  /// displacements that the load would cause without the membranes. The response also contains the
+  /// bending forces and tensions of the membranes, which oppose these displacements.
   LoadResponse response(double time, const FluidAnswer& answer, const Eigen::VectorXd& loads,
                         const MembraneMotion& motion, const Eigen::VectorXd& positions,
                         const Eigen::MatrixXd& moves) const;

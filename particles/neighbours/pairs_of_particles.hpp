@@ -1,7 +1,9 @@
-// The pairs of a neighbour list as a graph whose nodes are the particles. It tells which pairs a
-// particle has, and which further gaps may close when some gaps close. All numbers are numbers of
-// pairs and particles. Nothing is checked or thrown. projection/ and impacts/ use it. A change must
-// keep the order of pairs, because the bits of a simulation depend on it.
+// Treats the pairs of a neighbour list as a graph, whose nodes are the particles. The graph tells
+// which pairs a particle has, and which further gaps may close when some gaps close. Particles are
+// numbered from 0. The number of a pair is its place in State::pairs, or, for a pair with an
+// obstacle, the number of those pairs plus its place in State::walls. Nothing is checked or thrown:
+// numbers must be those of existing pairs and particles. projection/ and impacts/ use this file. A
+// change must keep the order of pairs, because the bits of a simulation depend on it.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +15,15 @@
 
 namespace viscontact::particles {
 
-/// Graph of the pairs of particles. If a particle hits one end of a chain, the gaps of the chain
-/// close one after the other. This class finds all these gaps before the problem of the step is
-/// solved; otherwise each solution would show only the next gap that closes.
+/// Graph of the pairs of particles. If a particle hits one end of a chain of particles, the gaps of
+/// the chain close one after the other. This class finds all these gaps before the problem for the
+/// contact impulses of the step is solved; otherwise each solution would show only the next gap
+/// that closes.
 class PairsOfParticles {
  public:
-  /// `state` must outlive the object, and its lists of pairs must not change. Pairs with an
-  /// obstacle (State::walls) are in the graph only `with_walls`, which excludes connected().
+  /// `state` must outlive the object, and its lists of pairs must not change. If `with_walls` is
+  /// true, pairs with an obstacle (State::walls) are in the graph, too; connected() must then not
+  /// be called, because it reads beyond its arrays.
   explicit PairsOfParticles(const State& state, bool with_walls = false)
       : state_(&state), pair_count_(state.pairs.size()), offsets_(state.particles.count() + 1, 0) {
     const std::size_t count = pair_count_ + (with_walls ? state.walls.size() : 0);
@@ -35,8 +39,8 @@ class PairsOfParticles {
     for_particles([&](std::size_t k, std::size_t f) { pairs_of_[next[k]++] = f; });
   }
 
-  /// The numbers of the pairs of a particle, by its number >= 0: places in State::pairs, continued
-  /// by State::walls, in increasing order.
+  /// The numbers of the pairs of particle `particle` >= 0, in increasing order; the numbers of
+  /// pairs of State::walls are among them only if the graph was made `with_walls`.
   std::span<const std::size_t> of(std::int32_t particle) const {
     const auto k = index_of(particle);
     return std::span(pairs_of_).subspan(offsets_[k], offsets_[k + 1] - offsets_[k]);

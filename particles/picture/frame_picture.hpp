@@ -1,8 +1,9 @@
-// Draws one frame of a motion of particles as SVG: the content of one panel of the still picture.
-// Lengths [L] are in the case's unit. Page units are those of the SVG, of which the still picture
-// is 1000 wide. Nothing is checked or thrown. particles_picture.cpp draws its panels by
-// frame_picture(), and particles_page.cpp uses kFrictionColours. The scripts view.js and picture.js
-// in particles/picture/page draw the same on a web page, so a change must be made there, too.
+// Draws one frame of a motion of particles as SVG: the content of one panel of the still picture,
+// which shows some frames side by side. Lengths [L] are in the case's unit. Page units are those of
+// the SVG; the still picture is 1000 page units wide. Nothing is checked or thrown.
+// particles_picture.cpp draws its panels by frame_picture(), and particles_page.cpp uses
+// kFrictionColours. The scripts view.js and picture.js in particles/picture/page draw the same on a
+// web page, so that a change must be made there, too.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +18,7 @@ namespace viscontact::particles {
 struct Projection {
   /// Unit vectors [1] of the motion that point to the right, upwards and to the reader.
   Vector right{1, 0, 0}, up{0, 1, 0}, toward{0, 0, 1};
-  double scale = 1;          ///< page units per length [1/L], > 0
+  double scale = 1;          ///< page units per unit of length [1/L], > 0
   double left = 0, top = 0;  ///< coordinates of the panel's corner along `right` and `up` [L]
 
   /// The coordinates of the point p [L] in the panel [page units].
@@ -25,31 +26,34 @@ struct Projection {
   double y(const Vector& p) const { return scale * (top - dot(up, p)); }
 };
 
-/// The direction of view, with the scale 1: from the front for `dimension` 2 (motions in the
-/// plane). For 3 (motions in space) the third axis points upwards, and the view is turned by 30
-/// degrees about it and from 20 degrees above; view.js repeats these free choices.
+/// The direction of view, with the scale 1 and the corner at 0. For `dimension` 2 (motions in the
+/// plane) the reader looks from the front. For 3 (motions in space) the third axis points upwards,
+/// the view is turned by 30 degrees about it, and the reader looks from 20 degrees above. Both
+/// angles are free choices, which view.js repeats.
 Projection view_of(int dimension);
 
 /// Settings that all panels of a picture share.
 struct PanelSettings {
   const Scene& scene;            ///< the motion; it must outlive the settings
-  Projection view;               ///< from the motion to each panel
+  Projection view;               ///< projection from the motion to each panel
   double width = 0, height = 0;  ///< size of a panel [page units], > 0
-  std::size_t every = 1;         ///< draws particles 0, every, 2 every, ...; >= 1
+  std::size_t every = 1;         ///< only particles 0, every, 2 every, ... are drawn; >= 1
 };
 
-/// Number of colours of contacts with gamma < 0 in the still picture. gamma is minus the impulse
-/// that a film has absorbed. Any number >= 2 works; with few colours the file is small.
+/// Number of colours of contacts with gamma < 0 in the still picture, where gamma [M L/T] is minus
+/// the impulse that the film of the contact has absorbed. Any number >= 2 works; with few colours
+/// the file is small.
 inline constexpr int kContactColours = 20;
 
-/// Number of colours, in steps of a tenth of Coulomb's bound, for the friction of contacts with
-/// gamma = 0, in the still picture and on the page.
+/// Number of colours for the friction of contacts with gamma = 0, in the still picture and on the
+/// page. Friction is at most the coefficient of friction times the normal force; with 11 colours a
+/// step is a tenth of this bound. Any number from 2 to 200 works.
 inline constexpr int kFrictionColours = 11;
 
 /// The SVG elements of a panel that shows `frame`, a frame of panel.scene.playback. In motions in
-/// the plane, `behind` is SVG that is drawn behind them, and images of particles are drawn at the
-/// sides of a period. In motions in space, `behind` is not used and particles have no images.
-/// Elements may extend beyond the panel, which must cut them off.
+/// the plane, `behind` is SVG text that is drawn behind the particles, and periodic images of
+/// particles are drawn at the sides of the cell. In motions in space, `behind` is not used and no
+/// periodic images are drawn. Elements may extend beyond the panel, and the caller must clip them.
 std::string frame_picture(const PanelSettings& panel, const Frame& frame,
                           const std::string& behind = "");
 

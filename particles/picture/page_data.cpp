@@ -1,6 +1,8 @@
-// Chooses the part of a motion of particles that a page shows, and writes its numbers as bytes
-// (page_data.hpp, which has their formats), in the units of the case. Nothing is thrown; on a
-// big-endian machine the source does not compile. Used by particles_page.cpp. motion.js,
+// Chooses the part of a motion of particles that a page shows, and writes its numbers as bytes, in
+// the units of the case: lengths [L], times [T], masses [M], speeds [L/T]. page_data.hpp has the
+// formats of the bytes. Numbers outside a scale are limited to it; nothing else is checked (arrays
+// of a Playback must have the lengths that io/playback.hpp states), and nothing is thrown. On a
+// big-endian machine the source does not compile. particles_page.cpp uses it. motion.js,
 // colouring.js and flow.js in particles/picture/page decode the bytes: a change here must agree
 // with them, and with kLevels, kNothing, kNoArrow and kSteps in flow.js.
 #include "viscontact/particles/picture/page_data.hpp"
@@ -28,7 +30,8 @@ void append(Bytes& bytes, Number value) {
   std::memcpy(bytes.data() + at, &value, sizeof value);
 }
 
-/// Appends a number: seven bits in each byte, lowest first; the eighth is 0 in the last byte only.
+/// Appends a number with seven bits in each byte, the lowest first. The eighth bit of a byte is 1
+/// if another byte follows, and 0 in the last byte.
 void append_short(Bytes& bytes, std::uint32_t value) {
   for (; value >= 128; value >>= 7) bytes.push_back(static_cast<unsigned char>(value | 128));
   bytes.push_back(static_cast<unsigned char>(value));
@@ -36,7 +39,8 @@ void append_short(Bytes& bytes, std::uint32_t value) {
 
 /// Chooses whether a coordinate takes two bytes or four (PageData::position_bytes).
 void choose_position_bytes(PageData& data, const Playback& playback) {
-  // The largest 16-bit number; the largest step over the smallest radius, too small to be seen.
+  // kSteps is the largest 16-bit number. kSmall is the largest step, divided by the smallest
+  // radius, with which coordinates take two bytes: too small to be seen, a free choice.
   constexpr double kSteps = 65535, kSmall = 0.02;
   const auto dimension = static_cast<std::size_t>(playback.dimension);
   for (std::size_t d = 0; d < dimension; ++d) {
@@ -67,16 +71,17 @@ void choose_frames(PageData& data, const Playback& playback, std::size_t every_f
     data.frames.push_back(playback.frames.size() - 1);
 }
 
-/// The contacts of all frames: a list of the pairs that are in contact in any frame, and for each
-/// frame its contacts in the order of that list. The bytes of a contact are
+/// The contacts of the shown frames: a list of the pairs that are in contact in any of them, and
+/// for each frame its contacts in the order of that list. The bytes of a contact are
 /// - the place of its pair in the list minus that of the contact before it (append_short());
-/// - gamma, minus the impulse that its film has absorbed: 0 for gamma = 0, 255 for the lowest;
+/// - a level for gamma, minus the impulse that its film has absorbed: 0 for gamma = 0, and 1 to 255
+///   up to the lowest gamma of the motion;
 /// - in a motion with friction: 254 times mobilised_friction(), or 255 if the contact slides;
 /// - in a motion with forces: 255 times force_share().
 struct Contacts {
-  Bytes pairs;    ///< int32: both particles, counted among the shown; -1 - j: obstacle j
+  Bytes pairs;    ///< int32: both particles, counted among the shown ones; -1 - j: obstacle j
   Bytes images;   ///< int8: image of the second particle, as image_number() in periods.hpp
-  Bytes offsets;  ///< uint32: where each frame begins in `frames`, then the end
+  Bytes offsets;  ///< uint32: where each frame begins in `frames`, and then the length of `frames`
   Bytes frames;   ///< the bytes of all contacts, frame by frame
 };
 
@@ -137,7 +142,8 @@ Contacts contacts_of(const Scene& scene, const PageData& data) {
   return contacts;
 }
 
-/// How many numbers say how far a particle has turned: 1 (an angle), 4 (a quaternion) or 0.
+/// How many numbers tell how far a particle has turned: 1 (an angle), 4 (a quaternion), or 0 if the
+/// frames do not have such numbers for all particles.
 std::size_t numbers_of_turn(const Playback& playback) {
   const auto all_have = [&](const std::vector<float> Frame::*member, std::size_t numbers) {
     return !playback.frames.empty() && !playback.radii.empty() &&
@@ -150,7 +156,8 @@ std::size_t numbers_of_turn(const Playback& playback) {
 }
 
 /// Chooses the frames and particles, and whether contacts are shown, so that the page has at most
-/// kMostBytes, a free choice. `other_bytes` is the size of the flow in base64.
+/// kMostBytes and kMostParticles, which are free choices. `other_bytes` is the size of the flow in
+/// base64. If the other numbers of two frames are too many, the page is larger.
 Contacts choose_content(PageData& data, const Scene& scene, std::size_t other_bytes) {
   const auto& playback = scene.playback;
   constexpr std::size_t kMostBytes = 24'000'000, kMostParticles = 200'000;
@@ -168,12 +175,12 @@ Contacts choose_content(PageData& data, const Scene& scene, std::size_t other_by
   const bool are_added =
       !playback.frames.empty() &&
       std::ranges::any_of(playback.frames.front().positions, [](float x) { return std::isnan(x); });
-  // Radii, masses, ids, bodies, first frames, semi-axes and plates.
+  // The bytes of a particle for its radius, mass, id, body, first frame, semi-axes and plate.
   const auto of_particle = four(true) + four(!playback.masses.empty()) +
                            four(!playback.ids.empty()) + four(!playback.bodies.empty()) +
                            four(are_added) + 2 * four(!playback.semi_axes.empty()) +
                            (playback.plates.empty() ? 0 : 1);
-  // Characters of a hinge, and of the two numbers of a spring or arm, at most.
+  // The largest numbers of characters that a hinge, and the two numbers of a spring or arm, take.
   constexpr std::size_t kHinge = 80, kEnds = 16;
   const auto& links = playback.links;
   const auto of_links =
@@ -231,11 +238,12 @@ Bytes speeds_of(PageData& data, const Playback& playback) {
 
 constexpr double kLevels = 254;            // byte of the upper end of a scale; the lower end has 0
 constexpr unsigned char kNothing = 255;    // byte of a point without flow
-constexpr std::uint16_t kNoArrow = 65535;  // in place of the number of an arrow's point: no arrow
+constexpr std::uint16_t kNoArrow = 65535;  // stands for the point of the arrow: there is no arrow
 constexpr double kLineSteps = 65535;       // a coordinate at the right or upper side of the grid
 
-/// Appends a byte for each point of the field. share(value) is the place of a value on its scale,
-/// from 0 at the lower end to 1 at the upper end.
+/// Appends a byte for each point of the field, which has rows of `columns` points. share(value) is
+/// the place of a value on its scale, from 0 at the lower end to 1 at the upper end; other shares
+/// are limited to these.
 template <class Share>
 void append_levels(Bytes& bytes, const std::vector<float>& field, std::size_t columns,
                    const Share& share) {
@@ -250,7 +258,7 @@ void append_levels(Bytes& bytes, const std::vector<float>& field, std::size_t co
                                             kLevels * std::clamp(share(value), 0.0, 1.0))));
 }
 
-/// Appends the streamlines of a flow in the form that flow_blocks() says.
+/// Appends the streamlines of a flow in the form of the block flow-lines (page_data.hpp).
 void append_lines(Bytes& bytes, const FlowFrame& frame, const report::Window& window) {
   const auto write = [&](std::size_t number) { append(bytes, static_cast<std::uint16_t>(number)); };
   const auto step = [](double share) {

@@ -1,9 +1,10 @@
-// What the still picture and the page show of a motion of particles: its frames in the plane, the
-// part of space that is seen, the flow, and the scales of colours. Lengths [L], masses [M] and
-// times [T] are in the units of the case; gamma is minus the impulse that the film of a contact has
-// absorbed. The other sources of this folder use it. A flow that cannot be read throws
-// Error(kBadInput). Indices and other numbers are not checked. A change of SceneStyle must be made
-// in style_of_page() of particles_page.cpp and in the scripts in particles/picture/page, too.
+// Determines what the still picture and the web page show of a motion of particles: its frames in
+// the plane, the part of space that is seen, the flow, and the scales of colours. Lengths [L],
+// masses [M] and times [T] are in the units of the case; gamma is minus the impulse that the film
+// of a contact has absorbed. The other sources of this folder use this file. A flow that cannot be
+// read throws Error(kBadInput). Indices and other numbers are not checked. A change of a name in
+// SceneStyle must be made in style_of_page() of particles_page.cpp and in the scripts in
+// particles/picture/page, too.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +21,7 @@
 
 namespace viscontact::particles {
 
-/// An interval along an axis [L]; empty if low > high.
+/// An interval from `low` to `high` along an axis [L]; empty if low > high.
 struct Interval {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
@@ -40,10 +41,11 @@ struct ViewBox {
 
 /// The flow around the particles of a frame, at the points of FlowFrames::grid.
 struct FlowFrame {
-  std::size_t frame = 0;  ///< its index in Playback::frames, from 0
-  /// Speed [L/T] and pressure [M/(L T^2)] at each point of the grid; NaN where there is no flow.
-  /// The mean of the pressure over the points outside the particles is 0, because the equations of
-  /// a closed domain determine the pressure up to a constant only.
+  std::size_t frame = 0;  ///< index of the frame in Playback::frames, from 0
+  /// Speed [L/T] and pressure [M/(L T^2)] at each point of the grid, row by row from the bottom and
+  /// each row from the left; NaN where there is no flow. The mean of the pressure over the points
+  /// outside the particles is 0, because the equations of a closed domain determine the pressure up
+  /// to a constant only.
   std::vector<float> speed, pressure;
   std::vector<report::StreamLine> lines;  ///< streamlines in the grid's window
 };
@@ -55,28 +57,29 @@ struct FlowFrames {
   report::Grid grid;
   bool has_axis = false;          ///< whether the flow is symmetric about the line x = 0
   std::vector<FlowFrame> frames;  ///< in order of time; empty: there is no flow to draw
-  /// Upper end of the scale of speeds [L/T], >= 0; one in a thousand points of the fluid is faster.
+  /// Upper end of the scale of speeds [L/T], >= 0. It is chosen so that one in a thousand points of
+  /// the fluid is faster, a free choice.
   double top_speed = 0;
   report::PressureColours pressure_colours;  ///< scale of colours of the pressure
 };
 
-/// The largest size of all flows in a page [bytes]: a byte for the speed and a byte for the
-/// pressure at each point. In base64 this is half of the 24 MB that a page may have
+/// The largest size of all flows in a page [bytes]. Each point of a flow takes a byte for the speed
+/// and a byte for the pressure. In base64 this size is half of the 24 MB that a page may have
 /// (page_data.cpp), a free choice. The streamlines take about a tenth more.
 inline constexpr std::size_t kFlowBytesOfPage = 9'000'000;
 
-/// The frames whose flow the page shows, and on how many points: all frames that have a flow, or
-/// 150 evenly chosen ones of them if there are more.
+/// The frames whose flow the page shows, and on how many points it shows them. The frames are all
+/// those that have a flow, or 150 evenly chosen ones of them if there are more.
 struct ShownFlows {
-  std::vector<std::size_t> frames;  ///< indices in Playback::frames, increasing
+  std::vector<std::size_t> frames;  ///< indices of the frames in Playback::frames, increasing
   std::size_t points = 0;           ///< about how many points the grid has; 0 without a flow
 };
-/// The frames and the number of points: at most 60 000 points, and so few that all flows fit into
-/// kFlowBytesOfPage.
+/// Chooses the frames and the number of points: at most 60 000 points, and so few that all flows
+/// fit into kFlowBytesOfPage. The 60 000 and the 150 frames are free choices (scene.cpp).
 ShownFlows shown_flows(const Playback& playback);
 
-/// How wide a line is drawn: in proportion to a radius, but within limits [page units]. The still
-/// picture is 1000 page units wide.
+/// The width of a line: it is proportional to a radius, but within limits [page units]. The still
+/// picture is 1000 page units wide; on the web page, a page unit is SceneStyle::page_unit.
 struct LineWidth {
   double share = 0;  ///< width divided by the radius, >= 0
   double least = 0;  ///< lower limit of the width [page units], >= 0
@@ -91,30 +94,34 @@ struct SceneStyle {
   std::array<Colour, 2> disc{"#a9c3da", "#4f728f"}, disc_in_fluid{"#f1ece0", "#3c3a34"},
       disc_of_body{"#e0cda6", "#8a713b"};
   /// Three colours of a sphere from its brightest point to its rim, and the colour of its edge:
-  /// first of a sphere without a rigid body, then of a sphere in one.
+  /// `ball` of a sphere in no rigid body, `ball_of_body` of a sphere in one.
   std::array<Colour, 4> ball{"#e3eef7", "#a3bfd8", "#5b7f9f", "#34536e"},
       ball_of_body{"#f6ead0", "#dcc79c", "#a98d55", "#7a6231"};
   /// Colours of the marks of rotation on particles, and of springs.
   Colour mark = "#4a4a44", spring = "#2b6e3f";
-  /// The dot that shows the angle of a disc: its distance from the centre and its radius, over the
-  /// radius of the disc; and the radius of dots at the axes of a sphere, over that of the sphere.
+  /// The first two numbers are for the dot that shows the angle of a disc: its distance from the
+  /// centre and its radius, both divided by the radius of the disc. The third number is the radius
+  /// of the dots at the axes of a sphere, divided by the radius of the sphere.
   double mark_distance = 0.66, mark_radius = 0.13, axis_radius = 0.12;
   /// An axis of a sphere is marked where its component towards the reader is larger than this,
   /// because a dot nearer to the rim would be seen from the side.
   double least_toward = 0.15;
-  /// Over the smaller radius of two particles: the width of the line that joins them in a rigid
-  /// body, that of an arm, and half the width of the zigzag line of a spring.
+  /// Three widths, divided by the smaller radius of the two particles: that of the line that joins
+  /// them in a rigid body, that of an arm, and half of that of the zigzag line of a spring.
   double body_line = 0.18, arm = 0.25, spring_width = 0.35;
-  /// If contacts have no forces: the width of the line of a contact that has a film (gamma < 0) or
-  /// slides, over the smaller radius of its two particles.
+  /// The width of the line of a contact that has a film (gamma < 0) or slides, if contacts have no
+  /// forces. The radius is the smaller one of its two particles.
   LineWidth film_line{0.3, 0.8, 5};
-  LineWidth touching_line{0.06, 0.3, 1};  ///< likewise, for any other contact
-  /// If contacts have forces: the width of the line for the force Scene::top_force, over the mean
-  /// radius. Widths are proportional to the force, but not below the next two.
+  /// The width of the line of any other contact, for the same radius, if contacts have no forces.
+  LineWidth touching_line{0.06, 0.3, 1};
+  /// The width of the line for the force Scene::top_force, if contacts have forces. The radius is
+  /// the mean radius. Widths are proportional to the force, but at least the next two widths.
   LineWidth force_line{0.9, 0, 12};
-  LineWidth film_with_force{0.1, 0.8, 2};      ///< least width with a film, over the smaller radius
-  LineWidth touching_with_force{0, 0.3, 0.3};  ///< least width without, likewise
-  double page_unit = 1.5;    ///< what the page takes for one page unit [CSS pixels], > 0
+  /// The least width of the line of a contact with a force and a film, for the smaller radius.
+  LineWidth film_with_force{0.1, 0.8, 2};
+  /// The least width of the line of a contact with a force and no film, for the smaller radius.
+  LineWidth touching_with_force{0, 0.3, 0.3};
+  double page_unit = 1.5;    ///< length of a page unit on the web page [CSS pixels], > 0
   int spring_turns = 12;     ///< corners of the zigzag line of a spring, >= 1
   double spring_end = 0.12;  ///< length of each straight end over that of the spring, < 0.5
 };
@@ -132,36 +139,39 @@ struct Scene {
   bool is_per_length() const {
     return playback.is_in_fluid && !has_axis && playback.dimension == 2;
   }
-  /// The part of space that is shown: all particles of the shown frames (if a few have flown far
-  /// away, the central 98 % of each frame), and the planes next to them. If a flow is drawn whose
-  /// domain is at most 16 times as large, it is the whole domain. Along axes with a period it is
-  /// the cell. Its size is > 0 in each direction of the playback's dimension.
+  /// The part of space that is shown, with a margin: all particles of the shown frames (if a few
+  /// have flown far away, the central 98 % of each frame), and the planes next to them. If a flow
+  /// is drawn whose domain is at most 16 times as large, the box is the whole domain. Along axes
+  /// with a period the box is the cell. Its size is > 0 in each direction of the playback's
+  /// dimension. The limits are free choices in scene.cpp.
   ViewBox box;
   FlowFrames flows;         ///< the flows in the box
-  double lowest_gamma = 0;  ///< of all frames [M L/T], if is_per_length() [M/T]; 0: none < 0
-  std::string film_words;   ///< what the scale of gamma shows, with its unit or dimension
+  double lowest_gamma = 0;  ///< lowest gamma of all frames, <= 0 [M L/T], if is_per_length() [M/T]
+  std::string film_words;   ///< words for the scale of gamma, with its unit or dimension
   bool touches = false;     ///< whether a contact of the shown frames has gamma = 0
   bool slides = false;      ///< whether a contact of the shown frames slides
   /// The normal force that the widest lines show [M L/T^2], if is_per_length() [M/T^2]; 98 % of the
-  /// contacts with a force have at most this force. 0: no contact has a force.
+  /// contacts with a force have at most this force. It is 0 if no contact has a force.
   double top_force = 0;
-  double mean_radius = 0;   ///< of all particles [L], > 0; 0 without particles
-  std::string force_words;  ///< what the widths of lines show; empty if top_force is 0
+  double mean_radius = 0;   ///< mean radius of all particles [L], > 0; 0 without particles
+  std::string force_words;  ///< words for the widths of lines; empty if top_force is 0
 };
 
-/// The scene that shows the frames of `motion` with the indices `frames`, with those flows of the
-/// frames `flow_frames` that exist, on a grid of about `points` points. Indices are not checked.
-/// Flows on the same grid that `known` has are taken from there. Throws Error(kBadInput), which
-/// names the file, if a flow cannot be read.
+/// The scene that shows the frames of `motion` with the indices `frames`, and the flows of the
+/// frames with the indices `flow_frames`, as far as they have one, on a grid of about `points`
+/// points. Indices are not checked. If `known` has flows on the same grid, they are taken from
+/// there. Throws Error(kBadInput), which names the file, if a flow cannot be read.
 Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
                const std::vector<std::size_t>& flow_frames, std::size_t points,
                const FlowFrames& known = {});
 
-/// The size of the normal force of a contact over Scene::top_force, from 0 to 1; 0 if that is 0.
+/// The magnitude of the normal force of a contact divided by Scene::top_force, from 0 to 1; 0 if
+/// top_force is 0. Larger forces give 1.
 double force_share(const Scene& scene, const CurrentContact& contact);
 
-/// Friction of a contact over Coulomb's bound, from 0 to 1: the tangential force over the product
-/// of friction coefficient and normal force. 1 if the contact slides, 0 without friction or load.
+/// Friction of a contact divided by Coulomb's bound, from 0 to 1: the tangential force divided by
+/// the product of friction coefficient and normal force. It is 1 if the contact slides, and 0
+/// without friction or load.
 double mobilised_friction(const Playback& playback, const CurrentContact& contact);
 
 /// Words for the scale of colours of mobilised_friction().
@@ -170,13 +180,15 @@ inline constexpr const char* kFrictionWords =
 
 using Polygon = std::vector<Vector>;  ///< corners in order [L]; two corners: a line
 
-/// The part of a convex polygon or of a line with normal.(x - point) >= 0; empty if there is none.
-/// `point` is on the boundary [L], and `normal` may have any length > 0.
+/// The part of a convex polygon or of a line where the inner product of `normal` and x - point is
+/// >= 0; empty if there is no such part. `point` [L] and `normal`, of any length > 0, define the
+/// line or plane that cuts.
 Polygon clipped(const Polygon& polygon, const Vector& point, const Vector& normal);
 
-/// The part of a convex polygon or line in the box and on the free side (that of the particles) of
-/// all planes but number `own`, which contains it. Planes are moved back by 1e-4 of the box's size,
-/// so that a polygon in two equal planes remains. `dimension` is 2 or 3.
+/// The part of a convex polygon or line that is in the box and on the free side (that of the
+/// particles) of all planes, except of plane number `own`, in which it lies. Planes are moved back
+/// by 1e-4 of the longest side of the box, so that rounding errors do not remove a polygon that
+/// lies in two equal planes. `dimension` is 2 or 3.
 Polygon clipped_to_view(Polygon polygon, const ViewBox& box,
                         const std::vector<PlanePosition>& planes, std::size_t own, int dimension);
 

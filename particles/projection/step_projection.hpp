@@ -1,10 +1,11 @@
-// The projection of a time step: the problem for the impulses of contacts that keeps gaps open,
-// docs/physics.md (5.3) and (5.4). Chooses the contacts of the problem, sets their tolerances,
-// solves the problem, and measures the residuals of the solution by scales that do not depend on
-// units. h [T] is the length of the step, u* are the velocities at its end without contacts and
-// links, v those with them. Units are any consistent ones. Nothing is thrown: ProjectionResult
-// tells whether the step is solved. simulation.cpp uses it. Results must not depend on the number
-// of threads.
+// Computes the projection of a time step, which is the problem for the impulses of contacts that
+// keeps gaps open, docs/physics.md (5.3) and (5.4). The code chooses the contacts of the problem,
+// sets their tolerances, solves the problem, and measures the residuals of the solution by scales
+// that do not depend on units. h [T] is the length of the step. u* are the velocities [L/T] at its
+// end without contacts and links, and v the velocities with them. Units are any consistent ones.
+// Nothing is checked or thrown: ProjectionResult tells whether the step is solved. simulation.cpp
+// uses this file. Results must not depend on the number of threads, and a change of a scale alters
+// which steps count as solved.
 #pragma once
 
 #include <algorithm>
@@ -29,30 +30,35 @@
 
 namespace viscontact::particles {
 
-/// Scales with which the residual [L] of a contact or link is compared.
+/// Scales with which the residual [L] of a contact or link is compared, that is, the distance of a
+/// gap or length from the value that its condition demands.
 struct ResidualScale {
-  double w = 0;  ///< change of the gap per impulse [T/M], of a contact h (1/m_i + 1/m_j), > 0
+  /// Change of the gap per impulse [T/M], > 0. For a contact of particles with the masses m_i and
+  /// m_j it is h (1/m_i + 1/m_j).
+  double w = 0;
   /// Impulse at work [M L/T], >= 0: the magnitude of the impulses that move the particles of the
-  /// contact or press on them in the step, of which a small fraction is an allowed error.
+  /// contact or press on them in the step. A small fraction of it is an allowed error.
   double impulse = 0;
   double rounding = 0;  ///< rounding errors of the gap after the step [L], > 0
-  /// Allowed residual [L], > 0: the smaller of `length` > 0 [L] and of the change of the gap by the
-  /// part `fraction` > 0 of the impulse at work, which counts as at least `rounding`.
+  /// Allowed residual [L], > 0. It is the smaller of `length` > 0 [L] and of the change of the gap
+  /// by the fraction `fraction` > 0 of the impulse at work; if this change is less than `rounding`,
+  /// `rounding` takes its place.
   double allowed(double length, double fraction) const {
     return std::min(length, std::max(fraction * impulse * w, rounding));
   }
-  /// Allowed residual of a gap [L]. `mean_radius` > 0 [L] is the unit of SolverSettings::tolerance.
+  /// Allowed residual of a gap [L]. SolverSettings::tolerance is in units of `mean_radius` > 0 [L].
   double allowed_gap(const SolverSettings& settings, double mean_radius) const {
     return allowed(settings.tolerance * mean_radius / 2, settings.impulse_tolerance);
   }
 };
 
-/// The fraction of the impulse at work that ResidualScale::allowed() gets for slips [1], > 0. It
-/// keeps friction to its law in short steps, in which the slips are smaller than the tolerance of
-/// gaps. The fraction is larger than that of gaps, because redundant impulses in a packing must
-/// grow until the slips are allowed. With the default tolerance it is 1e-4, about what the
-/// tolerance of gaps allows in the steps of bench/box2d.cpp. With 1e-6, 1000 settled discs without
-/// films take twice as many iterations.
+/// The fraction of the impulse at work [1], > 0, that ResidualScale::allowed() gets for slips, the
+/// tangential displacements of contacts with friction. It keeps friction to its law in short steps,
+/// in which the slips are smaller than the tolerance of gaps. The fraction is larger than that of
+/// gaps, because redundant impulses in a packing must grow until the slips are allowed. With the
+/// default tolerance it is 1e-4, about what the tolerance of gaps allows in the steps of
+/// bench/box2d.cpp. With 1e-6, 1000 settled discs without films take twice as many iterations. The
+/// factor 100 is a free choice.
 inline double fraction_of_slips(const SolverSettings& settings) {
   constexpr double kOfTolerance = 100;
   return std::max(settings.impulse_tolerance, kOfTolerance * settings.tolerance);
@@ -62,16 +68,18 @@ inline double fraction_of_slips(const SolverSettings& settings) {
 template <int D>
 class ResidualScales {
  public:
-  /// Measures the impulses at work at the present impulses of `system` and displacements h v [L].
-  /// `mobilities`: h/m of all particles [T/M], > 0. The arguments must outlive this object.
-  /// `has_constraints`: true in a step with friction, bodies or links.
+  /// Measures the impulses at work at the present impulses of `system` and the displacements h v
+  /// [L], D numbers for each particle. `mobilities` are h/m of all particles of the mass m [T/M], >
+  /// 0. `h` must be > 0 [T]. `has_constraints` is true in a step with friction, bodies or links.
+  /// The arguments must outlive this object.
   ResidualScales(const State& state, double h, std::span<const double> displacements,
                  std::span<const double> mobilities, ContactSystem<D>& system,
                  bool has_constraints);
 
-  /// Scales of a contact or link between `particles`; negative numbers are obstacles. The particles
-  /// need not be in `system`. `w` > 0 is the change of the gap per impulse [T/M]. `length` >= 0 [L]
-  /// is the size of the numbers from which the gap is computed as a difference.
+  /// Scales of a contact or link between the particles with the numbers `particles`; negative
+  /// numbers are obstacles. The particles need not be in `system`. `w` > 0 is the change of the gap
+  /// per impulse [T/M]. `length` >= 0 [L] is the size of the numbers from which the gap is computed
+  /// as a difference.
   ///
   /// The impulse at work is the smallest of those of the particles, because an impulse that is
   /// small for a heavy particle may be all that moves a light one. The rounding errors are those of
@@ -79,10 +87,10 @@ class ResidualScales {
   ResidualScale of(std::span<const std::int32_t> particles, double w, double length);
   /// Scales of a contact, from its own particles, w and gap. In a step with friction, bodies or
   /// links, rounding errors are at least the last place of the radii, because smaller displacements
-  /// of particles at rest are errors of the solutions. In an island (particles that contacts or
-  /// links join) with a rigid body or link (ContactSystem::is_held()) they are larger, because
-  /// finite turns move points of the surface, and grow with the distance of the particles from the
-  /// origin.
+  /// of particles at rest are errors of the solutions. Particles that contacts or links join form
+  /// an island. In an island with a rigid body or link (ContactSystem::is_held()) the rounding
+  /// errors are larger, because finite turns move points of the surface; there they also grow with
+  /// the distance of the particles from the origin.
   ResidualScale of(const Contact<D>& contact);
   /// Largest change of the displacement of a particle by its impulse at work [L], >= 0.
   double largest_change(std::span<const std::int32_t> particles) const;
@@ -103,25 +111,30 @@ class ResidualScales {
   ContactSystem<D>& system_;
   bool has_constraints_;
   std::vector<ParticleScale> body_scales_;  // of all bodies of system_
-  // Largest w^(1/2) p of the contacts of each island [L (M/T)^(1/2)], at ContactSystem::island().
+  // Largest w^(1/2) p of the contacts of each island, where p is the impulse of a contact [L
+  // (M/T)^(1/2)], at the place ContactSystem::island().
   std::vector<double> island_impulses_;
 };
 
-/// If a residual of a link or an overlap exceeds this part of the mean radius after all iterations,
-/// links contradict each other: simulation.cpp throws. A free choice far above tolerances.
+/// If a residual of a link or an overlap exceeds this fraction of the mean radius after all
+/// iterations, the links contradict each other, and simulation.cpp throws an error. The number is a
+/// free choice far above tolerances.
 inline constexpr double kBroken = 1e-3;
 
 /// Result of the projection of a step.
 struct ProjectionResult {
   /// Number of iterations of all solutions, >= 0. With constraints each island is solved by itself,
-  /// and this is the number of the island that needs most.
+  /// and this is the number of iterations of the island that needs most.
   int iterations = 0;
-  StepResiduals residuals;  ///< of the last solution; impulse_errors are in the order of `pairs`
+  /// Residuals of the last solution; StepResiduals::converged tells whether the step is solved, and
+  /// impulse_errors [M L/T] are in the order of `pairs`.
+  StepResiduals residuals;
   /// Number of contacts with an impulse or a film (gamma < 0) whose particles move around each
   /// other by more than kLargestTurn (contact.hpp), so that linearised gaps are wrong.
   std::size_t unresolved = 0;
-  /// True if given loads bound the friction, because the problem that was asked for was not solved,
-  /// or its corrections for finite turns diverged (ConstraintSystem::has_given_up()).
+  /// True if given loads bound the friction in place of the loads of this step. The reason is that
+  /// the problem with the loads of this step was not solved, or that its corrections for finite
+  /// turns diverged (ConstraintSystem::has_given_up()).
   bool has_given_loads = false;
   double link_residual = 0;  ///< largest residual of a link [L], >= 0
   /// Names of the hinges and arms that contradict each other, for messages. Empty if the residuals
@@ -129,46 +142,50 @@ struct ProjectionResult {
   std::vector<std::string> unsolved_links;
   bool contact_contradicts = false;  ///< true: contacts may contradict these links
   std::vector<Pair*> pairs;          ///< the pairs in the projection, which solve() does not change
-  std::vector<double> impulses;      ///< one for each of `pairs` [M L/T], >= gamma before the step
+  /// Normal impulse of each of `pairs` [M L/T], >= gamma of the pair before the step.
+  std::vector<double> impulses;
   std::vector<PairMemory> memories;  ///< new memories of `pairs`; empty without add_constraints()
-  std::vector<std::int32_t> bodies;  ///< numbers of the particles whose displacements it changed
+  /// Numbers of the particles whose displacements solve() has changed.
+  std::vector<std::int32_t> bodies;
 };
 
-/// Chooses the pairs that a film holds (gamma < 0, minus the impulse that the film has absorbed),
-/// that had an impulse in the last step, or whose gap the motion without contacts, but with links,
-/// would close, and solves the problem (5.4) for them and their particles. u* are the velocities
-/// without contacts and links. If the solution closes further gaps,
-/// their pairs are added and the problem is solved again, until no gap is closed. A rough solution
-/// comes first, because it finds most of these pairs with little work.
+/// Chooses pairs and solves the problem (5.4) for them and their particles. A pair is chosen if a
+/// film holds it (gamma < 0, minus the impulse that the film has absorbed [M L/T]), if it had an
+/// impulse in the last step, or if the motion without contacts, but with links, would close its
+/// gap. If the solution closes further gaps, their pairs are added and the problem is solved again,
+/// until no gap is closed. A rough solution comes first, because it finds most of these pairs with
+/// little work.
 ///
-/// The step has converged if each contact meets two conditions, with its gap d after the step
-/// (ContactSystem::gap()), impulse p and change w of the gap per impulse. The residual
-/// |min(d, w (p - gamma))|, without the tolerated overlap, is at most half of
-/// SolverSettings::tolerance mean radii. The residual over w is at most
-/// SolverSettings::impulse_tolerance of the impulse at work, or within rounding errors. Links are
-/// measured likewise.
+/// The step has converged if each contact meets two conditions. Let d be its gap after the step
+/// (ContactSystem::gap()), p its impulse and w the change of the gap per impulse. The residual
+/// |min(d, w (p - gamma))|, without the tolerated overlap, must be at most half of
+/// SolverSettings::tolerance mean radii. The residual divided by w must be at most the fraction
+/// SolverSettings::impulse_tolerance of the impulse at work, or within rounding errors. Links must
+/// meet the same two conditions with their own residuals.
 template <int D>
 class StepProjection {
  public:
-  /// All arguments must outlive this object. `h` > 0 [T]; `planes_before`, `planes`: all obstacles
-  /// at the beginning and at the end of the step; `displacements`: D numbers for each particle [L],
-  /// h u* before solve(), then h v;
-  /// `mobilities`: h/m of each particle [T/M], > 0.
+  /// All arguments must outlive this object. `h` must be > 0 [T]. `planes_before` and `planes` are
+  /// all obstacles at the beginning and at the end of the step. `displacements` has D numbers for
+  /// each particle [L]: h u* before solve(), and h v after it. `mobilities` are h/m of each
+  /// particle of the mass m [T/M], > 0.
   StepProjection(State& state, double h, std::span<const PlanePosition> planes_before,
                  std::span<const PlanePosition> planes, std::span<double> displacements,
                  std::span<const double> mobilities, ThreadPool& pool);
   /// Makes solve() treat friction, rigid bodies and links, too. `step` must outlive this object.
   void add_constraints(const ConstraintStep& step);
-  /// Makes solve() linearise contacts where blows (collisions of solids, impacts/) have left their
-  /// particles, because elsewhere they could stop particles that pass each other. Distances are not
-  /// used then, because the projection after blows would add energy with them. `impacts` must
-  /// outlive this.
+  /// Makes solve() linearise contacts at the places where blows (collisions of solids, impacts/)
+  /// have left their particles, because contacts that are linearised elsewhere could stop particles
+  /// that pass each other. Gaps are then always linearised and never computed as distances, because
+  /// with distances the projection after blows would add energy. `impacts` must outlive this
+  /// object.
   void follow(const Impacts<D>& impacts) {
     impacts_ = &impacts;
     system_.forbid_distances();
   }
   /// Solves the projection and sets the displacements h v, but changes neither pairs nor memories
-  /// of the state. `mean_radius` [L], > 0, is the unit of SolverSettings::tolerance. Call it once.
+  /// of the state. SolverSettings::tolerance is in units of `mean_radius` > 0 [L]. The function may
+  /// be called only once for an object (not checked).
   ProjectionResult solve(const SolverSettings& settings, double mean_radius);
 
  private:
@@ -242,9 +259,10 @@ class StepProjection {
   std::span<double> displacements_;
   std::span<const double> mobilities_;
   ThreadPool& pool_;
-  // The tangent of each pair in state.walls where the motion without contacts ends; empty if no
-  // obstacle is curved. The particle cannot leave a circle in the step, because the circle is
-  // convex.
+  // For each pair in state.walls the tangent of the obstacle at the place where the motion without
+  // contacts ends; empty if no obstacle is curved. An impulse of this contact moves the particle
+  // along the normal of the tangent, and thus exactly back onto a circle. If other contacts move it
+  // along the tangent, an error of second order remains.
   std::vector<PlanePosition> tangents_;
   double tolerated_ = 0;             // largest overlap that is left as it is [L]
   double margin_ = 0;                // gap below which a pair is nearly closed [L]

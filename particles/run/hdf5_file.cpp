@@ -1,9 +1,11 @@
 // Copies the arrays of all frames of a run into one HDF5 file, particles.h5 (write_hdf5() in
-// particles_pages.hpp). Numbers are in the units of the case and are copied without conversion;
-// io/vtk.hpp has the arrays. A failure is an Error(kBadInput); in a program without libhdf5 each
-// call is an Error(kWrongUsage). A change must keep the names of groups and data sets, which users'
-// scripts read, and that checked() checks each call of the C library whose failure can lose data.
-// Used by run/particles_stage.cpp.
+// particles_pages.hpp). The file has the data set time [T] and the groups particles and contacts,
+// whose data sets have the rows of all frames one after the other. Numbers are in the units of the
+// case (lengths [L], velocities [L/T, 1/T], gamma [M L/T], forces [M L/T^2]) and are copied without
+// conversion. A frame that cannot be read, or a file that cannot be written, is an Error(kBadInput)
+// with its name; in a program without libhdf5 each call is an Error(kWrongUsage). A change must
+// keep the names of groups and data sets, which users' scripts read, and that checked() checks each
+// call of the C library whose failure can lose data. run/particles_stage.cpp uses it.
 #include "viscontact/common/error.hpp"
 #include "viscontact/particles/run/particles_pages.hpp"
 
@@ -28,9 +30,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// While an object of this class exists, the C library prints no errors, because this file throws
-/// them. Afterwards the library prints errors as it did before: other code of the process, such as
-/// h5py beside the Python module, may rely on it.
+/// While an object of this class exists, the C library prints no errors, because the code of this
+/// file throws them. Afterwards the library prints errors as it did before, because other code of
+/// the process may rely on that, such as h5py beside the Python module.
 class SilentErrors {
  public:
   SilentErrors() {
@@ -61,7 +63,8 @@ std::string cause_of_error() {
   return std::string(between(cause, "error message = '", "'").value_or(cause));
 }
 
-/// Throws Error(kBadInput) with the name of the file if the C library returned an error.
+/// Returns `result`. Throws Error(kBadInput) with the name of the file if `result`, a return value
+/// of the C library, is an error (< 0).
 template <class Result>
 Result checked(Result result, const fs::path& file) {
   if (result < 0) throw_bad_input({file.string()}, "cannot be written ({})", cause_of_error());
@@ -72,8 +75,8 @@ Result checked(Result result, const fs::path& file) {
 /// because the destructor ignores errors.
 class Handle {
  public:
-  /// `closing` is the function of the C library that closes it. Throws Error(kBadInput), which
-  /// names `file`, if `id` is an error.
+  /// `closing` is the function of the C library that closes the object `id`. Throws
+  /// Error(kBadInput), which names `file`, if `id` is an error.
   Handle(hid_t id, herr_t (*closing)(hid_t), const fs::path& file)
       : id_(checked(id, file)), close_(closing) {}
   Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
@@ -83,7 +86,7 @@ class Handle {
   ~Handle() {
     if (id_ >= 0) close_(id_);
   }
-  /// Closes it now. Throws Error(kBadInput) if that fails.
+  /// Closes the object now. Throws Error(kBadInput) if that fails.
   void close(const fs::path& file) { checked(close_(std::exchange(id_, -1)), file); }
   operator hid_t() const { return id_; }  // NOLINT: the C library takes it
 
@@ -102,7 +105,8 @@ hid_t type_of() {
     return H5T_NATIVE_INT64;
 }
 
-/// A data set with rows of `columns` numbers each, to which rows are appended.
+/// A data set with rows of `columns` numbers each (1 to 8192), to which rows are appended. The
+/// functions throw Error(kBadInput), which names the file, if the C library fails.
 template <class Number>
 class Rows {
  public:
@@ -164,8 +168,8 @@ struct Array {
   std::size_t columns;
 };
 
-/// Those arrays of `all`, with numbers of one type, that the first frame has, and their rows in the
-/// file. All frames of a run have the same arrays.
+/// Arrays with numbers of one type, and their rows in the file. Of the arrays `all` only those are
+/// copied that the first frame has, because all frames of a run have the same arrays.
 template <class Number>
 class Arrays {
  public:
@@ -175,7 +179,8 @@ class Arrays {
       if (first.has_array(array.section, array.name))
         arrays_.emplace_back(array, Rows<Number>(group, array.target, array.columns, file));
   }
-  /// Appends the arrays of a frame. Throws Error(kBadInput) if one has not `count` rows.
+  /// Appends the arrays of a frame. Throws Error(kBadInput) if an array is missing in the frame or
+  /// does not have `count` rows.
   void append(const AppendedReader& frame, std::size_t count) {
     for (auto& [array, rows] : arrays_) {
       const auto numbers = frame.array<Number>(array.section, array.name);
@@ -225,7 +230,8 @@ std::vector<Array> arrays_of_contacts() {
   return arrays;
 }
 
-/// Copies the frames into the new file `id`, and flushes it. `file` is its name in messages.
+/// Copies the frames into the new file `id`, and flushes it. `file` is the name of the file in
+/// messages. Throws Error(kBadInput) if there is no frame, or if a frame cannot be read.
 void copy_frames(const ParticlesCase& c, const fs::path& folder, hid_t id, const fs::path& file) {
   const auto frames = read_pvd(folder / "particles.pvd");
   if (frames.empty()) throw_bad_input({(folder / "particles.pvd").string()}, "has no frame");

@@ -1,8 +1,10 @@
-// One interface to the three simulations of many particles: without a fluid, in a fluid, and in a
-// fluid with membranes. Lengths, masses and times are in the units of the case. A step that cannot
-// be computed throws Error(kNotConverged), a fluid solver that fails Error(kExternalProgram), a
-// stop Error(kInterrupted). Used by particles_stage.cpp, sweep/ and python/. A change must keep
-// that a function means the same for all three.
+// Declares one interface to the three simulations of many particles: without a fluid, in a fluid,
+// and in a fluid with membranes. Lengths, masses and times are in the units of the case; of discs
+// in a fluid masses, forces and torques are per length. A state that does not fit throws
+// Error(kBadInput), a step that cannot be computed Error(kNotConverged), a fluid solver that fails
+// Error(kExternalProgram), and a stop Error(kInterrupted). particles_stage.cpp, sweep/ and python/
+// use this file. A change must keep that a function means the same for all three, and that no fluid
+// solver is started without a fluid.
 #pragma once
 
 #include <memory>
@@ -21,10 +23,11 @@ namespace viscontact::particles {
 class ParticleSimulation {
  public:
   /// `threads` >= 1 is the number of threads; it is used without a fluid only. With a fluid,
-  /// `start_solver` starts the fluid solver, which ends if `stop` requests a stop. Its errors are
-  /// thrown, here and below Error(kExternalProgram) if it cannot start, ends or answers with
-  /// anything but numbers, and Error(kInterrupted) if a stop was requested; also those of the
-  /// constructors of the three simulations, Error(kBadInput) if `state` does not fit the setting.
+  /// `start_solver` starts the fluid solver, which ends if `stop` requests a stop. Throws
+  /// Error(kBadInput) if `state` does not fit the setting. The fluid solver throws, in this
+  /// constructor and in the functions below, Error(kExternalProgram) if it cannot start, ends or
+  /// answers with anything but numbers, and Error(kInterrupted) if a stop was requested; these are
+  /// called the errors of the fluid solver.
   ParticleSimulation(const Setting& setting, State state, int threads,
                      const StartFluidSolver& start_solver, const StopToken& stop);
 
@@ -36,7 +39,8 @@ class ParticleSimulation {
   /// Forces on the particles [M L/T^2] that the caller may set; see Simulation::added_forces().
   /// Throws Error(kWrongUsage) if there is a fluid with membranes.
   std::span<double> added_forces();
-  /// Torques [M L^2/T^2], likewise; empty if the particles do not turn.
+  /// Torques on the particles [M L^2/T^2] that the caller may set; empty if the particles do not
+  /// turn. Throws Error(kWrongUsage) if there is a fluid with membranes.
   std::span<double> added_torques();
   /// The particles with their velocities at the present time; see Simulation::reported_particles()
   /// and FluidSimulation::reported_particles().
@@ -45,13 +49,15 @@ class ParticleSimulation {
                      : (dry_ ? dry_->reported_particles() : state().particles);
   }
 
-  /// The blows of solids with restitution in the last step, in order of time.
+  /// The collisions of solids with restitution in the last step, in order of time; none in a fluid
+  /// with membranes.
   std::span<const Rebound> rebounds() const {
     if (membranes_) return {};
     return in_fluid_ ? in_fluid_->rebounds() : dry_->rebounds();
   }
 
-  /// True if there is a fluid, which the functions below need (not checked).
+  /// True if there is a fluid. The functions below must only be called if there is one (not
+  /// checked).
   bool has_fluid() const { return dry_ == nullptr; }
   /// The flow around the particles where they were at the beginning of the last step. Throws the
   /// errors of the fluid solver.
@@ -60,23 +66,26 @@ class ParticleSimulation {
   FlowField flow_at_present() {
     return membranes_ ? membranes_->flow_at_present() : in_fluid_->flow_at_present();
   }
-  /// Forces and torques of the fluid on each particle in the last step [M L/T^2, M L^2/T^2]: x, y
-  /// and torque, on an axis z alone; empty before the first step.
+  /// Forces and torques of the fluid on the particles in the last step: for each disc the force
+  /// along x, along y [M/T^2] and the torque [M L/T^2], per length; for each sphere on an axis the
+  /// force along z [M L/T^2]. Empty before the first step.
   std::vector<double> fluid_forces() const {
     return membranes_ ? membranes_->fluid_forces() : in_fluid_->fluid_forces();
   }
-  /// Estimates of the errors of the forces in the last step; empty if they were not made.
+  /// Estimates of the errors of fluid_forces() and of forces of links in the last step; empty if no
+  /// estimates were made, and in a fluid with membranes.
   ForceErrors force_errors() const {
     return membranes_ ? ForceErrors{} : in_fluid_->force_errors();
   }
-  /// The state, with the flow of a fluid with inertia, for the restart file. Throws the errors of
-  /// the fluid solver.
+  /// The state for the restart file. In a fluid with inertia it contains the flow. Throws the
+  /// errors of the fluid solver.
   State state_to_save() { return membranes_ ? state() : in_fluid_->state_to_save(); }
-  /// Number of unknowns on the last mesh; 0 if the solver does not say.
+  /// Number of unknowns of the fluid solver on the last mesh; 0 if the solver does not tell it.
   std::size_t unknowns() const {
     return membranes_ ? membranes_->unknowns() : in_fluid_->unknowns();
   }
-  /// Largest memory of the fluid solver so far [MiB]; 0 if it runs in this process.
+  /// Largest memory of the process of the fluid solver so far [MiB], >= 0; 0 if the solver runs in
+  /// this process.
   double solver_peak_memory_mebibytes() const {
     return membranes_ ? membranes_->solver_peak_memory_mebibytes()
                       : in_fluid_->solver_peak_memory_mebibytes();

@@ -1,8 +1,10 @@
-// The run that an earlier call of the command `particles` left in its folder: whether it can be
+// Decides whether the run that an earlier call of the command `particles` left in its folder can be
 // continued, and from which state. Lengths, masses and times are in the units of the case. run/,
-// sweep/ and python/ use it. A restart file that does not fit the case throws Error(kBadInput). A
-// run that cannot be continued is no error. A change must keep that a continued run gives the same
-// files as a run that was never interrupted.
+// sweep/ and python/ use this file. A restart file that the user names and that does not fit the
+// case throws Error(kBadInput). A run in a folder that cannot be continued is no error: a message
+// says why, and the caller begins at the start. A change must keep that a run with other inputs is
+// never continued, and that a continued run gives the same files as a run that was never
+// interrupted.
 #pragma once
 
 #include <filesystem>
@@ -18,27 +20,31 @@ namespace viscontact::particles {
 
 /// An interrupted or finished run: its last state, from which it can continue, and its record.
 struct EarlierRun {
-  State state;       ///< after its last saved step
+  State state;       ///< state of the run after its last saved step
   RunRecord record;  ///< what the run has done until this state
 };
 
-/// The state at the start: that of the case, or that of the restart file at the path `restart`, if
-/// it is not empty. Throws Error(kBadInput) if the restart file cannot be read; if it has other
-/// particles, sources, rigid bodies or links than the case, contacts with obstacles that the case
-/// does not have, or a hinge beyond its stops; or if it is not earlier than the end of the case.
+/// The state at the start: that of the restart file at the path `restart`, or that of the case if
+/// `restart` is empty. Throws Error(kBadInput) if the restart file cannot be read; if it has other
+/// particles, sources, rigid bodies or links than the case, or contacts with obstacles that the
+/// case does not have; if a hinge is turned beyond its stops by more than 1e-3 rad and by more than
+/// ten times the tolerance of the solver (free choices); or if its time is not before the end of
+/// the case.
 State first_state(const ParticlesCase& c, const std::string& restart);
 
-/// The run in the folder, if it was made from the same inputs by the same version of Viscontact, as
-/// `provenance` records both for this call, and the files of `log` are as the run has left them;
-/// otherwise, also if a file is damaged, nothing. Errors are not thrown: if the folder has a
-/// restart.bin that cannot be used, a message on the terminal says why.
+/// The run in the folder, if it can be continued. It must have been made from the same inputs by
+/// the same version of Viscontact as this call, both of which `provenance` records, and the files
+/// of `log` must be as the run has left them. Otherwise, also if a file is damaged, the function
+/// returns std::nullopt and throws no Error. If the folder has a restart.bin that cannot be used, a
+/// message on the terminal says why.
 std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c,
                                            const std::filesystem::path& folder,
                                            const results::Provenance& provenance,
                                            const RunLog& log);
 
-/// True if the run has reached the end time of the case, up to `tiny` >= 0 [T], and all its files
-/// exist.
+/// True if the run has reached the end time of the case, up to `tiny` >= 0 [T], and all files that
+/// it writes at the end, and all its frames, exist in the folder. A file that cannot be read gives
+/// false.
 bool is_finished(const EarlierRun& run, const ParticlesCase& c, double tiny,
                  const std::filesystem::path& folder);
 

@@ -1,10 +1,10 @@
-// The files in the folder of a run of many particles (docs/file-formats.md): their names; which of
-// them a run may replace; how those of an earlier run are removed; the sums over the steps, for
-// run.json; and the record in restart.bin, which says where each file ends. Times [T] are in the
-// unit of the case, computing times in seconds. The files in run/ use it. A file that cannot be
-// read or removed, or must not be, throws Error(kBadInput) with its name; a missing folder throws
-// std::filesystem::filesystem_error. A change must keep names, columns and keys, because scripts of
-// users and interrupted runs rely on them.
+// Manages the files in the folder of a run of many particles (docs/file-formats.md): their names;
+// which of them a run may replace; how those of an earlier run are removed; the sums over the
+// steps, for run.json; and the record in restart.bin, which states where each file ends. Times [T]
+// are in the unit of the case, computing times in seconds. The files in run/ use it. A file that
+// cannot be read or removed, or that a run must not replace, throws Error(kBadInput) with its name;
+// a missing folder throws std::filesystem::filesystem_error. A change must keep names, columns and
+// keys, because scripts of users and interrupted runs rely on them.
 #pragma once
 
 #include <array>
@@ -33,22 +33,24 @@ inline constexpr auto kParticleResults = std::to_array<const char*>(
      "arms.csv",    "membranes.csv", "links.pvd",           "rebounds.csv",
      "probes.csv",  "particles.h5"});
 
-/// A kind of file of which each frame (output time) has one, named `begin`, "_", number, `end`.
+/// A kind of file of which each frame (output time) has one. The name of a file is `begin`, "_",
+/// the number of the frame, and `end`.
 struct FrameKind {
   const char* begin;  ///< with ".pvd" it is also the name of the list of these files
   const char* end;    ///< extension, with the dot
 };
-/// The particles and contacts of a frame, the flow around them, and the links.
+/// The kinds of files: the particles and contacts of a frame, the flow around the particles, and
+/// the links.
 inline constexpr FrameKind kFrameFile{"particles", ".vtp"}, kFlowFile{"flow", ".vtu"},
     kLinksFile{"links", ".vtp"};
 
-/// The name of the file of frame `number`, from 0, such as particles_00000.vtp; at least five
-/// digits.
+/// The name of the file of frame `number`, from 0, such as particles_00000.vtp. The number has at
+/// least five digits.
 std::string frame_name(const FrameKind& kind, std::uint64_t number);
 
 /// Throws Error(kBadInput) if a file in the folder has the name of a result or of a frame, but
-/// Viscontact did not write it. The folder must exist, for this function and for those declared
-/// after it; otherwise they throw std::filesystem::filesystem_error.
+/// Viscontact did not write it. If the folder does not exist, this function, remove_results() and
+/// remove_later_frames() throw std::filesystem::filesystem_error.
 void check_results(const std::filesystem::path& folder);
 
 /// Throws Error(kBadInput) if a run into `folder` would overwrite one of its inputs: the case, its
@@ -56,42 +58,47 @@ void check_results(const std::filesystem::path& folder);
 void check_inputs_stay(const ParticlesCase& c, const std::filesystem::path& restart,
                        const std::filesystem::path& folder);
 
-/// Removes all results and frames from the folder, so that it never contains files of two runs.
-/// Throws Error(kBadInput), which names the file, if one cannot be removed.
+/// Removes all results and frames from the folder, so that it never contains files of two runs. The
+/// function goes by names alone: check_results() must be called before, so that only files are
+/// removed that Viscontact wrote. Throws Error(kBadInput), which names the file, if a file cannot
+/// be removed.
 void remove_results(const std::filesystem::path& folder);
 
-/// Removes the files of all frames but the first `frames`, all flows but the first `flows`, and
-/// files that a killed process has not finished. Throws as remove_results().
+/// Removes the files of all frames but the first `frames`, the flows of all but the first `flows`,
+/// and files that a killed process has not finished. Like remove_results() it goes by names alone.
+/// Throws Error(kBadInput), which names the file, if a file cannot be removed.
 void remove_later_frames(const std::filesystem::path& folder, std::uint64_t frames,
                          std::uint64_t flows);
 
-/// The largest factor, StepReport::excess, by which a step may miss the tolerances and still count
-/// as a result; a free choice. Steps that miss them by less cause a warning, others make the
-/// command end with an error.
+/// The largest factor (StepReport::excess) by which a step may miss the tolerances and still count
+/// as a result; a free choice. Steps that miss the tolerances by at most this factor cause a
+/// warning. Other steps that miss them make the command end with an error.
 inline constexpr double kStillAResult = 10;
 
-/// Sums and largest values over the steps of a run, also over those of interrupted calls of the
-/// command that this call continues.
+/// Sums and largest values over the steps of a run. If this call continues a run, the steps of the
+/// earlier calls are included.
 struct StepTotals {
   /// Number of steps, number of steps that did not converge, and number of iterations of all steps.
   std::int64_t steps = 0, unconverged = 0, iterations = 0;
   /// Number of steps among `unconverged` whose StepReport::excess is above kStillAResult.
   std::int64_t failed = 0;
   int most_iterations = 0;               ///< largest number of iterations in a step, >= 0
-  double first_time = 0, last_time = 0;  ///< at the start and after the last step [T]
-  double largest_residual = 0, largest_overlap = 0;  ///< in mean radii [1], >= 0
-  double largest_impulse_residual = 0;               ///< of StepReport::impulse_residual [1], >= 0
-  std::int64_t divided = 0;                          ///< number of divided steps
-  std::int64_t unresolved = 0;                       ///< sum of StepReport::unresolved
-  std::int64_t given_loads = 0;      ///< number of steps with StepReport::has_given_loads
-  double seconds = 0;                ///< of earlier calls; a saved record includes
-                                     ///< this call [s]
-  double peak_memory_mebibytes = 0;  ///< largest memory, likewise [MiB]
-  // With a fluid only.
+  double first_time = 0, last_time = 0;  ///< times at the start and after the last step [T]
+  /// Largest residual of a step and largest overlap, in mean radii [1], >= 0.
+  double largest_residual = 0, largest_overlap = 0;
+  double largest_impulse_residual = 0;  ///< largest StepReport::impulse_residual [1], >= 0
+  std::int64_t divided = 0;             ///< number of steps that were divided into parts
+  std::int64_t unresolved = 0;          ///< sum of StepReport::unresolved
+  std::int64_t given_loads = 0;         ///< number of steps with StepReport::has_given_loads
+  /// Computing time of earlier calls [s]. In a saved record it includes the call that saved it.
+  double seconds = 0;
+  /// Largest memory of earlier calls [MiB]. In a saved record it includes the call that saved it.
+  double peak_memory_mebibytes = 0;
+  // The following members are used in a fluid only.
   double fluid_seconds = 0;    ///< sum of FluidStepReport::seconds [s]
   std::uint64_t unknowns = 0;  ///< number of unknowns of the fluid solver in the last step
-  /// Estimates of the relative errors of velocities and forces, at the first and at the last step
-  /// at which they were estimated.
+  /// Estimates of the relative errors [1] of velocities and forces, at the first and at the last
+  /// step at which they were estimated; < 0 if they were not estimated.
   RelativeErrors first_velocity_errors, last_velocity_errors;
   RelativeErrors first_force_errors, last_force_errors;
 
@@ -100,7 +107,8 @@ struct StepTotals {
   /// FluidStepReport::apparent_viscosity [1], whose values are taken as constant over their step.
   double mean_dissipation = 0, mean_apparent_viscosity = 0;
 
-  /// Adds a step. The means begin at the time `average_from` [T].
+  /// Adds a step, which must end after the steps before. The means begin at the time `average_from`
+  /// [T].
   void add(const StepReport& report, double average_from);
 };
 
@@ -110,26 +118,36 @@ struct RunRecord {
   std::uint64_t frames = 0, flows = 0;   ///< numbers of frames, and of frames whose flow is written
   double last_frame = 0;                 ///< time of the last frame [T]; 0 without a frame
   std::uint64_t rebounds = 0;            ///< number of rows of rebounds.csv
-  std::map<std::string, FileEnd> files;  ///< where these files end, by name
+  std::map<std::string, FileEnd> files;  ///< for the name of each growing file where it ends
 };
 
-/// The line with the names of the columns of steps.csv of a run with or without a fluid.
+/// The line with the names of the columns of steps.csv: step, time [T], contacts, glued (numbers of
+/// contacts), iterations, residual and largest_overlap [mean radii], converged (0 or 1),
+/// impulse_residual [1], parts and unresolved (numbers). A run in a fluid also has dissipation
+/// [M L^2/T^3], in two dimensions [M L/T^3], apparent_viscosity [1] and fluid_seconds [s]. With
+/// inertia there are also the kinetic energy of the fluid, the Reynolds and the Courant number, and
+/// the given force.
 std::string steps_header(const std::optional<Fluid>& fluid);
 /// The line with the names of the columns of probes.csv.
 inline constexpr std::string_view kProbesHeader = "time,name,flow,pressure\n";
-/// The rows of probes.csv of a step, one for each probe; flow [L^2/T], pressure [M/(L T^2)].
+/// The rows of probes.csv of a step, one for each probe: the time of the flow [T], the name of the
+/// probe, the flow [L^2/T] and the pressure [M/(L T^2)]. FluidStepReport::probes must have an entry
+/// for each of `probes` (not checked).
 std::string probe_rows(const FluidStepReport& report, std::span<const Probe> probes);
-/// The row of steps.csv of the step with the number `step`, from 1: numbers of the report.
+/// The row of steps.csv of the step with the number `step`, from 1, in the order of steps_header():
+/// numbers of the report, in its units.
 std::string step_row(std::int64_t step, const StepReport& report,
                      const std::optional<Fluid>& fluid);
 
 /// The comment line of restart.bin that contains the record after the step with the number `step`.
 std::string record_comment(const RunRecord& record, std::int64_t step);
-/// Reads that line from `head`, the first lines of the file `restart`. Throws Error(kBadInput),
-/// which names the file, if it has no such line or the line is damaged.
+/// Reads the line of record_comment() from `head`, the first lines of the file `restart`. Throws
+/// Error(kBadInput), which names the file, if it has no such line or the line is damaged.
 RunRecord read_record(const std::string& head, const std::filesystem::path& restart);
 
-/// The text of run.json at the end of a run with these sums and this last state.
+/// The text of run.json at the end of a run with these sums and this last state: one JSON object,
+/// whose keys docs/file-formats.md has, with the numbers of StepTotals in their units. A number
+/// that is not known is null.
 std::string run_json(const ParticlesCase& c, const StepTotals& totals, const State& state);
 
 }  // namespace viscontact::particles

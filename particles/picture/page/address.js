@@ -1,11 +1,15 @@
-// The address of the page keeps what the reader sees, so that a copied address shows the same:
-// after # it has the time, the view as far as it was moved, and the choice of colours. The file
-// also saves the motion as a film. A change must keep the keys, because readers have saved
-// addresses. controls.js, the last file of the script, calls showAddress(). Only makeFilm() throws.
+// Keeps in the address of the page what the reader sees, so that a copied address shows the same:
+// after # it has the time, the view if the reader moved it, and the choice of colours. The file
+// also saves the motion as a film. A change must keep the keys t, x, y, zoom, turn, above and
+// colour, because readers have saved addresses. Values of an address that are no finite numbers are
+// ignored; only the promise of makeFilm() can fail. controls.js, the last file of the script, calls
+// showAddress() and offers makeFilm(); picture.js calls keepAddress(). The other names are those of
+// motion.js, view.js, colouring.js and controls.js.
 
-// What the reader sees, as key=value pairs: the time t [unit of the case], the shift x, y of the
-// view in widths of the canvas, `zoom` (the diagonal of the motion's box in widths of the canvas),
-// the angles of the view `turn` and `above` [rad], and the choice of colours.
+// Returns what the reader sees as a text '#key=value&...': the time t [the case's unit]; the shift
+// x, y of the view in widths of the canvas; `zoom`, the diagonal of the motion's box in widths of
+// the canvas, > 0; the angles of the view `turn` and `above` [rad]; and `colour`, the name of the
+// choice of colours. Numbers have five significant digits, a free choice.
 function addressOfView() {
   const round = x => String(Number(x.toPrecision(5)));
   const parts = {t: round(player.time)};
@@ -19,7 +23,8 @@ function addressOfView() {
   return '#' + new URLSearchParams(parts).toString();
 }
 
-// Shows what the address of the page says. A value that is no finite number is left out.
+// Shows what the address of the page says. A value that is no finite number, or a zoom <= 0, is
+// ignored; the angle `above` is limited to -pi/2 to pi/2, and the time to that of the motion.
 function showAddress() {
   if (!location.hash || location.hash === shownAddress) return;
   const parts = new URLSearchParams(location.hash.slice(1));
@@ -41,7 +46,8 @@ function showAddress() {
 
 let shownAddress = '';
 let addressTimer = 0;
-// Changes the address 0.3 s after the last change of the picture, if the motion does not play.
+// Changes the address when the picture has not changed for 0.3 s (a free choice), if the motion
+// does not play.
 function keepAddress() {
   clearTimeout(addressTimer);
   addressTimer = setTimeout(() => {
@@ -54,8 +60,8 @@ function keepAddress() {
   }, 300);
 }
 
-// The kind of film that the browser can record; null or undefined if it can record none, or if
-// there are fewer than two frames.
+// The kind of film that the browser can record, as a MIME type. The result is null or undefined if
+// the browser can record none, or if there are fewer than two frames.
 function filmType() {
   if (!canvas.captureStream || !window.MediaRecorder || frames < 2) return null;
   return ['video/webm;codecs=vp9', 'video/webm;codecs=vp8', 'video/webm'].find(
@@ -63,8 +69,9 @@ function filmType() {
 }
 
 // Plays the motion once and records what the canvas shows. Returns a promise of the film (a WebM
-// Blob), or of null if the browser cannot make one or if the reader pauses the motion; the promise
-// fails if the browser refuses to record. 30 pictures and 8e6 bits in a second are free choices.
+// Blob), or of null if the browser cannot make a film or if the reader pauses the motion. The
+// promise fails if the browser refuses to record. The rate of 30 pictures and 8e6 bits in a second,
+// and the 200 ms for which the last picture stays, are free choices.
 async function makeFilm() {
   const type = filmType();
   if (!type) return null;

@@ -1,13 +1,16 @@
-// Colours of particles by their speed, radius, mass or force (the sum of the normal forces of their
-// contacts), which the reader chooses in the list #colour of the page. Values are in the units of
-// the case. The scale of speeds and forces goes from 0 to the value that 98 % of the particles do
-// not exceed, that of radii and masses from the least to the largest. Nothing is thrown.
-// picture.js, address.js and controls.js use this file. A change must agree with particles/picture:
-// page_data.cpp writes the blocks `masses` and `speeds`, particles_page.cpp the elements.
+// Colours particles by their speed [L/T], radius [L], mass [M] or force [M L/T^2] (the sum of the
+// normal forces of their contacts), as the reader chooses in the list #colour of the page. Values
+// are in the units of the case, those of discs in a fluid per length. The scale of speeds and
+// forces goes from 0 to the value that 98 % of the particles do not exceed; the scale of radii and
+// masses goes from the least to the largest. Nothing is checked or thrown. picture.js, address.js
+// and controls.js use this file. A change must agree with particles/picture: page_data.cpp writes
+// the blocks of numbers `masses` and `speeds`, and particles_page.cpp the elements with the ids
+// colour and particle-scale. Colours, and the 98 % and 40 frames below, are free choices.
 
 // Number of colours; any number >= 2 works.
 const kColours = 64;
-// The colour at level 0 to kColours - 1; light < 0 mixes in |light| of black, light > 0 of white.
+// The colour, as a text rgb(...), at a level from 0 to kColours - 1. `light` is from -1 to 1: if it
+// is < 0, the share |light| of black is mixed in, and if it is > 0, the share `light` of white.
 function scaleColour(level, light = 0) {
   // The lightness of this scale (cividis, Nunez et al. 2018) rises from end to end, so that
   // colour-blind readers can read it.
@@ -19,10 +22,12 @@ function scaleColour(level, light = 0) {
 }
 
 const masses = optional('masses', Float32Array);
-// For each frame and particle: its speed, from 0 to 255 for motion.topSpeed.
+// The masses [M] are those of each particle; null if they are not known. `speeds` has for each
+// frame and particle a number from 0 to 255, which stands for motion.topSpeed [L/T]; null if speeds
+// are not known.
 const speeds = optional('speeds', Uint8Array);
-// For each choice in the list: its words and unit; `changes` is true if its values differ between
-// frames; read() writes the values of all particles in a frame into `values`.
+// The choices in the list, each with its words and its unit. `changes` is true if the values differ
+// between frames. read(frame, values) writes the values of all particles in a frame into `values`.
 const quantities = {
   speed: {
     words: 'speed', unit: motion.units.speed, changes: true,
@@ -50,8 +55,8 @@ const colouring = {name: '', low: 0, high: 0, frame: -1, values: new Float32Arra
 const colourChoice = document.getElementById('colour');
 const particleScale = document.getElementById('particle-scale');
 
-// Makes the choice with this name: finds the ends of its scale, from at most 40 frames to be fast,
-// and shows the scale. Another name chooses nothing.
+// Makes the choice with this name: it finds the ends of the scale of its values, from at most 40
+// frames to be fast, and shows the scale. A name that the list does not offer turns colouring off.
 function setColouring(name) {
   const isOffered = name && [...colourChoice.options].some(option => option.value === name);
   const quantity = isOffered && frames && count ? quantities[name] : null;
@@ -91,16 +96,18 @@ function readColours() {
   colouring.frame = lines.frame;
 }
 
-// The colour of particle k: its level on the scale; if none is chosen, -1, or -2 in a rigid body.
+// A number that stands for the colour of particle k: its level on the scale, from 0 to kColours -
+// 1; or, if no choice is made, -1, and -2 for a particle in a rigid body.
 function lookOf(k) {
   if (!colouring.name) return isInBody(k) ? -2 : -1;
   const share = (colouring.values[k] - colouring.low) / (colouring.high - colouring.low || 1);
   return Math.round((kColours - 1) * Math.min(1, Math.max(0, share)));
 }
-// Colours of the fill and the edge of a disc for a result of lookOf().
+// Colours of the fill and the edge of a disc for `look`, a result of lookOf().
 const discColours = look =>
   look >= 0 ? [scaleColour(look), scaleColour(look, -0.45)] : look === -2 ? style.discOfBody : disc;
-// Likewise for a sphere: three colours from its brightest point to its rim, then its edge.
+// Colours of a sphere for a result of lookOf(): three from its brightest point to its rim, and then
+// that of its edge.
 const ballColours = look =>
   look >= 0 ? [scaleColour(look, 0.6), scaleColour(look), scaleColour(look, -0.3), scaleColour(look, -0.5)]
             : look === -2 ? style.ballOfBody : style.ball;

@@ -1,15 +1,16 @@
-// Pointers, controls and keys. On the canvas, the values of the particle at the pointer are shown;
-// one pointer moves or turns the view (view.js), and two pointers or a wheel zoom. The controls
-// under the picture, and keys, change the time of the motion and what is drawn. Places of pointers
-// are in device pixels of the canvas, times in the unit of the case. Speeds of pointers and the
-// wheel are free choices. particles/picture/particles_page.cpp writes the elements with these ids.
-// Nothing is checked or thrown. This file ends the script and starts the page. A change must keep
+// Reacts to pointers, controls and keys. On the canvas, the values of the particle at the pointer
+// are shown; one pointer moves or turns the view (view.js), and two pointers or a wheel zoom. The
+// controls under the picture, and keys, change the time of the motion and what is drawn. Places of
+// pointers are in device pixels of the canvas, times in the unit of the case. Speeds of pointers
+// and of the wheel, and factors of keys, are free choices. particles/picture/particles_page.cpp
+// writes the elements with these ids. Nothing is checked or thrown; times outside the motion are
+// limited to it. This file ends the script and starts the page. A change must keep the members of
 // window.viscontactPlayer, which tests use.
 
 const readout = document.getElementById('readout');
 const pointer = {x: 0, y: 0, inside: false};
 let hovered = -1;  // number of the particle at the pointer; -1: none
-// The units of the case, each after a blank; empty if the case says none.
+// The names of the units of the case, each after a blank; empty if the case names none.
 const [lengthUnit, timeUnit] = motion.units.areSaid
   ? [` ${motion.units.length}`, ` ${motion.units.time}`] : ['', ''];
 
@@ -38,7 +39,7 @@ function readPointer() {
       `${contacts} contact${contacts === 1 ? '' : 's'}`;
 }
 
-// The pointers that are pressed: their ids, with the places where they were last.
+// The pointers that are pressed: for the id of each the place where it was last.
 const held = new Map();
 const onCanvas = event => {
   const box = canvas.getBoundingClientRect();
@@ -97,7 +98,7 @@ canvas.addEventListener('wheel', event => {
 }, {passive: false});
 canvas.addEventListener('dblclick', () => { showAll(); redraw(); });
 
-const kSeconds = 10;  // [s] for the whole motion at speed 1, a free choice
+const kSeconds = 10;  // time in which the whole motion plays at speed 1 [s], a free choice
 const slider = document.getElementById('time'), clock = document.getElementById('clock');
 const button = document.getElementById('play');
 const speed = document.getElementById('speed');

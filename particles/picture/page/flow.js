@@ -1,13 +1,16 @@
 // Draws the flow behind the particles: its speed or pressure as an image of a grid, and its
-// streamlines. Points of the flow and times are in the units of the case, places on the canvas in
-// device pixels. particles/picture/particles_page.cpp writes the settings, and flow_blocks() of
-// page_data.cpp the blocks of numbers, whose formats page_data.hpp has; a change of their layout
-// must be made there and here. Nothing is checked or thrown. particles/picture/page/picture.js
-// calls viscontactFlow.
+// streamlines. Points of the flow [L] and times [T] are in the units of the case, places on the
+// canvas in device pixels. Speeds and pressures come as levels, from 0 for the lower to kLevels for
+// the upper end of their scale of colours. particles/picture/particles_page.cpp writes the
+// settings, and flow_blocks() of page_data.cpp the blocks of numbers, whose formats
+// particles/picture/page_data.hpp has; a change of their layout must be made there and here.
+// Nothing is checked or thrown. particles/picture/page/picture.js calls viscontactFlow. Colours,
+// opacities and the size of arrows are free choices.
 'use strict';
 const viscontactFlow = (() => {
   const kNothing = 255, kLevels = 254;  // level of a point without flow; highest level of a flow
-  // Marks a line without an arrow; the number of steps of a coordinate across the window.
+  // kNoArrow marks a streamline without an arrow. A coordinate is a number of steps, of which there
+  // are kSteps across the window of the grid. All four numbers must be those of page_data.cpp.
   const kNoArrow = 65535, kSteps = 65535;
 
   const rgb = text => [1, 3, 5].map(at => parseInt(text.slice(at, at + 2), 16));
@@ -24,8 +27,11 @@ const viscontactFlow = (() => {
   }
 
   // Makes the object whose draw() draws the flow of the time that is nearest to a given time.
-  // `settings` has the grid, its window and the scales of colours. bytes(id) returns a block of
-  // numbers as an ArrayBuffer. toPage(x, y) returns the place {x, y} of a point on the canvas.
+  // `settings` has `window` (left, right, bottom and top of the grid [L]), `columns` and `rows`
+  // (the numbers of its points, >= 2), `hasAxis` (whether the flow is mirrored at x = 0),
+  // `lineColour`, and `speed` and `pressure`, lists of at least two colours "#rrggbb" from the
+  // lower to the upper end of the scale. bytes(id) returns a block of numbers as an ArrayBuffer.
+  // toPage(x, y) returns the place {x, y} on the canvas of a point of the flow.
   return (settings, bytes, toPage) => {
     const [left, right, bottom, top] = settings.window, {columns, rows} = settings;
     const times = new Float64Array(bytes('flow-times'));
@@ -67,6 +73,7 @@ const viscontactFlow = (() => {
     }
 
     // The streamlines of a flow and their arrows as paths on the canvas; corners are rounded off.
+    // `dots` is the number of device pixels in a CSS pixel.
     function lines(flow, dots) {
       const origin = {...toPage(left, bottom)}, end = {...toPage(right, top)};
       const scaleX = (end.x - origin.x) / kSteps, scaleY = (end.y - origin.y) / kSteps;
@@ -99,7 +106,8 @@ const viscontactFlow = (() => {
       path.closePath();
     }
 
-    // Draws the part of the flow that is on the grid: all of it, or with an axis one half.
+    // Draws the part of the flow that is on the grid: all of it, or one half if the flow has an
+    // axis.
     function drawGrid(pen, flow, field, withLines, dots) {
       const from = {...toPage(left, top)}, to = {...toPage(right, bottom)};
       pen.save();
@@ -131,7 +139,9 @@ const viscontactFlow = (() => {
     }
 
     return {
-      // `field`: "speed", "pressure" or "none"; `dots`: device pixels in a CSS pixel.
+      // Draws with `pen` the flow whose time is nearest to `time` [T]. `field` is "speed",
+      // "pressure" or "none"; `withLines` says whether streamlines are drawn; `dots` is the number
+      // of device pixels in a CSS pixel. Without a flow nothing is drawn.
       draw(pen, time, field, withLines, dots) {
         if (!times.length || (field === 'none' && !withLines)) return;
         const flow = nearest(time);

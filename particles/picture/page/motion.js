@@ -2,10 +2,10 @@
 // contacts at any time. Lengths and times are in the units of the case, angles in radians. A frame
 // is the state at one of the times `times`. Frames, particles, pairs of particles and coordinates
 // are counted from 0. particles/picture/particles_page.cpp writes the settings as JSON, and
-// page_data.cpp the arrays as blocks of base64. particles/picture/page_data.hpp has the formats and
-// dimensions of the blocks. Nothing is checked or thrown; a change of their layout must be made
-// there and here. This file is the first of those that particles/picture/CMakeLists.txt joins into
-// one script, so the others use all its names.
+// page_data.cpp the arrays as blocks of base64, whose formats particles/picture/page_data.hpp has.
+// A change of their layout must be made there and here. Nothing is checked; a block that is missing
+// stops the script with a TypeError. particles/picture/CMakeLists.txt joins this file as the first
+// with the others of this folder, except flow.js, into one script, so that they use all its names.
 
 // A number as a text with four significant digits.
 const number = x => String(Number(x.toPrecision(4))).replace('-', '\u2212');
@@ -25,32 +25,36 @@ const [cellX, cellY, cellZ, periodX, periodY, periodZ] = motion.cell;
 // it, with the velocity gradient motion.gradient = du/dx, du/dy, dv/dx, dv/dy.
 const isSheared = motion.gradient.some((g, i) => g * (i % 2 ? periodY : periodX) !== 0);
 const radii = new Float32Array(bytes('radii')), times = new Float64Array(bytes('times'));
-// The id of each particle in the files of the case. Without ids, the id of particle k is k.
+// The id of each particle in the files of the case; null if the id of particle k is k.
 const ids = document.getElementById('ids') ? new Int32Array(bytes('ids')) : null;
-// Coordinates as the page has them: frame by frame, particle by particle, motion.dimension numbers
-// each. The coordinate is motion.low + motion.step * number (writtenPlace()).
+// Coordinates as the page has them: frame by frame and particle by particle, motion.dimension
+// numbers for each. A number stands for the coordinate motion.low + motion.step * number [L], with
+// the entries of low and step for its axis (writtenPlace()).
 const written = motion.bytes === 2 ? new Uint16Array(bytes('positions'))
                                    : new Float32Array(bytes('positions'));
 // For each frame and plane six numbers: a point of the plane and its unit normal into the side of
 // the particles. For a circle: its centre, then 0, 0 and its radius.
 const planeNumbers = new Float32Array(bytes('planes'));
 const optional = (id, Kind) => (document.getElementById(id) ? new Kind(bytes(id)) : null);
+// For each frame and disc its angle [rad], if discs turn.
 const writtenAngles = optional('angles', Float32Array);
-// For each frame and sphere a unit quaternion (w, x, y, z); for each particle the number of its
-// rigid body, or -1 if it has none.
+// For each frame and sphere a unit quaternion (w, x, y, z), if spheres turn.
 const writtenOrientations = optional('orientations', Float32Array);
+// For each particle the number of its rigid body, or -1 if it has none.
 const bodies = optional('bodies', Int32Array);
 // For each particle the first frame in which it exists, if particles are added during the motion.
 const firstFrames = optional('firstFrames', Int32Array);
-// Two semi-axes for each particle, the first along its angle, if not all are discs.
+// Two semi-axes for each particle [L], the first along its angle, if not all are discs.
 const semiAxes = optional('semiAxes', Float32Array);
-// 1 for a plate with round ends: its semi-axes are half of its length and the radius of its ends.
+// For each particle 1 if it is a plate with round ends, else 0. The semi-axes of a plate are half
+// of its length and the radius of its ends.
 const plates = optional('plates', Int8Array);
 // In a periodic motion the contact of a pair is with an image of the second particle, a copy that
 // is shifted by x, y and z periods, each -1, 0 or 1. For each pair: the number x + 3 y + 9 z.
 const images = optional('images', Int8Array);
-// For each pair the numbers of its particles, or -1 - j in place of the first for obstacle j; and
-// the place in contactBytes at which the contacts of each frame begin, then the end.
+// `pairs` has for each pair the numbers of its two particles; for obstacle j the first number is
+// -1 - j. `offsets` has the place in contactBytes at which the contacts of each frame begin, and
+// then the length of contactBytes.
 const pairs = new Int32Array(bytes('pairs')), offsets = new Uint32Array(bytes('offsets'));
 const contactBytes = new Uint8Array(bytes('contacts'));
 const count = radii.length, frames = times.length;
@@ -61,26 +65,31 @@ const middle = low.map((l, d) => (l + high[d]) / 2);
 const diagonal = Math.hypot(...low.map((l, d) => high[d] - l));
 const firstTime = frames ? times[0] : 0, lastTime = frames ? times[frames - 1] : 0;
 
-const positions = new Float32Array(count * dim);  // at the time given to setTime()
+// The following variables belong to the time that was given to setTime(): first the positions [L],
+// the angles [rad] of discs and the orientations (unit quaternions) of spheres.
+const positions = new Float32Array(count * dim);
 const angles = new Float32Array(writtenAngles ? count : 0);
 const orientations = new Float32Array(writtenOrientations ? 4 * count : 0);
-// The obstacles at that time: {point, normal, radius}. A plane has the radius 0. A circle has a
-// radius > 0, its centre as `point` and the normal 0; the particles are inside.
+// The obstacles as objects {point, normal, radius}. A plane has the radius 0. A circle has a radius
+// > 0 [L], its centre as `point` and the normal 0; the particles are inside the circle.
 let planes = [];
-let presentFrame = 0;  // the last frame that is not after that time
-let strain = [0, 0, 0, 0];  // of the cell until that time, in the order of motion.gradient
-// The contacts of frame number `frame`, as readContacts() decodes them.
+let presentFrame = 0;  // the last frame that is not after the time
+let strain = [0, 0, 0, 0];  // strain of the cell until the time, in the order of motion.gradient
+// The contacts of frame number `frame` (-1: none read yet), as readContacts() decodes them. Each
+// array has an entry for each of `count` contacts; entries beyond are not used.
 const lines = {
   frame: -1,
   count: 0,
   pair: new Int32Array(pairs.length / 2),
   level: new Uint8Array(pairs.length / 2),
-  // 0 to 254: friction over Coulomb's bound (coefficient times normal force); 255: it slides.
+  // Friction divided by its bound, the coefficient of friction times the normal force: 0 to 254
+  // for 0 to 1. 255: the contact slides.
   friction: new Uint8Array(pairs.length / 2),
-  force: new Uint8Array(pairs.length / 2),  // normal force: 255 for motion.topForce
+  force: new Uint8Array(pairs.length / 2),  // normal force: 0 to 255 for 0 to motion.topForce
 };
 
-// The last frame that is not after a time, and the share (0 to 1) of the way to the next one.
+// The last frame that is not after a time, but before the last frame of all, and the share (0 to 1)
+// of the way to the next frame.
 function placeOf(time) {
   let a = 0, b = frames - 1;
   while (b - a > 1) {
@@ -95,14 +104,15 @@ function placeOf(time) {
 const writtenPlace = (frame, k, d) =>
   motion.low[d] + motion.step[d] * written[(frame * count + k) * dim + d];
 
-// The present shift of an image by numbers of periods along x, y and z [case's length].
+// The present shift [L] of a periodic image, for its numbers of periods along x, y and z.
 function imageShift([alongX, alongY, alongZ]) {
   const x = periodX * alongX, y = periodY * alongY, [a, b, c, d] = strain;
   return [x + (a * x + b * y), y + (c * x + d * y), periodZ * alongZ];
 }
 
-// The numbers of periods of the image whose shift is the nearest one to (x, y, z). In a sheared
-// cell, nearest is meant before the motion of the cell, as in periods_towards() of periods.hpp.
+// The numbers of periods of the image whose shift is the nearest one to the vector (x, y, z) [L].
+// In a sheared cell the vectors are compared as they were before the motion of the cell, as in
+// periods_towards() of particles/domain/periods.hpp.
 function nearestPeriods([x, y, z]) {
   const [a, b, c, d] = strain, determinant = (1 + a) * (1 + d) - b * c;
   const atStart = [((1 + d) * x - b * y) / determinant, ((1 + a) * y - c * x) / determinant, z];
@@ -110,7 +120,10 @@ function nearestPeriods([x, y, z]) {
     (period ? Math.round(atStart[i] / period) : 0));
 }
 
-// Interpolates the motion at a time between two frames. Contacts are those of the nearer frame.
+// Interpolates the motion at a time [T] between two frames, and sets `positions`, `angles`,
+// `orientations`, `planes`, `presentFrame`, `strain` and `lines`. Before the first and after the
+// last frame the motion is that of this frame. Contacts are those of the nearer frame. There must
+// be at least one frame.
 function setTime(time) {
   const {frame, share} = placeOf(time), n = count * dim;
   const from = frame * n, to = Math.min(frame + 1, frames - 1) * n;
@@ -144,7 +157,8 @@ function setTime(time) {
   readContacts(Math.min(frames - 1, frame + Math.round(share)));
 }
 
-// Interpolates the orientations between two frames along the shorter way.
+// Interpolates the orientations between two frames along the shorter way. `share` is from 0 for the
+// frame `frame` to 1 for the frame `next`.
 function setOrientations(frame, next, share) {
   for (let k = 0; k < orientations.length; k += 4) {
     const from = 4 * count * frame + k, to = 4 * count * next + k;
@@ -163,8 +177,10 @@ function setOrientations(frame, next, share) {
 // Decodes the contacts of a frame into `lines`. The bytes of a contact are, in this order:
 // - the number of its pair minus that of the contact before it, seven bits in each byte, the lowest
 //   first; the highest bit of a byte says that another byte follows;
-// - `level`: minus gamma, the impulse that its film has absorbed, from 0 to 255 for the largest;
-// - in a motion with friction, `friction`; in a motion with forces, `force`, as `lines` says.
+// - `level`: minus gamma, the impulse that its film has absorbed, from 0 for none to 255 for the
+//   largest of all frames;
+// - in a motion with friction, `friction`, and in a motion with forces, `force`, in the form that
+//   the comments of `lines` state.
 function readContacts(frame) {
   if (lines.frame === frame) return;
   lines.frame = frame;

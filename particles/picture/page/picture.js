@@ -1,15 +1,21 @@
 // Draws the whole picture: the flow (flow.js), the obstacles (view.js), discs and spheres, marks of
 // their rotation, rigid bodies, links and contacts, in light or dark colours. Positions and radii
-// of the motion (motion.js) are in the case's unit of length; places, radii and widths on the
-// canvas are in device pixels, y downwards, `dots` of them in a CSS pixel. Limits of widths without
-// a reason are free choices. Nothing is checked or thrown. Used by the other scripts. A change must
-// agree with particles/picture/frame_picture.cpp, which draws the still picture.
+// of the motion (motion.js) are in the case's unit of length. Places, radii and widths on the
+// canvas are in device pixels, of which a CSS pixel has `dots`; y points downwards. Particles (k)
+// and the contacts in `lines` (i) are numbered from 0; numbers are not checked, and nothing is
+// thrown. Colours, and limits of widths and sizes without a reason, are free choices. view.js,
+// colouring.js, address.js and controls.js, which belong to the same script, use the names of this
+// file, for example draw() and redraw(). A change must agree with
+// particles/picture/frame_picture.cpp, which draws the still picture.
 
-const kLargestSprite = 512;  // largest diameter of a copied picture (sprites) [device pixels]
+// Largest diameter of a sphere or disc that is copied (spriteFor()) and not painted [device
+// pixels], a free choice.
+const kLargestSprite = 512;
 const disc = motion.flow ? style.discInFluid : style.disc;
 const isInBody = k => bodies !== null && bodies[k] >= 0;
 
-// Paints a disc or a sphere. Its colour `look` is a result of lookOf() (colouring.js).
+// Paints a disc or a sphere with the pen p, at the centre x, y, with the radius r > 0. Its colour
+// `look` is a result of lookOf() (colouring.js).
 function paintParticle(p, x, y, r, look) {
   const rim = Math.min(2 * dots, Math.max(0.5, 0.07 * r));
   if (flat) {
@@ -30,8 +36,8 @@ function paintParticle(p, x, y, r, look) {
 }
 
 // Copying a picture of a sphere is faster than painting it, which matters for thousands of them.
-// There is one picture for each colour and each diameter that is a power of two, so that none is
-// drawn at less than half of its size.
+// There is one picture for each colour and each diameter that is a power of two, so that no picture
+// is drawn at less than half of its size. `size` is a diameter [device pixels], `look` a colour.
 const sprites = new Map();
 function spriteFor(size, look) {
   const side = 2 ** Math.ceil(Math.log2(Math.max(4, size)));
@@ -45,7 +51,8 @@ function spriteFor(size, look) {
   return sprites.get(key);
 }
 
-// Draws a particle: as a square if it is smaller than a pixel, otherwise painted or copied.
+// Draws a particle at the centre x, y with the radius r > 0: as a square if r is less than a pixel,
+// otherwise as a disc or sphere, which is painted or copied.
 function particle(x, y, r, look) {
   if (r < 1) {
     pen.fillStyle = flat ? discColours(look)[0] : ballColours(look)[1];
@@ -58,12 +65,13 @@ function particle(x, y, r, look) {
   }
 }
 
-// For each particle: place, radius (0: not shown) and, in space, depth (larger: nearer).
+// For each particle its place and radius on the canvas (radius 0: it is not shown) and, in space,
+// its depth [L] along the line of view (the larger, the nearer to the reader).
 const pageX = new Float32Array(count), pageY = new Float32Array(count);
 const pageRadius = new Float32Array(count), depths = new Float32Array(count);
 const order = new Uint32Array(count);  // the particles from far to near
 
-// Whether particle k exists at the present time; a source may add it later.
+// Whether particle k exists at the present time; a source of particles may add it later.
 const isThere = k => !firstFrames || presentFrame >= firstFrames[k];
 
 function placeParticles() {
@@ -92,14 +100,16 @@ function sortByDepth() {
   for (let k = 0; k < count; ++k) order[start[layerOf(k)]++] = k;
 }
 
+// Whether a part of particle k is on the canvas.
 const isSeen = k => {
   const r = pageRadius[k];
   return r > 0 && pageX[k] > -r && pageX[k] < canvas.width + r &&
          pageY[k] > -r && pageY[k] < canvas.height + r;
 };
 
-// For each sphere its place in `order`, and the first contact that is drawn after it; for each
-// contact the next one after the same sphere; -1: none.
+// `rank` has for each sphere its place in `order`. `chain` has for each sphere the first contact
+// that is drawn after it, and `chained` has for each contact the next one that is drawn after the
+// same sphere; -1 means that there is none.
 const rank = new Uint32Array(flat ? 0 : count), chain = new Int32Array(flat ? 0 : count);
 const chained = new Int32Array(flat ? 0 : lines.pair.length);
 
@@ -154,7 +164,8 @@ function drawDiscs() {
   }
 }
 
-// Draws a disc, ellipse or plate with round ends, in a motion where not all particles are discs.
+// Draws particle k at the centre x, y as a disc, an ellipse or a plate with round ends, in a motion
+// where not all particles are discs.
 function drawEllipse(k, x, y) {
   const scale = pageRadius[k] / radii[k];
   const [a, b] = [Math.max(scale * semiAxes[2 * k], 0.35), Math.max(scale * semiAxes[2 * k + 1], 0.35)];
@@ -174,7 +185,8 @@ function drawEllipse(k, x, y) {
   pen.stroke();
 }
 
-// Draws a dot in the direction of a disc's angle, which shows how far the disc has turned.
+// Draws a dot on disc k, whose centre is at x, y, in the direction of its angle. The dot shows how
+// far the disc has turned; a very small disc gets none.
 function drawMark(k, x, y) {
   const r = semiAxes ? pageRadius[k] / radii[k] * semiAxes[2 * k] : pageRadius[k];
   if (r < 4 * dots) return;
@@ -208,7 +220,8 @@ function drawAxes(k) {
     }
 }
 
-// The place on the canvas of particle k shifted by sign * shift; each call overwrites it.
+// The place on the canvas of particle k if it is shifted by sign * shift [L]. Each call overwrites
+// the object that the call before returned.
 const shifted = (k, shift, sign) =>
   project(...[0, 1, 2].map(d => (d < dim ? positions[k * dim + d] + sign * shift[d] : 0)));
 
@@ -293,9 +306,9 @@ function drawLinks() {
 
 let withContacts = true;  // whether the reader wants to see contacts
 
-// The colours of contacts: first without a film of fluid, from no friction to sliding, then with
-// one, from little to much impulse that it has absorbed. `i` is the number of a
-// contact in `lines` (motion.js).
+// The colours of contacts. The first ones are for contacts without a film of fluid, from no
+// friction to sliding; the others are for contacts with a film, from little to much impulse that
+// the film has absorbed. colourOf(i) is the place of the colour of contact i in the list.
 const ofFriction = motion.friction.length ? motion.friction : [motion.touching];
 const colours = [...ofFriction, ...motion.colours];
 const slides = i => lines.friction[i] === 255;
@@ -306,14 +319,15 @@ function colourOf(i) {
     : ofFriction.length + Math.round(level / 255 * (motion.colours.length - 1));
 }
 
-// The ends of the middle line of plate k, the centres of its round ends; of a disc, its centre.
+// The ends of the middle line of plate k on the canvas, which are the centres of its round ends. If
+// particle k is a disc, both ends are its centre.
 function spineOf(k) {
   const half = plates[k] ? pageRadius[k] / radii[k] * (semiAxes[2 * k] - semiAxes[2 * k + 1]) : 0;
   const x = half * Math.cos(angles[k]), y = -half * Math.sin(angles[k]);
   return [[pageX[k] + x, pageY[k] + y], [pageX[k] - x, pageY[k] - y]];
 }
 
-// The point of the line from a to b that is nearest to x.
+// The point of the line from a to b that is nearest to the point x; all are places on the canvas.
 function nearestOnLine([a, b], x) {
   const along = [b[0] - a[0], b[1] - a[1]], square = along[0] ** 2 + along[1] ** 2;
   const share = square ? ((x[0] - a[0]) * along[0] + (x[1] - a[1]) * along[1]) / square : 0;
@@ -334,9 +348,9 @@ function traceBetweenSpines(first, second) {
 
 const kNoShift = [0, 0, 0];
 
-// In contact i, the shift of the second particle to the image that touches the first one [case's
-// length]. `images` is right at the time of the frame of the contact. Since then a particle may
-// have left the cell and come in again at the other side, which adds a period.
+// The shift [L] from the second particle of contact i to its periodic image that touches the first
+// one. `images` is right at the time of the frame of the contact. Since then a particle may have
+// left the cell and come in again at the other side, which adds a period.
 function shiftOf(i) {
   if (!images) return kNoShift;
   const image = images[lines.pair[i]];
@@ -378,13 +392,15 @@ function traceContact(i) {
   }
 }
 
-// The width of a line for a radius, from a LineWidth of particles/picture/scene.hpp: share of the
-// radius, least and largest width.
+// The width of a line for a radius on the canvas. The list is a LineWidth of
+// particles/picture/scene.hpp: width over radius, least width and largest width, both in page units
+// of style.pageUnit CSS pixels.
 const lineWidth = ([share, least, most], radius) => {
   const unit = style.pageUnit * dots;
   return between(unit * least, share * radius, unit * most);
 };
 
+// The width of the line of contact i on the canvas.
 function widthOf(i) {
   const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
   const r = first < 0 ? pageRadius[second] : Math.min(pageRadius[first], pageRadius[second]);
@@ -405,13 +421,15 @@ const contactThere = i => {
 // The contacts at the present time.
 const presentContacts = () => Array.from({length: lines.count}, (_, i) => i).filter(contactThere);
 
+// Whether contact i exists and one of its particles is on the canvas.
 const contactSeen = i => {
   const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
   return contactThere(i) && (isSeen(second) || (first >= 0 && isSeen(first)));
 };
 
-// Draws the contacts, wide lines over thin ones. All contacts with one width, rounded to quarters
-// of a pixel, and one colour are drawn together, because that is faster than one by one.
+// Draws the contacts, wide lines over thin ones. All contacts with one colour and one width,
+// rounded to quarters of a pixel, are drawn together, because that is faster than one by one. There
+// may be at most 256 colours, because a kind is 256 times the width plus the number of the colour.
 function drawContacts() {
   const kinds = new Map();
   for (let i = 0; i < lines.count; ++i) {
@@ -428,6 +446,7 @@ function drawContacts() {
   }
 }
 
+// The colours of the ground, of solids, lines, patches, grids and of the mark at the pointer.
 const kThemes = {
   light: {paper: '#fbfbf9', solid: '#d8d8d4', edge: '#333',
           patch: 'rgba(120,120,105,.16)', grid: 'rgba(90,90,80,.35)', mark: '#d55e00'},

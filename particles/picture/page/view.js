@@ -1,20 +1,24 @@
-// The view: which part of the motion (motion.js) the canvas shows, and from which direction; and
-// the drawing of the obstacles, which are planes and circles around the particles. Places on the
-// canvas are in device pixels with y downwards, points and lengths of the motion in the case's unit
-// of length. Nothing is checked or thrown. picture.js, controls.js and address.js, which belong to
-// the same script, use all names. view_of() and the planes in particles/picture/frame_picture.cpp,
-// which draws the still picture, must stay like those here.
+// Determines which part of the motion (motion.js) the canvas shows, and from which direction; and
+// draws the obstacles, which are planes and circles around the particles. Places on the canvas are
+// in device pixels with y downwards, points and lengths of the motion in the case's unit of length
+// [L]. Nothing is checked or thrown: the box of the motion must have a size > 0, and points have
+// three coordinates. picture.js, controls.js and address.js, which belong to the same script, use
+// all names. The angles of the view at the start and the drawing of planes must agree with
+// view_of() and the planes in particles/picture/frame_picture.cpp, which draws the still picture.
 
 const canvas = document.getElementById('stage'), pen = canvas.getContext('2d');
-// `scale` is in device pixels per length; `x`, `y` is where the middle of the box appears, from the
-// middle of the canvas [device pixels]; `turn` and `above` are angles of view [rad]; `moved` is
-// true if the reader has moved the picture.
+// `scale` is in device pixels per unit of length, > 0. `x` and `y` are the coordinates of the
+// middle of the box on the canvas, from the middle of the canvas [device pixels]. `turn` is the
+// angle of the view about the third axis, and `above`, from -pi/2 to pi/2, is its angle above the
+// plane of the first two axes [rad]. `moved` is true if the reader has moved the picture.
 const view = {scale: 1, x: 0, y: 0, turn: Math.PI / 6, above: Math.PI / 9, moved: false};
 let axes;  // unit vectors of the motion to the right, upwards and towards the reader
 let dots = 1;  // device pixels in a CSS pixel
+// dot() is the inner product of two vectors, plus() the vector a + s b.
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const plus = (a, s, b) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
 
+// Sets `axes` for the angles of the view; in the plane they are the axes of the motion.
 function setAxes() {
   const c = Math.cos(view.turn), s = Math.sin(view.turn);
   const ca = Math.cos(view.above), sa = Math.sin(view.above);
@@ -22,8 +26,9 @@ function setAxes() {
               : [[c, s, 0], [-s * sa, c * sa, ca], [s * ca, -c * ca, sa]];
 }
 
-// The magnification at a depth [case's length] in front of the middle of the box, over that in the
-// middle, from which the reader is four diagonals of the box away. 0: too near or behind.
+// The magnification of things at a depth [L] in front of the middle of the box, divided by that in
+// the middle. The reader is four diagonals of the box away from the middle, a free choice. The
+// result is 0 for things that are too near to the reader or behind.
 function nearness(depth) {
   if (flat) return 1;
   const distance = 4 * diagonal;
@@ -31,7 +36,8 @@ function nearness(depth) {
 }
 
 const onPage = {x: 0, y: 0, near: 0};  // the result of project(), which each call overwrites
-// The place {x, y} of a point on the canvas, and its nearness().
+// The place {x, y} on the canvas of the point (px, py, pz) of the motion [L], and `near`, its
+// nearness().
 function project(px, py, pz) {
   const x = px - middle[0], y = py - middle[1], z = pz - middle[2], [r, u, t] = axes;
   onPage.near = nearness(t[0] * x + t[1] * y + t[2] * z);
@@ -71,6 +77,7 @@ function zoom(factor, x = canvas.width / 2, y = canvas.height / 2) {
   redraw();
 }
 
+// Adapts the canvas and the view to the size that the canvas has on the page.
 function resize() {
   const box = canvas.getBoundingClientRect();
   dots = window.devicePixelRatio || 1;
@@ -84,7 +91,8 @@ function resize() {
   draw();
 }
 
-// The part of a polygon, or of a line with two ends, with normal.(x - point) >= -slack.
+// The part of a convex polygon, or of a line with two ends, where the inner product of `normal` and
+// x - point is at least -slack. A polygon is a list of its corners x [L], which may be empty.
 function clip(polygon, point, normal, slack = 0) {
   const kept = [];
   polygon.forEach((a, i) => {
@@ -96,8 +104,9 @@ function clip(polygon, point, normal, slack = 0) {
   return kept;
 }
 
-// The part of a polygon or line in plane `own` on the free side of all other planes. With the
-// slack, round-off removes nothing where planes coincide.
+// The part of a polygon or line that is on the free side of all planes but number `own`, in which
+// it lies. The free side of a plane is that of the particles. With the slack, rounding errors
+// remove nothing if planes coincide.
 function clipByPlanes(polygon, own) {
   planes.forEach((plane, i) => {
     if (i !== own) polygon = clip(polygon, plane.point, plane.normal, 1e-4 * diagonal);
@@ -114,6 +123,7 @@ function clipByRoom(polygon) {
   return polygon;
 }
 
+// Adds a polygon, or a line with two ends, to the path of the pen.
 function trace(polygon) {
   polygon.forEach((x, i) => {
     const p = project(...x);
@@ -121,7 +131,7 @@ function trace(polygon) {
   });
 }
 
-// Motions in the plane: the corners of the part of the plane that the canvas shows.
+// For motions in the plane: the corners [L] of the part of the plane that the canvas shows.
 function seen() {
   const at = (x, y) => [middle[0] + (x - canvas.width / 2 - view.x) / view.scale,
                         middle[1] - (y - canvas.height / 2 - view.y) / view.scale, 0];
@@ -134,7 +144,7 @@ function traceCircle(point, radius) {
   pen.arc(p.x, p.y, radius * view.scale, 0, 2 * Math.PI);
 }
 
-// Motions in the plane: fills what is behind planes and outside circles.
+// For motions in the plane: fills the regions behind planes and outside circles.
 function drawSolids() {
   const all = seen();
   pen.fillStyle = theme.solid;
@@ -150,7 +160,7 @@ function drawSolids() {
   }
 }
 
-// Motions in the plane: draws the planes and circles themselves as lines.
+// For motions in the plane: draws the planes and circles as lines.
 function drawLines() {
   const all = seen(), far = corner => Math.hypot(...plus(corner, -1, middle));
   pen.strokeStyle = theme.edge;
@@ -170,8 +180,10 @@ function drawLines() {
   });
 }
 
-// Motions in space: draws the planes that are seen from their free side, where the particles are,
-// as patches with a grid (`fromFreeSide`), or the edges of the others. The grid has steps of 10^n.
+// For motions in space. If `fromFreeSide` is true, this function draws the planes that are seen
+// from their free side, where the particles are, as patches with a grid. Otherwise it draws the
+// edges of the other planes. The steps of the grid are a power of ten [L], near an eighth of the
+// box's diagonal.
 function drawPatches(fromFreeSide) {
   const step = 10 ** Math.round(Math.log10(diagonal / 8));
   planes.forEach(({point, normal}, i) => {
