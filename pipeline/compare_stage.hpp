@@ -1,9 +1,10 @@
-// The comparison of trajectories: how far the motion that each model computed is from that of one
-// of them, the reference (docs/file-formats.md, "Comparison"). Numbers are in the units of the
-// trajectories. The commands `run` (run_stages.cpp) and `compare` call it. Trajectories that are
-// missing or cannot be compared throw Error(kBadInput), a stop Error(kInterrupted). A change must
-// keep the order of the models in the file, that of reduced_model::all_models(), then the user's
-// files by name.
+// Compares trajectories: how far is the motion that each model computed from the motion of one of
+// them, the reference (docs/file-formats.md, "Comparison")? The gaps [L], >= 0, velocities [L/T]
+// and times [T] are in the units of the trajectories. The commands `run` (run_stages.cpp) and
+// `compare` call these functions. Error(kBadInput) is thrown if trajectories are missing or cannot
+// be compared, Error(kInterrupted) at a stop. A change must keep the order of the models in the
+// file of the comparison: first the order of reduced_model::all_models(), then the user's files by
+// name.
 #pragma once
 
 #include <filesystem>
@@ -19,10 +20,13 @@ namespace viscontact::pipeline {
 /// folder does not exist. Throws std::filesystem::filesystem_error if the folder cannot be listed.
 std::vector<std::filesystem::path> files_of_models(const std::filesystem::path& folder);
 
-/// Prints a comparison to standard output, as JSON if `json` is true, else as a table.
+/// Prints a comparison to standard output, as JSON if `json` is true, else as a table. The content
+/// is that of reduced_model::Comparison: for each model its smallest gap [L], its times of contact
+/// [T], and the largest value and the integrals of its distances from the reference. Nothing is
+/// thrown.
 void print_comparison(const reduced_model::Comparison& comparison, bool json);
 
-/// Compares the trajectories of a folder and those in the files `others`, which may be empty.
+/// Compares the trajectories of a folder and those in the files `others`, a list that may be empty.
 /// Writes the comparison to `comparison_path` and prints it, as JSON if `json` is true, else as a
 /// table. The trajectories of the folder are the CSV files except table.csv in its sub-folder
 /// trajectories/ or, if there is none, in the folder itself. `given` are the files of the user from
