@@ -1,10 +1,10 @@
-// Compares trajectories: how far is the motion that each model computed from the motion of one of
-// them, the reference (docs/file-formats.md, "Comparison")? The gaps [L], >= 0, velocities [L/T]
-// and times [T] are in the units of the trajectories. The commands `run` (run_stages.cpp) and
-// `compare` call these functions. Error(kBadInput) is thrown if trajectories are missing or cannot
-// be compared, Error(kInterrupted) at a stop. A change must keep the order of the models in the
-// file of the comparison: first the order of reduced_model::all_models(), then the user's files by
-// name.
+// Compares trajectories: computes how far the motion that each model computed is from the motion of
+// one of the models, the reference (docs/file-formats.md, "Comparison"). The gaps [L], >= 0,
+// velocities [L/T] and times [T] are in the units of the trajectories. The commands `run`
+// (run_stages.cpp) and `compare` call these functions. Error(kBadInput) is thrown if trajectories
+// are missing or cannot be compared, Error(kInterrupted) at a stop. A change must keep the order of
+// the models in the file of the comparison: first the order of reduced_model::all_models(), then
+// the user's files by name.
 #pragma once
 
 #include <filesystem>
@@ -36,7 +36,8 @@ void print_comparison(const reduced_model::Comparison& comparison, bool json);
 /// does not exist, if there is no trajectory, if one cannot be read or compared, if the reference
 /// has none, or if the record failed_models.json of the folder is damaged, and Error(kInterrupted)
 /// if `stop` requests a stop before a trajectory is read or compared; then nothing is written.
-/// Throws the errors of results::write_output() if the file cannot be written.
+/// Throws Error(kBadInput) if the file cannot be written, and Error(kWrongUsage) if the environment
+/// variable SOURCE_DATE_EPOCH is set and is not a time.
 void compare_stage(const std::filesystem::path& folder,
                    const std::vector<std::filesystem::path>& others,
                    const std::string& reference_model, const std::filesystem::path& comparison_path,

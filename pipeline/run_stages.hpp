@@ -20,8 +20,8 @@ namespace viscontact::pipeline {
 /// Throws Error(kBadInput) before the tabulation starts if the case is wrong, if it lacks [motion]
 /// or [fit] (or [tabulation], unless [fit] names a fit or the exact drag), or if a file of the user
 /// would be replaced. If some rows of the table or some models fail, the error that names them is
-/// thrown after all results of the others are written. If all rows or all models fail, it is thrown
-/// at once. Throws the other errors of the stages (tabulate_stage.hpp, fit_stages.hpp,
+/// thrown after all results of the others are written. If all rows or all models fail, the error is
+/// thrown at once. Throws the other errors of the stages (tabulate_stage.hpp, fit_stages.hpp,
 /// simulate_stage.hpp, compare_stage.hpp, report.hpp), such as Error(kExternalProgram) if FreeFEM
 /// or gnuplot fails, and Error(kInterrupted) if `stop` requests a stop; finished results are kept.
 void run_stages(const case_file::Case& c, const std::filesystem::path& folder, int jobs, bool json,

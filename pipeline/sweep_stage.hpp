@@ -1,8 +1,8 @@
 // Runs a sweep of any kind of case: computes the rows of a study (sweep/study.hpp: a case is
-// computed again and again with other values of some keys, and the results of each are a row) and
-// writes them into a CSV file. Numbers are in the units of the case. The command `sweep` and
-// particles/sweep call these functions. If a row fails, nothing is thrown, and its column `failure`
-// says why. Error(kNotConverged) is thrown if nothing could be computed in any row,
+// computed again and again with other values of some keys, and the results of each computation are
+// a row) and writes them into a CSV file. Numbers are in the units of the case. The command `sweep`
+// and particles/sweep call these functions. If a row fails, nothing is thrown, and its column
+// `failure` says why. Error(kNotConverged) is thrown if nothing could be computed in any row,
 // Error(kInterrupted) at a stop. A change must keep that finished rows are never computed again.
 #pragma once
 
@@ -37,8 +37,8 @@ void run_sweep(const sweep::Study& study, const SweepStageRequest& request,
 /// of finished rows and the number of all rows, by one thread at a time. Throws Error(kBadInput) if
 /// a file of `inputs` cannot be read, Error(kWrongUsage) if the environment variable
 /// SOURCE_DATE_EPOCH is not a time, and the errors of sweep::write_sweep(): Error(kInterrupted) if
-/// `request.stop` requests a stop, Error(kBadInput) if the file cannot be written, and errors of
-/// rows that end the sweep. Finished rows are kept.
+/// `request.stop` requests a stop, Error(kBadInput) if the file cannot be written, and the errors
+/// that Study::run throws, which end the sweep. Finished rows are kept.
 std::uint64_t write_rows(const sweep::Study& study, const SweepStageRequest& request,
                          const results::Inputs& inputs,
                          const std::function<void(std::uint64_t, std::uint64_t)>& progress);

@@ -42,11 +42,11 @@ class RunLog {
   /// check(), and Error(kBadInput) if a file cannot be removed or shortened.
   void resume(const RunRecord& record);
 
-  /// Adds a step to the sums of the record and to steps.csv, and `rebounds`, the impacts of solids
-  /// in it, to rebounds.csv. If the case has no restitution, they must be empty; otherwise
-  /// std::out_of_range is thrown. `state` is that at the end of the step. After a million steps (50
-  /// MB), steps.csv and probes.csv have only every thousandth step and those that did not converge;
-  /// rebounds.csv has at most a million rows (80 MB). These limits are free choices.
+  /// Adds a step to the sums of the record and to steps.csv, and the impacts of solids in the step,
+  /// `rebounds`, to rebounds.csv. If the case has no restitution, `rebounds` must be empty;
+  /// otherwise std::out_of_range is thrown. `state` is that at the end of the step. After a million
+  /// steps (50 MB), steps.csv and probes.csv have only every thousandth step and those that did not
+  /// converge; rebounds.csv has at most a million rows (80 MB). These limits are free choices.
   void add_step(const StepReport& report, const State& state, std::span<const Rebound> rebounds);
 
   /// Writes a frame of the state, and the rows of the state in the tables. `link_force_errors` are

@@ -81,7 +81,7 @@ struct SimulateRequest {
   /// the case asks for it, or fit.json in `folder`.
   std::string fit;
   std::filesystem::path folder;          ///< the run's folder
-  std::vector<std::string> models;       ///< `asked` of models_to_run(); may be empty
+  std::vector<std::string> models;       ///< names of models; if empty, models_to_run() chooses
   lubrication::OutsideInterval outside;  ///< choice of the drag outside the interval of the fit
   StopToken stop{};                      ///< a requested stop throws Error(kInterrupted)
   std::string remedy{};  ///< what the user can do if there is no fit, as the end of the message

@@ -33,7 +33,7 @@ struct InertialInstant {
 
 /// Equation (S) and the quantities that follow from a solution of it. Motion and force must outlive
 /// the object. Every function of a gap but state_of() throws Error(kBadInput) if the gap is outside
-/// the interval of the force, as does the constructor for the initial gap. Times [T] are in [0,
+/// the interval of the force, and so does the constructor for the initial gap. Times [T] are in [0,
 /// end_time], which is not checked.
 class InertialEquation {
  public:

@@ -58,10 +58,10 @@ struct ContactModel {
 /// beginning and the end of contact, and the time at which the solids touch, are found within a
 /// step as if the force were constant in this step; their error has the order of the scheme. The
 /// velocity at which the solids touch is what the film leaves of an impact or, if a load closes the
-/// film, the load over `solid_resistance`. The lowest gamma, and thus the smallest film, includes
-/// the values at the times at which the force changes its sign. If the model is staggered, a row
-/// has the velocity and gamma that half a step of the force gives from the middle of the step to
-/// the time of the row.
+/// film, the load divided by `solid_resistance`. The lowest gamma, and thus the smallest film,
+/// includes the values at the times at which the force changes its sign. If the model is staggered,
+/// a row has the velocity and gamma that half a step of the force gives from the middle of the step
+/// to the time of the row.
 ///
 /// motion.initial_gap must be >= model.contact_gap (not checked). Throws Error(kBadInput) if the
 /// motion has more than 1e8 steps or no value of viscous_contact.time_step, Error(kInterrupted) if
