@@ -13,9 +13,9 @@
 
 namespace viscontact::reduced_model {
 
-/// Problem (P): the limit of the motion with inertia and the drag -(k/q) u as the viscosity goes to
-/// 0 (Maury 2007, "A gluey particle model"; Lefebvre 2009, "Numerical simulation of gluey
-/// particles"),
+/// Makes the model of problem (P), which is the limit of the motion with inertia and the drag
+/// -(k/q) u as the viscosity goes to 0 (Maury 2007, "A gluey particle model"; Lefebvre 2009,
+/// "Numerical simulation of gluey particles"):
 ///
 ///     q >= 0,  gamma <= 0,  q gamma = 0,
 ///     m d^2q/dt^2 = f_ext + lambda,  lambda = 0 where q > 0,  dgamma/dt = -lambda,
@@ -31,16 +31,16 @@ namespace viscontact::reduced_model {
 /// k of 1/q.
 ContactModel viscous_contact(const Motion& motion, const lubrication::LubricationForce& force);
 
-/// The model viscous_contact() with leapfrog steps of length h. If step n ends at the time t^n, u^n
-/// and gamma^n are the values at the time t^n - h/2. The force of the step that begins at t^n is
-/// the mean of f_ext from t^n - h/2 to t^n + h/2 (in the first step from 0 to h/2). Throws the
-/// error of viscous_contact(). The error of the gap is of second order in h away from impacts.
+/// Makes the model of viscous_contact() with leapfrog steps of length h. If step n ends at the time
+/// t^n, u^n and gamma^n are the values at the time t^n - h/2. The force of the step that begins at
+/// t^n is the mean of f_ext from t^n - h/2 to t^n + h/2 (in the first step from 0 to h/2). Throws
+/// the error of viscous_contact(). The error of the gap is of second order in h away from impacts.
 ContactModel viscous_contact_leapfrog(const Motion& motion,
                                       const lubrication::LubricationForce& force);
 
-/// The splitting of Lefebvre 2008 ("Methode de splitting", a lecture) for a fluid solver that
-/// resolves the drag without its singular part k/q. Each step is that of contact_step.hpp, with the
-/// step h and the mean external force f^n,
+/// Makes the model of the splitting of Lefebvre 2008 ("Methode de splitting", a lecture) for a
+/// fluid solver that resolves the drag without its singular part k/q. Each step is that of
+/// contact_step.hpp, with the step h and the mean external force f^n,
 ///
 ///     m (u^{n+1} - u^n) = h f^n - (Gamma_res(q^{n+1}) - Gamma_res(q^n)) + h lambda,
 ///     Gamma_res(q) = int_0^q (R(q') - k/q') dq'.
@@ -57,8 +57,8 @@ ContactModel viscous_contact_leapfrog(const Motion& motion,
 ContactModel viscous_contact_regular_drag(const Motion& motion,
                                           const lubrication::LubricationForce& force);
 
-/// Plain inelastic contact (Moreau 1988): the sphere stops on the wall and leaves it as soon as it
-/// is pulled:
+/// Makes the model of plain inelastic contact (Moreau 1988). The sphere stops on the wall and
+/// leaves the wall as soon as it is pulled:
 ///
 ///     q >= 0,  lambda >= 0,  q lambda = 0,  m d^2q/dt^2 = f_ext + lambda,
 ///     u+ = max(u-, 0) where q = 0.

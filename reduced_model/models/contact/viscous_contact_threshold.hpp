@@ -28,17 +28,17 @@ inline constexpr ModelParameter kThresholdGap = {
 /// The parameters of viscous_contact_threshold().
 inline constexpr std::array kThresholdParameters = {kContactTimeStep, kThresholdGap, kRestitution};
 
-/// The splitting of Lefebvre 2008 ("Methode de splitting", a lecture) for a fluid solver that
-/// resolves the film down to the threshold gap q_c. The whole drag R(q) acts for q > q_c, and the
-/// sphere is in contact at q_c. The film thickness is Gamma^{-1}(Gamma(q_c) + gamma), and gamma_min
-/// = Gamma(r1 + r2) - Gamma(q_c), where r1 + r2 is the height of the roughness of both surfaces;
-/// gamma_min is minus infinity for smooth surfaces. The drag enters by its impulse
-/// (contact_step.hpp), so that in every step m u + Gamma(q) + gamma is the impulse of the external
-/// force plus a constant, and the film of a sphere at rest is exact for every step length. `force`
-/// must outlive the model. Throws Error(kBadInput) unless r1 + r2 < q_c < initial gap, if the
-/// threshold has no value, or if q_c or a height r1 + r2 > 0 is outside the interval of gaps of
-/// `force`. A run throws Error(kBadInput) if the sphere goes above this interval or the film
-/// thickness goes below it, and Error(kNotConverged) if the film thickness is too small for a
+/// Makes the model of the splitting of Lefebvre 2008 ("Methode de splitting", a lecture) for a
+/// fluid solver that resolves the film down to the threshold gap q_c. The whole drag R(q) acts for
+/// q > q_c, and the sphere is in contact at q_c. The film thickness is Gamma^{-1}(Gamma(q_c) +
+/// gamma), and gamma_min = Gamma(r1 + r2) - Gamma(q_c), where r1 + r2 is the height of the
+/// roughness of both surfaces; gamma_min is minus infinity for smooth surfaces. The drag enters by
+/// its impulse (contact_step.hpp), so that in every step m u + Gamma(q) + gamma is the impulse of
+/// the external force plus a constant, and the film of a sphere at rest is exact for every step
+/// length. `force` must outlive the model. Throws Error(kBadInput) unless r1 + r2 < q_c < initial
+/// gap, if the threshold has no value, or if q_c or a height r1 + r2 > 0 is outside the interval of
+/// gaps of `force`. A run throws Error(kBadInput) if the sphere goes above this interval or the
+/// film thickness goes below it, and Error(kNotConverged) if the film thickness is too small for a
 /// double.
 ContactModel viscous_contact_threshold(const Motion& motion,
                                        const lubrication::LubricationForce& force);
