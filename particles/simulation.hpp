@@ -1,9 +1,9 @@
-// Simulates many rigid discs or spheres with viscous contact, without a fluid around them: problem
-// (5.2) and scheme (5.3) of docs/physics.md (Maury 2006; Lefebvre 2009). Lengths, masses and times
-// are in any consistent units. run/, sweep/ and python/ use it. A step that cannot be computed
-// throws Error(kNotConverged). Of setting and state only the membranes are checked. A change must
-// keep that no bit of the results depends on the number of threads, or on whether the run was
-// continued from a restart file.
+// Simulates many rigid discs or spheres with viscous contact, without a fluid around them. The
+// problem is (5.2) and the scheme (5.3) of docs/physics.md (Maury 2006; Lefebvre 2009). Lengths,
+// masses and times are in any consistent units. run/, sweep/ and python/ use the class Simulation.
+// A step that cannot be computed throws Error(kNotConverged). Only the membranes of setting and
+// state are checked. A change must keep that no bit of the results depends on the number of
+// threads, or on whether the run was continued from a restart file.
 #pragma once
 
 #include <array>
@@ -39,11 +39,11 @@ class Impacts;
 /// where velocities v are projected, in the norm of M, on G_ij v = 0 where gamma_ij < 0, and on
 /// G_ij v >= 0 where gamma_ij = 0 and D_ij = 0. x are the centres, D_ij is the gap of the pair i,
 /// j, G_ij v the rate of this gap, gamma_ij minus the impulse that the film between both surfaces
-/// has absorbed, and lambda_ij the force of the contact, > 0 where it pushes; M are the masses and
-/// M f the forces. Each step solves one convex projection, (5.3). A pair with gamma_ij < 0 is
-/// called glued. Its film pulls with an impulse of at most -gamma_ij, so that the pair separates
-/// within the step in which gamma_ij reaches 0. gamma_ij falls no lower than gamma_min
-/// (film_law.hpp); there the solids carry the rest of the load.
+/// has absorbed, and lambda_ij the force of the contact, > 0 where it pushes; M is the diagonal
+/// matrix of the masses and M f the vector of the forces. Each step solves one convex projection,
+/// (5.3). A pair with gamma_ij < 0 is called glued. Its film pulls with an impulse of at most
+/// -gamma_ij, so that the pair separates within the step in which gamma_ij reaches 0. gamma_ij
+/// falls no lower than gamma_min (film_law.hpp); there the solids carry the rest of the load.
 class Simulation {
  public:
   /// `setting` has no fluid (for a fluid there is FluidSimulation). `state` is what read_restart()
@@ -71,16 +71,16 @@ class Simulation {
   /// last part.
   ///
   /// Throws Error(kNotConverged) if a position or displacement exceeds largest_resolved_distance(),
-  /// or a displacement what a period allows (rebuild_neighbour_list()), if the projection has not
-  /// converged and leaves an overlap of more than the mean radius (for example because moving
-  /// planes leave the particles too little space), or if links and contacts contradict each other.
-  /// If it throws, the state is that before the step. Other steps that have not converged are
-  /// accepted, and StepReport::converged is false.
+  /// if a displacement is longer than a periodic domain allows (rebuild_neighbour_list()), if the
+  /// projection has not converged and leaves an overlap of more than the mean radius (for example
+  /// because moving planes leave the particles too little space), or if links and contacts
+  /// contradict each other. After an error the state is that before the step. A step that has not
+  /// converged for another reason is accepted, and StepReport::converged is false.
   StepReport step(double end);
 
-  /// How often a step may be halved. The smallest part is 2^-8 = 1/256 of the step. In it equal
-  /// particles may pass each other by one radius, and in the step by 256 radii. A larger value
-  /// resolves faster particles, but multiplies the number of parts.
+  /// How often a step may be halved, a free choice. The smallest part is 2^-8 = 1/256 of the step.
+  /// In it equal particles may pass each other by one radius, and in the step by 256 radii. A
+  /// larger value resolves faster particles, but multiplies the number of parts.
   static constexpr int kMostHalvings = 8;
 
   /// Forces on the particles [M L/T^2] that the caller may set, in addition to those of the
@@ -90,12 +90,12 @@ class Simulation {
   /// the last step to the middle of the next one, so that the scheme keeps its second order also
   /// for forces that depend on positions.
   std::span<double> added_forces() { return added_forces_for(state_.particles, setting_); }
-  /// Torques that the caller may set [M L^2/T^2], likewise: one for each disc, three for each
-  /// sphere; empty if the particles do not turn.
+  /// Torques on the particles [M L^2/T^2] that the caller may set, with the same rules: one for
+  /// each disc, three for each sphere; empty if the particles do not turn.
   std::span<double> added_torques() { return added_torques_for(state_.particles, setting_); }
 
-  const State& state() const { return state_; }        ///< after the last step
-  const Setting& setting() const { return setting_; }  ///< with the added forces and torques
+  const State& state() const { return state_; }        ///< the state after the last step
+  const Setting& setting() const { return setting_; }  ///< it has the added forces and torques
 
   /// The blows (impacts of solids) of the last step, in order of time; empty without restitution.
   const std::vector<Rebound>& rebounds() const { return rebounds_; }
@@ -133,7 +133,7 @@ class Simulation {
       for (auto& pair : *pairs) visit(pair);
   }
   void examine(const ProjectionResult& projected, double next) const;
-  // Sets the displacements h u* [L] of the motion without contacts and links.
+  // Sets the displacements h u* [L], where u* are the velocities without contacts and links.
   template <int D>
   void move_freely(double h, double next);
   void turn_freely(double h, double next);
@@ -144,7 +144,7 @@ class Simulation {
   std::vector<BodyLoad> loads_of_bodies(
       const std::function<Vector(const PiecewiseConstant&)>& mean) const;
   std::vector<char> free_particles() const;
-  // Solves the projection. Its velocities are v: the displacements h u* become h v.
+  // Solves the projection for the velocities v: the displacements h u* become h v.
   template <int D>
   ProjectionResult project(double h, double next);
   void move(double h);
@@ -168,13 +168,15 @@ class Simulation {
   double mean_radius_;
   double first_time_;  // time of the state that the constructor was given [T]
   std::unique_ptr<ThreadPool> pool_;
-  std::vector<double> displacements_;  // h u* without contacts, later h v with contacts [L]
+  std::vector<double> displacements_;  // h u* (without contacts), later h v (with contacts) [L]
   std::vector<double> mobilities_;     // h/m [T/M]
-  // If particles turn: h w*, later h w [rad], and h/I, I the moments of inertia [T/(M L^2)].
+  // If particles turn: the turns h w* [rad] without contacts, later h w with contacts, where w* and
+  // w are the angular velocities; and h/I [T/(M L^2)], where I is the moment of inertia.
   std::vector<double> turns_, turn_mobilities_;
   std::vector<BodyStep> body_steps_;  // displacements and turns of the rigid bodies in the part
   // Forces and torques of the links in the present part [M L/T^2, M L^2/T^2]; the sums of their
-  // impulses over the parts that are done [M L/T, M L^2/T], and of the times for which they acted.
+  // impulses over the parts that are done [M L/T, M L^2/T]; and link_time_, the sum of the times
+  // for which they acted [T].
   std::vector<double> link_forces_, link_impulses_;
   double link_time_ = 0;
   std::vector<double> arm_works_;  // work of each arm in the parts that are done [M L^2/T^2]
@@ -183,9 +185,10 @@ class Simulation {
   std::unique_ptr<Impacts<2>> impacts_in_plane_;
   std::unique_ptr<Impacts<3>> impacts_in_space_;
   std::vector<Rebound> rebounds_;
-  std::vector<BlowImpulse> blows_;  // of the parts of the step that are done
-  // Impulses of a pair [M L/T], in the maps below by Pair::first, second and image. If a step is
-  // divided: the sums of the impulses over its parts, and the state before the step.
+  std::vector<BlowImpulse> blows_;  // impulses of blows in the parts of the step that are done
+  // Impulses of a pair [M L/T]. The keys of the maps are Pair::first, second and image. If a step
+  // is divided, impulses_of_parts_ has the sums of the impulses over the parts that are done, and
+  // before_division_ the state before the step.
   struct Impulses {
     double of_contact = 0;
     PairMemory memory{};

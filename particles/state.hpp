@@ -1,8 +1,8 @@
-// State of a simulation: everything, besides the case, that its future depends on. Lengths, masses
-// and times are in any consistent units. The simulations change it, the files in io/ and run/ show
-// it, and the restart file (io/restart.cpp) stores it bit for bit; a change of Pair or State must
-// keep old restart files readable. Nothing is checked or thrown here. The number of a particle is
-// its place in State::particles, from 0.
+// Declares the state of a simulation: everything, besides the case, on which the rest of the
+// simulation depends. Lengths, masses and times are in any consistent units. The simulations change
+// the state, the files in io/ and run/ write it for users, and the restart file (io/restart.cpp)
+// stores it bit for bit. A change of Pair or State must keep old restart files readable. Nothing is
+// checked or thrown here. The number of a particle is its place in State::particles, from 0.
 #pragma once
 
 #include <cstddef>
@@ -15,25 +15,27 @@
 
 namespace viscontact::particles {
 
-/// Two particles, or a particle and an obstacle, that may touch soon, and what is remembered of
-/// them. In a fluid, gamma and the impulses of discs are per unit length: M stands for M/L there.
-/// gamma is minus the impulse that the fluid film between both surfaces has absorbed. It falls
-/// while the film is pressed, down to gamma_min, at which the solids touch (film_law.hpp).
+/// Two particles, or a particle and an obstacle, that may touch soon, and what the next steps need
+/// to know of them. In a fluid, gamma and the impulses of discs are per unit length, so that their
+/// unit is [M/T]. gamma is minus the impulse that the fluid film between both surfaces has
+/// absorbed. It falls while the film is pressed, down to gamma_min, at which the solids touch
+/// (film_law.hpp).
 struct Pair {
   std::int32_t first = 0;   ///< number of a particle, or -1 - k for obstacle k of obstacles_of()
   std::int32_t second = 0;  ///< number of a particle, > first
   double gamma = 0;         ///< gamma_min <= gamma <= 0 [M L/T]
-  /// Impulse of the contact in the last step [M L/T], > 0 where it pushes, and at least the gamma
-  /// before that step. The solver of the next step takes it as its first guess.
+  /// Impulse of the contact in the last step [M L/T]. It is > 0 where the contact pushes, and not
+  /// less than the gamma before that step. The solver of the next step takes it as its first guess.
   double impulse = 0;
   /// Estimate of the error of gamma [M L/T], >= 0: the sum of the residuals and rounding errors of
   /// all impulses that were subtracted from gamma. It is 0 if gamma is 0 or gamma_min, which are
   /// exact.
   double gamma_error = 0;
-  /// Number of the periodic image of `second` that meets `first`, -13 to 13, 0 without a shift
-  /// (periods.hpp). Two images of `second` near `first` make two pairs.
+  /// Number of the periodic image of `second` that meets `first`, -13 to 13; 0 is `second` itself
+  /// (periods.hpp). If two images of `second` are near `first`, there are two pairs.
   std::int32_t image = 0;
-  /// Row in State::memories, what contact laws remember besides gamma; kNone: nothing.
+  /// Row in State::memories, which has what contact laws remember besides gamma; kNone if they
+  /// remember nothing.
   std::int32_t memory = PairMemories::kNone;
   /// Number of the contact between both bodies, because plates with round ends may have two. At an
   /// obstacle it is the end, 0 or 1, of the plate; between two plates it is a place of
@@ -45,8 +47,8 @@ struct Pair {
   bool operator==(const Pair&) const = default;
 };
 
-/// How many particles a source has added to the simulation (arrangement/source.hpp), and all that
-/// decides which particles it adds, and when.
+/// How many particles a source has added to the simulation (arrangement/source.hpp), and the
+/// numbers that decide which particles it adds, and when.
 struct SourceProgress {
   std::int64_t poured = 0;  ///< number of particles that it has added, >= 0
   /// Time of its first particle [T]: Source::begin, or the time at which the first simulation with
@@ -55,18 +57,18 @@ struct SourceProgress {
   double begin_of_case = 0;   ///< Source::begin in that simulation [T], >= 0
   double rate = 0;            ///< Source::rate [1/T], > 0
   std::uint64_t seed = 0;     ///< Source::seed
-  std::uint64_t species = 0;  ///< hash_of() Source::species
+  std::uint64_t species = 0;  ///< hash_of(Source::species)
   /// True if all members are equal.
   bool operator==(const SourceProgress&) const = default;
 };
 
 /// The state of a simulation. To begin a new one, only `particles` has to be set.
 struct State {
-  Particles particles;     ///< their places, sizes, masses and motions
-  double time = 0;         ///< [T]
+  Particles particles;     ///< places, sizes, masses and motions of the particles
+  double time = 0;         ///< present time [T]
   std::int64_t steps = 0;  ///< number of steps done, >= 0
-  /// The velocities are those at `time` - velocity_lag [T], >= 0; not 0 only with
-  /// Scheme::kLeapfrog.
+  /// The velocities are those at the time `time` - velocity_lag. The lag is >= 0 [T]; it is 0
+  /// except with Scheme::kLeapfrog.
   double velocity_lag = 0;
   /// Step n ends at time grid_time + (n - grid_step) h [T], where h is the time step of the case.
   /// Both members are 0 until a step ends at another time or a restart changes h; they are then the
@@ -79,11 +81,13 @@ struct State {
   PairMemories memories;    ///< memories of `pairs` and `walls`, by Pair::memory
   // Two particles that are no pair of the list cannot touch as long as no particle has moved
   // further than its skin since the list was made.
-  /// Flat array of the positions when `pairs` was made [L]; empty if there is no list yet.
+  /// Flat array of the positions at the time when `pairs` was made [L]; empty if there is no list
+  /// yet.
   std::vector<double> positions_at_listing;
   std::vector<double> skins;  ///< skin of each particle [L], >= 0; empty if there is no list yet
   /// Mean forces and torques of the links in the last step [M L/T^2, M L^2/T^2], in the order of
-  /// Links::force_count(): the first guess of the next step. Empty before the first.
+  /// Links::force_count(). The solver of the next step takes them as its first guess. Empty before
+  /// the first step.
   std::vector<double> link_forces;
   /// Mean power of each arm in the last step [M L^2/T^3]: its work divided by the length of the
   /// step. Empty before the first step.
@@ -92,10 +96,11 @@ struct State {
   /// Impulses of the blows in the last step, without a fluid. The rest of the motion does not
   /// depend on them. Restart files have them for the tables walls.csv and stress.csv.
   std::vector<BlowImpulse> blows;
-  // What a simulation in a fluid needs of earlier steps; otherwise these members are empty or 0.
+  // The members from here to `earlier_positions` serve simulations in a fluid only; without a fluid
+  // they are empty or 0.
   /// Velocities and angular velocities in the last step [L/T, 1/T], motion_components() numbers
-  /// (fluid_solver.hpp) for each particle: vx, vy, angular velocity; on an axis vz. Empty without a
-  /// step.
+  /// (fluid_solver.hpp) for each particle: vx, vy, angular velocity; on an axis vz. Empty before
+  /// the first step.
   std::vector<double> earlier_velocities;
   /// Forces and torques of the particles on the fluid at `earlier_velocities` [M L/T^2, M L^2/T^2],
   /// in the same order, without those of bodies, hinges and arms on particles without mass.
@@ -105,11 +110,12 @@ struct State {
   /// In a fluid with inertia: the flow of earlier steps, as FluidSolver::saved_flow() returns it.
   /// It is set only in a state that is to be written, and empty otherwise.
   std::vector<char> flow;
-  /// With membranes: positions of all particles before the last step [L]. Empty without a step.
+  /// With membranes: positions of all particles before the last step [L]. Empty before the first
+  /// step.
   std::vector<double> earlier_positions;
   /// The progress of each of Setting::sources. A simulation that begins adds an entry for each
-  /// source that is not in the state yet. Particles of sources follow those of the case in the
-  /// order in which they came.
+  /// source that is not in the state yet. In `particles`, the particles of sources follow those of
+  /// the case, in the order in which they were added.
   std::vector<SourceProgress> sources;
 };
 

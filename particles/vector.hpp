@@ -1,8 +1,9 @@
-// A vector of up to three components, its operations, and how vectors are read from a flat array.
-// Components may have any unit. All of particles/ uses this file; nothing is checked or thrown. A
-// change must keep Vector{} zero and the order of the terms in each sum, because the last bits of
-// all results depend on that order. Eigen::Vector3d is not used, because each source that includes
-// this file would take a second longer to compile, and because a default Eigen vector is not zero.
+// Declares vectors of up to three components, their operations, and how vectors are read from a
+// flat array. Components may have any unit and any value. All of particles/ uses this file. Nothing
+// is checked or thrown. A change must keep Vector{} zero and the order of the terms in each sum,
+// because the last bits of all results depend on that order. Eigen::Vector3d is not used, because
+// each source that includes this file would take a second longer to compile, and because a default
+// Eigen vector is not zero.
 #pragma once
 
 #include <array>
@@ -29,20 +30,23 @@ inline Vector operator-(const Vector& a, const Vector& b) {
 }
 /// Product of a number and a vector.
 inline Vector operator*(double s, const Vector& a) { return {s * a[0], s * a[1], s * a[2]}; }
-/// Vector product. That of two vectors of the plane is along the third axis.
+/// Vector product. The product of two vectors in the plane of the first two axes is along the third
+/// axis.
 inline Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-/// Euclidean length; infinite if the square of the length overflows.
+/// Euclidean length. It is infinite if the square of the length overflows (lengths above 1e154),
+/// and 0 if the square underflows (lengths below 1e-162).
 inline double norm(const Vector& a) { return std::sqrt(dot(a, a)); }
 
-/// Vector k, from 0, of a flat array with `dimension` (1, 2 or 3) numbers for each vector.
+/// Vector k, counted from 0, of a flat array with `dimension` (1, 2 or 3) numbers for each vector.
+/// Missing components are 0. The array must contain this vector (not checked).
 inline Vector point_of(const double* values, std::size_t k, int dimension) {
   const double* at = values + k * static_cast<std::size_t>(dimension);
   return {at[0], dimension > 1 ? at[1] : 0.0, dimension > 2 ? at[2] : 0.0};
 }
 
-/// The larger of two numbers of one unit, or NaN if one of them is not a number.
+/// The larger of two numbers of the same unit, or NaN if one of them is NaN.
 inline double largest_or_nan(double a, double b) { return a != a || b <= a ? a : b; }
 
 }  // namespace viscontact::particles

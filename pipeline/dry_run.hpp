@@ -1,8 +1,8 @@
-// The output of --dry-run: how many rows a command would compute and about how long that takes, in
-// seconds of wall time. Nothing is written. The commands `tabulate` and `sweep`, and
-// particles/sweep, use it. Files that cannot be read throw Error(kBadInput), and rows that are
-// computed for the estimate throw their errors. A change must keep the keys of the JSON, which
-// users' scripts read.
+// Makes the output of --dry-run: how many rows a command would compute and about how long that
+// takes, in seconds of wall time. No file is written. The commands `tabulate` and `sweep`, and
+// particles/sweep, use it. Error(kBadInput) is thrown if a file cannot be read. If rows are
+// computed for the estimate and one of them throws, the estimate throws this error. A change must
+// keep the keys of the JSON, which users' scripts read. The words of the text are free choices.
 #pragma once
 
 #include <cstdint>
@@ -25,21 +25,25 @@ struct DryRun {
   std::string basis;           ///< what seconds_per_row was estimated from, in words
 };
 
-/// The estimate for a table. The time of a row is the mean over the finished rows. If there are
-/// none, it is the time that rows of the shipped tables took, which has the right order of
-/// magnitude on a similar machine. A table of other inputs counts as no rows. Throws
-/// Error(kBadInput) if the file of the table or of its finished rows cannot be read.
+/// The estimate for a table, the file `one.table`. The time of a row is the mean over the finished
+/// rows. If there are none, it is the time that rows of the tables in data/ took, which has the
+/// right order of magnitude on a similar machine. If the file was made from other inputs than
+/// `one.plan`, none of its rows counts as finished. Throws Error(kBadInput) if this file or a file
+/// of finished rows beside it cannot be read.
 DryRun dry_run(const CaseTable& one);
 
 /// The estimate for a sweep into the file `output`. The first, the middle and the last row are
 /// computed and timed; a row in which models fail counts as computed. Throws the Errors of
-/// Study::run, Error(kInterrupted) among them if `stop` requests a stop, and Error(kBadInput) if
+/// Study::run, for example Error(kInterrupted) if `stop` requests a stop, and Error(kBadInput) if
 /// `output` exists and is not a regular file.
 DryRun dry_run(const sweep::Study& study, const std::string& output, const StopToken& stop);
 
-/// A line for each output, then the time that all of them take if `jobs` rows are computed at once
-/// (>= 1, not checked). If `json` is true, the same as a JSON object: "jobs", "seconds" [s] of all
-/// missing rows, and "outputs", an array of objects, in the order of `runs`. Nothing is thrown.
+/// The text for the user: a line for each output, then the time that the missing rows of all
+/// outputs take if `jobs` of them are computed at once (>= 1, not checked). If `json` is true, the
+/// text is a JSON object with the keys "jobs", "seconds" (time of all missing rows [s]), and
+/// "outputs", an array of one object for each of `runs`, in their order. Its keys are "output",
+/// "rows", "finished", "failed", "seconds_per_row" [s] and "estimated_from" (DryRun::basis).
+/// Without `runs` there is no key "outputs". Nothing is thrown.
 std::string dry_run_text(const std::vector<DryRun>& runs, int jobs, bool json);
 
 }  // namespace viscontact::pipeline

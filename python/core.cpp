@@ -1,7 +1,11 @@
-// The library viscontact._core of the Python module: errors of the program as exceptions of Python,
-// Ctrl-C, and the version. The other sources of this folder add classes and functions (call.hpp).
-// python/viscontact/ imports it. If Python itself fails, py::error_already_set is thrown. A change
-// must keep the names of the exceptions, which users' scripts catch.
+// Makes the library viscontact._core of the Python module: translates errors of the program into
+// exceptions of Python, handles Ctrl-C, and states the version. The other sources of this folder
+// add classes and functions (call.hpp). The Python files in python/viscontact/ import the library.
+// There are no numbers with units. Error(kWrongUsage) and Error(kBadInput) become InputError,
+// Error(kNotConverged) becomes NotConvergedError, Error(kExternalProgram) ExternalProgramError, and
+// Error(kInterrupted) Error, the base class of all. If Python itself fails, py::error_already_set
+// is thrown. A change must keep the names and base classes of the exceptions, which users' scripts
+// catch; their descriptions may be changed freely.
 #include <csignal>
 #include <exception>
 
@@ -11,11 +15,12 @@
 namespace viscontact::python {
 namespace {
 
-// The handler of SIGINT sets it. It is global, because a handler has no other access to data.
+// True after SIGINT has come: the handler remember_interrupt() sets this variable. It is global,
+// because a handler has no other access to data.
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
-// Number of InterruptGuards that exist, one for each long call in any thread, and the handler of
-// SIGINT before the first of them. The interpreter's lock protects both variables.
+// Number of InterruptGuards that exist, one for each long call in any thread, and the handler that
+// SIGINT had before the first of them. The interpreter's lock protects both variables.
 int guards = 0;
 struct sigaction handler_before = {};
 
@@ -27,7 +32,8 @@ struct Exceptions {
 };
 Exceptions exceptions;
 
-/// Makes viscontact.NAME with these base classes.
+/// Makes the exception viscontact.NAME, where NAME is `name`, with the base class `base` and,
+/// unless it is null, `further_base`. Throws py::error_already_set if Python cannot make it.
 PyObject* make_exception(py::module_& module, const char* name, const char* description,
                          PyObject* base, PyObject* further_base) {
   const auto bases = further_base == nullptr
@@ -72,7 +78,7 @@ InterruptGuard::InterruptGuard() {
   // If there is no handler, nothing could act on the signal after the call, so nothing is changed.
   if (handler_before.sa_handler == SIG_DFL || handler_before.sa_handler == SIG_IGN) return;
   struct sigaction action = {};
-  action.sa_handler = remember_interrupt;  // without SA_RESTART, a signal ends a waiting call
+  action.sa_handler = remember_interrupt;  // without SA_RESTART, so that it ends a waiting call
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
 }
@@ -80,7 +86,7 @@ InterruptGuard::InterruptGuard() {
 InterruptGuard::~InterruptGuard() {
   if (--guards > 0) return;
   sigaction(SIGINT, &handler_before, nullptr);
-  // The signal came too late to stop the call; Python's own handler now acts on it.
+  // If the signal came too late to stop the call, Python's own handler now acts on it.
   if (interrupted.exchange(false)) PyErr_SetInterrupt();
 }
 

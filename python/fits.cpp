@@ -1,11 +1,11 @@
-// Tables of the lubrication force and their fits in Python: Fit, PairFit, tabulate, fit, fit_pair.
-// Numbers are in the units of the table; the texts for users below have their dimensions. The
-// values are those of the libraries, bit for bit. Errors are those of the functions that are
-// called; a wrong argument is an Error(kWrongUsage), but an unknown basis, term, weight or loss is
-// an Error(kBadInput). core.cpp adds them to the module. A change must keep the names and
-// arguments, which users' scripts contain; docs/python.md describes them. `dimensions` must have
-// the order of motions::pair_entries(), and the texts that recognise files must be those of
-// app/commands/fit_command.cpp.
+// Gives Python the tables of the lubrication force and their fits: the classes Fit and PairFit and
+// the functions tabulate, fit and fit_pair, which core.cpp adds to the module. Numbers are in the
+// units of the table; the texts for users below state their dimensions. The values are those of the
+// C++ libraries, bit for bit. A wrong argument throws Error(kWrongUsage), but an unknown basis,
+// term, weight or loss, and a wrong file, Error(kBadInput); the other errors of the libraries pass.
+// A change must keep the names and arguments, which users' scripts contain (docs/python.md); the
+// texts for users are free. `dimensions` must have the order of motions::pair_entries(). The texts
+// by which write_to() recognises files must be those of app/commands/fit_command.cpp.
 #include <fmt/format.h>
 
 #include <optional>
@@ -36,8 +36,9 @@ namespace fs = std::filesystem;
   throw Error(ErrorKind::kWrongUsage, message);
 }
 
-/// The drag below and above the interval of the fit that these names stand for. Without a name, a
-/// gap there is an error. Throws Error(kWrongUsage) for an unknown name.
+/// The drag below and above the interval of the fit that these names stand for. Without a name, the
+/// force at a gap on that side throws Error(kBadInput). Throws Error(kWrongUsage) for an unknown
+/// name.
 lubrication::OutsideInterval outside_of(const std::optional<std::string>& below,
                                         const std::optional<std::string>& above) {
   lubrication::OutsideInterval outside;
@@ -63,7 +64,9 @@ double positive_or(const std::optional<double>& value, double other, const char*
   return value.value_or(other);
 }
 
-/// The fit in the file, scaled. Throws the errors of read_fit(), positive_or() and outside_of().
+/// The fit in the file at `path`, scaled to `radius` [L] and `viscosity` [M/(L T)] if they are
+/// given. Throws Error(kBadInput) if the file is missing or no fit, and Error(kWrongUsage) if a
+/// number is not finite and > 0 or a name is unknown.
 PythonFit read_python_fit(const fs::path& path, const std::optional<std::string>& below,
                           const std::optional<std::string>& above,
                           const std::optional<double>& radius,
@@ -75,8 +78,9 @@ PythonFit read_python_fit(const fs::path& path, const std::optional<std::string>
           outside_of(below, above)};
 }
 
-/// Writes a fit file, unless the file has this text already. Throws the errors of
-/// refuse_other_kind() and write_output().
+/// Writes the text of a fit file, unless the file has this text already. `kind` is a text that
+/// every file of this kind contains, `kind_in_words` its name in messages. Throws Error(kBadInput)
+/// if the file would replace one that is not of this kind, or cannot be written.
 void write_to(const fs::path& path, const std::string& text, const char* kind,
               const char* kind_in_words) {
   results::refuse_other_kind(path, kind, kind_in_words);
@@ -128,7 +132,8 @@ PythonFit fit_table(const fs::path& path, const std::optional<std::string>& basi
   return {std::move(fit), path.string(), outside};
 }
 
-/// The function `fit_pair` of Python, likewise.
+/// The function `fit_pair` of Python, whose text for users is in add_fits(). Throws
+/// Error(kWrongUsage) without a table, and the errors of the functions that it calls.
 motions::PairFit fit_pair_tables(const std::vector<fs::path>& paths, const std::string& basis,
                                  const std::string& loss, const std::optional<fs::path>& output) {
   motions::PairFitSettings settings{basis, lubrication::parse_loss(loss)};
@@ -148,8 +153,9 @@ motions::PairFit fit_pair_tables(const std::vector<fs::path>& paths, const std::
 }
 
 /// The tables of a case of one sphere, a rolling sphere or a swimmer. One table is the file
-/// `output`; those of several motions are files in the folder `output`. `asked` names the motions;
-/// if it is empty, they are those of the case.
+/// `output`; the tables of several motions are files in the folder `output`. `asked` names the
+/// motions; if it is empty, the case names them. Throws Error(kBadInput) if the case is wrong or
+/// has no section [tabulation], or if a motion is unknown.
 std::vector<pipeline::CaseTable> tables_of(const fs::path& case_file, const fs::path& output,
                                            const std::vector<std::string>& asked) {
   const auto kind = case_file::kind_of_case(case_file);
@@ -171,8 +177,10 @@ std::vector<pipeline::CaseTable> tables_of(const fs::path& case_file, const fs::
 }
 
 /// The function `tabulate` of Python (viscontact/__init__.py): computes the tables and returns
-/// their paths. Throws Error(kWrongUsage) for jobs < 0 and the errors of tabulate_stage(); a row
-/// that failed is thrown after the other rows are written.
+/// their paths. `jobs` is the number of rows that are computed at once; 0 means the number of
+/// cores. Throws Error(kWrongUsage) for jobs < 0, Error(kBadInput) if an output would replace a
+/// file that is not a table, and the errors of tabulate_stage(). If rows failed, the error that
+/// names them is thrown after the other rows are written.
 std::vector<fs::path> tabulate(const fs::path& case_file, const fs::path& output, int jobs,
                                const std::vector<std::string>& motions) {
   if (jobs < 0) refuse(fmt::format("jobs is {}; it must be > 0, or 0 for all cores", jobs));

@@ -1,10 +1,11 @@
-// Many particles in Python: the class Particles. Its caller makes the steps and may set forces on
-// the particles before each step. core.cpp adds it to the module, and
-// python/viscontact/particles.py derives the class of users from it. Arrays are views of the state
-// of the simulation, without copies. Numbers are in the units of the case; the texts for users
-// below have their dimensions. A wrong argument is an Error(kWrongUsage), a wrong case an
-// Error(kBadInput); other errors are those of particles/run/particle_simulation.hpp. A change must
-// keep that views stay valid: no step may move an array of the state to another place in memory.
+// Gives Python the class Particles, a simulation of many particles whose caller makes the steps and
+// may set forces on the particles before each step. core.cpp adds the class to the module, and
+// python/viscontact/particles.py derives from it the class that users see. Arrays are views of the
+// state of the simulation, without copies. Numbers are in the units of the case; the texts for
+// users below state dimensions and shapes. A wrong argument throws Error(kWrongUsage), a wrong case
+// Error(kBadInput), a step that cannot be computed Error(kNotConverged), a fluid solver that fails
+// Error(kExternalProgram). A change must keep the names, which users' scripts contain, and that
+// views stay valid: no step may move an array of the state to another place in memory.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -33,12 +34,12 @@ class PythonParticles {
                     threads, freefem_flow::start_fluid_solver, interrupt_token()) {}
 
   const particles::ParticlesCase& case_file() const { return case_; }
-  /// The simulation, without check_idle().
+  /// The simulation. The caller must have called check_idle(), or be a step that compute() runs.
   particles::ParticleSimulation& simulation() { return simulation_; }
 
   /// Throws Error(kWrongUsage) while another thread computes steps. All functions that read or
-  /// change the simulation call it; without the interpreter's lock, compute() and compute_step()
-  /// must not.
+  /// change the simulation call check_idle(). Only a thread that holds the interpreter's lock may
+  /// call it, so that compute() and compute_step() do so before they release the lock.
   void check_idle() const {
     if (is_computing_)
       throw Error(ErrorKind::kWrongUsage,
@@ -47,8 +48,8 @@ class PythonParticles {
 
   /// Calls `step` while other threads of Python may run. Meanwhile check_idle() refuses their calls
   /// for this object, but they can read the views that they already have. Without a fluid, Ctrl-C
-  /// cannot stop a step, so Python's own handler stays in place and acts after the step: to replace
-  /// it would take 5 us, 2 % of a short step of 1000 discs.
+  /// cannot stop a step, so Python's own handler stays in place and acts after the step. To replace
+  /// the handler would take 5 us, which is 2 % of a short step of 1000 discs.
   template <class Step>
   particles::StepReport compute_step(const Step& step) {
     if (simulation_.has_fluid()) return compute([&](const StopToken&) { return step(); });
@@ -58,7 +59,7 @@ class PythonParticles {
     return step();
   }
 
-  /// Calls `compute` as long_call() does; check_idle() refuses other calls meanwhile.
+  /// Calls `compute` as long_call() does. Meanwhile check_idle() refuses other calls.
   template <class Compute>
   auto compute(const Compute& compute) {
     check_idle();
@@ -100,8 +101,9 @@ std::unique_ptr<PythonParticles> open_case(const fs::path& path, int threads,
 }
 
 /// A NumPy array that views the `size` numbers from `numbers` on, which belong to the simulation in
-/// `owner`, and keeps `owner` alive. The numbers are `rows` rows of equal length; the array has one
-/// dimension if this length is 1 and `is_flat`.
+/// `owner`, and keeps `owner` alive. The numbers are `rows` rows of equal length `size`/`rows`. The
+/// array has the shape (rows, length), or (rows,) if the length is 1 and `is_flat` is true. Nothing
+/// is checked.
 template <class Number>
 py::array view(const py::object& owner, const Number* numbers, std::size_t size, std::size_t rows,
                bool is_flat, bool is_writeable) {
@@ -123,7 +125,7 @@ auto view_of(Member particles::Particles::*member, bool is_flat = false) {
   };
 }
 
-/// Two times that differ by less than this [T] differ by rounding errors only.
+/// Times that differ by less than the result [T], a millionth of the time step, count as equal.
 double tiny_time(const PythonParticles& self) { return 1e-6 * self.case_file().setting.time_step; }
 
 /// `until` [T], or `otherwise` if there is none. Throws Error(kWrongUsage) if `until` is NaN or
@@ -143,7 +145,9 @@ particles::StepReport step(PythonParticles& self, const std::optional<double>& u
   return self.compute_step([&] { return self.simulation().step(end); });
 }
 
-/// Makes steps until the time `until`, by default end_time of the case. Returns their number.
+/// Makes steps until the time `until` [T], by default end_time of the case. Returns the number of
+/// steps. Throws Error(kWrongUsage) if `until` is not finite or before the present time, and the
+/// errors of the steps; the steps before the error are kept.
 std::int64_t run(PythonParticles& self, const std::optional<double>& until) {
   const double end = end_of_steps(self, until, self.case_file().end_time);
   const double tiny = tiny_time(self);
@@ -161,8 +165,7 @@ std::int64_t run(PythonParticles& self, const std::optional<double>& until) {
   });
 }
 
-/// An array with the vector value(contact) in the row of each contact, and with `dimension`
-/// columns.
+/// An array of the shape (contacts, `dimension`), whose rows are the vectors value(contact).
 template <class Value>
 py::array vectors(const std::vector<particles::CurrentContact>& contacts, int dimension,
                   const Value& value) {

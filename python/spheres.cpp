@@ -1,9 +1,10 @@
-// Motions of single spheres in Python: simulate, rolling, swimmer. Each takes a case and a table or
-// fit that was made before, and returns arrays. No file is written. Numbers are in the units of the
-// case; the texts for users below have dimensions and shapes. Errors are those of the models, with
-// their names; a wrong argument is an Error(kWrongUsage), a wrong file an Error(kBadInput).
-// core.cpp adds them to the module. A change must keep the names of functions, arguments and
-// columns, which users' scripts contain; docs/python.md describes them.
+// Gives Python the motions of single spheres: the functions simulate, rolling and swimmer, which
+// core.cpp adds to the module. Each takes a case and a table or fit that was made before, and
+// returns arrays. No file is written. Numbers are in the units of the case; the texts for users
+// below state dimensions and shapes. A wrong argument throws Error(kWrongUsage), a wrong file or
+// number Error(kBadInput), a model that fails its own error (for example Error(kNotConverged)),
+// which ends the call without results. A change must keep the names of functions, arguments and
+// columns, which users' scripts contain (docs/python.md); the texts for users are free.
 
 #include <limits>
 #include <map>
@@ -29,19 +30,21 @@ namespace {
 namespace fs = std::filesystem;
 using Numbers = std::map<std::string, double>;
 
-/// The case in a file with other numbers at the keys of `numbers`, such as "sphere.radius".
+/// The case in the file at `path`, in which the value at each key of `numbers`, such as
+/// "sphere.radius", is replaced. Throws Error(kBadInput) if the file, a key or a value is wrong.
 template <class Case>
 Case read_with(const fs::path& path, const Numbers& numbers) {
   const std::vector<std::pair<std::string, double>> changed(numbers.begin(), numbers.end());
   return case_file::CaseTemplate<Case>(path).with(changed);
 }
 
-/// A fit that is given as an object or as a file.
+/// A fit that is given as an object or as the path of a fit file.
 using GivenFit = std::variant<const PythonFit*, fs::path>;
 using GivenPairFit = std::variant<const motions::PairFit*, fs::path>;
 
-/// The fit that is given, or that the case names, scaled to the case. Throws Error(kWrongUsage) if
-/// there is neither, and the errors of case_file::fit_for().
+/// The fit that is given or else that the case names, scaled to radius and viscosity of the case.
+/// Throws Error(kWrongUsage) if there is neither, and Error(kBadInput) if the file is no fit or the
+/// fit cannot be scaled to the case.
 lubrication::Fit fit_of(const case_file::Case& c, const std::optional<GivenFit>& given) {
   if (given) {
     if (const auto* object = std::get_if<const PythonFit*>(&*given))
@@ -154,8 +157,9 @@ py::object columns_of(const rolling::RollingTrajectory& rows, const rolling::Rol
   return as_columns(columns, about);
 }
 
-/// The fit of the resistances of sphere and plane that is given, or that the case names, scaled to
-/// the case. Throws Error(kWrongUsage) if there is neither, and the errors of rolling::fit_for().
+/// The fit of the resistances of sphere and plane that is given or else that the case names, scaled
+/// to radius and viscosity of the case. Throws Error(kWrongUsage) if there is neither, and
+/// Error(kBadInput) if the file is no fit of a pair or the fit does not belong to the case.
 motions::PairFit fit_of(const rolling::RollingCase& c, const std::optional<GivenPairFit>& given) {
   if (given)
     if (const auto* object = std::get_if<const motions::PairFit*>(&*given))
@@ -187,7 +191,8 @@ py::dict roll(const fs::path& path, const std::optional<GivenPairFit>& given,
   return by_model;
 }
 
-/// The motion of the swimmer in one stroke, a cycle of the lengths of its arms.
+/// The motion of the swimmer in one stroke, a cycle of the lengths of its arms. `rows` has at least
+/// one row (not checked).
 struct SwumStroke {
   double period;  // [T], > 0
   swimmer::SwimSums sums;
@@ -242,8 +247,9 @@ swimmer::ResistanceTable table_of(const swimmer::SwimmerCase& c,
   return table;
 }
 
-/// The function `swimmer` of Python. Throws Error(kWrongUsage) if `intervals` < 1 or no table is
-/// given, and the errors of the functions of swimmer/.
+/// The function `swimmer` of Python. A stroke has about `intervals` rows. Throws Error(kWrongUsage)
+/// if `intervals` < 1 or no table is given, Error(kBadInput) if the case or the table is wrong, and
+/// Error(kNotConverged) if an integral or the search for the optimal stroke does not converge.
 py::dict swim(const fs::path& path, const std::optional<fs::path>& table_path, int intervals) {
   if (intervals < 1)
     throw Error(ErrorKind::kWrongUsage, "intervals is {}; it must be > 0", intervals);

@@ -1,10 +1,10 @@
-// Comparison of trajectories of a sphere near a wall: how thin the film between them gets, when
-// there is contact, and how far each trajectory is from the reference. q is the gap, u the
-// velocity, q_ref and u_ref those of the reference. In contact models gamma [M L/T] is minus the
-// impulse that the film has absorbed, <= 0. Lengths, masses and times are in the units of the
-// trajectories. Trajectories that cannot be compared and wrong files throw Error(kBadInput), a stop
-// Error(kInterrupted). Used by pipeline/, sweep/, results/ and report/. A change must keep
-// comparison files of earlier versions readable.
+// Compares trajectories of a sphere near a wall: how thin the film between sphere and wall gets,
+// when there is contact, and how far each trajectory is from one of them, the reference. q is the
+// gap, u the velocity; q_ref and u_ref are the gap and the velocity of the reference. In contact
+// models gamma [M L/T] is minus the impulse that the film has absorbed, <= 0. Lengths, masses and
+// times are in the units of the trajectories. Error(kBadInput) is thrown if trajectories cannot be
+// compared or a file is wrong, Error(kInterrupted) at a stop. pipeline/, sweep/, results/ and
+// report/ call these functions. A change must keep comparison files of earlier versions readable.
 #pragma once
 
 #include <array>
@@ -19,16 +19,17 @@
 
 namespace viscontact::reduced_model {
 
-/// What the comparison finds for one trajectory.
+/// What the comparison finds for the trajectory of one model.
 struct ModelComparison {
-  std::string model;            ///< its name
+  std::string model;            ///< name of the model
   double minimal_gap = 0;       ///< smallest gap of the rows [L], >= 0
   double minimal_gap_time = 0;  ///< time of the first row with this gap [T]
-  /// Film thickness that the model computes from the lowest gamma [L], >= 0; nothing if gamma is
-  /// never < 0. Contact models only.
+  /// Film thickness that a contact model computes from the lowest gamma [L], >= 0; nothing if gamma
+  /// is never < 0 or if the model is not a contact model.
   std::optional<double> recovered_minimal_gap;
-  /// First time at which contact begins and last time at which it ends [T]. In a trajectory that
-  /// does not state them: the times of the first and last row with gamma < 0, if any.
+  /// First time at which contact begins and last time at which contact ends [T]. If the trajectory
+  /// does not state them, they are the times of the first and last row with gamma < 0; nothing if
+  /// there is no such row.
   std::optional<std::array<double, 2>> contact_interval;
   /// When the solids touch for the first time; nothing if they never do, or if the model has no
   /// solids.
@@ -46,22 +47,23 @@ struct ModelComparison {
 
 /// A model that should have run but failed.
 struct ModelWithoutTrajectory {
-  std::string model;   ///< its name
-  std::string reason;  ///< message of its error
+  std::string model;   ///< name of the model
+  std::string reason;  ///< message of the error with which the model failed
 };
 
 /// The comparison of all models with one of them.
 struct Comparison {
-  std::string reference_model;                          ///< name of the model of reference
+  std::string reference_model;                          ///< name of the reference
   std::vector<ModelComparison> models;                  ///< in the order of the trajectories
   std::vector<ModelWithoutTrajectory> failed_models{};  ///< empty until the caller fills it in
   std::string units{};  ///< units in words, as the first trajectory says; may be empty
 };
 
-/// Compares each trajectory with that of `reference_model` over the times that both cover. Between
-/// its rows each trajectory is linear; each must have a row (not checked). Throws Error(kBadInput)
-/// if no trajectory has that name, if two have the same name, or if one has no time in common with
-/// the reference, and Error(kInterrupted) if `stop` requests a stop.
+/// Compares each trajectory with the trajectory of `reference_model` over the times that both
+/// cover. Each trajectory counts as linear between its rows, and must have a row (not checked).
+/// Comparison::failed_models stays empty. Throws Error(kBadInput) if no trajectory has that name,
+/// if two have the same name, or if one has no time in common with the reference, and
+/// Error(kInterrupted) if `stop` requests a stop.
 Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
                                 std::string_view reference_model, const StopToken& stop = {});
 

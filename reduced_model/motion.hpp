@@ -1,8 +1,9 @@
-// What every model of motion is given: the sphere, its start, the external force, and the values of
-// the models' parameters. Lengths, masses and times are in any consistent units. Case files set and
-// check these members, models do not check them; a parameter without a value, or too many steps,
-// throws Error(kBadInput). Used by reduced_model/, rolling/ and case_file/. A change must keep the
-// keys, which users' case files contain.
+// Declares what every model of motion is given: the sphere, its start, the external force, and the
+// values of the models' parameters. Lengths, masses and times are in any consistent units. The
+// reader of case files sets and checks these members, models do not check them. Error(kBadInput) is
+// thrown if a parameter has no value or if there are too many steps. reduced_model/, rolling/ and
+// case_file/ use this file. A change must keep the keys, which users' case files contain. The
+// defaults of parameters are free choices, but change the results of cases without the key.
 #pragma once
 
 #include <array>
@@ -26,7 +27,7 @@ struct Motion {
   double mass = 0;               ///< m [M], > 0
   double initial_gap = 0;        ///< q0 [L], > 0
   double initial_velocity = 0;   ///< v0 [L/T], > 0 away from the wall
-  double end_time = 0;           ///< [T], > 0
+  double end_time = 0;           ///< end of the motion, which begins at time 0 [T], > 0
   ExternalForce external_force;  ///< f_ext [M L/T^2], along the outward normal
 
   /// Heights r1, r2 of the roughness of sphere and wall [L], >= 0; smooth surfaces if both are 0.
@@ -35,18 +36,21 @@ struct Motion {
   /// parameter() reads them.
   std::map<std::string_view, double> parameters{};
 
-  /// Approximate number of rows of a trajectory file (fewer_rows()), >= 2; 0 writes all rows.
+  /// Approximate number of rows of a trajectory file (fewer_rows()), >= 2; with 0 all rows are
+  /// written.
   int output_rows = 0;
-  /// report_progress() calls it with the time [T] that a model has reached; may be empty.
+  /// report_progress() calls this function with the time [T] that a model has reached; may be
+  /// empty.
   std::function<void(double time)> progress{};
-  /// If it requests a stop, report_progress() throws Error(kInterrupted).
+  /// If this token requests a stop, report_progress() throws Error(kInterrupted).
   StopToken stop{};
 
-  /// The value of a parameter in its dimension. Throws Error(kBadInput) if it has no value.
+  /// The value of a parameter in its dimension. Throws Error(kBadInput) if the parameter has no
+  /// value.
   double parameter(const ModelParameter& which) const;
   /// Coefficient of restitution e_d of the solids, 0 to 1 [1]; 0 without a value of kRestitution.
   double restitution() const;
-  /// Sets a parameter. The value must be one that `which` allows, which is not checked here.
+  /// Sets a parameter. The value must be one that `which.allowed` accepts (not checked).
   void set(const ModelParameter& which, double value) { parameters[which.key] = value; }
 };
 
@@ -54,7 +58,8 @@ struct Motion {
 /// A. Lefebvre (2008) that data/cases/lecture.toml repeats.
 inline double default_time_step(const Motion& motion, double) { return motion.end_time / 4000; }
 
-/// Step h of `reference` [T], > 0, and row spacing of models that choose their steps themselves.
+/// Time step h of the model `reference` [T], > 0, and spacing of the rows of models that choose
+/// their steps themselves.
 inline constexpr ModelParameter kReferenceTimeStep = {
     "reference.time_step",
     "time step of the reference, row spacing of reference_exact and inertial",
@@ -63,7 +68,7 @@ inline constexpr ModelParameter kReferenceTimeStep = {
     default_time_step,
     true,
     "`end_time`/4000"};
-/// Step h of the contact models and of `explicit_euler` [T], > 0.
+/// Time step h of the contact models and of the model `explicit_euler` [T], > 0.
 inline constexpr ModelParameter kContactTimeStep = {"viscous_contact.time_step",
                                                     "time step of the contact models",
                                                     "T",
@@ -82,17 +87,19 @@ inline constexpr ModelParameter kRestitution = {
     false,
     "0"};
 
-/// Models call this function at intervals with the time [T] that they have reached. Throws
-/// Error(kInterrupted) if motion.stop requests a stop, else calls motion.progress.
+/// Models call this function now and then with the time [T] that they have reached. Throws
+/// Error(kInterrupted) if motion.stop requests a stop, else calls motion.progress unless it is
+/// empty.
 void report_progress(const Motion& motion, double time);
 
-/// Number of steps, of a model whose steps are cheap, between two calls of report_progress(). They
-/// take about 0.1 ms, so that the calls cost little and a stop acts at once.
+/// Number of steps between two calls of report_progress() in a model whose steps are cheap, a free
+/// choice. So many steps take about 0.1 ms, so that the calls cost little and a stop acts at once.
 inline constexpr int kStepsBetweenProgressReports = 4096;
 
-/// Number of steps, >= 1, of size `step` > 0 [T] that cover [0, end] [T]. The last step may be
-/// shorter. A last step of less than 1e-6 `step` is dropped, because it is round-off of end/step.
-/// Throws Error(kBadInput) for more than 1e8 steps.
+/// Number of steps, >= 1, of length `step` > 0 [T] that cover the times from 0 to `end` [T]. The
+/// last step may be shorter. A last step of less than 1e-6 `step` is dropped, because it is a
+/// rounding error of end/step. Throws Error(kBadInput) if there are more than 1e8 steps, or if
+/// end/step is not a number.
 int step_count(double end, double step);
 
 /// The time [T] after `index` of the `count` steps, 0 <= index <= count (not checked); after the
@@ -102,8 +109,9 @@ inline double step_time(int index, int count, double end, double step) {
 }
 
 /// The times [T] of the rows of a model without a fixed step: 0, the multiples of `parameter`, the
-/// jumps of the force or of its slope, and end_time, in increasing order. A multiple within 1e-6 of
-/// the spacing from a jump is left out. Throws the errors of step_count() and Motion::parameter().
+/// jumps of the force or of its slope, and end_time, in increasing order. A multiple is left out if
+/// it differs from a jump by less than 1e-6 times `parameter`. Throws Error(kBadInput) if
+/// `parameter` has no value or if there are more than 1e8 multiples.
 std::vector<double> row_times(const Motion& motion,
                               const ModelParameter& parameter = kReferenceTimeStep);
 

@@ -1,9 +1,10 @@
 // Writes the files that grow while a run of many particles computes: frames (the states at the
-// output times), the lists of their files, and tables. Nothing of them stays in memory. Lengths,
-// masses and times are in the units of the case. A file that cannot be written, or that somebody
-// else has changed, throws Error(kBadInput) with its name. Used by particles_stage.cpp and
-// particles_earlier_run.cpp. A change must keep that an interrupted run that is continued from its
-// record gives the same files as an uninterrupted one.
+// output times), the lists of the files of frames, and tables. Rows and frames are written as they
+// come and are not kept in memory. Lengths, masses and times are in the units of the case.
+// Error(kBadInput), which names the file, is thrown if a file cannot be written or if somebody else
+// has changed it. particles_stage.cpp and particles_earlier_run.cpp use RunLog. A change must keep
+// that an interrupted run that is continued from its record gives the same files as an
+// uninterrupted one.
 #pragma once
 
 #include <cstdint>
@@ -23,11 +24,13 @@
 
 namespace viscontact::particles {
 
-/// Writes these files, and keeps a RunRecord of what has been written. Each function that writes
-/// throws Error(kBadInput), which names the file, if a file cannot be written.
+/// Writes the frames, lists and tables of a run, and keeps a RunRecord of what has been written.
+/// Each function that writes throws Error(kBadInput), which names the file, if a file cannot be
+/// written.
 class RunLog {
  public:
-  /// The log of a new run into `folder`. The case and `provenance` must outlive this object.
+  /// Makes the log of a new run into `folder`. No file is written yet. The case and `provenance`,
+  /// the record of inputs and command that each file gets, must outlive this object.
   RunLog(const ParticlesCase& c, std::filesystem::path folder,
          const results::Provenance& provenance);
 
@@ -35,17 +38,20 @@ class RunLog {
   /// `record` is missing or has been changed since.
   void check(const RunRecord& record) const;
 
-  /// Continues the run with this record: removes what was written after it. Throws as check() does.
+  /// Continues the run with this record: removes what was written after it. Throws the errors of
+  /// check(), and Error(kBadInput) if a file cannot be removed or shortened.
   void resume(const RunRecord& record);
 
-  /// Adds a step to the sums of the record and to steps.csv, and its blows (impacts of solids,
-  /// rebound.hpp) to rebounds.csv. `state` is that at the end of the step. After a million steps
-  /// (50 MB), steps.csv and probes.csv have only every thousandth step and those that did not
+  /// Adds a step to the sums of the record and to steps.csv, and the impacts of solids in the step,
+  /// `rebounds`, to rebounds.csv. If the case has no restitution, `rebounds` must be empty;
+  /// otherwise std::out_of_range is thrown. `state` is that at the end of the step. After a million
+  /// steps (50 MB), steps.csv and probes.csv have only every thousandth step and those that did not
   /// converge; rebounds.csv has at most a million rows (80 MB). These limits are free choices.
   void add_step(const StepReport& report, const State& state, std::span<const Rebound> rebounds);
 
-  /// Writes a frame of the state and its rows in the tables. `link_force_errors` are estimates of
-  /// the errors of State::link_forces, in the same order and units; empty: not known.
+  /// Writes a frame of the state, and the rows of the state in the tables. `link_force_errors` are
+  /// estimates of the errors of State::link_forces, in the same order and units [M L/T^2, M
+  /// L^2/T^2]; they are empty if they are not known.
   void add_frame(const State& state, std::span<const double> link_force_errors);
 
   /// True if the case has a fluid and the flow of the last frame has not been written yet. The flow
@@ -54,12 +60,14 @@ class RunLog {
   /// Writes the flow of the last frame; needs lacks_flow() (not checked).
   void add_flow(const FlowField& flow);
 
-  /// Returns when all that was added is on the disk. Throws if the disk reports an error.
+  /// Returns when all that was added is on the disk. Throws Error(kBadInput) if the disk reports an
+  /// error.
   void sync();
 
-  /// What has been written so far, with the places at which the files end.
+  /// What has been written so far, with the place at which each file ends.
   RunRecord record() const;
-  /// The sums of record(), in which the caller sets the computing times and memory.
+  /// The sums over the steps in record(). The caller sets the computing times [s] and the memory
+  /// [MiB] in them.
   StepTotals& totals() { return record_.totals; }
 
  private:
@@ -71,10 +79,10 @@ class RunLog {
   const ParticlesCase& case_;
   std::filesystem::path folder_;
   const results::Provenance& provenance_;
-  std::map<std::string, GrowingFile> files_;      // by name
+  std::map<std::string, GrowingFile> files_;      // the key is the file's name
   std::vector<TimeTable> tables_;                 // tables that get rows with each frame
   std::vector<std::filesystem::path> unflushed_;  // files of frames that may not be on the disk yet
-  RunRecord record_;                              // without RunRecord::files, which record() adds
+  RunRecord record_;                              // its `files` are empty; record() adds them
 };
 
 }  // namespace viscontact::particles

@@ -1,7 +1,7 @@
-// What is recorded of one time step of a simulation, for steps.csv and run.json, and the residuals
-// that decide whether the step is accepted. A residual [L] is the distance of a gap or a length
-// from the value that its condition demands; docs/particles.md, "The projection", says what is
-// allowed. Lengths, masses and times are in the units of the case file. simulation.cpp and
+// Declares the report of one time step of a simulation, for steps.csv and run.json, and the
+// residuals that decide whether the step has converged. A residual [L] is the distance of a gap or
+// a length from the value that its condition demands; docs/particles.md, "The projection", says
+// what is allowed. Lengths, masses and times are in the units of the case file. simulation.cpp and
 // projection/ (particles with masses) and fluid/ fill the report, and particles/run writes it. Only
 // refuse_deep_overlap() throws. A change must keep what the columns of steps.csv mean.
 #pragma once
@@ -17,19 +17,20 @@
 
 namespace viscontact::particles {
 
-/// Estimates of the errors of the flow's results, each relative to the largest result [1], >= 0. A
-/// negative number means that no estimate was made.
+/// Estimates of the errors of velocities or forces in a fluid, each divided by the largest velocity
+/// or force [1], >= 0. A negative number means that no estimate was made.
 struct RelativeErrors {
-  double best = -1;         ///< of the results extrapolated from two meshes, the most accurate ones
-  double of_one_mesh = -1;  ///< of the results on the first mesh, with which particles are moved
-  /// The part of both that is due to the penalty, a finite viscosity inside the particles.
+  double best = -1;         ///< error of the results that are extrapolated from two meshes
+  double of_one_mesh = -1;  ///< error of the results on the first mesh, which move the particles
+  /// The part of both errors that is due to the penalty, a finite viscosity inside the particles.
   double of_penalty = -1;
 };
 
 /// What is recorded of one step in a fluid.
 struct FluidStepReport {
   double dissipation = 0;  ///< of the flow [M L^2/T^3], in two dimensions per length [M L/T^3]
-  /// Dissipation over that without particles [1], docs/physics.md (6.6); 0 if that is 0 or unknown.
+  /// Dissipation of the flow divided by the dissipation of the flow without particles [1],
+  /// docs/physics.md (6.6); 0 if the latter is 0 or unknown.
   double apparent_viscosity = 0;
   // In a fluid with inertia:
   double kinetic_energy = 0;  ///< of the fluid [M L^2/T^2], in two dimensions per length [M L/T^2]
@@ -38,7 +39,7 @@ struct FluidStepReport {
   /// Largest path of the fluid relative to the mesh in the step, over the length of an edge [1].
   double courant_number = 0;
   /// Sum of the forces of the fluid on the particles whose motion is given [M L/T^2], in two
-  /// dimensions per length [M/T^2]; on an axis only the first, along z.
+  /// dimensions per length [M/T^2]: components x and y; on an axis only the first, along z.
   std::array<double, 2> given_force{};
   double flow_time = 0;  ///< time of the flow that the step has computed [T]
   /// Flow [L^2/T] and mean pressure [M/(L T^2)] of each probe of the case at flow_time; empty if
@@ -49,23 +50,25 @@ struct FluidStepReport {
   RelativeErrors force_errors;     ///< of the forces of the fluid on the particles
 };
 
-/// What is recorded of one step. For a contact, let d be its gap after the step [L] as the problem
-/// of the step has it (ContactSystem::gap(): the linearised gap, except in groups that turn), p its
-/// impulse [M L/T], gamma the lower bound
-/// of p (minus the impulse that its film had absorbed before the step) [M L/T], and w the change of
-/// the gap per impulse [T/M].
+/// What is recorded of one step. For a contact, let d be the gap after the step [L] that the
+/// problem of the step has: the gap linearised in the displacements, or the distance of the
+/// surfaces if the contact belongs to a set with rigid bodies or links that turns
+/// (ContactSystem::gap()). Let p be the impulse of the contact [M L/T], gamma the lower bound of p
+/// (minus the impulse that the film had absorbed before the step) [M L/T], and w the change of the
+/// gap per impulse [T/M].
 struct StepReport {
-  double time = 0;           ///< at the end of the step [T]
+  double time = 0;           ///< time at the end of the step [T]
   std::size_t contacts = 0;  ///< number of contacts in the problem that the step solves
   std::size_t glued = 0;     ///< number of contacts with gamma < 0 after the step
   /// Iterations of the solver of this problem, summed over the parts of the step. With friction,
-  /// bodies or links each set of connected particles is solved by itself, and this is the number of
-  /// the set that needs most.
+  /// bodies or links each set of connected particles is solved by itself; then the iterations of
+  /// the set that needs most are counted.
   int iterations = 0;
   /// Largest residual |min(d, w (p - gamma))| of a contact, divided by the mean radius [1].
   double residual = 0;
-  /// Largest residual divided by w and by the impulses at work on the particles of the contact [1]:
-  /// of forces, of contacts, and the change of momentum (docs/particles.md, "The projection").
+  /// Largest residual divided by w and by the impulse at work in the contact [1]. The impulse at
+  /// work on a particle is the largest of the impulse of forces, the change of momentum, and the
+  /// impulses of contacts in the step (docs/particles.md, "The projection").
   double impulse_residual = 0;
   bool converged = true;  ///< true if the residuals of all contacts and links are allowed
   /// Largest residual over what is allowed for its contact or link [1], >= 0; infinite if the step
@@ -77,51 +80,58 @@ struct StepReport {
   /// Number of parts into which the step was divided, 1 to 256, where particles move fast; 1 if no
   /// time was left for a step.
   int parts = 0;
-  /// Number of contacts whose particles move around each other too far for linearised gaps, even in
-  /// the smallest parts of the step (kLargestTurn in contact.hpp).
+  /// Number of contacts whose particles pass each other by more than half the sum of their radii
+  /// even in the smallest parts of the step (kLargestTurn in contact.hpp), too far for linearised
+  /// gaps.
   std::size_t unresolved = 0;
-  /// True if in a part of the step given loads bounded the friction, because the problem with the
-  /// loads of its solution was not solved, docs/physics.md (5.17).
+  /// True if in a part of the step the friction was bounded by normal impulses that were fixed
+  /// beforehand, because Coulomb's law or its convex relaxation, in which these impulses are
+  /// unknown, was not solved, docs/physics.md (5.17).
   bool has_given_loads = false;
-  FluidStepReport fluid{};  ///< defaults without a fluid
+  FluidStepReport fluid{};  ///< default values if there is no fluid
 };
 
 /// The residuals of all contacts and links of a step.
 struct StepResiduals {
   double largest = 0;  ///< largest residual [L], >= 0
   double excess = 0;   ///< largest residual over what is allowed for its contact or link [1], >= 0
-  /// Largest residual as an impulse, over the impulses at work in its contact or link [1], >= 0.
+  /// Largest residual as an impulse, divided by the impulse at work in its contact or link [1],
+  /// >= 0.
   double of_impulses = 0;
-  double smallest_gap = 0;  ///< smallest gap d of StepReport [L], at most 0
+  double smallest_gap = 0;  ///< smallest gap d (see StepReport) [L], 0 if all are larger than 0
   Pair deepest_overlap;     ///< the pair with the smallest gap, if this is < 0
   bool converged = true;    ///< true if all residuals are allowed
-  /// Residual of each contact over its Contact::w (change of the gap per impulse) [M L/T], >= 0.
+  /// Residual of each contact divided by Contact::w, the change of the gap per impulse [M L/T],
+  /// >= 0.
   std::vector<double> impulse_errors;
 
-  /// Takes a residual >= 0 into account; up to `allowed` > 0 is allowed, both [L]. Returns true and
-  /// sets `converged` to false if it is larger than allowed or not a number; one that is not a
-  /// number leaves `largest` and `excess` as they are.
+  /// Takes a residual >= 0 into account. `allowed` > 0 is the largest residual that is allowed;
+  /// both are [L]. Returns true and sets `converged` to false if the residual is larger or not a
+  /// number. A residual that is not a number leaves `largest` as it is and makes `excess` infinite.
   bool take(double residual, double allowed);
-  /// Takes the residual of an impulse into account. `at_work` >= 0 are the impulses at work, both
-  /// [M L/T]; if they are 0, the residual is ignored.
+  /// Takes the residual of an impulse into account. `at_work` >= 0 is the impulse at work; both are
+  /// [M L/T]. If `at_work` is 0, the residual is ignored.
   void take_impulse(double residual, double at_work);
-  /// Takes the gap d (StepReport) of a pair into account [L]; NaN stays the smallest.
+  /// Takes the gap d (see StepReport) of a pair into account [L]. A gap that is not a number counts
+  /// as the smallest one, whatever gaps follow.
   void take_gap(double gap, const Pair& pair);
 };
 
-/// Enters the residuals of a step, or of a part of it, in the report. `mean_radius` > 0 [L]. The
-/// excess is infinite if the step has not converged although no excess is above 1.
+/// Enters the residuals of a step, or of a part of it, in the report. `mean_radius` is > 0 [L] (not
+/// checked). StepReport::excess becomes infinite if the step has not converged although no excess
+/// is above 1.
 void report_residuals(const StepResiduals& residuals, double mean_radius, StepReport& report);
 
 /// Throws Error(kNotConverged) if a step that ends at `time` [T] has not converged and leaves an
-/// overlap of more than `mean_radius` [L]. `reason` returns the end of the message, the possible
-/// cause.
+/// overlap of more than `mean_radius` [L], > 0. `reason` returns the end of the message, which says
+/// the possible cause.
 void refuse_deep_overlap(const StepResiduals& residuals, const Particles& particles,
                          const Setting& setting, double mean_radius, double time,
                          const std::function<std::string()>& reason);
 
-/// A pair in messages, with the ids of its particles: "particles 3 and 4", "particle 3 and plane
-/// 1", or, if the domain has walls, "particle 3 and obstacle 1".
+/// The name of a pair in messages, with the ids of its particles (their names in files, which may
+/// differ from their numbers): "particles 3 and 4", "particle 3 and plane 1", or, if the domain has
+/// walls, "particle 3 and obstacle 1".
 std::string name_of_pair(const Pair& pair, const Particles& particles, const Setting& setting);
 
 }  // namespace viscontact::particles

@@ -1,7 +1,8 @@
-// Decides where each time step ends: on a grid of equal steps, but for jumps of forces, torques or
-// velocities of planes (step_times.hpp has the reasons). simulation.cpp and fluid/ use it. Times
-// [T] are in the unit of the case file. Nothing is checked or thrown. A change must keep all ends
-// of steps bit for bit.
+// Decides where each time step ends: on a grid of points at the distance h, except near jumps of
+// forces, torques or velocities of planes (step_times.hpp says why). simulation.cpp and fluid/ use
+// it. The times and the length h > 0 of a step [T] are in the unit of the case file; jumps are
+// sorted. Nothing is checked or thrown. A change must keep all ends of steps bit for bit, so that
+// no constant of this file is a free choice.
 #include "viscontact/particles/steps/step_times.hpp"
 
 #include <algorithm>
@@ -10,8 +11,8 @@
 namespace viscontact::particles {
 namespace {
 
-// Differences of times below this fraction of a step count as rounding errors, which reach it only
-// in runs of more than 1e9 steps.
+// Differences of times below this fraction of h count as rounding errors. Rounding errors are
+// smaller in runs of up to 1e9 steps.
 constexpr double kTiny = 1e-6;
 
 }  // namespace
@@ -39,9 +40,9 @@ std::vector<double> jump_times(const Setting& setting) {
 double leapfrog_step_end(double time, double grid_end, double h, std::span<const double> jumps) {
   const auto next = std::ranges::upper_bound(jumps, time + kTiny * h);
   const double until_jump = next == jumps.end() ? 2 * h : *next - time;
-  // A step of the length h that begins at most 1.125 h before a jump would end after it, or at most
-  // h/8 before it. The step is then shortened so that the jump is in the middle of the next one,
-  // which gets the same length.
+  // A step of the length h that begins at most 1.125 h before a jump would end after the jump, or
+  // at most h/8 before it. The step is then shortened so that the jump is in the middle of the next
+  // one, which gets the same length.
   constexpr double kNear = 1.125;
   if (until_jump <= h / 2) return time + 2 * until_jump;
   if (until_jump <= kNear * h) return time + until_jump * 2 / 3;

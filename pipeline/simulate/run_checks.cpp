@@ -1,7 +1,10 @@
-// Checks of a case that need no table of forces: number of gaps, parameters of models, gaps [L] of
-// the motion. Faults are an Error(kBadInput), gaps outside those of the table a warning, a stop an
-// Error(kInterrupted). Used by run_stages.cpp and simulate_stage.cpp. run_checks.hpp says when a
-// gap is refused. The checks must be quick, because `run` makes them before each tabulation.
+// Checks a case before its table of forces is computed: the number of gaps, the parameters of the
+// models, and the gaps [L], > 0, that the motion reaches. A fault of the case throws
+// Error(kBadInput), a stop Error(kInterrupted). If the motion will reach gaps outside
+// tabulation.gaps later, the user only gets a warning. run_stages.cpp and simulate_stage.cpp call
+// these functions; run_checks.hpp says when an initial gap is refused. tabulation.gaps must not be
+// empty (not checked). A change must keep the checks quick, because `run` makes them before each
+// tabulation.
 #include "viscontact/pipeline/simulate/run_checks.hpp"
 
 #include <fmt/format.h>
@@ -51,7 +54,7 @@ void check_run(const case_file::Case& c, const std::vector<std::string>& models)
         request.outside.below == lubrication::BelowInterval::kError)
       refuse(name, "below the smallest", smallest, "below = \"lubrication_limit\"");
     check_parameters(c, {name});
-    // Some contact models resolve the drag above the gap of contact.
+    // A contact model needs the drag here only if it resolves the drag between contacts.
     if (!choice.exact_drag && motion.initial_gap > largest &&
         request.outside.above == lubrication::AboveInterval::kError &&
         (!makes_contact || reduced_model::contact_model_of(choice, motion, exact).drag))
@@ -61,7 +64,7 @@ void check_run(const case_file::Case& c, const std::vector<std::string>& models)
 
 void warn_of_gaps_outside(const case_file::Case& c, const std::vector<std::string>& models,
                           const StopToken& stop) {
-  constexpr double kMostSteps = 1e6;  // so many steps take about a second for each model
+  constexpr double kMostSteps = 1e6;  // free choice; so many steps take about a second per model
   const auto& tabulation = case_file::required_tabulation(c);
   const auto& request = case_file::required_fit(c);
   reduced_model::Motion motion = case_file::required_motion(c);

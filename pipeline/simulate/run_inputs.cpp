@@ -1,10 +1,10 @@
 // Checks and writes the copies of a run's inputs in its folder, and makes the comment lines of
 // trajectories that identify these inputs. Hashes are SHA-256 in hexadecimal digits; there are no
-// other numbers. A copy that would replace a file of the user is an Error(kBadInput), as is a file
-// that cannot be read or written; a trajectory that cannot be read counts as one from other inputs.
-// Used by run_stages.cpp and simulate_stage.cpp. A change must keep the order in which
-// write_copies() writes (see run_inputs.hpp). If the name or the value of a comment changes, `run`
-// simulates again.
+// other numbers. Error(kBadInput) is thrown if a copy would replace a file of the user, or if a
+// file cannot be read or written. A trajectory that cannot be read counts as one that was made from
+// other inputs. run_stages.cpp and simulate_stage.cpp call these functions. A change must keep the
+// order in which write_copies() writes (run_inputs.hpp says why). A change of the key or the value
+// of a comment makes `run` simulate again all cases, so neither is a free choice.
 #include "viscontact/pipeline/simulate/run_inputs.hpp"
 
 #include <algorithm>
@@ -105,7 +105,7 @@ bool is_simulated(const results::RunFolder& run, const std::string& model,
     // gaps; then the trajectory must lack the keys, too.
     return same(kBelowKey) && same(kAboveKey) &&
            std::ranges::all_of(identity, [&](const auto& line) { return same(line.first); });
-  } catch (const Error&) {  // not a trajectory
+  } catch (const Error&) {  // the file is not a trajectory
     return false;
   }
 }

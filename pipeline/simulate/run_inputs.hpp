@@ -1,10 +1,10 @@
-// The inputs of a run: their copies in its folder (case, files of sampled external forces, fit of
-// the drag), so that the folder alone repeats the run, and the comments of a trajectory that say
-// from which inputs it was made, by which `run` decides whether it is up to date. Nothing is
-// computed here but hashes (SHA-256, in hexadecimal digits). The other files of pipeline/ call it.
-// A change must keep that a copy never replaces a file of the user, and that the comments identify
-// everything that alters a trajectory. A file that cannot be read or written is an
-// Error(kBadInput), except in is_simulated().
+// Keeps the inputs of a run with its results. The inputs (case, files of sampled external forces,
+// fit of the drag) are copied into the run's folder, so that the folder alone repeats the run.
+// Comments of a trajectory say from which inputs it was made, so that `run` can decide whether it
+// is up to date. The only numbers here are hashes (SHA-256, in hexadecimal digits). The other files
+// of pipeline/ call these functions, which throw Error(kBadInput) if a file cannot be read or
+// written (except is_simulated()). A change must keep that a copy never replaces a file of the
+// user, and that the comments identify everything that alters a trajectory.
 #pragma once
 
 #include <string>
@@ -16,17 +16,19 @@
 
 namespace viscontact::pipeline {
 
-/// True if Viscontact has simulated into this folder before: if there is a sub-folder trajectories/
-/// that contains a file that Viscontact wrote, or that is empty because the run was interrupted.
+/// True if Viscontact has simulated into this folder before: the sub-folder trajectories/ exists
+/// and contains a file that Viscontact wrote, or is empty because the run was interrupted. Throws
+/// std::filesystem::filesystem_error if the sub-folder cannot be listed.
 bool holds_a_run(const results::RunFolder& run);
 
 /// Throws Error(kBadInput) if a copy of the case or of its force files would replace a different
 /// file of the same name in a folder without a run, because that file is the user's. In a folder
-/// with a run, that file is the copy that the earlier run made, and it may be replaced.
+/// with a run (holds_a_run()), that file is the copy that the earlier run made, and it may be
+/// replaced.
 void check_case_copies(const results::RunFolder& run, const case_file::Case& c);
 
-/// Throws Error(kBadInput) if a copy of the fit with this text would replace a different file in a
-/// folder without a run, as check_case_copies() does for the case.
+/// Throws Error(kBadInput) if a copy of the fit, whose text is `fit_text`, would replace a
+/// different file fit.json in a folder without a run, because that file is the user's.
 void check_fit_copy(const results::RunFolder& run, const std::string& fit_text);
 
 /// Makes the folder of trajectories, then writes the copies of the case, its force files and the
@@ -38,7 +40,8 @@ void write_copies(const results::RunFolder& run, const case_file::Case& c,
 /// The comment lines "# key: value" that identify the inputs of a trajectory: hashes of the case,
 /// of the fit (the text `fit_text`) and of the force files, the choice of the drag outside the
 /// fit's interval, the revision of the models and the version of Viscontact. Without force files
-/// there is no key `force`; without a formula below or above the interval there is no key for it.
+/// there is no key `force`. If no formula for the drag below (or above) the interval was chosen,
+/// there is no key for that side.
 CsvComments identity_of_trajectory(const case_file::Case& c, const std::string& fit_text,
                                    const lubrication::OutsideInterval& outside);
 

@@ -1,8 +1,10 @@
 // Submits the rows of a table, or of a sweep of particles, to the workload manager Slurm as one
-// array job, whose tasks each compute a share of the rows (docs/cluster.md). A Slurm that is
-// missing or refuses throws Error(kExternalProgram), a second job for an output Error(kBadInput). A
-// change must keep that later edits of a case do not change a submitted job. Used by app/,
-// particles/sweep and tabulate/.
+// array job, whose tasks each compute a share of the rows (docs/cluster.md). Rows and tasks are
+// numbered from 0; no number has a dimension, and none is checked. Error(kExternalProgram) is
+// thrown if Slurm is missing or refuses the job, Error(kBadInput) if there is a job for the same
+// output already. A change must keep that later edits of a case do not change a submitted job, and
+// the name of the job, by which a second job is recognised. app/, particles/sweep and
+// pipeline/tabulate call these functions.
 #pragma once
 
 #include <cstddef>
@@ -25,17 +27,17 @@ struct Share {
 /// The options of a command that submits an array job.
 struct ArrayRequest {
   std::filesystem::path output;      ///< path of the command's output: a table or a folder
-  std::optional<std::size_t> tasks;  ///< size of the array, >= 1; nothing: see task_count()
+  std::optional<std::size_t> tasks;  ///< number of tasks, >= 1; nothing: task_count() chooses it
   std::optional<int> jobs;           ///< rows that a task computes at once, >= 1; nothing: 1
   std::string options;               ///< further words for sbatch, quoted as in a shell; or empty
-  StopToken stop{};                  ///< a stop ends the wait for Slurm (kInterrupted)
+  StopToken stop{};                  ///< a requested stop ends the wait for Slurm
 };
 
 /// What an array job computes.
 struct ArrayJob {
-  std::string command;     ///< of Viscontact: "tabulate" or "sweep"
-  std::string is_running;  ///< what the job does to the output, in messages: "is being tabulated"
-  std::string results;     ///< what the output is in messages: "the tables"
+  std::string command;     ///< command of Viscontact that a task runs: "tabulate" or "sweep"
+  std::string is_running;  ///< words for messages after the output's name: "is being tabulated"
+  std::string results;     ///< words for the output in messages: "the tables"
   std::vector<std::string> cases;  ///< paths of the case files
   /// Names and contents of the copies of the cases, which the tasks run, so that later edits of the
   /// cases do not change them.
@@ -45,8 +47,9 @@ struct ArrayJob {
   std::vector<std::size_t> tasks;    ///< increasing numbers, < count, of tasks with rows to compute
 };
 
-/// The number of tasks: that of the request (not checked) or, if it names none, one for each of
-/// `rows`, at most 1000, because Slurm allows task numbers up to 1000 by default; 0 if `rows` is 0.
+/// The number of tasks. If the request names a number, it is returned (not checked). Otherwise
+/// there is one task for each of `rows`, but at most 1000, because Slurm allows task numbers up to
+/// 1000 by default; the number is 0 if `rows` is 0.
 std::size_t task_count(const ArrayRequest& request, std::size_t rows);
 
 /// The folder OUTPUT.slurm, as an absolute path, which has copies of the submitted cases, the
@@ -60,7 +63,7 @@ std::filesystem::path slurm_folder(const std::filesystem::path& output);
 void refuse_second_job(const ArrayJob& job, const ArrayRequest& request);
 
 /// Writes the folder slurm_folder(), submits the job and prints its number to standard output. If
-/// `job.tasks` is empty, nothing is written, submitted or printed there. Throws
+/// `job.tasks` is empty, nothing is written or submitted, and no number is printed. Throws
 /// Error(kExternalProgram) with the message of Slurm if Slurm is missing or refuses the job,
 /// Error(kBadInput) if a file cannot be written, Error(kWrongUsage) if a quotation mark in
 /// `request.options` is not closed, and Error(kInterrupted) if `request.stop` requests a stop.

@@ -1,8 +1,9 @@
-// The external force f_ext(t): every force on the sphere except those of the fluid and of contact,
-// such as gravity, a push or a measured signal. Lengths, masses and times are in any consistent
-// units. All models of one sphere in reduced_model/, and rolling/, use it. Wrong pieces and wrong
-// files throw Error(kBadInput). Times are not checked. A change must keep means and impulses exact,
-// because the budgets of impulses and works are balanced to round-off.
+// Declares the external force f_ext(t) [M L/T^2]: every force on the sphere except those of the
+// fluid and of contact, such as gravity, a push or a measured signal. Lengths, masses and times are
+// in any consistent units. All models of one sphere in reduced_model/, and rolling/, use it.
+// Error(kBadInput) is thrown if a piece or a file is wrong. Times must be >= 0, which is not
+// checked. A change must keep means and impulses exact, because the budgets of impulses and works
+// are balanced to round-off.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +14,9 @@
 
 namespace viscontact::reduced_model {
 
-/// True if two times > 0 [T] differ by rounding errors only, by at most four relative machine
-/// epsilons, as 0.1 + 0.2 and 0.3 do. CVODE cannot integrate over so short an interval.
+/// True if two times > 0 [T] differ by at most four machine epsilons times the larger one, which is
+/// a rounding error, as between 0.1 + 0.2 and 0.3. The integrator CVODE cannot integrate over so
+/// short an interval.
 inline bool are_one_time(double a, double b) {
   return std::abs(a - b) <=
          4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(a), std::abs(b));
@@ -24,31 +26,33 @@ inline bool are_one_time(double a, double b) {
 /// forms, not quadrature. Times are not checked, and only the functions that say so throw.
 class ExternalForce {
  public:
-  /// A polynomial on an interval of time. The first piece begins at 0, each other one where the
-  /// piece before it ends. With the time tau since this beginning, f_ext = value + higher[0] tau +
-  /// higher[1] tau^2 + ...
+  /// A polynomial on an interval of time. The first piece begins at 0, each other piece where the
+  /// piece before it ends. Let tau be the time since the beginning of the piece; then f_ext = value
+  /// + higher[0] tau + higher[1] tau^2 + ...
   struct Piece {
-    double until = 0;  ///< end of the piece [T], > its beginning; the last piece goes on beyond
+    double until = 0;  ///< end of the piece [T], > its beginning; the last piece never ends
     /// Force at tau = 0 along the outward normal [M L/T^2]; < 0 towards the wall.
     double value = 0;
-    std::vector<double> higher{};  ///< [M L/T^3], [M L/T^4], ...; empty: constant
+    /// Coefficients of tau, tau^2, ... [M L/T^3], [M L/T^4], ...; empty if the force is constant.
+    std::vector<double> higher{};
   };
 
   /// The force amplitude * sin(angular_frequency t + phase).
   struct Sinusoid {
-    double amplitude = 0;          ///< [M L/T^2]
+    double amplitude = 0;          ///< [M L/T^2], of any sign
     double angular_frequency = 0;  ///< [1/T], > 0
     double phase = 0;              ///< [radians]
   };
 
-  /// The `until` of the pieces must increase and be > 0. Throws Error(kBadInput) otherwise, or if
-  /// there is no piece. The last `until` is checked but not used.
+  /// Throws Error(kBadInput) if there is no piece, or unless Piece::until is > 0 and increases from
+  /// piece to piece. The `until` of the last piece is checked but not used. Forces are not checked.
   explicit ExternalForce(const std::vector<Piece>& pieces);
 
   /// The force of one sinusoid. Throws Error(kBadInput) if its angular frequency is not > 0.
   static ExternalForce sinusoidal(const Sinusoid& sinusoid);
 
-  /// Adds another force. Pieces as short as rounding errors (are_one_time()) are left out.
+  /// Adds another force. Pieces that are as short as rounding errors of time (are_one_time()) are
+  /// left out.
   ExternalForce& operator+=(const ExternalForce& other);
 
   /// The same force stretched in time: f_ext(t/factor), factor > 0 (not checked).
@@ -57,7 +61,7 @@ class ExternalForce {
   /// f_ext(t) [M L/T^2], t >= 0; at a jump, the value after it.
   double value(double time) const;
 
-  /// d f_ext/dt [M L/T^3]; t >= 0; at a jump or kink, the slope after it.
+  /// d f_ext/dt [M L/T^3], t >= 0; at a jump or kink, the slope after it.
   double slope(double time) const;
 
   /// int_0^t f_ext, for t >= 0 [M L/T].
@@ -69,15 +73,15 @@ class ExternalForce {
   /// Mean of f_ext over [from, to] [M L/T^2], 0 <= from < to.
   double mean(double from, double to) const;
 
-  /// The times [T] at which f_ext or its slope jumps, in increasing order, without 0.
-  /// are_one_time() is false for any two of them.
+  /// The times [T] > 0 at which f_ext or its slope jumps, in increasing order. are_one_time() is
+  /// false for any two of these times.
   std::vector<double> jumps() const;
 
   /// The times [T] in (0, end), end > 0, at which f_ext changes its sign, by a jump or through 0,
-  /// in increasing order; none if there are no changes. In a piece without sinusoids all of them
-  /// are found. In other pieces two of them can be missed if they are closer to each other than
-  /// 1/32 of the shortest period. Throws Error(kNotConverged) if `end` is beyond about 3e4 of these
-  /// periods.
+  /// in increasing order; the list is empty if there are no changes. Without sinusoids all changes
+  /// are found. With sinusoids two changes can be missed if they are closer to each other than 1/32
+  /// of the shortest period. Throws Error(kNotConverged) if the times from 0 to `end` contain more
+  /// than about 3e4 of the shortest periods.
   std::vector<double> sign_changes(double end) const;
 
  private:
@@ -96,12 +100,12 @@ class ExternalForce {
   std::vector<Sinusoid> sinusoids_;
 };
 
-/// value() and mean() of a force at times that do not decrease from call to call. They are faster
-/// than the functions of ExternalForce, because they do not search for the piece while the force is
-/// constant.
+/// Computes values and means of a force at times that do not decrease from call to call (not
+/// checked: an earlier time gives a wrong value). The functions of this class are faster than those
+/// of ExternalForce, because they do not search for the piece while the force is constant.
 class ForceWalk {
  public:
-  /// The walk begins at time 0. `force` must outlive the object. Times are not checked.
+  /// The walk begins at time 0. `force` must outlive the object.
   explicit ForceWalk(const ExternalForce& force) : force_(force) { enter(0); }
 
   /// The force [M L/T^2] at `time` [T], >= 0.

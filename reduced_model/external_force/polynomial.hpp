@@ -1,8 +1,9 @@
-// Polynomials c0 + c1 tau + c2 tau^2 + ..., given by their coefficients c0, c1, ... in this order,
-// at least one (not checked). With tau in any unit U and values in any unit V, c_k is in V/U^k.
-// External forces (external_force.cpp) and the states of CVODE within a step (inertial.cpp) are
-// such polynomials. Nothing is thrown. A change must keep the order of operations, on which the
-// last digits of trajectories depend.
+// Computes with polynomials c0 + c1 tau + c2 tau^2 + ..., which are given by their coefficients c0,
+// c1, ... in this order. There must be at least one coefficient. If tau has the unit U and the
+// values have the unit V, then c_k has the unit V/U^k. External forces (external_force.cpp) and the
+// states of the integrator CVODE within a step (inertial.cpp) are such polynomials. Nothing is
+// checked or thrown. A change must keep the order of operations, on which the last digits of
+// trajectories depend.
 #pragma once
 
 #include <algorithm>
@@ -45,8 +46,8 @@ inline double double_integral(std::span<const double> coefficients, double tau) 
          tau * tau;
 }
 
-/// Mean of the polynomial over [a, b], 0 <= a < b [V]. The quotient (b^{k+1} - a^{k+1})/(b - a) is
-/// computed as a sum of products, so that a short interval loses no digits.
+/// Mean [V] of the polynomial over [a, b], 0 <= a < b [U]. The quotient (b^{k+1} - a^{k+1})/(b - a)
+/// is computed as a sum of products, so that a short interval loses no digits.
 inline double mean(std::span<const double> coefficients, double a, double b) {
   double mean = 0;
   double sum = 1;    // sum of b^i a^(k-i), i = 0..k
@@ -69,8 +70,9 @@ inline std::vector<double> shifted(std::vector<double> coefficients, double shif
 }
 
 /// The points [U] in (0, length), in increasing order, at which the derivative changes its sign,
-/// and some of those at which it only touches 0. The polynomial is monotone between two neighbours
-/// of them. None for a constant or linear polynomial.
+/// and some of the points at which the derivative only touches 0. The polynomial is monotone
+/// between two neighbouring points. The list is empty for a constant or linear polynomial. `length`
+/// is > 0 [U].
 inline std::vector<double> turning_points(const std::vector<double>& coefficients, double length) {
   if (coefficients.size() < 3) return {};
   std::vector<double> derivative;

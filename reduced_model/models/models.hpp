@@ -1,8 +1,10 @@
-// The table of models of motion of one sphere, and the gaps that a model reaches. Unknown names,
-// and motions that a model refuses, throw Error(kBadInput). Lists and descriptions throw nothing. A
-// new model needs its own source and a row in models.cpp (docs/extending.md); commands, help,
+// Declares the table of models of motion of one sphere, the function that runs a model, and the
+// gaps that a model reaches. Error(kBadInput) is thrown if a name is unknown or a model refuses a
+// motion. The functions that return lists and descriptions throw nothing. A new model needs its own
+// source and a row at the end of the table in models.cpp (docs/extending.md); commands, help,
 // sweeps and the report read that table. Lengths, masses and times are in any consistent units. A
-// change must keep the names of models, which users' case files contain.
+// change must keep the names of models, which users' case files contain; their descriptions are
+// free choices.
 #pragma once
 
 #include <optional>
@@ -21,9 +23,10 @@ namespace viscontact::reduced_model {
 
 /// A model of motion, with what the program must know about it.
 struct Model {
-  std::string_view name;         ///< as users type it; the stem of its trajectory file
-  std::string_view description;  ///< a line for --help and legends
-  /// Computes the trajectory; null for a contact model that run_contact_model() runs.
+  std::string_view name;         ///< name that users type; its trajectory file is NAME.csv
+  std::string_view description;  ///< description in one line, for --help and legends
+  /// Computes the trajectory from the motion and the drag; null for a contact model that
+  /// run_contact_model() runs.
   Trajectory (*simulate)(const Motion&, const lubrication::LubricationForce&);
   /// Makes the contact model (contact_model.hpp); null if this is not a contact model.
   MakeContactModel contact = nullptr;
@@ -33,7 +36,8 @@ struct Model {
   bool inertia = true;
   /// True if the motion depends on the drag of the fluid.
   bool fluid = true;
-  /// The parameters that the model reads; all of them have a value in the motion of a case.
+  /// The parameters that the model reads. In the motion of a case each of them has a value; without
+  /// one, the model throws Error(kBadInput), but a missing kRestitution counts as 0.
   std::span<const ModelParameter> parameters;
   /// The parameter that is the model's time step; null if it has no fixed step.
   const ModelParameter* time_step = nullptr;
@@ -43,11 +47,12 @@ struct Model {
   bool in_sweeps = false;
   /// True for the one model that others are compared with when a user names no reference.
   bool usual_reference = false;
-  /// Throws the Error(kBadInput) of `simulate` for a motion that it refuses; null if there is none.
+  /// Throws Error(kBadInput) for a motion that `simulate` would refuse; null if the model refuses
+  /// no motion.
   void (*check)(const Motion&) = nullptr;
 };
 
-/// All models. The place of a model here decides on the colour of its lines in the report.
+/// All models. The place of a model in this list decides on the colour of its lines in the report.
 std::span<const Model> all_models();
 
 /// The models that run when a case names none.
@@ -85,16 +90,17 @@ inline constexpr std::string_view kSmoothSuffix = "_smooth";
 struct ModelChoice {
   /// Name of the model with its suffixes.
   std::string name;
-  const Model* model = nullptr;  ///< without suffixes; never null in a result of known_model()
-  bool exact_drag = false;       ///< true: the exact drag in place of the fit (kExactDragSuffix)
-  bool smooth = false;           ///< true: smooth surfaces, whatever the roughness (kSmoothSuffix)
+  const Model* model = nullptr;  ///< the model; never null in a result of known_model()
+  bool exact_drag = false;       ///< whether the exact drag replaces the fit (kExactDragSuffix)
+  bool smooth = false;           ///< whether the roughness of the case is ignored (kSmoothSuffix)
 };
 
 /// The model with this name, which may have suffixes; nothing if there is none, or if _smooth
 /// follows the name of a model without contact.
 std::optional<ModelChoice> known_model(std::string_view name);
 
-/// As known_model(), but throws Error(kBadInput), which lists the names, if there is no such model.
+/// The result of known_model(). Throws Error(kBadInput), which lists the names of all models, if
+/// there is no such model.
 ModelChoice find_model(std::string_view name);
 
 /// False if the number of the case at this key, such as "viscous_contact.roughness[0]", cannot
@@ -102,48 +108,52 @@ ModelChoice find_model(std::string_view name);
 /// that belong neither to [fluid], [sphere] and the roughness nor to a parameter of a model.
 bool depends_on(const ModelChoice& choice, std::string_view key);
 
-/// The drag for the model: a copy of `force`, or the exact drag of the same viscosity and radius.
+/// The drag for the model: a copy of `force`, or the exact drag near a plane of the same viscosity
+/// and radius if `choice.exact_drag` is true.
 lubrication::LubricationForce drag_of(const ModelChoice& choice,
                                       const lubrication::LubricationForce& force);
 
-/// The motion for the model: `motion`, without roughness if the choice is smooth.
+/// The motion for the model: a copy of `motion`, with roughness 0 if `choice.smooth` is true.
 Motion motion_of(const ModelChoice& choice, const Motion& motion);
 
 /// The contact model that the choice, which must be of a contact model (not checked), makes of
 /// motion_of(choice, motion) and `force`. `force` must outlive the result, which refers to it.
-/// Throws the Error(kBadInput) of a model that refuses them.
+/// Throws Error(kBadInput) if the model refuses the motion or the force.
 ContactModel contact_model_of(const ModelChoice& choice, const Motion& motion,
                               const lubrication::LubricationForce& force);
 
 /// The description of the model and of its suffixes, a line for legends.
 std::string description_of(const ModelChoice& choice);
 
-/// Throws the Error(kBadInput) that simulate() would throw for a time step that is missing or makes
-/// more than 1e8 steps, for a motion that the model refuses (Model::check) or, if the model is a
-/// contact model, for a gap, a roughness or a fit that it refuses, but does not run the model. Of
-/// `force`, only its interval and its coefficient k are used.
+/// Checks a motion without running the model. Throws the Error(kBadInput) that simulate() would
+/// throw if a time step has no value or makes more than 1e8 steps, if the model refuses the motion
+/// (Model::check), or if a contact model refuses the initial gap, the roughness or the fit. Gaps
+/// that the motion reaches later are not checked. Of `force`, only its interval of gaps and its
+/// coefficient k of 1/q decide whether an error is thrown.
 void check_model(const ModelChoice& choice, const Motion& motion,
                  const lubrication::LubricationForce& force);
 
-/// Runs a model and fills in its name, its budget and the computing time. The messages of all
-/// Errors begin with the name of the model. Throws the errors of the model, Error(kNotConverged) if
-/// a number of the motion is not finite or times do not increase, and Error(kInterrupted) if
-/// `motion.stop` requests a stop.
+/// Runs a model and fills in the name of the trajectory, its budget and the computing time. The
+/// messages of all Errors begin with the name of the model. Throws the errors of the model, such as
+/// Error(kBadInput) if the gap leaves the interval of `force`, Error(kNotConverged) if a number of
+/// the motion is not finite or times do not increase, and Error(kInterrupted) if `motion.stop`
+/// requests a stop.
 Trajectory simulate(const ModelChoice& choice, const Motion& motion,
                     const lubrication::LubricationForce& force);
 
 /// The smallest and the largest gap [L] at which a model evaluates the whole drag in a motion.
 struct ReachedGaps {
-  /// [L], > 0; nothing for a model that evaluates no drag in a thin film.
+  /// Smallest gap [L], > 0; nothing for a model that evaluates no drag in a thin film.
   std::optional<double> smallest;
-  double largest = 0;  ///< [L], >= 0
+  double largest = 0;  ///< largest gap [L], >= 0
 };
 
-/// Runs the model with `force`, which must be defined for every gap > 0: it must be the exact drag,
-/// or a fit with its limits below and above. If a contact model makes contact at a threshold gap,
-/// `smallest` is the film thickness that it computes from gamma (TrajectoryRow::gamma), because the
-/// drag at these gaps determines that thickness. Returns nothing if the model evaluates no drag, or
-/// if the motion cannot be computed. Throws Error(kInterrupted) if `motion.stop` requests a stop.
+/// Runs the model with `force`. The force must be defined for every gap > 0, so that it must be the
+/// exact drag, or a fit with formulas below and above its interval; otherwise a motion that leaves
+/// the interval gives no result. If a contact model makes contact at a threshold gap, `smallest` is
+/// the film thickness that it computes from gamma (TrajectoryRow::gamma), because the drag at these
+/// gaps determines that thickness. Returns nothing if the model evaluates no drag, or if the motion
+/// cannot be computed. Throws Error(kInterrupted) if `motion.stop` requests a stop.
 std::optional<ReachedGaps> reached_gaps(const ModelChoice& choice, const Motion& motion,
                                         const lubrication::LubricationForce& force);
 

@@ -1,10 +1,11 @@
-// The loop over time that all contact models with a time step share (physics.md (4.5) to (4.7)).
-// Such a model does not resolve the thin film of fluid between sphere and wall, but replaces it by
-// contact with a memory gamma, minus the impulse that the film has absorbed. It may resolve the
-// drag at larger gaps. Lengths, masses and times are in any consistent units. The files of this
-// folder and models.cpp use it. Too many steps throw Error(kBadInput), a stop Error(kInterrupted).
-// The members of a ContactModel are not checked. A change must keep the budget of impulses and
-// works balanced to round-off, and raise kModelsRevision if results change.
+// Declares the loop over time that all contact models with a time step share (physics.md (4.5) to
+// (4.7)). Such a model does not resolve the thin film of fluid between sphere and wall, but
+// replaces the film by contact with a memory gamma <= 0, minus the impulse that the film has
+// absorbed. The model may resolve the drag at larger gaps. Lengths, masses and times are in any
+// consistent units. The files of this folder and models.cpp use it. Error(kBadInput) is thrown if
+// there are too many steps, Error(kInterrupted) at a stop. The members of a ContactModel are not
+// checked. A change must keep the budget of impulses and works balanced to round-off, and raise
+// kModelsRevision (trajectory.hpp) if results change.
 #pragma once
 
 #include <functional>
@@ -29,11 +30,12 @@ struct ResolvedDrag {
 struct ContactModel {
   /// Gap at which the sphere is in contact [L], >= 0.
   double contact_gap = 0;
-  /// Value of gamma at which the solids touch [M L/T], <= 0. -infinity: never. 0: there is no film,
-  /// which is plain inelastic contact.
+  /// Value of gamma at which the solids touch [M L/T], <= 0. With -infinity they never touch. With
+  /// 0 there is no film, which is plain inelastic contact.
   double gamma_min = 0;
   /// Resistance of the film at the thickness at which the solids touch [M/T], > 0: the rate of
-  /// gamma over the rate of the thickness. 0 if the solids never touch or there is no film.
+  /// gamma divided by the rate of the thickness. It is 0 if the solids never touch or if there is
+  /// no film.
   double solid_resistance = 0;
   /// The resolved drag; nothing if only the external force acts outside contact.
   std::optional<ResolvedDrag> drag{};
@@ -49,17 +51,17 @@ struct ContactModel {
 };
 
 /// Makes the steps of contact_step.hpp from the start of the motion to its end, and those of
-/// rebound.hpp if there is a restitution and the sphere flies into contact.
+/// rebound.hpp if there is a restitution and the sphere comes into contact from a flight.
 ///
 /// The trajectory has a row for the start and one for each step. The forces in a row are means over
 /// the step before it; its lubrication force is that of film and resolved drag together. The
 /// beginning and the end of contact, and the time at which the solids touch, are found within a
-/// step as if the force were constant in it; their error has the order of the scheme. The velocity
-/// at which the solids touch is what the film leaves of an impact or, if a load closes the film,
-/// the load over `solid_resistance`. The lowest gamma, and thus the smallest film, includes the
-/// values at the times at which the force changes its sign. If the model is staggered, a row has
-/// the velocity and gamma that half a step of the force gives from the middle of the step to the
-/// time of the row.
+/// step as if the force were constant in this step; their error has the order of the scheme. The
+/// velocity at which the solids touch is what the film leaves of an impact or, if a load closes the
+/// film, the load divided by `solid_resistance`. The lowest gamma, and thus the smallest film,
+/// includes the values at the times at which the force changes its sign. If the model is staggered,
+/// a row has the velocity and gamma that half a step of the force gives from the middle of the step
+/// to the time of the row.
 ///
 /// motion.initial_gap must be >= model.contact_gap (not checked). Throws Error(kBadInput) if the
 /// motion has more than 1e8 steps or no value of viscous_contact.time_step, Error(kInterrupted) if
@@ -68,7 +70,8 @@ Trajectory run_contact_model(const Motion& motion, ContactModel model);
 
 /// A function that makes a contact model for a motion and a force.
 using MakeContactModel = ContactModel (*)(const Motion&, const lubrication::LubricationForce&);
-/// Makes the contact model for `motion` and `force`, and runs it. Throws the errors of both steps.
+/// Makes the contact model for `motion` and `force` by the function `make`, and runs the model.
+/// Throws the errors of `make` and of the other run_contact_model().
 inline Trajectory run_contact_model(MakeContactModel make, const Motion& motion,
                                     const lubrication::LubricationForce& force) {
   return run_contact_model(motion, make(motion, force));

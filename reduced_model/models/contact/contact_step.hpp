@@ -1,51 +1,53 @@
-// One time step of viscous contact of a sphere (physics.md (4.5) to (4.7)). m is the mass, u the
-// velocity, D the gap less the gap at which contact begins, h the step, and f the external force.
-// The film of fluid in the contact absorbs the impulse -gamma >= 0 when the sphere lands, and gives
-// it back before the sphere is released. Gamma_res(D) is the primitive of the resistance that the
-// model resolves, so that its difference is the impulse of the drag. The index n marks values at
-// the end of step n. Lengths, masses and times are in any consistent units. All contact models with
-// a time step, and rolling/, use it. Nothing is checked; only the drag throws Errors. A change must
-// keep m u + Gamma_res(D) + gamma - int f dt constant to round-off while no solid is loaded.
+// Computes one time step of viscous contact of a sphere (physics.md (4.5) to (4.7)). m is the mass,
+// u the velocity, D the gap less the gap at which contact begins, h the length of the step, and f
+// the external force. The film of fluid in the contact absorbs the impulse -gamma >= 0 when the
+// sphere lands, and gives this impulse back before the sphere is released. Gamma_res(D) is the
+// primitive of the resistance that the model resolves, so that a difference of two of its values is
+// the impulse of the drag. The index n marks values at the end of step n, where f^n is the mean of
+// f over the step after it. Lengths, masses and times are in any consistent units. All contact
+// models with a time step, and rolling/, use it. Nothing is checked; only the drag throws Errors. A
+// change must keep m u + Gamma_res(D) + gamma - int f dt constant to round-off while no solid is
+// loaded.
 #pragma once
 
 #include <algorithm>
 
 namespace viscontact::reduced_model {
 
-/// The state of the sphere, with the memory of the film.
+/// The state of the sphere, with the memory gamma of the film.
 struct ContactState {
   double gap = 0;       ///< D [L]; 0 in contact
   double velocity = 0;  ///< u [L/T]
-  double gamma = 0;     ///< memory of the film [M L/T], gamma_min <= gamma <= 0; 0 if D > 0
+  double gamma = 0;     ///< minus the impulse in the film [M L/T], gamma_min to 0; 0 if D > 0
 };
 
 /// The constants of all steps of one length.
 struct ContactSetting {
-  /// Computes `per_mass` and `per_step`; the ranges of the arguments are those of the members.
+  /// Sets the members; the ranges of the arguments are those of `mass`, `gamma_min` and `step`.
   ContactSetting(double mass_, double gamma_min_, double step_)
       : mass(mass_), gamma_min(gamma_min_), step(step_), per_mass(1 / mass_), per_step(1 / step_) {}
   double mass;  ///< m [M], > 0
   /// Value of gamma at which the solids touch [M L/T], <= 0; -infinity without solid contact.
   double gamma_min;
   double step;      ///< h [T], > 0
-  double per_mass,  ///< 1/m [1/M], because a division is slow
-      per_step;     ///< 1/h [1/T]
+  double per_mass,  ///< 1/m [1/M]; it is stored because a division is slow
+      per_step;     ///< 1/h [1/T]; it is stored for the same reason
 };
 
 /// The state at the end of a step, and the impulses [M L/T] that the sphere received in it.
 struct ContactStep {
   /// The state at the end of the step.
   ContactState state;
-  /// From the film: gamma^n - gamma^{n+1}; < 0 while the film pulls the sphere to the wall.
+  /// Impulse of the film, gamma^n - gamma^{n+1}; < 0 while the film pulls the sphere to the wall.
   double film = 0;
-  double drag = 0;   ///< from the resolved drag; 0 without one
-  double solid = 0;  ///< from the solid contact, >= 0
+  double drag = 0;   ///< impulse of the resolved drag; 0 if the model resolves none
+  double solid = 0;  ///< impulse of the solid contact, >= 0
 };
 
-/// The drag of a model that resolves none. A type `Drag` of contact_step() needs the functions of
-/// this one.
+/// The drag of a model that resolves no drag. Each type `Drag` for contact_step() must have the
+/// members of this one.
 struct NoDrag {
-  /// False: there is no resolved drag.
+  /// False, because there is no resolved drag.
   static constexpr bool kResolved = false;
   /// The velocity v [L/T] with m v + Gamma_res(D + h v) - Gamma_res(D) = momentum [M L/T], where D
   /// + h v >= 0. The second argument is D [L], >= 0.
@@ -58,7 +60,8 @@ struct NoDrag {
 
 /// One step of viscous contact (Maury 2007, "A gluey particle model"; Lefebvre 2009, "Numerical
 /// simulation of gluey particles"). `push` = h f^n is the impulse of the external force in the step
-/// [M L/T], lambda the force of the contact on the sphere, and Gamma_res is 0 without drag:
+/// [M L/T], lambda the force of the contact on the sphere, and Gamma_res is 0 if the model resolves
+/// no drag:
 ///
 ///     m (u^{n+1} - u^n) = h f^n - (Gamma_res(D^{n+1}) - Gamma_res(D^n)) + h lambda,
 ///     D^{n+1} = D^n + h u^{n+1},   gamma^{n+1} = gamma^n - h lambda,

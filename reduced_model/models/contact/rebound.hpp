@@ -1,10 +1,11 @@
-// Rebound of the sphere from the solid wall through the film of fluid (physics.md (4.12), (4.13)),
-// for contact_model.cpp and viscous_contact_exact.cpp. m is the mass, u the velocity, gamma minus
-// the impulse that the film has absorbed, gamma_min its value at which the solids touch, D the gap
-// less that at contact, h the step; u+ and gamma+ are values after an impact. Lengths, masses and
-// times are in any consistent units. Nothing is checked, and only errors of the drag are thrown. A
-// change must keep that an impact takes place at its time within a step; otherwise heights of
-// rebounds do not converge as h tends to 0.
+// Computes rebounds of the sphere from the solid wall through the film of fluid (physics.md (4.12),
+// (4.13)), for contact_model.cpp and viscous_contact_exact.cpp. m is the mass, u the velocity,
+// gamma minus the impulse that the film has absorbed, gamma_min the value of gamma at which the
+// solids touch, D the gap less the gap of contact, h the length of a step; u+ and gamma+ are the
+// values of u and gamma after an impact. Lengths, masses and times are in any consistent units.
+// Nothing is checked, and only the drag throws errors. A change must keep that an impact takes
+// place at its time within a step; otherwise heights of rebounds do not converge as h tends to 0. A
+// change of results must raise kModelsRevision (trajectory.hpp).
 #pragma once
 
 #include <algorithm>
@@ -21,26 +22,27 @@ namespace viscontact::reduced_model {
 
 /// What an impact does to the sphere: momenta and impulses [M L/T].
 struct Impact {
-  double momentum = 0;       ///< after the impact, m u+ >= 0; 0: the film keeps the sphere
-  double gamma = 0;          ///< after the impact, <= 0; 0 if the sphere leaves the film
+  double momentum = 0;       ///< momentum m u+ after the impact, >= 0; 0 if the sphere stays
+  double gamma = 0;          ///< gamma+ after the impact, <= 0; 0 if the sphere leaves the film
   double lowest_gamma = 0;   ///< lowest value of gamma in the impact, <= 0
   double solid_impulse = 0;  ///< impulse that the solids took up in the compression, s >= 0
-  /// Impulse that the solids gave back, >= 0: e_d s, or less if the sphere stays.
+  /// Impulse that the solids gave back, >= 0: e_d s with the restitution e_d, or less if the sphere
+  /// stays.
   double restitution = 0;
 };
 
 /// The impact of a sphere with the momentum `momentum` = m u < 0 on a film with gamma = 0 (4.12).
 /// The film takes the momentum until gamma = gamma_min; the solids take the rest s, and give back
-/// e_d s (Poisson's law). The sphere must then pull the film open, which takes the impulse that the
-/// film has absorbed:
+/// the impulse e_d s (Poisson's law). The sphere must then pull the film open, which takes the
+/// impulse that the film has absorbed:
 ///
 ///     s = max(-m u + gamma_min, 0),   m u+ = max(gamma_c + e_d s, 0),
 ///     gamma+ = min(gamma_c + e_d s, 0),
 ///
 /// where gamma_c = m u + s is gamma at the end of the compression. `gamma_min` <= 0 may be
 /// -infinity; `restitution` = e_d is 0 to 1 [1]. If m u+ is below `least` >= 0 [M L/T], the sphere
-/// stays, and the solids give back that much less, so that the infinitely many bounces of a dry
-/// sphere end.
+/// stays, and the solids give back less by the impulse m u+, so that the infinitely many bounces of
+/// a sphere without a film end.
 inline Impact impact_through_film(double momentum, double gamma_min, double restitution,
                                   double least) {
   Impact impact;
@@ -71,17 +73,17 @@ inline void add_impact(MomentumEnergyBudget& budget, double mass, double velocit
 /// A step with impacts, and what happened in it.
 struct ReboundStep {
   ContactState state;             ///< state at the end of the step
-  std::vector<Rebound> rebounds;  ///< impacts on the solids, times from the step's begin
+  std::vector<Rebound> rebounds;  ///< impacts on the solids; times count from the step's beginning
   /// Impulses and works in the step, without the impulse of the external force.
   MomentumEnergyBudget budget;
   double lowest_gamma = 0;   ///< lowest gamma in the step [M L/T], <= 0
-  double first_impact = -1;  ///< time of the first impact from the step's beginning [T]; < 0: none
-  double last_impact = -1;   ///< the same of the last impact [T]; < 0: none
+  double first_impact = -1;  ///< time of the first impact from the step's beginning [T], or -1
+  double last_impact = -1;   ///< time of the last impact from the step's beginning [T], or -1
 };
 
-/// The first time after 0 and until `end` [T] at which D + w t + a t^2/2 = 0 and falls; infinity if
-/// there is none. D = `gap` >= 0 [L], w = `velocity` [L/T] and a = `acceleration` [L/T^2] are the
-/// values at time 0; if D = 0, w must be > 0.
+/// The first time t [T], 0 < t <= `end`, at which D + w t + a t^2/2 falls through 0; infinity if
+/// there is no such time. D = `gap` >= 0 [L], w = `velocity` [L/T] and a = `acceleration` [L/T^2]
+/// are the values at time 0; if D = 0, w must be > 0.
 inline double time_of_fall(double gap, double velocity, double acceleration, double end) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const double discriminant = velocity * velocity - 2 * acceleration * gap;
@@ -97,12 +99,14 @@ inline double time_of_fall(double gap, double velocity, double acceleration, dou
   return time <= end ? time : kNever;
 }
 
-/// Makes the impact of a sphere with the velocity `velocity` < 0 [L/T] at the time `time` [T] of a
-/// step and records it. `acceleration` [L/T^2] is that by the external force, `restitution` = e_d 0
-/// to 1. Returns the velocity u+ >= 0 [L/T] after it; 0 if the sphere stays.
+/// Makes the impact of a sphere with the velocity `velocity` < 0 [L/T] at the time `time` [T] from
+/// the beginning of a step, and records the impact in `step`. `acceleration` [L/T^2] is the
+/// external force divided by m, `restitution` = e_d is 0 to 1. Returns the velocity u+ >= 0 [L/T]
+/// after the impact; 0 if the sphere stays.
 inline double strike(ReboundStep& step, double time, double velocity, double acceleration,
                      const ContactSetting& setting, double restitution) {
-  // Fraction of the step; a shorter flight counts as rest, so that bounces end.
+  // A flight that is shorter than this fraction of the step counts as rest, so that bounces end.
+  // The fraction is a free choice, but must be > 0.
   constexpr double kShortestFlight = 1e-3;
   const double least =
       setting.mass * kShortestFlight * setting.step * std::max(0.0, -acceleration) / 2;
@@ -119,8 +123,8 @@ inline double strike(ReboundStep& step, double time, double velocity, double acc
   return after;
 }
 
-/// Continues a step from its last impact, after which the sphere stays in contact, to its end.
-/// `push` [M L/T] is the impulse of the force in the whole step.
+/// Continues a step from its last impact, after which the sphere stays in contact, to the end of
+/// the step. `push` [M L/T] is the impulse of the external force in the whole step.
 template <class Drag>
 void stay(ReboundStep& step, double push, const ContactSetting& setting, const Drag& drag) {
   const double rest = setting.step - step.last_impact;
@@ -140,7 +144,7 @@ void stay(ReboundStep& step, double push, const ContactSetting& setting, const D
 
 /// A step that begins in flight, from `state` with gamma = 0 and with D > 0 or u > 0. `push` [M
 /// L/T] is the impulse of the external force in the step, and `acceleration` = a [L/T^2] the mean
-/// force over m. Nothing if the sphere does not reach contact.
+/// of this force divided by m. Returns nothing if the sphere does not reach contact in the step.
 ///
 /// Without resolved drag, the gaps of the scheme, D^{n+1} = D^n + h u^{n+1}, lie on the parabola
 /// with the acceleration a that begins with the velocity w = u^n + push/m - a h/2. The impacts are
@@ -161,7 +165,7 @@ std::optional<ReboundStep> rebound_step(const ContactState& state, double push, 
       return state.velocity + (push * time / h + of_drag) * setting.per_mass;
     };
     double time = h, velocity = velocity_at(h);
-    constexpr int kCorrections = 4;  // each divides the error of the time by about u/(h a)
+    constexpr int kCorrections = 4;  // each one reduces the error of the time by about h a/u
     for (int n = 0; n < kCorrections && velocity < 0; ++n) {
       time = std::min(h, -2 * state.gap / (std::min(0.0, state.velocity) + velocity));
       velocity = velocity_at(time);
