@@ -65,8 +65,8 @@ class OptionalDouble {
 /// film_work are those of the whole drag. There film_impulse is the change of momentum minus the
 /// impulses of the other forces; film_work is a sum over the rows, with an error of second order in
 /// their spacing, and external_work is set so that the works are balanced. The model inertial_rough
-/// (inertia, drag, and an impact where the roughness heights touch) does the reverse:
-/// external_work is the sum over the rows, and film_work is set so that the works are balanced.
+/// (inertia, drag, and an impact where the roughness heights touch) does the reverse: external_work
+/// is the sum over the rows, and film_work is set so that the works are balanced.
 struct MomentumEnergyBudget {
   double external_impulse = 0;  ///< of the external force [M L/T]
   /// Of the film [M L/T]: minus the change of gamma in contact models, else the impulse of the
@@ -135,9 +135,9 @@ struct SolidTouch {
   bool operator==(const SolidTouch&) const = default;  ///< whether both numbers are equal
 };
 
-/// Number of the revision of the models. Raise it when a change makes a model compute other
-/// numbers or record more of them. A run computes a stored trajectory again if the number in its
-/// head differs from this one.
+/// Number of the revision of the models. Raise it when a change makes a model compute other numbers
+/// or record more of them. A run computes a stored trajectory again if the number in its head
+/// differs from this one.
 inline constexpr int kModelsRevision = 5;
 
 /// Rows in strictly increasing time, at least one, and how they were made.
