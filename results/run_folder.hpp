@@ -17,7 +17,7 @@ inline constexpr const char* kFolderIsLocked =
 
 /// The folder of a run; each function returns the path of a file or sub-folder in it.
 struct RunFolder {
-  std::filesystem::path path;  ///< of the folder
+  std::filesystem::path path;  ///< path of the folder
 
   /// The copy of the case that was run.
   std::filesystem::path case_file() const { return path / "case.toml"; }

@@ -62,11 +62,13 @@ struct RollingRow {
 /// The motion of a sphere, in order of time; the models return at least the row of time 0.
 using RollingTrajectory = std::vector<RollingRow>;
 
-/// The model of smooth surfaces: lubrication at every gap, integrated by CVODE. Below the gaps of
-/// `fit` the formula of the fit is continued. Throws Error(kBadInput) if `fit` lacks the resistance
-/// squeeze, slide, roll or slide_roll, if squeeze is not positive at every gap of `fit`, if the
-/// sphere starts at, or rises to, a gap above those of `fit`, or if there are more than 1e8 rows;
-/// Error(kNotConverged) if CVODE cannot make a step; Error(kInterrupted) after a stop.
+/// The model of smooth surfaces: lubrication at every gap, integrated by CVODE. `fit` has the
+/// radius of the sphere and its resistances as sums of terms in the gap, in the units of `motion`
+/// (not checked). Below the gaps of `fit` the formula of the fit is continued. Throws
+/// Error(kBadInput) if `fit` lacks the resistance squeeze, slide, roll or slide_roll, if squeeze is
+/// not positive at every gap of `fit`, if the sphere starts at, or rises to, a gap above those of
+/// `fit`, or if there are more than 1e8 rows; Error(kNotConverged) if CVODE cannot make a step;
+/// Error(kInterrupted) after a stop.
 RollingTrajectory roll_smooth(const RollingMotion& motion, const motions::PairFit& fit);
 
 /// The model of rough surfaces: that of roll_smooth(), with its errors, and with solid contact and

@@ -31,7 +31,7 @@ namespace viscontact::swimmer {
 struct ShapeMechanics {
   Eigen::RowVectorXd displacement_form;  ///< A [1]: velocity of the middle sphere per arm velocity
   Eigen::MatrixXd metric;                ///< Phi [M/T], symmetric and positive definite
-  /// The velocities of all spheres are U = motion * dx/dt [1]. `motion` has a row for each sphere
+  /// The velocities of all spheres are U = motion * dx/dt. `motion` [1] has a row for each sphere
   /// and a column for each arm; A and Phi, too, have a column for each arm.
   Eigen::MatrixXd motion;
   Eigen::MatrixXd resistance;  ///< R [M/T], symmetric and positive definite

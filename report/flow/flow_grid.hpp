@@ -65,8 +65,10 @@ struct FlowPeriods {
 };
 
 /// Interpolates the flow at the points of the grid by the shape functions of the mesh's quadratic
-/// triangles. Points in copies of the triangles, one period further on either side, get values as
-/// well, because a triangle may lie outside of the cell that `periods` repeats.
+/// triangles. `flow` (common/vtk/flow_vtk.hpp) has the velocity [L/T] and the pressure [M/(L T^2)]
+/// at the six nodes of each triangle. Points in copies of the triangles, one period further on
+/// either side, get values as well, because a triangle may lie outside of the cell that `periods`
+/// repeats.
 FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid, const FlowPeriods& periods = {});
 
 /// Interpolates a field, which has `values` in any unit at the nodes of the mesh, at the points of
@@ -74,8 +76,8 @@ FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid, const FlowPerio
 std::vector<double> field_on_grid(const QuadraticMesh& mesh, const std::vector<double>& values,
                                   const Grid& grid);
 
-/// Replaces each NaN by the mean of those of its up to eight neighbours on the grid that are
-/// numbers. A NaN without such a neighbour stays. `values` has `columns` >= 1 numbers in a row.
+/// Replaces each NaN by the mean of its neighbours on the grid (up to eight) that are numbers. A
+/// NaN without such a neighbour stays. `values` has `columns` >= 1 numbers in each row of the grid.
 void fill_next_to_known(std::vector<double>& values, std::size_t columns);
 
 }  // namespace viscontact::report

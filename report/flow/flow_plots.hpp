@@ -17,9 +17,9 @@ namespace viscontact::report {
 // `picture` must be the flow of a row of the table that `tabulation` describes, with the motion
 // that the function needs; neither is checked. The flow was computed in the half-plane of the
 // distance from the axis and the height; each drawing also shows its mirror image. If the gap is
-// thin, heights are stretched, and the title says so. Each function throws Error(kExternalProgram)
-// if gnuplot is missing, fails or takes ten minutes, and Error(kInterrupted) if `stop` requests a
-// stop.
+// thin, heights are stretched, and the title says so. Each function returns the text of an SVG and
+// throws Error(kExternalProgram) if gnuplot is missing, fails or takes ten minutes, and
+// Error(kInterrupted) if `stop` requests a stop.
 
 /// The finest mesh in the gap, and over it the coarsest mesh, from which the finest was made by
 /// dividing each triangle into 16 or more. The sphere may have any motion.

@@ -38,7 +38,7 @@ struct StreamLine {
 
 /// Streamlines at equal steps of the stream function psi, which StreamLines defines.
 struct StreamLineSet {
-  std::vector<StreamLine> lines;
+  std::vector<StreamLine> lines;  ///< in the order of rising psi
   /// Step of psi between neighbouring lines [L^2/T], or [L^3/T] of a flow with an axis; 0 if psi is
   /// constant, so that there are no lines.
   double step = 0;

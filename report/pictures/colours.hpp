@@ -26,8 +26,8 @@ inline constexpr const char* kReddishPurple = "#CC79A7";
 
 /// The colours of curves. A page gives each of its curves a place in this list, from the first on,
 /// and draws it in this colour in all its pictures, so that readers find it again. Colour-blind
-/// readers can tell the first seven apart. The first two can also be seen on the colours of
-/// pressures and speeds.
+/// readers can tell the first seven apart. The first two can also be seen on a map, which is a
+/// picture that shows values as colours.
 inline constexpr auto kCurveColours = std::to_array<const char*>(
     {kSkyBlue,  kVermilion, kBluishGreen, kReddishPurple, kBlue,     kOrange,   kBlack,
      "#7F7F7F", "#8C564B",  "#17BECF",    "#6A3D9A",      "#B5BD00", "#E31A1C", "#1F3B73",
@@ -48,7 +48,8 @@ struct ColourScale {
 /// The colour "#rrggbb" for share = gamma/(lowest gamma), from 0 (light yellow) to 1 (dark violet).
 std::string film_colour(double share);
 
-/// The scale of gamma from `lowest` < 0 (left) to 0, with `colours` >= 2 colours and these words.
+/// The scale of gamma from `lowest` < 0 (left) to 0, with `colours` >= 2 colours and with `words`
+/// as ColourScale::words.
 ColourScale film_scale(double lowest, int colours, const std::string& words);
 
 inline constexpr const char* kTouchingColour = "#5a5a5a";  ///< for contacts with gamma = 0
@@ -58,7 +59,8 @@ inline constexpr const char* kSlidingColour = "#d55e00";   ///< for contacts tha
 /// (kTouchingColour) to 1 (kSlidingColour).
 std::string friction_colour(double share);
 
-/// The scale of friction_colour() from 0 to 1 with `colours` >= 2 colours and these words.
+/// The scale of friction_colour() from 0 to 1, with `colours` >= 2 colours and with `words` as
+/// ColourScale::words.
 ColourScale friction_scale(int colours, const std::string& words);
 
 /// The colour "#rrggbb" for share = speed/(speed at the end of the scale), from 0 (nearly white) to
@@ -89,8 +91,8 @@ struct PressureColours {
   /// The colour "#rrggbb" at a position `place`, a result of at().
   std::string colour_at(double place) const;
 
-  /// Round pressures [M/(L T^2)] with their texts, for the numbers beside the scale. Those of a
-  /// scale that is logarithmic may lie outside its ends.
+  /// Round pressures [M/(L T^2)] with their texts, for the numbers beside the scale. The pressures
+  /// of a logarithmic scale may lie outside its ends.
   std::vector<std::pair<double, std::string>> ticks() const;
 
   /// The scale from `low` to `high`, with `colours` >= 2 colours, for a pressure minus its mean;

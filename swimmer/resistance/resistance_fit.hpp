@@ -29,20 +29,21 @@ namespace viscontact::swimmer {
 inline constexpr int kLubricationTerms = 3;
 
 /// The singular part of the resistance of two spheres of radii a and b [L] > 0, whose surfaces are
-/// at the distance gap [L] > 0, against a change of this gap, over the viscosity [L]:
+/// at the distance gap [L] > 0, against a change of this gap, divided by the viscosity [L]:
 ///
 ///   6 pi a [ g1/xi + g2 ln(1 + 1/xi) + g3 xi ln(1 + 1/xi) ],   xi = 2 gap/(a + b),
 ///
-/// with g1, g2, g3 of Jeffrey & Onishi 1984 (J. Fluid Mech. 139, 261, equation (3.17) for X11A).
-/// The ln(1/xi) of that equation is replaced by ln(1 + 1/xi), which has the same singularity and
-/// stays positive. The value does not change if a and b are exchanged. It is the sum of the first
-/// `terms` of the three terms; `terms` is from 0 to kLubricationTerms. The arguments of this
-/// function and of the next two functions are not checked.
+/// with the functions g1, g2, g3 of b/a [1] in Jeffrey & Onishi 1984 (J. Fluid Mech. 139, 261,
+/// equation (3.17) for X11A). The ln(1/xi) of that equation is replaced by ln(1 + 1/xi), which has
+/// the same singularity and stays positive. The value does not change if a and b are exchanged. It
+/// is the sum of the first `terms` of the three terms; `terms` is from 0 to kLubricationTerms. The
+/// arguments of this function and of the next two functions are not checked.
 double pair_lubrication(double a, double b, double gap, int terms);
 
-/// The resistance matrix over the viscosity [L] of a line of spheres of which only neighbours
-/// resist a change of their gap, by pair_lubrication(). `radii` and `gaps` are in [L]; `gaps` has
-/// one element less than `radii`. The matrix is positive semidefinite.
+/// The resistance matrix, divided by the viscosity [L], of a line of spheres in which only
+/// neighbours resist a change of their gap, with the resistance pair_lubrication(). `radii` and
+/// `gaps` are in [L], > 0; `gaps` has one element less than `radii`. The matrix is positive
+/// semidefinite.
 Eigen::MatrixXd lubrication_matrix(std::span<const double> radii, std::span<const double> gaps,
                                    int terms);
 
