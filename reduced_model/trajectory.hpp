@@ -1,11 +1,12 @@
 // A trajectory, which is the motion of one sphere near a wall as a model computes it: its rows, its
-// budget of momentum and energy, its file, and the reduction of its rows for that file (key `rows`
-// of [motion]). Contact models replace the thin film of fluid by contact with a memory gamma, minus
-// the impulse that the film has absorbed. Lengths, masses and times are in the units of the case. A
-// wrong file throws Error(kBadInput), with the line if it is in one; members of a trajectory in
-// memory are not checked. Used by reduced_model/, pipeline/, sweep/, results/ and python/. A change
-// must keep the names of the columns, which published files have, both balances of the budget, and
-// all rows that compare_trajectories() looks for, such as the one with the smallest gap.
+// budget of momentum and energy, its CSV file, and the reduction of its rows for that file (key
+// `rows` of the case's section [motion]). Contact models replace the thin film of fluid by contact
+// with a memory gamma, which is minus the impulse that the film has absorbed [M L/T]. Lengths,
+// masses and times are in the units of the case. A wrong file throws Error(kBadInput), which names
+// the file and, for a fault of a row, the line; members of a trajectory in memory are not checked.
+// Used by reduced_model/, pipeline/, sweep/, results/ and python/. A change must keep the names of
+// the columns, which published files have, both balances of the budget, and in fewer_rows() all
+// rows that compare_trajectories() looks for, such as the one with the smallest gap.
 #pragma once
 
 #include <array>
@@ -60,15 +61,16 @@ class OptionalDouble {
 /// without inertia. The film absorbed the energy -film_work, the drag that a contact model resolves
 /// outside contact dissipated -drag_work, and the solid contact dissipated -solid_work.
 ///
-/// Contact models add up the impulses and works of each step. In the other models the film stands
-/// for the whole drag. The impulse of the film is the change of momentum minus the impulses of the
-/// other forces. The work of the film is a sum over the rows, with an error of second order in
-/// their spacing, and external_work is set so that the works are balanced. In inertial_rough
-/// external_work is such a sum, and film_work is set.
+/// Contact models add up the impulses and works of each step. In the other models film_impulse and
+/// film_work are those of the whole drag. There film_impulse is the change of momentum minus the
+/// impulses of the other forces; film_work is a sum over the rows, with an error of second order in
+/// their spacing, and external_work is set so that the works are balanced. The model inertial_rough
+/// (inertia, drag, and an impact where the roughness heights touch) does the reverse: external_work
+/// is the sum over the rows, and film_work is set so that the works are balanced.
 struct MomentumEnergyBudget {
   double external_impulse = 0;  ///< of the external force [M L/T]
-  /// Of the film: minus the change of gamma in contact models, else the impulse of the drag [M
-  /// L/T].
+  /// Of the film [M L/T]: minus the change of gamma in contact models, else the impulse of the
+  /// whole drag.
   double film_impulse = 0;
   double drag_impulse = 0;   ///< of the resolved drag, contact models only [M L/T]
   double solid_impulse = 0;  ///< of the solid contact [M L/T], >= 0
@@ -94,14 +96,15 @@ inline constexpr std::array kBudgetEntries = {
     BudgetEntry{"drag_work", &MomentumEnergyBudget::drag_work},
     BudgetEntry{"solid_work", &MomentumEnergyBudget::solid_work}};
 
-/// The state of the sphere at one time. Forces are > 0 away from the wall.
+/// The state of the sphere at one time. A force is > 0 if it points away from the wall.
 struct TrajectoryRow {
   double time = 0;      ///< [T]
   double gap = 0;       ///< q [L], >= 0
   double velocity = 0;  ///< u = dq/dt [L/T]
-  /// Force of the fluid on the sphere [M L/T^2]; in contact models that of film and resolved drag.
+  /// Force of the fluid on the sphere [M L/T^2]; in contact models the sum of the force of the film
+  /// and of the resolved drag.
   OptionalDouble lubrication_force{};
-  /// Every other force but that of contact, f_ext [M L/T^2].
+  /// The external force f_ext [M L/T^2]: all forces except those of the fluid and of the solids.
   OptionalDouble external_force{};
   /// Minus the impulse that the film has absorbed [M L/T], <= 0; contact models only.
   OptionalDouble gamma{};
@@ -109,14 +112,16 @@ struct TrajectoryRow {
   OptionalDouble solid_force{};
 };
 
-/// An impact of the sphere on the solid wall (physics.md (4.12)).
+/// An impact of the sphere on the solid wall (equation (4.12) of docs/physics.md).
 struct Rebound {
   double time = 0;  ///< [T]
-  /// Velocity before the film acts (of inertial_rough: velocity at the initial gap) [L/T], < 0.
+  /// Velocity before the film acts [L/T], < 0; in the model inertial_rough the velocity at the
+  /// initial gap.
   double approach_velocity = 0;
   /// Impulse that the solids took up before they gave a part back [M L/T], > 0.
   double solid_impulse = 0;
-  double velocity = 0;  ///< velocity at which the sphere leaves the film [L/T], >= 0; 0: it stays
+  /// Velocity at which the sphere leaves the film [L/T], >= 0; 0: the sphere stays in contact.
+  double velocity = 0;
   double coefficient = 0;  ///< of restitution, velocity/|approach_velocity| [1], >= 0
   bool operator==(const Rebound&) const = default;  ///< whether all numbers are equal
 };
@@ -124,31 +129,32 @@ struct Rebound {
 /// When the solids touch for the first time.
 struct SolidTouch {
   double time = 0;  ///< [T]
-  /// Rate of the gap, or in contact models of the film thickness that gamma stands for, just before
-  /// [L/T], <= 0.
+  /// Rate just before this time [L/T], <= 0: that of the gap, or in contact models that of the film
+  /// thickness that gamma stands for.
   double velocity = 0;
   bool operator==(const SolidTouch&) const = default;  ///< whether both numbers are equal
 };
 
-/// Number of the revision of the models. Raise it when a change makes a model compute other
-/// numbers or record more of them; trajectories of another revision are then computed again.
+/// Number of the revision of the models. Raise it when a change makes a model compute other numbers
+/// or record more of them. A run computes a stored trajectory again if the number in its head
+/// differs from this one.
 inline constexpr int kModelsRevision = 5;
 
 /// Rows in strictly increasing time, at least one, and how they were made.
 struct Trajectory {
-  std::string model;                ///< its name
+  std::string model;                ///< name of the model, such as "inertial"
   std::vector<TrajectoryRow> rows;  ///< in strictly increasing time, at least one
   /// Smallest film thickness [L], >= 0, that gamma stands for; nothing if gamma is never < 0.
   /// Contact models only.
   std::optional<double> recovered_minimal_gap;
-  /// Beginning of the first contact and end of the last one (or of the motion) [T]; nothing without
-  /// contact. Contact models only.
+  /// Beginning of the first contact, and end of the last one or of a motion that ends in contact
+  /// [T]; nothing if there is no contact. Contact models only.
   std::optional<std::array<double, 2>> contact_interval;
-  /// When the solids touch first; nothing if they never do, or if the model has no solids.
+  /// The first touch of the solids; nothing if they never touch or if the model has no solids.
   std::optional<SolidTouch> solid_contact_from{};
   /// Impacts on the solids in order of time; only if the case has a restitution.
   std::vector<Rebound> rebounds;
-  /// The budget; nothing in a trajectory that Viscontact did not write.
+  /// The budget; nothing if the file of the trajectory has no line of it.
   std::optional<MomentumEnergyBudget> budget;
   long steps = 0;      ///< number of steps of the integrator, >= 0; 0 if not stated
   double seconds = 0;  ///< computing time on a clock [s]; 0 if not stated
@@ -159,20 +165,21 @@ struct Trajectory {
 /// Reads a trajectory file, which Viscontact or a user wrote. The columns time, gap and velocity
 /// are required. The name of the model is that of the line "# model:", or else the file name
 /// without its ending. Throws Error(kBadInput), with the file and, for a fault of a row, its line,
-/// if the file cannot be read, a required column or value is missing, a number is not finite, a gap
-/// is negative, times do not increase, there is no row, or a number in the head is wrong. Signs of
-/// other values are not checked.
+/// if the file cannot be read or was cut short, a required column or value is missing, a number is
+/// not finite, a gap is negative, times do not increase, there is no row, or the head has a number
+/// that is not finite, a `steps` outside 0 to 1e15, or `rebounds` that are not five numbers each.
+/// Signs of other values are not checked; further columns are ignored.
 Trajectory read_trajectory(const std::filesystem::path& path);
 
 /// The text of the trajectory file (CSV). Nothing is checked or thrown.
 std::string write_trajectory(const Trajectory& trajectory);
 
-/// About `count` >= 2 (not checked) of the rows, in their order; all of them if they are at most
-/// `count`. They are the first rows at or after each of `count` equidistant times, and the rows
-/// that a comparison needs: the first, the last, the first with the smallest gap, with the largest
-/// gap and with the lowest gamma, and the two rows around each instant at which contact or solid
-/// contact begins or ends. If there are more than `count` such instants, only the first and the
-/// last of them count.
+/// About `count` >= 2 (not checked) of the rows, in their order; all rows if there are at most
+/// `count`. The result has the first row at or after each of `count` equidistant times, and the
+/// rows that a comparison needs: the first, the last, the first with the smallest gap, with the
+/// largest gap and with the lowest gamma, and the two rows around each instant at which contact
+/// (gamma < 0) or solid contact (solid_force > 0) begins or ends. If there are more than `count`
+/// such instants, only the rows around the first and the last of them are kept.
 std::vector<TrajectoryRow> fewer_rows(const std::vector<TrajectoryRow>& rows, int count);
 
 }  // namespace viscontact::reduced_model

@@ -1,9 +1,10 @@
 // Writes report.html with plots that can be zoomed in a browser, and for each plot a still picture
 // plots/NAME.svg, for browsers without scripts and for printing. The reports of report/, rolling/
 // and swimmer/ use all of this file, the page of particles/picture only the functions for pieces of
-// HTML. Numbers in plots have no units here; the labels of axes name the units. Only link_to() and
-// the class Report throw. report/page/*.js read the plots as JSON, so a change of the JSON must be
-// made there, too.
+// HTML. Numbers in plots have no units here; the labels of axes name the units. Members of plots
+// are not checked. Only link_to(), write() and the other members of the class Report throw. The
+// scripts report/page/*.js read the plots as JSON, so a change of the JSON must be made there, too.
+// Sizes, colours and defaults of the structs are free choices.
 #pragma once
 
 #include <exception>
@@ -27,9 +28,10 @@ enum class PointKind { kNone, kCircle, kDisc, kSquare, kCross };
 
 /// How a curve is drawn.
 struct CurveStyle {
-  std::string colour{};        ///< "#rrggbb"
-  double width = 2;            ///< width of the line [pixels], >= 0; 0: points only
-  std::vector<double> dash{};  ///< lengths of dashes and spaces in turn [pixels]; empty: solid
+  std::string colour{};  ///< "#rrggbb"
+  double width = 2;      ///< width of the line [pixels], >= 0; 0: points only
+  /// Lengths of dashes and spaces in turn [pixels], an even number of them; empty: a solid line.
+  std::vector<double> dash{};
   PointKind point = PointKind::kNone;  ///< kNone: the line only
   double point_size = 1;               ///< size of a point in units of about 7 pixels, > 0
 };
@@ -39,19 +41,19 @@ struct PlotCurve {
   /// Words in the legend. A curve without words belongs to the entry of the previous curve.
   std::string legend{};
   CurveStyle style{};  ///< how it is drawn
-  /// In the order of x, which must not decrease (not checked); a y that is not finite interrupts
-  /// the line. May be empty.
+  /// The points, in the order of x, which must not decrease (not checked). A y that is not finite
+  /// interrupts the line. There may be no points.
   std::vector<std::pair<double, double>> points{};
 };
 
 /// An axis of a plot.
 struct PlotAxis {
-  std::string label{};                  ///< what it shows, with the unit
+  std::string label{};                  ///< the name of the quantity, with its unit
   bool logarithmic = false;             ///< true: values <= 0 are not drawn
   std::optional<double> low{}, high{};  ///< ends before zooming; nothing: those of the curves
 };
 
-/// Where the legend of the still picture is.
+/// Place of the legend in a still picture: below the panel, or in a corner of it.
 enum class KeyPlace { kBelow, kTopRight, kBottomRight };
 
 /// Curves on common axes.
@@ -59,26 +61,29 @@ struct PlotPanel {
   std::string title{};              ///< above the panel
   PlotAxis x{}, y{};                ///< its axes
   std::vector<PlotCurve> curves{};  ///< in the order of the legend
-  KeyPlace key = KeyPlace::kBelow;  ///< in the still picture
-  std::vector<std::string> rows{};  ///< names of y = 1, 2, ..., if y counts rows; else empty
+  KeyPlace key = KeyPlace::kBelow;  ///< place of the legend in the still picture
+  /// Names of the rows y = 1, 2, ... of a panel that shows a point for each name; otherwise empty.
+  std::vector<std::string> rows{};
 };
 
 /// A plot: panels one below the other.
 struct Plot {
   std::string name{};               ///< NAME of the file plots/NAME.svg, without the ending
   int height = 440;                 ///< height of the still picture [pixels], > 0
-  std::vector<PlotPanel> panels{};  ///< from the top; empty: a picture that cannot be zoomed
+  std::vector<PlotPanel> panels{};  ///< from the top; empty: the plot is a still picture only
 };
 
-/// The text with the characters &, <, > and " escaped for HTML, and U+FFFD for control characters.
+/// The text with the characters &, <, > and " escaped for HTML. U+FFFD replaces each control
+/// character except line breaks and tabs.
 std::string escaped(std::string_view text);
 
-/// A section with a heading, both HTML; empty if `body` is empty.
+/// A section of HTML with this heading (HTML) above `body` (HTML); empty if `body` is empty.
 std::string section(std::string_view heading, const std::string& body);
 
 /// A link from the report to the file `file` of a run, a path relative to the run's folder. `words`
-/// is the text of the link, by default `file`. If there is no such file, the text without a link.
-/// Throws std::filesystem::filesystem_error if the system cannot tell.
+/// is the text of the link (plain text), by default `file`. If there is no such file, the result is
+/// the text without a link. Throws std::filesystem::filesystem_error if the system cannot tell
+/// whether the file exists.
 std::string link_to(const results::RunFolder& run, const std::string& file,
                     std::string_view words = {});
 
@@ -97,24 +102,27 @@ std::string headings(std::initializer_list<std::string_view> cells);
 /// If `head` is empty, `rows` may begin with rows of headings.
 std::string table_of(const std::string& rows, const std::string& head = {});
 
-/// A line "From WORDS." (HTML) below a table or text, which says from which files its numbers are.
+/// The line "From WORDS.", where `words` is HTML. It stands below a table or text and names the
+/// files that the numbers above it come from.
 std::string source(const std::string& words);
 
 /// Items of HTML as a box with warnings; empty if there are none.
 std::string warnings_box(const std::vector<std::string>& items);
 
-/// The beginning of a page, up to the end of its style: the title (plain text), `style` (CSS),
-/// `more` elements of the head, and a policy by which the browser loads nothing from elsewhere.
-/// `has_images` allows images that are contained in the page.
+/// The beginning of a page, up to the end of its <style> element: a policy by which the browser
+/// loads nothing from elsewhere, the elements `more` of the head (HTML), the title (plain text) and
+/// `style` (CSS). If `has_images` is true, the policy allows images that the page contains itself.
+/// The caller must close the head.
 std::string page_head(std::string_view title, std::string_view style, bool has_images,
                       std::string_view more = {});
 
-/// True if the report in the folder of a run and its pictures, those of `names`, exist and the
-/// inputs of the report have not changed since. False if there are no still pictures, because
-/// gnuplot may have been installed since, and if the report or another file cannot be read.
+/// True if the folder of a run has a report and those of the pictures `names` that the report
+/// contains, and if the inputs of the report have not changed since it was made. False if there are
+/// no still pictures, because gnuplot may have been installed since, and if the report or another
+/// file cannot be read.
 bool page_is_current(const std::filesystem::path& folder, std::span<const std::string_view> names);
 
-/// A report while it is made: first its figures, then its page.
+/// A report that is being made: draw() and add_picture() make its figures, then write() its page.
 class Report {
  public:
   /// `folder` is that of the run. `names` are the names of all pictures that a report of this kind
@@ -124,8 +132,9 @@ class Report {
   Report(std::filesystem::path folder, std::span<const std::string_view> names);
 
   /// Draws the still pictures of these plots at the same time, each in a process of gnuplot,
-  /// because most of the time of such a process is its start. If gnuplot is missing or fails, no
-  /// plot has a still picture (see write()). Throws Error(kInterrupted) if `stop` requests a stop.
+  /// because most of the time of such a process is its start. If gnuplot is missing or fails for
+  /// one of them, none of these plots gets a still picture, and write() tells the user. Throws
+  /// Error(kInterrupted) if `stop` requests a stop.
   void draw(std::vector<Plot> plots, const StopToken& stop);
 
   /// False if gnuplot was missing or failed in draw().
@@ -137,14 +146,16 @@ class Report {
     figures_.push_back({{.name = name}, std::move(svg)});
   }
 
-  /// The HTML of the figures with these names, as far as they exist; without names, of all figures.
+  /// The HTML of the figures with these names, in this order; names without a figure are skipped.
+  /// Without names, the HTML of all figures in the order in which they were added.
   std::string figures(std::initializer_list<std::string_view> names = {}) const;
 
   /// Writes the pictures and report.html, and removes pictures of an earlier report that this one
   /// does not have. `title` is plain text; `opening` and `sections` are HTML above and below the
-  /// hints for the use of the figures. Warns if gnuplot was missing. Throws Error(kBadInput) if a
-  /// file cannot be written, Error(kWrongUsage) if the variable SOURCE_DATE_EPOCH is no time, and
-  /// Error(kExternalProgram), after all is written, if gnuplot failed in draw().
+  /// hints for the use of the figures. Warns the user if gnuplot was missing in draw(). Throws
+  /// Error(kBadInput) if a file cannot be written, Error(kWrongUsage) if the environment variable
+  /// SOURCE_DATE_EPOCH is not a time, and Error(kExternalProgram), after all files are written, if
+  /// gnuplot failed in draw().
   void write(std::string_view title, const std::string& opening, const std::string& sections,
              const results::Provenance& provenance) const;
 

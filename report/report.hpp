@@ -1,7 +1,8 @@
-// report.html: one page with the results of a run of one sphere, in the units of the case. The
-// commands `run` and `report` call it. Inputs that are missing or wrong throw Error(kBadInput); a
-// missing gnuplot is only a warning. A change must keep that the page loads nothing from elsewhere,
-// and that folders of earlier versions can be read.
+// Writes report.html, one page with the results of a run of one sphere. Gaps [L], times [T] and
+// forces [M L/T^2] are in the units of the case. The commands `run` and `report` call this file.
+// Inputs that are missing or wrong throw Error(kBadInput); a missing gnuplot is only a warning. A
+// change must keep that the page loads nothing from elsewhere, that folders of earlier versions can
+// be read, and that kPlotNames contains the name of every plot.
 #pragma once
 
 #include <array>
@@ -14,19 +15,20 @@
 
 namespace viscontact::report {
 
-/// Writes report.html into the folder of a run from its case, fit, trajectories, comparison and
-/// table (if there is one), and its plots into plots/. `given` are the files of the user from which
-/// the same command made the files in the folder; it is empty if the user gave the files in the
-/// folder. If gnuplot cannot be run, the user is warned, and there are no still pictures and no
-/// files in plots/; browsers draw the plots without gnuplot. Throws Error(kBadInput) if an input is
-/// missing or wrong or a file cannot be written, the error of the constructor of Report,
-/// Error(kWrongUsage) if the variable SOURCE_DATE_EPOCH is no time, Error(kExternalProgram) if
-/// gnuplot fails, after the report is written without still pictures, and Error(kInterrupted) if
-/// `stop` requests a stop.
+/// Writes report.html and the pictures in plots/ into the folder of a run. Its inputs are the files
+/// in the folder: case.toml, fit.json, comparison.json, trajectories/*.csv (at least one) and, if
+/// they exist, table.csv and uncertainty.json. `given` are the files of the user from which the
+/// same command made these files; it is empty if the user gave the files in the folder. If gnuplot
+/// cannot be run, the user is warned, and there are no still pictures and no files in plots/;
+/// browsers draw the plots without gnuplot. Throws Error(kBadInput) if an input is missing or
+/// wrong, if a file cannot be written, or if report.html or a picture would replace a file that
+/// Viscontact did not write. Throws Error(kWrongUsage) if the environment variable
+/// SOURCE_DATE_EPOCH is not a time, Error(kInterrupted) if `stop` requests a stop, and
+/// Error(kExternalProgram) if gnuplot fails; the report is then written without still pictures.
 void write_report(const std::filesystem::path& folder,
                   const std::vector<std::filesystem::path>& given = {}, const StopToken& stop = {});
 
-/// The names of all plots of the report (Report).
+/// The names of all plots that the report can have. A plot is stored in plots/NAME.svg.
 inline constexpr auto kPlotNames = std::to_array<std::string_view>(
     {"thinnest_film", "gap", "gap_logarithmic", "external_force", "lubrication_force", "gamma",
      "solid_force", "fit", "uncertainty"});

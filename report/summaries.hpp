@@ -1,8 +1,10 @@
 // Summaries of fits, shifts of rough walls and comparisons of models: words and tables for the
-// terminal, JSON, and pictures. Gaps and times are in the units of the case, residuals are relative
-// [1]. pipeline/fit_stages.cpp and pipeline/compare_stage.cpp print them. Fits must have
-// diagnostics: without them fit_in_words() and basis_table() throw std::bad_optional_access. A
-// change must keep the keys of the JSON, which users' scripts read.
+// terminal, JSON, and pictures. Gaps [L], times [T] and velocities [L/T] are in the units of the
+// case; residuals and error estimates are relative [1]. pipeline/fit_stages.cpp and
+// pipeline/compare_stage.cpp print the summaries. If a fit has no diagnostics, fit_in_words() and
+// basis_table() throw std::bad_optional_access; only the pictures throw other errors. A change must
+// keep the keys of the JSON, which users' scripts read; columns, colours and sizes are free
+// choices.
 #pragma once
 
 #include <string>
@@ -16,33 +18,40 @@
 
 namespace viscontact::report {
 
-/// Lines on basis, residuals, cause of the misfit and outliers; the last has no line break.
+/// Lines that say the basis of a fit, its residuals, the cause of its misfit and its outliers. The
+/// last line has no line break.
 std::string fit_in_words(const lubrication::Fit& fit);
 
-/// A table with a line for each basis (of a failed fit, with the reason), and a last line that
-/// names the basis with the smallest information criterion (AICc), if one has a criterion.
+/// A table with a line for each basis. The line of a fit that failed says the reason. If a fit has
+/// an information criterion (AICc), a last line names the basis with the smallest one.
 std::string basis_table(const std::vector<fitting::BasisResult>& results);
 
-/// A JSON list with an object for each basis: the content of the fit file or, if the fit failed,
-/// the keys "basis" and "failure" only.
+/// A JSON list with an object for each basis: the content of a fit file (docs/file-formats.md), or
+/// only the keys "basis" and "failure" (both texts) if the fit failed.
 std::string basis_json(const std::vector<fitting::BasisResult>& results);
 
 /// A picture of the relative residuals of every basis over the gap, beside the table's error
-/// estimates. `table` must be that of the fits (not checked). Throws Error(kExternalProgram) if
-/// gnuplot is missing or fails, as it does if every fit failed and the table has no estimates, and
-/// Error(kInterrupted) if `stop` requests a stop.
+/// estimates. `table` must be the table that was fitted (not checked). Throws
+/// Error(kExternalProgram) if gnuplot is missing or fails, and Error(kInterrupted) if `stop`
+/// requests a stop. gnuplot fails, too, if every fit failed and the table has no error estimates,
+/// because nothing is to be drawn.
 std::string plot_bases(const lubrication::MotionTable& table,
                        const std::vector<fitting::BasisResult>& results,
                        const results::PictureFormat& format, const StopToken& stop = {});
 
-/// A picture with two panels over the gap: the shift of each row beside the common shift [L], by
-/// which the smooth wall lies below the crests of the rough one, and the relative residuals with
-/// the common shift. `wall` is the wall's name in the title. Throws the errors of plot_bases().
+/// A picture with two panels over the gap. A smooth wall that lies by a shift [L], >= 0, below the
+/// crests of a rough wall has about the same drag. The first panel shows the shift of each row
+/// beside the common shift of all rows, and the second the relative residuals with the common
+/// shift. `wall` names the rough wall in the title. Throws Error(kExternalProgram) if gnuplot is
+/// missing or fails, also because there is no row to draw, and Error(kInterrupted) if `stop`
+/// requests a stop.
 std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& wall,
                             const results::PictureFormat& format, const StopToken& stop = {});
 
-/// A table with a line for each model: smallest gap and its time, film recovered from gamma, times
-/// of contact, largest distance to the reference, and when solids touch if they do in a model.
+/// A table with a line for each model: smallest gap and its time, smallest film that is recovered
+/// from gamma (minus the impulse that the film has absorbed), times of contact, and largest
+/// distance of the gap to that of the reference model. If solids touch in a model, two more columns
+/// show the time and the velocity of the touch. A dash replaces a missing value.
 std::string comparison_table(const reduced_model::Comparison& comparison);
 
 }  // namespace viscontact::report

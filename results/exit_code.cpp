@@ -1,7 +1,8 @@
-// The table of exit codes, with a row for success and one for each kind of error (exit_code.hpp).
-// main.cpp and app/help/ use it, and failed_models.cpp stores the codes. kind_of_exit_code() throws
-// std::out_of_range for a code of no error. The codes must not change, because scripts of users
-// rely on them; docs/command-line.md repeats the table.
+// The table of exit codes, with a row for success and one for each kind of error (exit_code.hpp). A
+// code is a number from 0 to 255. main.cpp and app/help/ use the table, and failed_models.cpp
+// stores the codes. exit_code_of() asserts that the kind has a row; kind_of_exit_code() throws
+// std::out_of_range for 0 and for a number that is no code. The codes must not change, because
+// scripts of users rely on them; the words may, but docs/command-line.md repeats the table.
 #include "viscontact/results/exit_code.hpp"
 
 #include <algorithm>

@@ -1,8 +1,10 @@
-// Reads and writes failed_models.json (docs/file-formats.md) for pipeline/ and rolling/, and
-// chooses the model with which the others are compared if models have failed. Nothing here has a
-// unit. A damaged record is an Error(kBadInput), except in recorded_failures(), which takes it as
-// empty. A reference model that was asked for, but has failed, is an Error(kBadInput), too. A
-// change must keep the keys, because earlier runs have such files.
+// Reads and writes failed_models.json for pipeline/ and rolling/, and chooses the model with which
+// the others are compared if models have failed. Nothing here has a unit. The file is the object
+// {"failed_models": {MODEL: {"reason": text, "exit_code": number, "made_from": {KEY: text}}}}. A
+// damaged record is an Error(kBadInput), except in recorded_failures(), which then returns an empty
+// list. A reference model that the user asked for, but that has failed, is an Error(kBadInput),
+// too. A path that the system refuses throws std::filesystem::filesystem_error. A change must keep
+// the keys, because earlier runs have such files.
 #include "viscontact/results/failed_models.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,8 @@
 // The record of the models that failed in a simulation, failed_models.json in a run's folder. It
 // tells the commands `compare` and `report` why these models have no trajectory. Nothing here has a
-// unit. A damaged record throws Error(kBadInput), except in recorded_failures(). A change must keep
-// the keys of the file. Used by pipeline/ and rolling/.
+// unit. A damaged record throws Error(kBadInput), except in recorded_failures(); a path that the
+// system refuses throws std::filesystem::filesystem_error. A change must keep the keys of the file,
+// {"failed_models": {MODEL: {"reason", "exit_code", "made_from"}}}. Used by pipeline/ and rolling/.
 #pragma once
 
 #include <filesystem>
@@ -20,40 +21,44 @@ struct FailedModel {
   std::string model;                      ///< name of the model, as in MODEL.csv
   std::string reason;                     ///< message of the Error, without the name of the model
   ErrorKind kind = ErrorKind::kBadInput;  ///< kind of the Error
-  CsvComments made_from;  ///< comments that identify case, fit and version, as in a trajectory
+  /// The lines "# key: value" with which a trajectory of this model would name its case, its fit
+  /// and the version of the program.
+  CsvComments made_from;
 };
 
-/// Reads the record (JSON), in its order. Returns an empty list if there is no such file. Throws
-/// Error(kBadInput) if the file cannot be read or is not such a record.
+/// Reads the record (JSON), in the order of the file. Returns an empty list if there is no file at
+/// `path`. Throws Error(kBadInput) if the file cannot be read or is not such a record.
 std::vector<FailedModel> read_failed_models(const std::filesystem::path& path);
 
-/// The entries in the record of a run's folder that were made from these inputs
-/// (FailedModel::made_from). The list is empty if the record is missing or damaged.
+/// The entries in the record of a run's folder whose FailedModel::made_from equals `made_from`. The
+/// list is empty if the record is missing or damaged.
 std::vector<FailedModel> recorded_failures(const RunFolder& run, const CsvComments& made_from);
 
-/// The text (JSON) of the record; of two entries of one model the last counts. Throws nothing.
+/// The text (JSON) of the record. If a model has two entries, the last one counts. Throws nothing.
 std::string write_failed_models(const std::vector<FailedModel>& failed);
 
 /// The error that ends a simulation in which the models of `failed` (at least one, not checked)
-/// failed and `computed` other models (0 or more) were computed. The error names the case and has
-/// the kind and the reason of the first model that failed.
+/// failed and `computed` other models (0 or more) were computed. The error names the file
+/// `case_path` and has the kind and the reason of the first model that failed.
 Error error_of(const std::vector<FailedModel>& failed, std::size_t computed,
                const std::filesystem::path& case_path);
 
-/// The models in the record of the folder of which `trajectories` has no trajectory; none without a
-/// record. Throws the error of read_failed_models().
+/// The models in the record of the folder of which `trajectories` has no trajectory. The list is
+/// empty if the folder has no record. Throws Error(kBadInput) if the record cannot be read or is
+/// damaged.
 std::vector<reduced_model::ModelWithoutTrajectory> failures_without(
     const std::vector<reduced_model::Trajectory>& trajectories, const RunFolder& run);
 
-/// The model with which `run` compares the others: reduced_model::reference_of() those of `models`
-/// that are not in `failed`; the usual reference if none is left.
+/// The model with which `run` compares the others, chosen among those of `models` that are not in
+/// `failed`: the usual reference (reduced_model::usual_reference()) if it is among them, otherwise
+/// the first of them. If none is left, it is the usual reference.
 std::string reference_without(const std::vector<std::string>& models,
                               const std::vector<FailedModel>& failed);
 
-/// The model with which `compare` compares the others: `asked`, or reduced_model::usual_reference()
-/// if `asked` is empty. If the usual reference failed, it is the model of the first trajectory
-/// (there must be one, not checked). Throws Error(kBadInput) with the recorded reason if the model
-/// `asked` failed; whether it has a trajectory otherwise is not checked.
+/// The model with which `compare` compares the others: `asked`, or the usual reference if `asked`
+/// is empty. If `asked` is empty and the usual reference failed, it is the model of the first
+/// trajectory (there must be one, not checked). Throws Error(kBadInput) with the recorded reason if
+/// the model `asked` failed. Whether the chosen model has a trajectory is not checked.
 std::string reference_among(const std::vector<reduced_model::Trajectory>& trajectories,
                             const std::vector<reduced_model::ModelWithoutTrajectory>& failed,
                             const std::string& asked);

@@ -1,7 +1,9 @@
 // Recognises files of Viscontact by their provenance, the record of how a file was made
-// (provenance.hpp), in their first MiB or, in a PDF, in their last one, for all commands that write
-// files and for python/. A file that must not be replaced or cannot be read is an Error(kBadInput).
-// A change must still recognise files of earlier versions.
+// (provenance.hpp). It is in the first MiB of a file, or in the last MiB of a PDF. All commands
+// that write files, and python/, use this file. A file that must not be replaced or cannot be
+// opened is an Error(kBadInput). A change must still recognise files of earlier versions: it must
+// keep the words "provenance" and "command" and may only raise the limits of 1 MiB and 40
+// characters.
 #include "viscontact/results/foreign_files.hpp"
 
 #include <cerrno>

@@ -1,8 +1,9 @@
 // Writes the line of provenance (how a file was made, as JSON) into each kind of file, and finds
-// and reads it again, for all parts that write results and for `rerun`; provenance.hpp has the
-// format. A damaged line, or a file that cannot be read or written, is an Error(kBadInput), a wrong
-// SOURCE_DATE_EPOCH an Error(kWrongUsage), a path that the system refuses a
-// std::filesystem::filesystem_error, and a text without the mark at which its kind has the line a
+// and reads it again, for all parts that write results and for `rerun`. The keys of the JSON are
+// command, folder, inputs (a list of objects with file, sha256 and, if true, intermediate), output,
+// versions and made. A damaged line, or a file that cannot be read or written, is an
+// Error(kBadInput), a wrong SOURCE_DATE_EPOCH an Error(kWrongUsage), a path that the system refuses
+// a std::filesystem::filesystem_error, and a text without the mark at which its kind has the line a
 // std::out_of_range. The beginning of the JSON (kBegin) must not change, because earlier files are
 // recognised by it; foreign_files.cpp repeats kName and the key in kBegin.
 #include "viscontact/results/provenance.hpp"
@@ -96,8 +97,8 @@ std::string without(std::string_view characters, const std::string& json) {
   return text;
 }
 
-/// The beginning of the type and the data of the chunk of a PNG with the provenance: a text with a
-/// keyword.
+/// The beginning of the chunk of a PNG that contains the provenance: the type of the chunk (tEXt, a
+/// text with a keyword), then the keyword.
 constexpr std::string_view kChunk{"tEXtprovenance\0", 15};
 
 /// The text before and after the JSON in a kind of file.
@@ -131,8 +132,8 @@ Wrapping wrapping_of(TextKind kind) {
   return {};
 }
 
-/// The position for a new line: after the first `mark` at or after the position `from`, and after
-/// the newline if one follows `mark`; npos if there is no `mark`.
+/// The position for a new line: behind the first `mark` that begins at the position `from` or
+/// later, and behind the newline if `mark` is followed by one; npos if there is no such `mark`.
 std::size_t line_after(const std::string& text, std::string_view mark, std::size_t from = 0) {
   const auto at = text.find(mark, from);
   if (at == std::string::npos) return at;
@@ -171,7 +172,7 @@ std::size_t place_in(TextKind kind, const std::string& text) {
 constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
 constexpr std::size_t kPngHeader = 8 + 25;
 
-/// A number as 4 bytes, the highest first.
+/// A number as 4 bytes, of which the most significant byte is the first.
 std::string as_bytes(std::uint32_t number) {
   std::string bytes;
   for (int shift = 24; shift >= 0; shift -= 8)
@@ -198,7 +199,7 @@ std::string png_chunk(const Provenance& provenance) {
          as_bytes(crc_of(content));
 }
 
-/// Two positions in a text: begin of the JSON of the provenance, and end of its line.
+/// Two positions in a text: where the JSON of the provenance begins, and where its line ends.
 struct Line {
   std::size_t json = 0, end = 0;
 };
@@ -215,9 +216,10 @@ std::optional<Line> find_line(const std::string& text) {
   return {};
 }
 
-/// A PDF whose date of creation is `made`, a time in UTC to the second, so that SOURCE_DATE_EPOCH
-/// replaces it, too. Its length stays, because a table in the file has the places of its objects. A
-/// date that is compressed, as cairo 1.18 may write it, is not found and stays.
+/// The PDF `pdf` with `made`, a time in UTC to the second, as its date of creation, so that
+/// SOURCE_DATE_EPOCH replaces this date, too. The length of the file does not change, because a
+/// table in the file has the positions of its objects. A date that is compressed, as the library
+/// cairo 1.18 may write it, is not found and stays as it is.
 std::string with_creation_date(std::string pdf, const std::string& made) {
   constexpr std::string_view kDate = "/CreationDate (D:";
   const auto begin = pdf.find(kDate);
@@ -231,7 +233,8 @@ std::string with_creation_date(std::string pdf, const std::string& made) {
   return pdf;
 }
 
-/// The folder from which the relative path `output` leads to `file`; nothing if there is none.
+/// The folder from which the relative path `output` leads to `file`; nothing if there is no such
+/// folder.
 std::optional<std::filesystem::path> folder_around(const std::filesystem::path& file,
                                                    const std::string& output) {
   const auto path = std::filesystem::weakly_canonical(file);
@@ -248,7 +251,8 @@ bool moves_with_command(const std::string& file, const Provenance& provenance) {
          (!provenance.folder.empty() && file.starts_with(provenance.folder + "/"));
 }
 
-/// Where this file is if the files of the command are in `folder` now.
+/// The present path of `file`, a path in a provenance, if the files of the command are now in
+/// `folder`.
 std::filesystem::path place_of(const std::string& file, const Provenance& provenance,
                                const std::filesystem::path& folder) {
   const bool is_below = !file.empty() && file[0] == '/' && moves_with_command(file, provenance);
@@ -256,7 +260,8 @@ std::filesystem::path place_of(const std::string& file, const Provenance& proven
 }
 
 /// True if all inputs that the user gave exist when the files of the command are in `folder`. An
-/// input elsewhere tells nothing about `folder`, so at least one must have moved with the command.
+/// input whose path is outside the command's folder tells nothing about `folder`. Therefore at
+/// least one input must have a path in the command's folder, unless the user gave no inputs.
 bool has_inputs(const std::filesystem::path& folder, const Provenance& provenance) {
   bool has_given = false, has_moved = false;
   for (const auto& input : provenance.inputs) {
@@ -290,7 +295,8 @@ Provenance without_folders(Provenance provenance) {
     if (!path.is_absolute()) return;
     const auto normal = path.lexically_normal(), relative = normal.lexically_relative(folder);
     const bool below = !relative.empty() && *relative.begin() != "..";
-    // A path that ends with "/" has an empty file name. Of the path "/" itself "/" stays.
+    // A path that ends with "/" has an empty file name, so its last folder is used. The path "/"
+    // stays as it is.
     const auto last = normal.has_filename() ? normal : normal.parent_path();
     const auto name = last.has_filename() ? last.filename() : last;
     word.replace(begin, std::string::npos, (below ? relative : name).string());

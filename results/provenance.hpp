@@ -1,8 +1,10 @@
-// Provenance: how a file was made. Every output contains its provenance as one line, which
-// `viscontact rerun`, the report and foreign_files.hpp read. It names the versions of the programs
-// and libraries that made the file. All parts that write results use it. Functions with paths throw
-// std::filesystem::filesystem_error, too, if the system refuses to look at them. A change must keep
-// files of earlier versions readable.
+// Provenance is the record of how a file was made. Every output contains its provenance as one line
+// of JSON, which `viscontact rerun`, the report and foreign_files.hpp read. All parts that write
+// results use this file. No number here has a unit. A damaged provenance, or a file that cannot be
+// read or written, throws Error(kBadInput). Functions with paths throw
+// std::filesystem::filesystem_error, too, if the system refuses to look at a path. A change must
+// keep files of earlier versions readable, so it must not rename keys of the JSON or change the
+// place of the line in a kind of file.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +20,7 @@ namespace viscontact::results {
 
 /// A file that an output was made from.
 struct InputFile {
-  std::string file;           ///< path; a relative one begins at the command's folder
+  std::string file;           ///< path; a relative path begins at Provenance::folder
   std::string sha256;         ///< SHA-256 of the file's bytes; empty if it is a pipe
   bool intermediate = false;  ///< true: the same command made the file, as `run` makes its table
 };
@@ -35,7 +37,8 @@ struct Provenance {
   std::map<std::string, std::string> versions;
   /// The file that was written, as the command names it.
   std::string output;
-  /// Time at which the file was made: UTC, ISO 8601 to the second. SOURCE_DATE_EPOCH replaces it.
+  /// Time at which the file was made: UTC, ISO 8601 to the second. If the environment variable
+  /// SOURCE_DATE_EPOCH is set, it is the time in this variable.
   std::string made;
 };
 
@@ -46,9 +49,9 @@ struct Inputs {
 };
 
 /// The provenance of an output that this process makes from these files; `output` and `made` are
-/// empty. The files are read to compute their hashes. Call it before a long computation, because a
-/// user may edit the files during the computation. Throws Error(kBadInput) if a file cannot be
-/// read.
+/// empty. The files are read to compute their hashes. Call this function before a long computation,
+/// because a user may edit the files during the computation. Throws Error(kBadInput) if a file
+/// cannot be read.
 Provenance provenance_of(const Inputs& inputs);
 
 /// The position (bytes from 0) in a word of a command at which an absolute path begins: after
@@ -56,30 +59,32 @@ Provenance provenance_of(const Inputs& inputs);
 std::size_t path_in_word(const std::string& word);
 
 /// The provenance for a file that users pass on to others. It names the inputs, but no folders of
-/// the machine. `folder` becomes empty. An absolute path below `folder` becomes relative
-/// to `folder`; of any other absolute path, and of the program, only the file name stays.
+/// the machine. `folder` becomes empty. An absolute path below the old `folder` becomes relative to
+/// it. All other absolute paths, and the path of the program, are replaced by their file names.
 Provenance without_folders(Provenance provenance);
 
 /// `text` with the provenance as one line in it. The line is the first key of a kJson file, an
 /// element `metadata` of a kSvg file, a data script in the head of a kHtml file, a comment before
 /// the last lines of a kPdf file, a chunk of text after the header of a kPng file, and a comment at
 /// the head of any other file. `text` must be a complete file of this kind, for kJson an object
-/// with at least one key (not checked). Throws std::out_of_range if it lacks the mark at which the
-/// line is inserted: "{" of kJson, "<svg" and ">" of kSvg, "</head>" of kHtml, "?>" of kXml,
-/// "startxref" of kPdf, or the header of kPng.
+/// with at least one key (not checked). Throws std::out_of_range if `text` lacks the mark at which
+/// the line is inserted: "{" of kJson, "<svg" and ">" of kSvg, "</head>" of kHtml, "?>" of kXml,
+/// "startxref" of kPdf, or the header (33 bytes) of kPng.
 std::string with_provenance(TextKind kind, const std::string& text, const Provenance& provenance);
 
-/// `text` as it was before with_provenance, unchanged if it has no provenance, or if another
-/// program has written the provenance in another form. Two files that were made in the same way at
-/// different times are equal without their provenance.
+/// `text` without the line that with_provenance() inserted. It is unchanged if it has no
+/// provenance, or if another program has written the provenance in another form. Two files that
+/// were made in the same way at different times are equal without their provenance, except that a
+/// PDF also has a date of creation.
 std::string without_provenance(const std::string& text);
 
-/// True if there is a file at `path` whose text without its provenance is `text`. Such a file is
-/// not written again, so that it keeps its time of making. False if the file cannot be read.
+/// True if there is a file at `path` whose text without its provenance is `text`.
+/// write_if_changed() does not write such a file again, so that the file keeps its time `made`.
+/// False if the file cannot be read.
 bool has_content(const std::filesystem::path& path, const std::string& text);
 
-/// SHA-256 (64 hexadecimal digits) of the text without its provenance. Outputs of Viscontact record
-/// by this hash from which other output they were made.
+/// SHA-256 (64 hexadecimal digits) of the text without its provenance. An output of Viscontact that
+/// is made from another output records this hash of the other.
 std::string content_sha256(const std::string& text);
 
 /// The provenance in a text of any kind, or nothing if the text has none. Throws Error(kBadInput)
@@ -90,41 +95,45 @@ std::optional<Provenance> provenance_in(const std::string& text, const std::stri
 /// if the file cannot be read or its provenance is damaged.
 std::optional<Provenance> read_provenance(const std::filesystem::path& path);
 
-/// Says in words how an input has changed since the output was made, is missing or was a pipe;
-/// empty if it has not changed. `folder` is the folder in which the command ran. Throws
-/// Error(kBadInput) if the input is there but cannot be read.
+/// A sentence that says that an input no longer exists, was a pipe or has changed since the output
+/// was made; empty if the input has not changed. `folder` is the folder in which the command ran.
+/// Throws Error(kBadInput) if the input exists but cannot be read.
 std::string change_of(const InputFile& input, const std::filesystem::path& folder);
 
-/// The folder in which the relative paths of the provenance of `file` lead to files: the folder in
-/// which the command ran, unless `file` and the inputs lie in the same places below another folder,
-/// as in a copy or a clone of the project. If the provenance has no folder, it is the folder from
-/// which the output leads to `file`, or that of `file`.
+/// The folder from which the relative paths in the provenance of `file` lead to files. It is the
+/// folder in which the command ran, or another folder below which `file` and the inputs lie in the
+/// same places, as in a copy or a clone of the project. If Provenance::folder is empty, it is the
+/// folder from which the path Provenance::output leads to `file`, or else the folder that contains
+/// `file`.
 std::filesystem::path folder_to_run_in(const std::filesystem::path& file,
                                        const Provenance& provenance);
 
-/// The files that the user gave to the command that made the file at `path`, where they are now, in
-/// the order of the provenance. Throws Error(kBadInput) that names `path` if it cannot be read or
-/// has no provenance, or if one of these files has changed since or is missing.
+/// The present paths of the files that the user gave to the command that made the file at `path`,
+/// in the order of the provenance. Throws Error(kBadInput) that names `path` if the file at `path`
+/// cannot be read or has no provenance or a damaged one, or if one of the user's files is missing,
+/// was a pipe or has changed since.
 std::vector<std::filesystem::path> given_inputs(const std::filesystem::path& path);
 
-/// The text that write_output writes: `text` with the provenance and the current time. Throws
-/// Error(kWrongUsage) if the variable SOURCE_DATE_EPOCH is set, but no whole number of seconds from
-/// 0 (1970) to the end of the year 9999, and as with_provenance().
+/// The text that write_output() writes: `text` with the provenance, whose `output` is `path` and
+/// whose `made` is the current time or that of SOURCE_DATE_EPOCH. Throws Error(kWrongUsage) if the
+/// environment variable SOURCE_DATE_EPOCH is set but is not a whole number of seconds from 0 (1970)
+/// to the end of the year 9999, and std::out_of_range as with_provenance() does.
 std::string output_text(const std::filesystem::path& path, TextKind kind, const std::string& text,
                         Provenance provenance);
 
-/// Writes `text` with the provenance and the current time to `path`. Throws the errors of
-/// output_text() and write_file().
+/// Writes output_text() to the file at `path`. Throws Error(kBadInput) if the file cannot be
+/// written, and the errors of output_text().
 void write_output(const std::filesystem::path& path, TextKind kind, const std::string& text,
                   Provenance provenance);
 
-/// As write_output(), but leaves a file alone that has this text and was made in the same folder
-/// from the same inputs, even if by another version or command. Returns true if it wrote. Throws
-/// the errors of write_output().
+/// Does what write_output() does, with its errors, and returns true. But if the file already has
+/// this text and was made in the same folder from the same inputs, even by another version or
+/// command, the file is left as it is, and the result is false.
 bool write_if_changed(const std::filesystem::path& path, TextKind kind, const std::string& text,
                       const Provenance& provenance);
 
-/// The versions of Viscontact and of the libraries it was built with, by name.
+/// The versions of Viscontact and of the libraries that it was built with (Ceres, SUNDIALS, Eigen),
+/// by name.
 std::map<std::string, std::string> library_versions();
 
 /// The version that FreeFEM reports, or "not found" if FreeFEM cannot be run or fails. Throws

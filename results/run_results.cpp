@@ -1,8 +1,10 @@
-// Reads case, fit, comparison, trajectories, table and uncertainty of a run (run_folder.hpp) for
-// report/. Numbers are in the units of the case; the headers of the parts of RunResults have their
-// dimensions. If case, fit, comparison or all trajectories are missing, or a file is damaged, an
-// Error(kBadInput) is thrown, and for a path that the system refuses a
-// std::filesystem::filesystem_error. A change must still read the runs of earlier versions.
+// Reads case, fit, comparison, trajectories, table and uncertainty of a run from the folder of the
+// run (run_folder.hpp) for report/. Gaps [L], times [T], velocities [L/T] and forces [M L/T^2] are
+// in the units of the case. If case, fit, comparison or all trajectories are missing, or a file is
+// damaged, an Error(kBadInput) is thrown, and for a path that the system refuses a
+// std::filesystem::filesystem_error. A table or an uncertainty that is missing is no error. That
+// the files belong together is not checked here. A change must still read the runs of earlier
+// versions.
 #include "viscontact/results/run_results.hpp"
 
 #include <utility>

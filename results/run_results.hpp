@@ -1,6 +1,8 @@
-// Reads the results of a run from its folder, for the report. Lengths, masses and times are in the
-// units of the case. A file that is missing or wrong throws Error(kBadInput). A change must keep
-// the folders of earlier versions readable. Used by report/.
+// Reads the results of a run of one sphere from its folder, for the report: gaps [L], times [T],
+// velocities [L/T] and forces [M L/T^2] in the units of the case. A file that is missing or wrong
+// throws Error(kBadInput), and a path that the system refuses throws
+// std::filesystem::filesystem_error. A change must keep the folders of earlier versions readable.
+// Used by report/.
 #pragma once
 
 #include <filesystem>
@@ -23,19 +25,21 @@ struct RunResults {
   case_file::Case c;                     ///< the case that was run
   lubrication::Fit fit;                  ///< scaled to radius [L] and viscosity of the case
   bool fit_is_scaled = false;            ///< true: fit.json is that of another radius or viscosity
-  reduced_model::Comparison comparison;  ///< of the trajectories
+  reduced_model::Comparison comparison;  ///< the comparison of the models in comparison.json
   /// The trajectories of those models of the comparison whose files exist; at least one.
   std::vector<reduced_model::Trajectory> trajectories;
-  /// The table that the fit was made from; nothing if the run needs or has none, or if
-  /// fit_is_scaled.
+  /// The table of the folder, from which the fit was made; nothing if the case needs no table, if
+  /// the folder has none, or if fit_is_scaled is true. A case that asks for an exact or a given fit
+  /// needs no table, unless its fit was made from the table of the folder.
   std::optional<lubrication::MotionTable> table;
-  std::optional<reduced_model::FitUncertainty> uncertainty;  ///< errors by the fit; nothing: none
+  /// How the errors of the fit change the gaps; nothing if the folder has no uncertainty.json.
+  std::optional<reduced_model::FitUncertainty> uncertainty;
 };
 
 /// Reads the results of the run in `folder`. Throws Error(kBadInput) if case, fit, comparison or
-/// all trajectories are missing, if a file that is there is wrong or cannot be read, or if the fit
-/// is for another geometry than the case (case_file::fit_for()). That files belong together, or
-/// that the case has a motion, is not checked.
+/// all trajectories are missing, if one of these files, the table or the uncertainty is wrong or
+/// cannot be read, or if the fit is for another geometry than the case. It is not checked that the
+/// files belong together, nor that the case has a motion.
 RunResults read_run(const std::filesystem::path& folder);
 
 /// The paths of the files that the results were read from, at least four.

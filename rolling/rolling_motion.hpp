@@ -1,9 +1,10 @@
-// A sphere near a plane in a viscous fluid that moves in two directions and turns (physics.md (4.8)
-// to (4.11)): x along the plane, z away from it, y the axis of rotation; q is the gap. Lengths,
-// masses and times are in any consistent units. The command `rolling`, its sweeps and python/ use
-// these models. A fit that lacks a resistance or a gap that the motion needs throws
-// Error(kBadInput), an integration that fails Error(kNotConverged), a stop Error(kInterrupted). A
-// change must keep their names, which users' case files contain.
+// Models of a sphere near a plane in a viscous fluid that moves in two directions and turns
+// (docs/physics.md, equations (4.8) to (4.11)). x is along the plane, z away from it, y the axis of
+// rotation, and q the gap. Lengths, masses and times are in any consistent units. The command
+// `rolling`, its sweeps and python/ use these models. Error(kBadInput) is thrown if a fit lacks a
+// resistance or a gap that the motion needs, Error(kNotConverged) if an integration fails, and
+// Error(kInterrupted) after a stop. A change must keep the names of the models, which users' case
+// files contain; the default of relative_tolerance is a free choice.
 #pragma once
 
 #include <optional>
@@ -17,14 +18,15 @@ namespace viscontact::rolling {
 
 /// The sphere, its start, the forces that do not depend on its motion, and the surfaces. The fluid
 /// is at rest where the plane is at rest; a plane with a constant velocity carries it along. The
-/// models do not check these ranges; case/rolling_case.cpp does. Where none is given, any sign is.
+/// models do not check the ranges below; case/rolling_case.cpp checks those of a case file. A
+/// number without a range may be negative, 0 or positive.
 struct RollingMotion {
   double mass = 0;               ///< m [M], > 0
   double moment_of_inertia = 0;  ///< I [M L^2], > 0
   double initial_gap = 0;        ///< q0 [L], > 0
   double normal_velocity = 0;    ///< dq/dt at the start [L/T]
   double velocity = 0;           ///< dx/dt at the start [L/T]
-  double angular_velocity = 0;   ///< w at the start [1/T]; > 0 rolls along +x
+  double angular_velocity = 0;   ///< w at the start [1/T]; a sphere with w > 0 rolls along +x
   double force = 0;              ///< constant force along x [M L/T^2]
   double normal_force = 0;       ///< constant force along z [M L/T^2]; < 0 towards the plane
   double torque = 0;             ///< constant torque about y [M L^2/T^2]
@@ -43,10 +45,11 @@ enum class SolidContact { kNone, kRolling, kSliding };
 
 /// The state of the sphere at one time.
 struct RollingRow {
-  double time = 0;      ///< [T]
-  double gap = 0;       ///< q [L], > 0; in contact in the model viscous_contact the film thickness
-  double position = 0;  ///< x [L], 0 at the start
-  double angle = 0;     ///< angle turned about y [radians], 0 at the start
+  double time = 0;  ///< [T]
+  /// q [L], > 0. While the model viscous_contact is in contact, it is the thickness of the film.
+  double gap = 0;
+  double position = 0;          ///< x [L], 0 at the start
+  double angle = 0;             ///< angle turned about y [radians], 0 at the start
   double normal_velocity = 0;   ///< dq/dt [L/T]
   double velocity = 0;          ///< dx/dt [L/T]
   double angular_velocity = 0;  ///< w [1/T]
@@ -59,23 +62,27 @@ struct RollingRow {
 /// The motion of a sphere, in order of time; the models return at least the row of time 0.
 using RollingTrajectory = std::vector<RollingRow>;
 
-/// The model of smooth surfaces: lubrication at every gap, integrated by CVODE. Throws
-/// Error(kBadInput) if `fit` lacks squeeze, slide, roll or slide_roll, if its squeeze is not
-/// positive in the interval, if the sphere starts at, or rises to, a gap above the interval of
-/// `fit`, or if there are more than 1e8 rows; Error(kNotConverged) if CVODE gives up.
+/// The model of smooth surfaces: lubrication at every gap, integrated by CVODE. `fit` has the
+/// radius of the sphere and its resistances as sums of terms in the gap, in the units of `motion`
+/// (not checked). Below the gaps of `fit` the formula of the fit is continued. Throws
+/// Error(kBadInput) if `fit` lacks the resistance squeeze, slide, roll or slide_roll, if squeeze is
+/// not positive at every gap of `fit`, if the sphere starts at, or rises to, a gap above those of
+/// `fit`, or if there are more than 1e8 rows; Error(kNotConverged) if CVODE cannot make a step;
+/// Error(kInterrupted) after a stop.
 RollingTrajectory roll_smooth(const RollingMotion& motion, const motions::PairFit& fit);
 
-/// As roll_smooth(), with solid contact and Coulomb's friction at the gap `roughness`. The impact
-/// is without rebound. Throws the errors of roll_smooth().
+/// The model of rough surfaces: that of roll_smooth(), with its errors, and with solid contact and
+/// Coulomb's friction at the gap motion.roughness. The sphere does not rebound from the solids.
 RollingTrajectory roll_rough(const RollingMotion& motion, const motions::PairFit& fit);
 
-/// Viscous contact (physics.md (4.5)) along z with time steps: the film acts only by the impulse
-/// that it absorbs, which determines its thickness. The solids touch, with friction, when the film
-/// is as thin as the roughness. The resistances along x and to rotation are taken at the film
-/// thickness, or without contact at the gap, but at most at the largest gap of the fit. The error
-/// of the trajectory is of first order in the time step. Throws Error(kBadInput) if the fit lacks
-/// squeeze, slide, roll or slide_roll, or if there are more than 1e8 steps; Error(kNotConverged) if
-/// a number leaves the range of a double.
+/// The model of viscous contact (docs/physics.md, equation (4.5)) along z with time steps: the film
+/// acts only by the impulse that it absorbs, which determines its thickness. The solids touch, with
+/// friction, when the film is as thin as the roughness. The resistances along x and to rotation are
+/// those at the film thickness, or at the gap if there is no contact; above the largest gap of the
+/// fit they are those at the largest gap. The error of the trajectory is of first order in the time
+/// step. Throws Error(kBadInput) if the fit lacks squeeze, slide, roll or slide_roll, or if there
+/// are more than 1e8 steps; Error(kNotConverged) if a number leaves the range of a double;
+/// Error(kInterrupted) after a stop.
 RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
                                             const motions::PairFit& fit);
 
@@ -89,20 +96,21 @@ struct RollingEnd {
   std::optional<double> contact_time;
 };
 
-/// The end of `trajectory`, which has at least one row (not checked), of a sphere of this radius
-/// [L] > 0.
+/// The end of `trajectory`, which must have at least one row (not checked), of a sphere of this
+/// radius [L] > 0. `motion` gives the velocity of the plane.
 RollingEnd end_of(const RollingTrajectory& trajectory, const RollingMotion& motion, double radius);
 
 /// A model by name.
 struct RollingModel {
   std::string_view name;         ///< as users type it
   std::string_view description;  ///< for pages
-  /// Computes the trajectory, with the errors of the function above. `fit` has the resistances of
-  /// the sphere near the plane, in the units of `motion`.
+  /// Computes the trajectory. This is roll_smooth(), roll_rough() or roll_with_viscous_contact(),
+  /// with the errors of that function. `fit` has the resistances of the sphere near the plane, in
+  /// the units of `motion`.
   RollingTrajectory (*run)(const RollingMotion& motion, const motions::PairFit& fit);
 };
 
-/// All models, in the order of their colours in pages: smooth, rough, viscous_contact.
+/// All models: smooth, rough, viscous_contact. Pages give the models their colours in this order.
 const std::vector<RollingModel>& rolling_models();
 
 }  // namespace viscontact::rolling

@@ -1,8 +1,9 @@
-// Forces on a sphere that moves along a plane and turns: the fluid's resistance (physics.md (2.12))
-// and dry friction. x is along the plane, y the axis of rotation, q the gap. Lengths, masses and
-// times are in any consistent units. The models of rolling_motion.hpp use it. A gap above the
-// interval of the fit throws Error(kBadInput); other arguments are not checked. A change must keep
-// the signs, by which the drag opposes the motion.
+// Forces on a sphere that moves along a plane and turns: the resistance of the fluid
+// (docs/physics.md, equation (2.12)) and dry friction. x is along the plane, y the axis of
+// rotation, q the gap. Lengths, masses and times are in any consistent units. The models of
+// rolling_motion.hpp use this file. A fit that lacks a resistance, and a gap above those of the
+// fit, throw Error(kBadInput); other arguments are not checked. A change must keep the signs, by
+// which the drag opposes the motion, and the matrix symmetric.
 #pragma once
 
 #include <vector>
@@ -18,13 +19,15 @@ struct RollingVelocity {
   double turn = 0;  ///< [1/T]
 };
 
-/// A force along x and a torque about y and the centre, or an impulse and its moment; any sign.
+/// A force along x, and a torque about the axis through the centre along y; or an impulse and its
+/// moment. Any sign is allowed.
 struct RollingForce {
   double force = 0,  ///< [M L/T^2], of an impulse [M L/T]
       torque = 0;    ///< [M L^2/T^2], of an impulse [M L^2/T]
 };
 
-/// The symmetric matrix that maps a RollingVelocity to the force and torque against it.
+/// The symmetric matrix that maps a RollingVelocity to the force and the torque with which the
+/// fluid opposes this velocity (fluid_force()).
 struct RollingResistance {
   double slide = 0;       ///< force per velocity [M/T], > 0 by theory (not checked)
   double roll = 0;        ///< torque per angular velocity [M L^2/T], > 0 by theory (not checked)
@@ -38,11 +41,13 @@ class RollingFluid {
   /// squeeze, slide, roll and slide_roll.
   explicit RollingFluid(const motions::PairFit& fit);
 
-  /// The resistances at a gap [L] > 0. Below the interval of the fit the formula of the fit is
-  /// used, too, because it has the terms of theory. Throws Error(kBadInput) above the interval. A
-  /// gap <= 0 or NaN is not refused: the results are NaN or infinite.
+  /// The resistances at a gap [L] > 0. Below the gaps of the fit the formula of the fit is
+  /// continued, because it has the terms of lubrication theory. Throws Error(kBadInput) if the gap
+  /// is larger than those of the fit. A gap <= 0 or NaN is not refused: the results are NaN or
+  /// infinite.
   RollingResistance at(double gap) const;
-  RollingResistance slopes(double gap) const;  ///< d/d ln q of at(), with the same errors
+  /// The derivatives of at() by ln q, in the units of the resistances, with the errors of at().
+  RollingResistance slopes(double gap) const;
 
   /// r of the sphere [L], > 0.
   double radius() const { return fit_.radius; }
@@ -65,8 +70,8 @@ inline RollingForce fluid_force(const RollingResistance& r, const RollingVelocit
 /// The velocity of the sphere's lowest point relative to the plane [L/T]; `radius` [L] > 0.
 inline double slip_of(const RollingVelocity& v, double radius) { return v.move - radius * v.turn; }
 
-/// Dry friction (Coulomb): its force along x on the lowest point of a sphere, and what the sphere
-/// does.
+/// Coulomb's dry friction: its force along x on the lowest point of a sphere, and whether the
+/// sphere rolls or slides.
 struct Friction {
   double force = 0;  ///< [M L/T^2], of an impulse [M L/T]
   /// kRolling if the friction prevents slip, otherwise kSliding.
@@ -76,7 +81,7 @@ struct Friction {
 /// Coulomb's friction T on the lowest point of a sphere. The slip of this point would be `slip`
 /// without friction, and is `slip` + `compliance` T with it. If |T| <= bound is enough to make the
 /// slip 0, the slip is 0 (kRolling); otherwise T is bound or -bound, against the slip (kSliding).
-/// The units are, by what the caller wants:
+/// The caller chooses one of these three sets of units:
 ///   T, bound [M L/T^2], a force;   slip [L/T^2], its rate;   compliance [1/M]
 ///   T, bound [M L/T], an impulse;  slip [L/T];               compliance [1/M]
 ///   T, bound [M L/T^2], a force;   slip [L/T] after a step;  compliance [T/M]

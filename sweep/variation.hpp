@@ -1,8 +1,9 @@
 // The keys of a case that a sweep varies, and the values of each key, in the unit that the key has
-// in the case. study.hpp and the sweeps of all kinds of cases use it. A text that is no range
-// throws Error(kBadInput), more than 1e12 points Error(kWrongUsage). Indices are not checked. A
-// change must keep the values bit for bit, because an interrupted sweep compares them with the rows
-// that it has already written.
+// in the case. study.hpp and the sweeps of all kinds of cases use this file. A text that is no
+// range throws Error(kBadInput), and a grid of more than 1e12 points throws Error(kWrongUsage).
+// Indices are not checked. The limits 1e9 and 1e12 are free choices. A change must keep the values
+// bit for bit, because a sweep that continues after an interruption compares the values with those
+// in the rows that it has already written.
 #pragma once
 
 #include <cstdint>
@@ -23,19 +24,22 @@ struct Variation {
   double first = 0;          ///< first value of a range, in the unit of the key
   double last = 0;           ///< last value of a range, in the unit of the key
   bool logarithmic = false;  ///< true: the values of a range are in geometric progression
-  std::uint64_t count = 0;   ///< number of values, >= 1
+  std::uint64_t count = 0;   ///< number of values, from 1 to 1e9 in a range
 
   /// Value i, 0 <= i < count (not checked), in the unit of the key.
   double value(std::uint64_t i) const;
 
-  /// The value at the fraction `share` of the way from `first` to `last`, 0 <= share < 1, measured
-  /// in the logarithm if `logarithmic`. In a list of n values it is element floor(n share) from 0.
+  /// The value of a range at the fraction `share` [1] of the way from `first` to `last`, 0 <= share
+  /// < 1 (not checked). If `logarithmic` is true, the way is that of the logarithms. The value of a
+  /// list of n values is element floor(n share), counted from 0.
   double at(double share) const;
 };
 
-/// Reads "KEY=A:B:log:N", "KEY=A:B:N" (equal distances) or "KEY=V,V,...". "motion.mass" stands for
-/// "sphere.mass". Throws Error(kBadInput), which names the fault: the key is missing, a number is
-/// not finite, a logarithmic range contains 0 or changes sign, or N is not an integer in [1, 1e9].
+/// Reads "KEY=A:B:log:N" (geometric progression), "KEY=A:B:N" (equal distances) or "KEY=V,V,...".
+/// The key "motion.mass" of earlier versions is read as "sphere.mass". Throws Error(kBadInput),
+/// which names the fault: the key is missing, the text has another form, a number is not finite, a
+/// logarithmic range contains 0 or changes sign, or N is not an integer from 1 to 1e9. Whether a
+/// case has the key is not checked.
 Variation parse_variation(std::string_view text);
 
 /// Keys and values of point `index` < grid_size() (not checked) of the grid, which combines every
@@ -44,10 +48,10 @@ Variation parse_variation(std::string_view text);
 std::vector<std::pair<std::string, double>> grid_point(const std::vector<Variation>& variations,
                                                        std::uint64_t index);
 
-/// Keys and values of random sample `index`; each index is allowed. Each value is uniformly
-/// distributed over its range (in the logarithm, if the range is logarithmic) or over its list, and
-/// independent of all others. Equal arguments give equal values, which come from a hash
-/// (common/splitmix.hpp) of seed, index and number of the variation.
+/// Keys and values of random sample `index`; each index is allowed. Each value is independent of
+/// all others and uniformly distributed over its range or its list; in a logarithmic range its
+/// logarithm is uniformly distributed. Equal arguments give equal values, because the values come
+/// from a hash (common/splitmix.hpp) of `seed`, `index` and the number of the variation.
 std::vector<std::pair<std::string, double>> random_point(const std::vector<Variation>& variations,
                                                          std::uint64_t index, std::uint64_t seed);
 
@@ -63,7 +67,8 @@ struct PlaceOfRanges {
 
 /// The points of a sweep: a grid, or random points. In a sweep of randomly arranged particles a
 /// point has several draws, which are arrangements with different seeds. Each draw is a row, and
-/// the draws of a point follow each other. Functions that count points throw as grid_size().
+/// the draws of a point follow each other. count() and rows() of a grid throw Error(kWrongUsage) if
+/// there are more than 1e12 points.
 struct Points {
   std::vector<Variation> variations;  ///< the varied keys
   std::uint64_t samples = 0;          ///< number of random points; 0: the whole grid
@@ -72,7 +77,8 @@ struct Points {
   std::uint64_t draws = 0;
   /// The value of arrangement.seed in the first draw; it grows by 1 from draw to draw.
   std::uint64_t first_draw = 1;
-  /// Where a case gives `variations`; nothing: they are those of --vary.
+  /// The place in a case at which `variations` are given; nothing: they are those of the option
+  /// --vary.
   std::optional<PlaceOfRanges> place;
 
   std::uint64_t count() const;  ///< number of points
@@ -88,7 +94,8 @@ struct Points {
 /// The text " KEY = VALUE KEY = VALUE ...", for messages; it begins with a space.
 std::string in_words(const std::vector<std::pair<std::string, double>>& numbers);
 
-/// A text that is different for different points, for hashes of sweeps without draws.
+/// A text that is different for different points. Its hash identifies a sweep without draws,
+/// because the text does not contain the draws.
 std::string text_of(const Points& points);
 
 /// The key of a case whose value differs between draws.

@@ -1,21 +1,23 @@
-// A swimmer made of spheres on a line that changes its arms, the distances between the centres of
-// neighbours, in a fluid without inertia (Najafi & Golestanian 2004, Phys. Rev. E 69, 062901;
-// Alouges, DeSimone & Lefebvre 2008, J. Nonlinear Sci. 18, 277; physics.md, section 7). Lengths,
-// masses and times are in the units of the fit. Strokes (swim.hpp) and the search for the best one
-// (optimal_stroke.hpp) use it. A shape outside the table throws Error(kBadInput). A change must
-// keep that the total force is 0, and that metric_slopes and displacement_form_slopes are the
-// derivatives.
+// The mechanics of a swimmer made of spheres on a line that changes its arms, the distances between
+// the centres of neighbours, in a fluid without inertia (Najafi & Golestanian 2004, Phys. Rev. E
+// 69, 062901; Alouges, DeSimone & Lefebvre 2008, J. Nonlinear Sci. 18, 277; docs/physics.md,
+// section 7). A shape is the list of all arms [L]. Lengths, masses and times are in the units of
+// the fit. Strokes (swim.hpp) and the search for the best stroke (optimal_stroke.hpp) use this
+// file. A shape outside the table of the fit throws Error(kBadInput); the number of arms is not
+// checked. A change must keep that the total force is 0, and that metric_slopes and
+// displacement_form_slopes are the derivatives of metric and displacement_form.
 //
-// x_k is the arm between spheres k and k + 1. With the resistance matrix R(x), the spheres move at
-// U_i = V + sum_k B_ik dx_k/dt, where V is the velocity of the middle sphere. The total force
-// vanishes, sum_ij R_ij U_j = 0, so that
+// x_k is the arm between spheres k and k + 1, and R_ij(x) [M/T] is the resistance matrix: the force
+// of sphere i on the fluid per velocity of sphere j. The velocity of sphere i is U_i = V + sum_k
+// B_ik dx_k/dt, where V is the velocity of the middle sphere. The total force vanishes, sum_ij R_ij
+// U_j = 0. Therefore
 //
 //   V = sum_k A_k(x) dx_k/dt,   power = sum_kl Phi_kl(x) dx_k/dt dx_l/dt.
 //
 // B_ik is 1 if arm k is between the middle sphere and a sphere i with a larger number, -1 if it is
-// between the middle sphere and a sphere i with a smaller number, else 0. The displacement of a
-// closed stroke is the integral of A along its loop, and does not depend on the velocity at which
-// the loop is run.
+// between the middle sphere and a sphere i with a smaller number, and 0 otherwise. The displacement
+// of a closed stroke is the integral of A along its loop, and does not depend on the velocity at
+// which the swimmer runs through the loop.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,23 +27,23 @@
 
 namespace viscontact::swimmer {
 
-/// What determines the motion and the power at one shape: A, Phi and R.
+/// The quantities that determine the motion and the power at one shape: A, Phi and R.
 struct ShapeMechanics {
   Eigen::RowVectorXd displacement_form;  ///< A [1]: velocity of the middle sphere per arm velocity
   Eigen::MatrixXd metric;                ///< Phi [M/T], symmetric and positive definite
-  /// U = motion * dx/dt: velocities of all spheres per arm velocity [1], a row for each sphere and
-  /// a column for each arm; A and Phi have a column for each arm.
+  /// The velocities of all spheres are U = motion * dx/dt. `motion` [1] has a row for each sphere
+  /// and a column for each arm; A and Phi, too, have a column for each arm.
   Eigen::MatrixXd motion;
   Eigen::MatrixXd resistance;  ///< R [M/T], symmetric and positive definite
-  /// sum_ij R_ij [M/T], > 0: the drag of the swimmer with fixed arms per velocity.
+  /// Drag per velocity of the swimmer with fixed arms, sum_ij R_ij [M/T], > 0.
   double towing_resistance = 0;
-  // Derivatives by each arm, in their order; empty if they were not asked for.
+  // The derivatives by each arm, in the order of the arms; empty if `with_slopes` was false.
   std::vector<Eigen::RowVectorXd> displacement_form_slopes;  ///< dA/dx_k [1/L]
   std::vector<Eigen::MatrixXd> metric_slopes;                ///< dPhi/dx_k [M/(L T)]
 };
 
-/// Index of the middle sphere, from 0; of an even number of spheres, the first of the two. There is
-/// at least one sphere (not checked).
+/// Index of the middle sphere, from 0. If the number of spheres is even, it is the first of the two
+/// in the middle. There must be at least one sphere (not checked).
 inline std::size_t middle_sphere(std::size_t spheres) { return (spheres - 1) / 2; }
 
 /// The mechanics of a swimmer as a function of its shape.
@@ -50,7 +52,7 @@ class Swimmer {
   /// The swimmer of the spheres of `fit`, which need not outlive the object.
   explicit Swimmer(const ResistanceFit& fit) : resistance_(fit) {}
 
-  /// Number of arms, one less than there are spheres.
+  /// Number of arms, which is one less than the number of spheres.
   Eigen::Index arms() const { return static_cast<Eigen::Index>(radii().size()) - 1; }
   /// The radii of the spheres along the line [L], > 0.
   const std::vector<double>& radii() const { return resistance_.radii(); }
@@ -59,11 +61,12 @@ class Swimmer {
   /// std::out_of_range if there is no arm k.
   std::array<double, 2> arm_interval(Eigen::Index k) const;
 
-  /// True if the table contains the shape with these arms [L], arms() numbers (not checked).
+  /// True if the table contains the shape with these arms [L], up to a relative 1e-12 of the gaps
+  /// for rounding. There must be arms() numbers (not checked).
   bool contains(const Eigen::VectorXd& arms) const;
 
-  /// The mechanics at a shape, with derivatives if `with_slopes`. Throws Error(kBadInput) if the
-  /// table does not contain the shape.
+  /// The mechanics at a shape of arms() numbers (not checked), with derivatives if `with_slopes` is
+  /// true. Throws Error(kBadInput) if the table does not contain the shape.
   ShapeMechanics at(const Eigen::VectorXd& arms, bool with_slopes = false) const;
 
  private:
@@ -72,9 +75,10 @@ class Swimmer {
   FittedResistance resistance_;
 };
 
-/// dA_2/dx_1 - dA_1/dx_2 [1/L] at a shape of a swimmer with two arms: the displacement of a small
-/// loop, counter-clockwise in (x_1, x_2), over its area. Throws Error(kBadInput) if the table does
-/// not contain the shape. That there are two arms is not checked.
+/// The curl dA_2/dx_1 - dA_1/dx_2 [1/L] at a shape of a swimmer with two arms. It is the
+/// displacement of a small loop, counter-clockwise in the plane (x_1, x_2), divided by the area of
+/// the loop. Throws Error(kBadInput) if the table does not contain the shape. It is not checked
+/// that there are two arms.
 double displacement_curl(const Swimmer& swimmer, const Eigen::VectorXd& arms);
 
 }  // namespace viscontact::swimmer

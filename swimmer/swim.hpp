@@ -1,9 +1,10 @@
-// What a stroke of a swimmer, a line of spheres, does: its displacement, energy, positions, forces
-// and power, and estimates of their errors. The arms are the distances x_k between the centres of
-// neighbouring spheres, and a stroke is a closed path of the arms. Lengths, masses and times are in
-// the units of the fit and of the stroke. A stroke that leaves the table throws Error(kBadInput),
-// an integral that does not converge Error(kNotConverged). The commands `swimmer` and `sweep`, and
-// python/, use it. A change may alter the sums over a period by rounding errors only.
+// Computes the displacement, energy, positions, forces and power of a stroke of a swimmer, and
+// estimates of the errors of displacement and energy. A swimmer is a line of spheres; its arms are
+// the distances x_k between the centres of neighbouring spheres, and a stroke is a closed path of
+// the arms. Lengths, masses and times are in the units of the fit, which must be those of the
+// stroke (not checked). A stroke that leaves the table throws Error(kBadInput), and an integral
+// that does not converge throws Error(kNotConverged). The commands `swimmer` and `sweep`, and
+// python/, use this file. A change may alter the sums over a period by rounding errors only.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,19 +22,19 @@ struct SwimRow {
   double position = 0;   ///< position of the middle sphere [L], 0 at the beginning
   /// Force of each sphere on the fluid [M L/T^2], > 0 towards the last sphere; their sum is 0.
   Eigen::VectorXd forces;
-  double power = 0;  ///< power of the swimmer [M L^2/T^3], >= 0
+  double power = 0;  ///< power that the swimmer needs [M L^2/T^3], >= 0
 };
 
 /// The sums over one period.
 struct SwimSums {
   double displacement = 0;  ///< [L], > 0 towards the last sphere
   double energy = 0;        ///< [M L^2/T^2], >= 0: the integral of the power
-  /// The least energy of any time law with this loop and period [M L^2/T^2]; that law has constant
-  /// power.
+  /// The least energy [M L^2/T^2], >= 0, with which the swimmer can run through this loop in this
+  /// period. It needs this energy if it runs at constant power.
   double energy_at_constant_power = 0;
-  /// Lighthill's efficiency [1], >= 0, and 0 if the energy is 0: power to tow the rigid swimmer at
-  /// its mean velocity, with the mean drag of its shapes, over the mean power (Lighthill 1952,
-  /// Commun. Pure Appl. Math. 5, 109).
+  /// Lighthill's efficiency [1], >= 0: the power to tow the rigid swimmer at its mean velocity,
+  /// with the mean drag of its shapes, divided by the mean power (Lighthill 1952, Commun. Pure
+  /// Appl. Math. 5, 109). It is 0 if the energy is 0.
   double efficiency = 0;
 };
 
@@ -43,9 +44,10 @@ struct SwimSums {
 /// table, and Error(kNotConverged) if the sums of a leg do not converge with 512 points.
 SwimSums swim_sums(const Swimmer& swimmer, const Stroke& stroke);
 
-/// The swimmer at about `intervals` + 1 times, or more: each leg has times at its beginning, at its
-/// end, and at equal distances between, so that at a corner two rows have the same time.
-/// `intervals` > 0 (not checked). Throws Error(kBadInput) if the stroke leaves the table.
+/// The state of the swimmer at about `intervals` + 1 times or more, in order of time. Each leg has
+/// rows at its beginning, at its end, and at equal distances between, at most period/intervals
+/// apart. Therefore two rows have the same time where two legs meet. `intervals` must be > 0 (not
+/// checked). Throws Error(kBadInput) if the stroke leaves the table.
 std::vector<SwimRow> swim_rows(const Swimmer& swimmer, const Stroke& stroke, int intervals);
 
 /// Estimates of the errors of SwimSums, >= 0.
@@ -54,15 +56,15 @@ struct SwimErrors {
   double energy = 0;        ///< [M L^2/T^2]
 };
 
-/// Estimates the errors of `sums`, those of a stroke, by computing the sums with other fits, which
-/// fit/fit_resistance.hpp makes. An error is the sum of two parts: the absolute changes of the sum
-/// with each of the fits `lower_degrees`, and twice the root mean square of its changes with the
-/// fits `table_errors`; a part whose list is empty is 0. Throws the errors of swim_sums().
+/// Estimates the errors of `sums`, which must be swim_sums() of `stroke` (not checked), by
+/// computing the sums with other fits, which fit/fit_resistance.hpp makes. The error of a sum has
+/// two parts, which are added: the absolute changes of the sum with all fits `lower_degrees`, and
+/// twice the root mean square of its changes with the fits `table_errors`. A part whose list is
+/// empty is 0. Throws the errors of swim_sums().
 ///
-/// For a stroke of least energy, `multiplier` is OptimalStroke::multiplier over the period [M
-/// L/T^2]. With another fit the displacement of the stroke changes, too, whereas that of the
-/// optimum is prescribed; the multiplier corrects the energy for this. For any other stroke it is
-/// 0.
+/// For a stroke of least energy, `multiplier` is OptimalStroke::multiplier divided by the period [M
+/// L/T^2]; for any other stroke it is 0. With another fit the displacement of the stroke changes,
+/// too, whereas that of the optimum is prescribed; the multiplier corrects the energy for this.
 SwimErrors swim_errors(const SwimSums& sums, const Stroke& stroke,
                        const std::vector<ResistanceFit>& lower_degrees,
                        const std::vector<ResistanceFit>& table_errors, double multiplier = 0);

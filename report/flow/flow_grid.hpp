@@ -1,8 +1,10 @@
-// A flow on a regular grid, from which pictures and pages draw it. Lengths [L], masses [M] and
-// times [T] are in the units of the case. flow_plots.cpp, stream_lines.cpp and particles/picture
-// use it. A change must keep the order of the points: row by row from the bottom, each row from the
-// left. Lists have one number for each point of the grid, or for each node of the mesh. Nothing is
-// checked or thrown.
+// Interpolates a flow from the nodes of a finite-element mesh to the points of a regular grid, from
+// which still pictures and HTML pages draw it. Lengths [L], masses [M] and times [T] are in the
+// units of the case. flow_plots.cpp, stream_lines.cpp and particles/picture use this file. A change
+// must keep the order of the points: row by row from the bottom, each row from the left. A list
+// must have one number for each point of the grid, or for each node of the mesh. Nothing is checked
+// or thrown; a list that is too short is read beyond its end. The limit of 1200 points in a row is
+// a free choice.
 #pragma once
 
 #include <array>
@@ -42,16 +44,19 @@ struct Grid {
   }
 };
 
-/// A grid of the window with about `points` >= 1 points, nearly as far apart along x as along y,
-/// but with 2 to 1200 points in a row or column (a longer row could not be seen on a screen).
+/// A grid of the window, of width and height > 0, with about `points` >= 1 points, nearly as far
+/// apart along x as along y. A row or column has from 2 to 1200 points, because a longer row could
+/// not be seen on a screen.
 Grid grid_of(const Window& window, std::size_t points);
 
-/// Velocity [L/T] and pressure [M/(L T^2)] at the points of a grid; NaN where there is no flow.
+/// Velocity [L/T] and pressure [M/(L T^2)] at the points of a grid; NaN at a point that is in no
+/// triangle of the mesh.
 struct FlowOnGrid {
   std::vector<double> velocity_x, velocity_y, pressure;
 };
 
-/// How a flow is repeated in the plane: one period further it is the same, with another velocity.
+/// How a flow is repeated in the plane. One period further the pressure is the same, and the
+/// velocity differs by a constant.
 struct FlowPeriods {
   std::array<double, 2> lengths{};  ///< periods along x and y [L], >= 0; 0: no period
   /// Mean velocity gradient du/dx, du/dy, dv/dx, dv/dy [1/T]. The velocity one period further is
@@ -59,9 +64,11 @@ struct FlowPeriods {
   std::array<double, 4> gradient{};
 };
 
-/// Interpolates the flow at the points of the grid by the shape functions of its quadratic
-/// triangles. Copies of the triangles, one period further on either side, count as well, because
-/// triangles may lie outside of the cell that `periods` repeats.
+/// Interpolates the flow at the points of the grid by the shape functions of the mesh's quadratic
+/// triangles. `flow` (common/vtk/flow_vtk.hpp) has the velocity [L/T] and the pressure [M/(L T^2)]
+/// at the six nodes of each triangle. Points in copies of the triangles, one period further on
+/// either side, get values as well, because a triangle may lie outside of the cell that `periods`
+/// repeats.
 FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid, const FlowPeriods& periods = {});
 
 /// Interpolates a field, which has `values` in any unit at the nodes of the mesh, at the points of
@@ -69,8 +76,8 @@ FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid, const FlowPerio
 std::vector<double> field_on_grid(const QuadraticMesh& mesh, const std::vector<double>& values,
                                   const Grid& grid);
 
-/// Replaces each NaN by the mean of those of its up to eight neighbours on the grid that are
-/// numbers. A NaN without such a neighbour stays. `values` has `columns` >= 1 numbers in a row.
+/// Replaces each NaN by the mean of its neighbours on the grid (up to eight) that are numbers. A
+/// NaN without such a neighbour stays. `values` has `columns` >= 1 numbers in each row of the grid.
 void fill_next_to_known(std::vector<double>& values, std::size_t columns);
 
 }  // namespace viscontact::report

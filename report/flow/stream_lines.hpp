@@ -1,6 +1,8 @@
-// Level lines of fields, and streamlines of a flow on a grid. Lengths and times are in the units of
-// the case. flow_plots.cpp and particles/picture draw them. A change must keep that equal amounts
-// flow between neighbouring streamlines. Nothing is checked or thrown.
+// Computes level lines of fields, and streamlines of a flow on a grid. Lengths and times are in the
+// units of the case. flow_plots.cpp and particles/picture draw the lines. A change must keep that
+// equal amounts flow between neighbouring streamlines; the least length of a line with an arrow and
+// the tolerance with which lines are simplified (stream_lines.cpp) are free choices. Nothing is
+// checked or thrown; a list that is too short is read beyond its end.
 #pragma once
 
 #include <array>
@@ -23,7 +25,8 @@ struct LinearField {
 };
 
 /// The lines on which the field equals `level`, joined across triangles. The first and the last
-/// point of a closed line are equal. `level` has the unit of the field; no lines if it is nowhere.
+/// point of a closed line are equal. `level` has the unit of the field. The result is empty if the
+/// field has this value nowhere.
 std::vector<Polyline> level_lines(const LinearField& field, double level);
 
 /// A streamline; its points are in the order in which the fluid flows.
@@ -33,29 +36,33 @@ struct StreamLine {
   int arrow = -1;
 };
 
-/// Streamlines at equal steps of the stream function.
+/// Streamlines at equal steps of the stream function psi, which StreamLines defines.
 struct StreamLineSet {
-  std::vector<StreamLine> lines;
-  /// Step of psi between neighbouring lines [L^2/T], with an axis [L^3/T]; 0 without lines.
+  std::vector<StreamLine> lines;  ///< in the order of rising psi
+  /// Step of psi between neighbouring lines [L^2/T], or [L^3/T] of a flow with an axis; 0 if psi is
+  /// constant, so that there are no lines.
   double step = 0;
 };
 
 /// Computes streamlines as level lines of the stream function psi of the velocity (u, v) along (x,
-/// y): u = dpsi/dy, v = -dpsi/dx in the plane [L^2/T]; with an axis, where x is the distance from
-/// it, x u = dpsi/dy, x v = -dpsi/dx [L^3/T] (Batchelor 1967, "An Introduction to Fluid Dynamics",
-/// 2.2). psi solves these equations between neighbouring points of the grid by least squares.
+/// y). In the plane, u = dpsi/dy and v = -dpsi/dx, with psi in [L^2/T]. If the flow is symmetric
+/// about an axis and x is the distance from the axis, x u = dpsi/dy and x v = -dpsi/dx, with psi in
+/// [L^3/T] (Batchelor 1967, "An Introduction to Fluid Dynamics", 2.2). psi solves these equations
+/// between neighbouring points of the grid by least squares.
 class StreamLines {
  public:
-  /// For flows on `grid`. With `has_axis` they are symmetric about x = 0; then grid.x(0) >= 0.
+  /// For flows on `grid`. If `has_axis` is true, the flows are symmetric about the axis x = 0, and
+  /// grid.x(0) must be >= 0.
   StreamLines(const Grid& grid, bool has_axis);
   ~StreamLines();
   StreamLines(StreamLines&&) noexcept;
 
-  /// About `count` > 0 lines at equal steps of psi, with arrows outside the particles. There are
-  /// none if nothing moves. `is_body` is 1 for each point of the grid in a particle, which hides
-  /// it, otherwise 0; `is_body` and the lists of `flow` have grid.size() numbers, in the order of
-  /// the grid. Flows should be given in order of time, because the factor of the matrix is used
-  /// again as long as the fluid covers about the same points.
+  /// The lines at `count` > 0 values of psi in equal steps; a value may have several lines or none.
+  /// Arrows are outside the particles. There are no lines if psi is constant. `is_body` is 1 for
+  /// each point of the grid in a particle, which is drawn over the lines, otherwise 0. `is_body`
+  /// and the lists of `flow` have grid.size() numbers, in the order of the grid; velocities are NaN
+  /// where there is no flow. Flows should be given in order of time, because the factor of the
+  /// matrix is used again as long as the flow covers about the same points.
   StreamLineSet of(const FlowOnGrid& flow, const std::vector<char>& is_body, int count);
 
  private:

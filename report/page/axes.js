@@ -3,20 +3,22 @@
 // its logarithmic axes have whole decades only. Therefore uPlot gets inner values: the decimal
 // logarithm of a value on a logarithmic axis; on a linear axis the value divided by a power of ten,
 // so that the largest is from 1 to 10. This file places and labels the ticks. Outer values are
-// those of the report's files, in the units that the labels of the axes say. Nothing is thrown: a
-// missing value is null and has no point. A `curve` has these members: legend (text), colour
-// ("#rrggbb"), width (of its line [pixels], 0: points only), dash (lengths [pixels]; empty: solid),
-// point ('', 'circle', 'disc', 'square' or 'cross'), pointSize (> 0, 1 is about 7 pixels), x and y
-// (outer values, x not decreasing), and inner: {x, y} (inner values, x increasing), which panels.js
-// adds. report/page.cpp writes axes and curves as JSON, and a change must agree with its json_of().
-// report/CMakeLists.txt joins this file and panels.js into one script, so panels.js uses all its
-// names.
+// those of the report's files, in the units that the labels of the axes name. Nothing is checked or
+// thrown: a missing value is null and has no point. A `curve` has these members: legend (text),
+// colour ("#rrggbb"), width (of its line [pixels], 0: points only), dash (lengths [pixels]; empty:
+// solid), point ('', 'circle', 'disc', 'square' or 'cross'), pointSize (> 0; a point of size 1 is
+// about 7 pixels wide), x and y (outer values, x not decreasing), and inner: {x, y} (inner values,
+// x increasing), which panels.js adds. report/page.cpp writes axes and curves as JSON, and a change
+// must agree with its json_of(). report/CMakeLists.txt joins this file and panels.js into one
+// script, so panels.js uses the names of this file.
 
 const kBlank = '\u2013';  // a dash, shown in place of a missing number
 
-// `described` is an axis as page.cpp writes it: label, logarithmic, and the ends low and high
-// (outer values). If an end is null, it is that of `values` with a margin of 4 %, a free choice.
-// The result has functions inner() and outer() for values, and the ends `full` (inner values).
+// `described` is an axis as page.cpp writes it: label (text), logarithmic (true or false), and the
+// ends low and high (outer values or null). An end that is null is replaced by that of `values`
+// (outer) with a margin of 4 %, a free choice; without values it is taken from 1 to 2. The result
+// has `described`, functions inner() and outer(), which convert outer values into inner ones and
+// back, and the ends `full` of the axis (inner values) before the reader zooms.
 function axisOf(described, values) {
   const finite = values.filter(v => Number.isFinite(v) && (!described.logarithmic || v > 0));
   let low = Infinity, high = -Infinity;
@@ -33,7 +35,7 @@ function axisOf(described, values) {
 
 const plain = v => (v === null || v === undefined ? null : v);
 
-// About `count` ticks from low to high with a step of 1, 2 or 5 times a power of ten.
+// About `count` > 0 ticks from low to high > low, with a step of 1, 2 or 5 times a power of ten.
 function evenTicks(low, high, count) {
   const rough = (high - low) / count, power = 10 ** Math.floor(Math.log10(rough));
   const step = power * [1, 2, 5, 10].find(m => m * power >= rough);
@@ -80,7 +82,7 @@ function tickLabels(axis, ticks) {
 }
 
 // The inner values x of a curve, made strictly increasing, as uPlot needs them: at a jump two
-// points have the same x, and the second is moved by 1e-12 of the axis (`span`).
+// points have the same x, and the second is moved by 1e-12 of the axis, whose length is `span`.
 function separated(x, span) {
   const result = x.slice();
   for (let i = 1; i < result.length; ++i)
@@ -89,8 +91,8 @@ function separated(x, span) {
 }
 
 // The value of a curve at x (both inner values). Between two points of a line it is interpolated
-// linearly. A curve with marked points has the value of the nearest point, if that is at most
-// `reach` away; otherwise the result is null.
+// linearly. A curve with marked points has the value of the nearest point, if that point is at most
+// `reach` away (inner value). In all other cases the result is null.
 function valueAt(curve, x, reach) {
   const xs = curve.inner.x, ys = curve.inner.y;
   if (!xs.length) return null;
@@ -121,7 +123,8 @@ function outline(kind, x, y, r) {
   return path;
 }
 
-// Draws the marked points of curve number `series` of uPlot's object u, which draws circles only.
+// Draws the marked points of a curve, which is number `series` (from 1) in uPlot's object u. uPlot
+// itself could draw circles only.
 function drawPoints(u, curve, series) {
   if (!curve.point || !u.series[series].show) return;
   const ratio = devicePixelRatio, box = u.bbox, context = u.ctx;

@@ -1,11 +1,12 @@
 // Draws the plots of a report with uPlot, so that a reader can zoom them and read values by pointer
 // or finger: one finger reads values, two fingers zoom, a double tap resets the axes. One finger
-// that moves up or down still scrolls the page. Each figure contains its plot as JSON, which
-// report/page.cpp writes; a change must agree with its json_of(). Without scripts, and in print, a
-// figure shows its still picture. axes.js, the first file of the same script, has the members of
-// curves and axes and says what inner and outer values are. Nothing is checked or thrown. Sizes are
-// in CSS pixels, and those without a reason are free choices. This file ends the script and draws
-// all plots.
+// that moves up or down still scrolls the page. Each figure contains its plot as JSON, {name,
+// panels: [{title, x, y, rows, curves}]}, which report/page.cpp writes; a change must agree with
+// its json_of(). x and y are axes; `rows` has the names of y = 1, 2, ..., or is empty if y is a
+// quantity. axes.js, the first part of the same script, describes axes, curves, and inner and outer
+// values. Without scripts, and in print, a figure shows its still picture. Nothing is checked or
+// thrown. Sizes are in CSS pixels, and those without a reason are free choices. The loop at the end
+// draws all plots when the page is loaded.
 
 // Lets fingers read values and zoom in uPlot's object u. A second tap within 300 ms calls reset().
 function addTouch(u, reset) {
@@ -62,9 +63,10 @@ function element(tag, className, parent, text) {
   return made;
 }
 
-// The legend, which shows the values at the pointer: a row for x, and a row for each curve with a
-// legend; a curve without one belongs to the row before. toggle(series, show) shows or hides a
-// curve. Returns the cells for the values.
+// Makes the legend, which shows the values at the pointer: a row for x, and a row for each curve
+// with a legend; a curve without a legend belongs to the row before it. toggle(series, show) must
+// show or hide the curve with this number (from 1). Returns the cells for the values: `x`, and
+// `curves` with null for a curve that has no row.
 function makeLegend(parent, panel, toggle) {
   const table = element('table', 'legend', parent);
   const row = className => element('tr', className, table);
@@ -87,7 +89,7 @@ function makeLegend(parent, panel, toggle) {
   return cells;
 }
 
-// Draws a panel (PlotPanel of report/page.hpp) of this height and its legend into `parent`.
+// Draws a panel and its legend into the element `parent`. `height` is that of the panel [pixels].
 function makePanel(parent, panel, height) {
   const place = element('div', 'panel', parent);
   element('h3', '', place, panel.title);
@@ -117,7 +119,8 @@ function makePanel(parent, panel, height) {
     (v === null || v === undefined ? kBlank : short(axis.outer(v), 6));
   const nameOfRow = v => rows[Math.round(v) - 1];
 
-  // Shows the values at the pointer in the legend. A row for two curves of one colour shows both.
+  // Shows the values at the pointer in the legend. If two curves of one colour share a row, the row
+  // shows the values of both.
   function readOff() {
     const {left, top} = u.cursor;
     const inside = left >= 0 && top >= 0;

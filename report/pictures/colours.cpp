@@ -1,10 +1,12 @@
 // Interpolates colours between the nodes of a scale, and chooses the ends, numbers and words of
-// scales. Pressures and speeds are in the units of the case. A share is a place on a scale, 0 at
-// its lower end and 1 at its upper one. PressureColours has the ends `low` < `high` of a scale, the
-// `smallest` and `largest` of all pressures, and `linear_below`, the pressure up to which the scale
-// is linear (0: everywhere). Nothing is thrown. Used by the pictures and pages of report/,
-// rolling/, swimmer/ and particles/picture. gnuplot gets PressureColours::at(pressure) in place of
-// the pressure, so a change of at() must agree with the commands of settings().
+// scales. Pressures [M/(L T^2)] and speeds [L/T] are in the units of the case. A share is a place
+// on a scale, 0 at its lower end and 1 at its upper one. PressureColours has the ends `low` <
+// `high` of a scale, the `smallest` and `largest` of all pressures, and `linear_below`, the
+// pressure up to which the scale is linear (0: everywhere). Nothing is checked or thrown. Used by
+// the pictures and pages of report/, rolling/, swimmer/ and particles/picture. gnuplot gets
+// PressureColours::at(pressure) in place of the pressure, so a change of at() must agree with the
+// commands of settings(). Colours of nodes, limits and numbers of ticks are free choices, as long
+// as colour-blind readers can tell the colours apart.
 #include "viscontact/report/pictures/colours.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +20,7 @@ namespace viscontact::report {
 namespace {
 
 struct ColourNode {
-  double place;               ///< position on the scale
+  double place;               ///< position on the scale [1]
   std::array<double, 3> rgb;  ///< red, green, blue from 0 to 255
 };
 
@@ -35,7 +37,8 @@ std::string colour_between(const std::vector<ColourNode>& nodes, double place) {
   return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
 }
 
-/// `colours` >= 2 colours at evenly spaced shares from 0 to 1; colour(share) returns one.
+/// `colours` >= 2 colours at evenly spaced shares from 0 to 1. colour(share) must return the colour
+/// at a share.
 template <class Colour>
 std::vector<std::string> evenly_spaced(int colours, const Colour& colour) {
   std::vector<std::string> all;
@@ -44,7 +47,8 @@ std::vector<std::string> evenly_spaced(int colours, const Colour& colour) {
 }
 
 /// Round numbers from 0 to `top` >= 0 in about four intervals, as shares of `top` with their texts.
-/// Only 0 if `top` is so small that its quarter, or its decade, is not accurate in a double.
+/// The result has only the number 0 if `top` is so small that a double cannot represent its quarter
+/// and its decade accurately.
 std::vector<std::pair<double, std::string>> round_ticks(double top) {
   constexpr double kSmallest = 1e-300;
   if (!(top > kSmallest)) return {{0, "0"}};
@@ -93,11 +97,10 @@ std::vector<double> sorted_finite(const std::vector<double>& values) {
   return sorted;
 }
 
-/// The scale with low < high, as gnuplot needs it: if both are equal but for kEqual times their size,
-/// they are moved apart.
+/// The scale with low < high, as gnuplot needs it. If the two ends differ by at most kEqual times
+/// their size, they are moved apart.
 PressureColours widened(PressureColours colours) {
-  // Three digits of a number are written beside a scale, so that no reader could tell such ends
-  // apart.
+  // The numbers beside a scale have three digits, so a reader could not tell such ends apart.
   constexpr double kEqual = 1e-9;
   if (colours.high - colours.low > kEqual * std::abs(colours.high)) return colours;
   const double half = colours.high == 0 ? 1 : std::abs(colours.high);
@@ -109,7 +112,8 @@ PressureColours widened(PressureColours colours) {
 }  // namespace
 
 std::string film_colour(double share) {
-  // Colour-blind readers, and those of a grey print, can tell the colours of viridis apart.
+  // Colour-blind readers, and readers of a grey print, can tell the colours of the published scale
+  // viridis apart.
   static const std::vector<ColourNode> kViridis = {
       {0, {253, 231, 37}},     {0.125, {173, 220, 48}}, {0.25, {94, 201, 98}},
       {0.375, {40, 174, 128}}, {0.5, {33, 145, 140}},   {0.625, {44, 114, 142}},

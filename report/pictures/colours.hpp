@@ -1,9 +1,10 @@
 // The colours of curves, and scales of colours for gamma, friction, speeds and pressures. gamma is
-// minus the impulse that the film of a contact has absorbed [M L/T], of discs in a fluid per length
-// [M/T]. The pages and pictures of report/, rolling/, swimmer/ and particles/ use them. A change
-// must keep that colour-blind readers can tell the colours apart. Nothing is checked or thrown; a
-// share beyond 0 or 1 gets the colour of that end, and no number may be NaN, except in lists of
-// pressures.
+// minus the impulse that the film of a contact has absorbed [M L/T]; for discs in a fluid it is an
+// impulse per length [M/T]. The pages and pictures of report/, rolling/, swimmer/ and particles/
+// use these colours. The colours are free choices, but a change must keep that colour-blind readers
+// can tell them apart. Nothing is checked or thrown. A share is a place on a scale, from 0 to 1
+// [1]; a share below 0 or above 1 gets the colour of the nearer end. No number may be NaN, except
+// in lists of pressures.
 #pragma once
 
 #include <array>
@@ -25,7 +26,8 @@ inline constexpr const char* kReddishPurple = "#CC79A7";
 
 /// The colours of curves. A page gives each of its curves a place in this list, from the first on,
 /// and draws it in this colour in all its pictures, so that readers find it again. Colour-blind
-/// readers can tell the first seven apart. The first two can be seen on the colours of maps, too.
+/// readers can tell the first seven apart. The first two can also be seen on a map, which is a
+/// picture that shows values as colours.
 inline constexpr auto kCurveColours = std::to_array<const char*>(
     {kSkyBlue,  kVermilion, kBluishGreen, kReddishPurple, kBlue,     kOrange,   kBlack,
      "#7F7F7F", "#8C564B",  "#17BECF",    "#6A3D9A",      "#B5BD00", "#E31A1C", "#1F3B73",
@@ -43,10 +45,11 @@ struct ColourScale {
   std::vector<std::pair<double, std::string>> ticks;  ///< shares of the width, 0 to 1, with texts
 };
 
-/// The colour "#rrggbb" for share = gamma/(lowest gamma), from 0 (light) to 1 (dark).
+/// The colour "#rrggbb" for share = gamma/(lowest gamma), from 0 (light yellow) to 1 (dark violet).
 std::string film_colour(double share);
 
-/// The scale of gamma from `lowest` < 0 (left) to 0, with `colours` >= 2 colours and these words.
+/// The scale of gamma from `lowest` < 0 (left) to 0, with `colours` >= 2 colours and with `words`
+/// as ColourScale::words.
 ColourScale film_scale(double lowest, int colours, const std::string& words);
 
 inline constexpr const char* kTouchingColour = "#5a5a5a";  ///< for contacts with gamma = 0
@@ -56,11 +59,12 @@ inline constexpr const char* kSlidingColour = "#d55e00";   ///< for contacts tha
 /// (kTouchingColour) to 1 (kSlidingColour).
 std::string friction_colour(double share);
 
-/// The scale of friction_colour() from 0 to 1 with `colours` >= 2 colours and these words.
+/// The scale of friction_colour() from 0 to 1, with `colours` >= 2 colours and with `words` as
+/// ColourScale::words.
 ColourScale friction_scale(int colours, const std::string& words);
 
 /// The colour "#rrggbb" for share = speed/(speed at the end of the scale), from 0 (nearly white) to
-/// 1 (blue). Lightness has even steps; dark lines can be seen on all.
+/// 1 (blue). The lightness falls in even steps, and dark lines can be seen on all of these colours.
 std::string speed_colour(double share);
 
 /// The scale of the speed of a fluid from 0 to `top` >= 0 [L/T], with `colours` >= 2 colours.
@@ -76,25 +80,27 @@ inline constexpr const char* kStreamLineColour = "#12233f";
 /// beyond an end of the scale have the colour of that end.
 struct PressureColours {
   double low = 0, high = 0;          ///< the ends of the scale [M/(L T^2)], low < high
-  double smallest = 0, largest = 0;  ///< of all pressures [M/(L T^2)]
-  double linear_below = 0;           ///< [M/(L T^2)], >= 0; 0: linear everywhere
+  double smallest = 0, largest = 0;  ///< smallest and largest of all pressures [M/(L T^2)]
+  /// The pressure up to which the scale is linear [M/(L T^2)], >= 0; 0: it is linear everywhere.
+  double linear_below = 0;
 
   /// The position of a pressure [M/(L T^2)] on the scale: that pressure, or with linear_below > 0 a
   /// number [1]. gnuplot gets positions as the values of a field.
   double at(double pressure) const;
 
-  /// The colour "#rrggbb" at a position.
+  /// The colour "#rrggbb" at a position `place`, a result of at().
   std::string colour_at(double place) const;
 
-  /// Round pressures with their texts for the numbers beside the scale.
+  /// Round pressures [M/(L T^2)] with their texts, for the numbers beside the scale. The pressures
+  /// of a logarithmic scale may lie outside its ends.
   std::vector<std::pair<double, std::string>> ticks() const;
 
   /// The scale from `low` to `high`, with `colours` >= 2 colours, for a pressure minus its mean;
   /// `unit` is that of the pressure in words. A number that would touch another is left out.
   ColourScale scale(int colours, const std::string& unit = "viscosity/time") const;
 
-  /// Where a pressure is on the scale: 0 at `low`, 1 at `high`; below 0 or above 1 for pressures
-  /// outside.
+  /// The share [1] of a pressure: 0 at `low`, 1 at `high`, and below 0 or above 1 for a pressure
+  /// outside these ends.
   double share_of(double pressure) const;
 
   /// Commands of gnuplot for the palette, range, numbers and words of the scale. Its words give the
@@ -103,18 +109,18 @@ struct PressureColours {
 };
 
 /// A linear scale from the smallest to the largest of the pressures [M/(L T^2)] that are finite. If
-/// both are p but for a relative 1e-9, it is from p - |p| to p + |p|, or from -1 to 1 if p = 0 or
-/// no pressure is finite.
+/// the relative difference of the two is at most 1e-9, the scale reaches from p - |p| to p + |p|,
+/// where p is the pressure; it reaches from -1 to 1 if p = 0 or no pressure is finite.
 PressureColours proportional_colours(const std::vector<double>& pressures);
 
 /// A scale for the pressures of pixels [M/(L T^2)], of which a few may be much larger than all
 /// others. Pressures that are not finite do not count. The highest 0.5 % are cut off if the largest
-/// pressure is more than three times the largest of the others: the scale then ends at the largest
-/// of the others, rounded up. The lowest 0.5 % are treated in the same way. If such an end is cut,
-/// or if an end is more than ten times the pressure `usual` >= 0, the scale is linear below the
-/// power of ten nearest to `usual` and logarithmic beyond it; if `usual` is 0, it stays linear. If
-/// no pressure is finite, also in an empty list, the scale is from -1 to 1. The limits are free
-/// choices.
+/// of the other 99.5 % is > 0 and less than a third of the largest pressure: the scale then ends at
+/// the largest of the others, rounded up. In the same way the lowest 0.5 % are cut off if the
+/// smallest of the others is < 0. If an end is cut, or if an end is more than ten times the
+/// pressure `usual` >= 0, the scale is linear below the power of ten nearest to `usual` and
+/// logarithmic beyond it; if `usual` is 0, the scale stays linear. If no pressure is finite, also
+/// in an empty list, the scale reaches from -1 to 1. The limits are free choices.
 PressureColours robust_colours(const std::vector<double>& pixels, double usual);
 
 }  // namespace viscontact::report

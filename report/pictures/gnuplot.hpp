@@ -1,8 +1,9 @@
 // Draws curves and colour fields with the program gnuplot. Values have no unit here; the labels of
-// the axes name the units. report/ and swimmer/ draw by it. A gnuplot that is missing or fails
-// throws Error(kExternalProgram), a stop Error(kInterrupted). Commands in Panel::settings and
-// Curve::style are passed on as they are. A change must keep that no text of a user reaches gnuplot
-// as a command.
+// the axes name the units. report/ and swimmer/ use this file. A gnuplot that is missing or fails
+// throws Error(kExternalProgram), and a requested stop throws Error(kInterrupted); shapes and sizes
+// are not checked. Commands in Panel::settings and Curve::style are passed to gnuplot as they are.
+// A change must keep that no text of a user reaches gnuplot as a command; the limit of ten minutes
+// is a free choice.
 #pragma once
 
 #include <optional>
@@ -26,16 +27,17 @@ class GnuplotMissing : public Error {
 struct Curve {
   std::string legend;                             ///< empty: no entry in the legend
   std::string style;                              ///< for gnuplot, such as "lines linewidth 2"
-  std::vector<std::pair<double, double>> points;  ///< a non-finite ordinate interrupts the line
+  std::vector<std::pair<double, double>> points;  ///< a number that is not finite cuts the line
 };
 
 /// Values that are shown as colours in equal cells of a rectangle, row by row from the bottom, each
 /// row from the left. Cells with non-finite values are transparent. The commands in Panel::settings
 /// set the colours (palette, cbrange).
 struct ColourField {
-  std::size_t columns = 0, rows = 0;                ///< at least 2 each (not checked)
-  double left = 0, right = 0, bottom = 0, top = 0;  ///< sides of the rectangle; left < right, ...
-  std::vector<double> values;                       ///< columns * rows; gnuplot gets four digits
+  std::size_t columns = 0, rows = 0;  ///< at least 2 each (not checked)
+  /// Sides of the rectangle in the units of the axes; left < right and bottom < top (not checked).
+  double left = 0, right = 0, bottom = 0, top = 0;
+  std::vector<double> values;  ///< columns * rows; gnuplot gets four digits
 };
 
 /// Curves, and possibly a colour field, on common axes.
@@ -44,12 +46,12 @@ struct Panel {
   bool x_log = false, y_log = false;    ///< true: a logarithmic axis, without values <= 0
   std::vector<std::string> settings;    ///< further gnuplot commands, not quoted or checked
   std::vector<Curve> curves;            ///< a curve without points is left out
-  std::optional<ColourField> field{};   ///< drawn below the curves
+  std::optional<ColourField> field{};   ///< drawn behind the curves; nothing: no field
 };
 
 /// Settings of a panel that put the legend below the plot, and the name of the horizontal axis
-/// between the numbers of the axis and the legend. gnuplot itself leaves no room between the name
-/// and the legend, which would cover a part of it.
+/// between the numbers of the axis and the legend. gnuplot by itself leaves no room for the name,
+/// so that the legend would cover a part of it.
 inline constexpr const char* kLegendBelow =
     "set key below Left reverse noopaque height 0.6\nset xlabel offset 0,0.35";
 
@@ -59,15 +61,16 @@ std::string quoted_for_gnuplot(const std::string& text);
 
 /// Draws the panels one below the other, as an SVG (one element, which may stand in an HTML page),
 /// a PDF, a PNG, or as gnuplot's script with the data, which gnuplot turns into an SVG. `width` > 0
-/// and `height` > 0 are those of the picture by itself [pixels of an SVG]; if format.width > 0,
-/// this is the width, and the height in proportion. Throws GnuplotMissing(kExternalProgram) if
-/// gnuplot cannot be run, Error(kExternalProgram) if gnuplot fails (as it does if nothing is to be
-/// drawn) or has not ended after ten minutes, and Error(kInterrupted) if `stop` requests a stop; a
-/// script is made without gnuplot and throws nothing.
+/// and `height` > 0 are the size of the picture [pixels of an SVG; for each of them a PDF has a
+/// point and a PNG two pixels]. If format.width > 0, it replaces `width`, and the height changes in
+/// proportion. Throws GnuplotMissing(kExternalProgram) if gnuplot cannot be run,
+/// Error(kExternalProgram) if gnuplot fails (as it does if nothing is to be drawn) or has not ended
+/// after ten minutes, Error(kInterrupted) if `stop` requests a stop, and std::system_error if the
+/// system has no free socket. A script is made without gnuplot, and nothing is thrown.
 std::string draw_picture(const results::PictureFormat& format, const std::vector<Panel>& panels,
                          int width, int height, const StopToken& stop = {});
 
-/// draw_picture() of the kind kSvg, with its errors.
+/// Draws the panels as an SVG. The sizes and errors are those of draw_picture().
 std::string draw_svg(const std::vector<Panel>& panels, int width, int height,
                      const StopToken& stop = {});
 

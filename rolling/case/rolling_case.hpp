@@ -1,8 +1,8 @@
-// The case of a sphere that moves along a plane in a viscous fluid and turns (TOML,
-// docs/case-file.md). Lengths, masses and times are in any consistent units. Keys are declared in
-// rolling_case.cpp (keys.hpp). rolling/, app/ and python/ read it. Every fault of a case throws
-// Error(kBadInput), with the line and the key if it is in one of them. A change must keep accepting
-// the cases that users have written.
+// Reads the case file of a sphere that moves along a plane in a viscous fluid and turns (TOML,
+// docs/case-file.md). Lengths, masses and times are in any consistent units. rolling_case.cpp
+// declares the keys, their ranges and their defaults. rolling/, app/ and python/ use this file. A
+// fault of a case throws Error(kBadInput), which names the file and, if the fault belongs to a line
+// or a key, the line and the key. A change must keep accepting the cases that users have written.
 #pragma once
 
 #include <filesystem>
@@ -21,14 +21,15 @@ namespace viscontact::rolling {
 /// Content of a case file of a sphere that rolls along a plane.
 struct RollingCase {
   std::string title;         ///< a title for pages; may be empty
-  Units units{};             ///< words for pages; may be empty
+  Units units{};             ///< units of the numbers, in words for pages; may be empty
   double viscosity = 0,      ///< mu of the fluid [M/(L T)], > 0
       radius = 0,            ///< r of the sphere [L], > 0
       fluid_density = 0;     ///< rho_f [M/L^3], >= 0; only buoyancy depends on it
   bool has_gravity = false;  ///< true: the forces follow from gravity, less the buoyancy
-  /// The motion that the models compute.
+  /// The motion that the models compute. roughness < radius, roughness <= initial_gap, time_step <=
+  /// end_time, and relative_tolerance is from 1e-13 to 0.01.
   RollingMotion motion;
-  std::vector<std::string> models;  ///< names of rolling_models(), each at most once
+  std::vector<std::string> models;  ///< models that are run (rolling_models()), each at most once
   // Exactly one of the next two exists.
   /// The tables of the drag on the sphere near the plane that are to be computed and then fitted.
   std::optional<freefem_axi::Tabulation> tabulation;
@@ -40,22 +41,22 @@ struct RollingCase {
   std::filesystem::path path;  ///< the case file
 };
 
-/// Reads and checks a case file. Throws Error(kBadInput) with the file, the line, the key, its
-/// value and what is allowed.
+/// Reads and checks a case file. Throws Error(kBadInput) that names the file, the line, the key,
+/// the value and what is allowed. The file of a fit is not read.
 RollingCase read_rolling_case(const std::filesystem::path& path);
 
-/// Reads a case from the root table of its file (case_file/case_template.hpp). Throws as
-/// read_rolling_case().
+/// Reads a case from the root table of its file, for case_file/case_template.hpp. Throws the errors
+/// of read_rolling_case().
 void read_root(const case_file::TomlSection& root, RollingCase& c);
 
-/// `fit`, scaled to radius and viscosity of the case. Messages name `file`, from which it was read.
-/// Throws Error(kBadInput) if the fit is not that of a sphere above a plane; a fit that names no
-/// neighbour is accepted.
+/// Returns `fit`, scaled to radius and viscosity of the case. Messages name `file`, from which the
+/// fit was read. Throws Error(kBadInput) if the fit says that the sphere is beside another body
+/// than a plane; a fit that does not name the body is accepted.
 motions::PairFit fit_for(const RollingCase& c, motions::PairFit fit,
                          const std::filesystem::path& file);
 
-/// What docs/case-file.md says about the keys of each section that only this kind of case has, or
-/// has with other keys.
+/// The tables in docs/case-file.md with the keys of those sections that only this kind of case has,
+/// or that have other keys in this kind of case: [sphere], [rolling], [fit] and [sweep].
 std::vector<case_file::KeyTable> tables_of_rolling_case();
 
 }  // namespace viscontact::rolling

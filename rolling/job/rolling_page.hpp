@@ -1,8 +1,9 @@
-// The report of a sphere that moves along a plane and turns: a page with pictures and tables.
-// Lengths, masses and times are in the units of the case. rolling_stage.cpp calls it. A gnuplot
-// that fails throws Error(kExternalProgram), a file that cannot be written Error(kBadInput); a
-// missing gnuplot is only a warning. A change must keep the names of the pictures, so that those of
-// earlier runs are replaced.
+// Writes the report of a sphere that moves along a plane and turns: a page with pictures and
+// tables. Gaps [L], times [T], velocities [L/T] and forces [M L/T^2] are in the units of the case.
+// rolling_stage.cpp calls this file. A gnuplot that fails throws Error(kExternalProgram), and a
+// file that cannot be written throws Error(kBadInput); a missing gnuplot is only a warning. A
+// change must keep the names of the pictures, so that the pictures of earlier runs are replaced.
+// Colours and sizes in rolling_page.cpp are free choices.
 #pragma once
 
 #include <array>
@@ -25,22 +26,26 @@ namespace viscontact::rolling {
 struct RollingResults {
   RollingCase c;         ///< the case
   motions::PairFit fit;  ///< fit of the drag, scaled to radius and viscosity of the case
-  /// Name and trajectory, of at least one row, of each model that did not fail.
+  /// For each model that did not fail, its name and its trajectory, which has at least one row.
   std::vector<std::pair<std::string, RollingTrajectory>> trajectories;
   std::vector<results::FailedModel> failed;  ///< models without a trajectory
 };
 
 /// A sentence for each model whose gap gets below the smallest gap of the fit, where the formula of
-/// the fit is continued although no row of a table supports it. Empty if there is none.
+/// the fit is continued although no row of a table supports it. The list is empty if there is no
+/// such model.
 std::vector<std::string> rolling_warnings(const RollingResults& results);
 
-/// The names of all pictures of the report (report::Report).
+/// The names of all pictures that the report can have. A picture is stored in plots/NAME.svg.
 inline constexpr auto kRollingPictures =
     std::to_array<std::string_view>({"gap", "velocity", "rotation", "slip", "friction"});
 
-/// Writes report.html and plots/NAME.svg into `folder`. If gnuplot is missing, the page has no
-/// still pictures, and a warning says so. Throws Error(kExternalProgram) if gnuplot fails,
-/// Error(kBadInput) if a file cannot be written, and Error(kInterrupted) if `stop` requests a stop.
+/// Writes report.html and plots/NAME.svg into `folder`. `provenance` says how the results were
+/// made. If gnuplot is missing, the page has no still pictures, and a warning says so. Throws
+/// Error(kExternalProgram) if gnuplot fails, after the page is written without still pictures;
+/// Error(kBadInput) if a file cannot be written or a file of the user would be replaced;
+/// Error(kWrongUsage) if the environment variable SOURCE_DATE_EPOCH is not a time; and
+/// Error(kInterrupted) if `stop` requests a stop.
 void write_rolling_report(const RollingResults& results, const std::filesystem::path& folder,
                           const results::Provenance& provenance, const StopToken& stop);
 

@@ -1,8 +1,9 @@
-// The case of a swimmer (TOML, docs/case-file.md): spheres on a line, the table of their resistance
-// matrices (forces per velocity), and the strokes that are computed with it. Lengths, masses and
-// times are in any consistent units. Keys are declared in swimmer_case.cpp (keys.hpp). swimmer/,
-// app/ and python/ read it. Every fault of a case throws Error(kBadInput), with the line and the
-// key if it is in one of them. A change must keep accepting the cases that users have written.
+// Reads the case file of a swimmer (TOML, docs/case-file.md): spheres on a line, the table of their
+// resistance matrices (forces per velocity), and the strokes that are computed with this table.
+// Lengths, masses and times are in any consistent units. swimmer_case.cpp declares the keys, their
+// ranges and their defaults. swimmer/, app/ and python/ use this file. A fault of a case throws
+// Error(kBadInput), which names the file and, if the fault belongs to a line or a key, the line and
+// the key. A change must keep accepting the cases that users have written.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,7 +24,7 @@ namespace viscontact::swimmer {
 /// lengths.
 struct SwimmerCase {
   std::string title;  ///< a title for pages; may be empty
-  Units units{};      ///< words for pages; may be empty
+  Units units{};      ///< units of the numbers, in words for pages; may be empty
   /// The spheres, and the fluid and container for which their resistances are tabulated.
   CollinearSpheres spheres;
   /// The file of the table that the case names; nothing if the table is to be computed.
@@ -31,7 +32,7 @@ struct SwimmerCase {
   /// The table in that file, scaled to `spheres`; without rows if the table is to be computed.
   ResistanceTable table{};
   /// For each arm, in the order of the spheres, the gaps of the table between its two spheres [L],
-  /// > 0, rising.
+  /// > 0, rising: from 3 to 200 of them if the table is to be computed.
   std::vector<std::vector<double>> gaps;
   /// The stroke that the swimmer makes; nothing if the file has no section [stroke].
   std::optional<Stroke> stroke;
@@ -43,18 +44,18 @@ struct SwimmerCase {
   std::vector<std::filesystem::path> stroke_files;  ///< files from which the stroke was read
 };
 
-/// Reads and checks a case file. Throws Error(kBadInput) with the file, the line, the key, its
-/// value and what is allowed.
+/// Reads and checks a case file, and the files of a table and a stroke that it names. Throws
+/// Error(kBadInput) that names the file, the line, the key, the value and what is allowed.
 SwimmerCase read_swimmer_case(const std::filesystem::path& path);
 
-/// Reads a case from the root table of its file (case_file/case_template.hpp). Throws as
-/// read_swimmer_case().
+/// Reads a case from the root table of its file, for case_file/case_template.hpp. Throws the errors
+/// of read_swimmer_case().
 void read_root(const case_file::TomlSection& root, SwimmerCase& c);
 
 /// The case file and the files of tables and strokes that it names. Throws nothing.
 std::vector<std::filesystem::path> files_of(const SwimmerCase& c);
 
-/// What docs/case-file.md says about the keys of each section.
+/// The tables in docs/case-file.md with the keys of each section.
 std::vector<case_file::KeyTable> tables_of_swimmer_case();
 
 }  // namespace viscontact::swimmer

@@ -1,9 +1,9 @@
-// Fits the resistance matrices of spheres on a line, given in a table, by a function of the gaps
-// (ResistanceFit), and makes perturbed fits, from which the results of a swimmer get their error
-// estimates. Lengths, masses and times are in the units of the table. A table without all
-// combinations of its gaps, or with a matrix that is not positive definite, throws
-// Error(kBadInput). swimmer/job and python/ call it. A change must keep that the fit meets every
-// row of the table.
+// Fits the resistance matrices [M/T] of spheres on a line, given in a table, by a function of the
+// gaps [L] (ResistanceFit), and makes perturbed fits, from which the results of a swimmer get their
+// error estimates. Lengths, masses and times are in the units of the table. A table that lacks a
+// combination of its gaps, or has a matrix that is not positive definite, throws Error(kBadInput).
+// swimmer/job and python/ call this file. A change must keep that the fit meets every row of the
+// table; the number of 16 draws is a free choice, but changes the error estimates.
 #pragma once
 
 #include <vector>
@@ -13,28 +13,29 @@
 
 namespace viscontact::swimmer {
 
-/// The fit that interpolates all rows of the table. The number of its lubrication terms is the one
-/// with the smallest error of a row that is predicted from the others (largest_left_one_out_error),
-/// among those for which each matrix minus its lubrication is positive definite. Throws
-/// Error(kBadInput) if the rows are not all combinations of at least three values of each gap, each
-/// combination once, or if a matrix is not positive definite. The checksum and the versions of the
-/// result are empty.
+/// The fit that interpolates all rows of the table. It has 0 to 3 lubrication terms: of those
+/// numbers for which each matrix minus its lubrication is positive definite, it has the number with
+/// the smallest ResistanceFit::largest_left_one_out_error. Throws Error(kBadInput) if the rows are
+/// not all combinations of at least three values of each gap, each combination once, or if a matrix
+/// is not positive definite. The table must have at least two radii (not checked). The members
+/// `table_sha256` and `versions` of the result are empty.
 ResistanceFit fit_resistance(const ResistanceTable& table);
 
-/// Fits with which a result is computed again. Its changes are estimates of its errors.
+/// Fits with which a result of a swimmer, such as its displacement, is computed again. The changes
+/// of the result are estimates of its errors.
 struct PerturbedFits {
   /// For each gap, in the order of the spheres, the least-squares fit whose polynomials have one
-  /// degree less in this gap. A result changes by about the error that it has because its
-  /// polynomials have a finite degree.
+  /// degree less in this gap. With this fit a result changes by about the error that the finite
+  /// degree of the polynomials causes.
   std::vector<ResistanceFit> lower_degrees;
-  /// Fits of tables in which each entry is changed by its error estimate, with random signs; at
-  /// most 16, which give a root mean square to about a fifth.
+  /// At most 16 fits of tables in which each entry is changed by its error estimate, with random
+  /// signs. 16 fits give the root mean square of the changes of a result to about a fifth.
   std::vector<ResistanceFit> table_errors;
 };
 
 /// The perturbed fits of a table; `fit` must be fit_resistance(table) (not checked). The random
-/// signs are the same in each call. A fit of `table_errors` is left out if its table has a matrix
-/// that is not positive definite.
+/// signs are the same in each call. A fit of `table_errors` is left out if its changed table has a
+/// matrix that is not positive definite after the lubrication is subtracted.
 PerturbedFits perturbed_fits(const ResistanceTable& table, const ResistanceFit& fit);
 
 }  // namespace viscontact::swimmer

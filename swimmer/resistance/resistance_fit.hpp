@@ -1,9 +1,10 @@
-// A fit of the resistance matrix R (forces on the fluid per velocity) of spheres on a line, as a
-// function of the gaps between them (physics.md, section 7), the formula of the lubrication between
-// neighbours that is a part of R, and the evaluation of R. Lengths, masses and times are in the
-// units of the table. A wrong file, and gaps beyond those of the table, throw Error(kBadInput);
-// other arguments are not checked. swimmer/fit/fit_resistance.hpp makes a fit, and
-// shape_mechanics.hpp evaluates it. A change must keep
+// A fit of the resistance matrix R [M/T] (forces on the fluid per velocity) of spheres on a line,
+// as a function of the gaps [L] between them (docs/physics.md, section 7), the formula of the
+// lubrication between neighbours that is a part of R, and the evaluation of R. Lengths, masses and
+// times are in the units of the table. A wrong file, radii of other ratios, and gaps below or above
+// those of the table throw Error(kBadInput); other arguments are not checked.
+// swimmer/fit/fit_resistance.hpp makes a fit, and shape_mechanics.hpp evaluates it. A change must
+// keep:
 // - the keys of the file, which other programs may read;
 // - the formula of the lubrication, because files of fits contain only the rest of R;
 // - R symmetric and positive definite.
@@ -28,65 +29,68 @@ namespace viscontact::swimmer {
 inline constexpr int kLubricationTerms = 3;
 
 /// The singular part of the resistance of two spheres of radii a and b [L] > 0, whose surfaces are
-/// at the distance gap [L] > 0, against a change of this gap, over the viscosity [L]:
+/// at the distance gap [L] > 0, against a change of this gap, divided by the viscosity [L]:
 ///
 ///   6 pi a [ g1/xi + g2 ln(1 + 1/xi) + g3 xi ln(1 + 1/xi) ],   xi = 2 gap/(a + b),
 ///
-/// with g1, g2, g3 of Jeffrey & Onishi 1984 (J. Fluid Mech. 139, 261, equation (3.17) for X11A).
-/// The ln(1/xi) of that equation is replaced by ln(1 + 1/xi), which has the same singularity and
-/// stays positive. The value is symmetric in a and b. It is the sum of the first `terms` of the
-/// three terms, 0 to kLubricationTerms. No argument of this function and the next two is checked.
+/// with the functions g1, g2, g3 of b/a [1] in Jeffrey & Onishi 1984 (J. Fluid Mech. 139, 261,
+/// equation (3.17) for X11A). The ln(1/xi) of that equation is replaced by ln(1 + 1/xi), which has
+/// the same singularity and stays positive. The value does not change if a and b are exchanged. It
+/// is the sum of the first `terms` of the three terms; `terms` is from 0 to kLubricationTerms. The
+/// arguments of this function and of the next two functions are not checked.
 double pair_lubrication(double a, double b, double gap, int terms);
 
-/// The resistance matrix over the viscosity [L] of a line of spheres of which only neighbours
-/// resist a change of their gap, by pair_lubrication(). `radii` and `gaps` are in [L]; `gaps` has
-/// one element less than `radii`. The matrix is positive semidefinite.
+/// The resistance matrix, divided by the viscosity [L], of a line of spheres in which only
+/// neighbours resist a change of their gap, with the resistance pair_lubrication(). `radii` and
+/// `gaps` are in [L], > 0; `gaps` has one element less than `radii`. The matrix is positive
+/// semidefinite.
 Eigen::MatrixXd lubrication_matrix(std::span<const double> radii, std::span<const double> gaps,
                                    int terms);
 
-/// d pair_lubrication / d gap [1], of any sign.
+/// The derivative of pair_lubrication() by the gap [1], of any sign.
 double pair_lubrication_slope(double a, double b, double gap, int terms);
 
-/// R = mu (R_lub + l exp(S)), physics.md (7.2), with the viscosity mu and the largest radius l.
-/// R_lub [L] is lubrication_matrix(), which is known: singular at contact and positive
-/// semidefinite. S [1] is symmetric, and each of its entries is a polynomial in t_k = 1/(gap_k +
-/// a_k + a_{k+1}), the inverse distance of the centres of spheres k and k + 1 with radii a_k and
-/// a_{k+1}. Therefore R is symmetric and positive definite for any polynomials.
+/// The fit R = mu (R_lub + l exp(S)) (docs/physics.md, equation (7.2)), with the viscosity mu and
+/// the largest radius l. R_lub [L] is the matrix of lubrication_matrix(), a known formula that is
+/// singular at contact and positive semidefinite. S [1] is symmetric, and each of its entries is a
+/// polynomial in all t_k = 1/(gap_k + a_k + a_{k+1}), the inverse distance of the centres of
+/// spheres k and k + 1 with radii a_k and a_{k+1}. Therefore R is symmetric and positive definite
+/// for any polynomials.
 struct ResistanceFit {
   double viscosity = 0;       ///< mu [M/(L T)], > 0
-  std::vector<double> radii;  ///< of the spheres along the line [L], > 0, 2 to 10 of them
+  std::vector<double> radii;  ///< radii of the 2 to 10 spheres along the line [L], > 0
   std::string container;      ///< walls around the fluid, in words; may be empty
   /// Number of terms of pair_lubrication() that are in R_lub, 0 to 3.
   int lubrication_terms = 0;
-  /// gaps[k]: the nodes of the gap between spheres k and k + 1 [L], > 0 and rising, at least 2. The
-  /// degree in t_k is one less than the number of nodes; at the nodes S has the values
-  /// `logarithms`.
+  /// gaps[k] are the nodes of the gap between spheres k and k + 1 [L], > 0 and rising, at least 2.
+  /// The degree of S in t_k is one less than the number of nodes.
   std::vector<std::vector<double>> gaps;
-  /// S at all combinations of nodes [1], a row and a column for each sphere; the last gap changes
-  /// fastest.
+  /// The values of S [1] at all combinations of nodes, of which the last gap changes fastest. Each
+  /// matrix has a row and a column for each sphere.
   std::vector<Eigen::MatrixXd> logarithms;
-  /// Largest |R_ij fitted / R_ij - 1| of the table's rows, >= 0. It is round-off, because the
-  /// polynomials go through all rows. The error of an entry below 1e-3 sqrt(R_ii R_jj) is relative
-  /// to this value instead, as in ResistanceRow::relative_error_estimates.
+  /// Largest relative error |R_ij fitted / R_ij - 1| in the table's rows [1], >= 0. It is
+  /// round-off, because the polynomials go through all rows. If |R_ij| < 1e-3 sqrt(R_ii R_jj), the
+  /// error is divided by 1e-3 sqrt(R_ii R_jj) in place of R_ij.
   double largest_relative_residual = 0;
-  /// Relative errors with which a fit of the other rows would predict a row, >= 0. Only those rows
-  /// are used that differ from it in one gap.
+  /// Relative errors [1], >= 0, with which a fit of the other rows would predict a row. This fit
+  /// uses only those rows that differ from the predicted row in a single gap.
   double largest_left_one_out_error = 0,        ///< the largest such error
       rms_left_one_out_error = 0;               ///< their root mean square
-  std::string table_sha256;                     ///< checksum of the table file; may be empty
+  std::string table_sha256;                     ///< SHA-256 of the table file; may be empty
   std::map<std::string, std::string> versions;  ///< program name to version
 };
 
 /// The fit for spheres of other radii [L] > 0 in the same ratios, and another viscosity [M/(L T)] >
-/// 0: R/(mu l) depends on the gaps in units of l alone. Throws Error(kBadInput) if the ratios
-/// differ.
+/// 0. Scaling is possible, because R/(mu l) depends only on the gaps divided by l. Throws
+/// Error(kBadInput) if the ratios or the numbers of radii differ; no list of radii may be empty
+/// (not checked).
 ResistanceFit scaled_to(ResistanceFit fit, double viscosity, const std::vector<double>& radii);
 
-/// The text of the fit file (JSON).
+/// The text of the fit file (JSON, docs/file-formats.md). Nothing is checked.
 std::string write_resistance_fit(const ResistanceFit& fit);
 
-/// Reads a fit file. Throws Error(kBadInput) with the line, the key and what is allowed, or if the
-/// file cannot be read.
+/// Reads a fit file. Throws Error(kBadInput) if the file cannot be read or is wrong; the message
+/// then names the line, the key and what is allowed.
 ResistanceFit read_resistance_fit(const std::filesystem::path& path);
 
 /// `count` >= 2 rising distances of centres from `from` to `to` [L], 0 < from < to: the extrema of
@@ -122,11 +126,12 @@ class FittedResistance {
   /// Throws std::out_of_range if there is no gap k.
   std::array<double, 2> gap_interval(std::size_t k) const { return intervals_.at(k); }
 
-  /// True if each gap [L] is within its interval, up to a relative 1e-12 for rounding; false if one
-  /// is NaN. There must not be more gaps than spheres less one (not checked).
+  /// True if each gap [L] is within its interval, up to a relative 1e-12 for rounding; false if a
+  /// gap is NaN. The number of gaps must be less than that of spheres (not checked).
   bool contains(std::span<const double> gaps) const;
 
-  /// R at these gaps [L], one less than the spheres. Throws Error(kBadInput) unless contains(gaps).
+  /// R at these gaps [L], whose number must be one less than that of spheres (not checked). Throws
+  /// Error(kBadInput) if a gap is below or above those of the table.
   ResistanceWithSlopes operator()(std::span<const double> gaps) const;
 
  private:

@@ -1,8 +1,8 @@
-// The table of resistance matrices of rigid spheres on a line, over the gaps between them
-// (physics.md, section 7). Lengths, masses and times are in the units of the table.
-// swimmer/tabulation writes it and the other folders of swimmer/ read it. A wrong value, row or
-// file throws Error(kBadInput). A change must keep the names of the columns, which published tables
-// have.
+// The table of resistance matrices [M/T] of rigid spheres on a line, over the gaps [L] between them
+// (docs/physics.md, section 7). Lengths, masses and times are in the units of the table.
+// swimmer/tabulation writes the table, and the other folders of swimmer/ and python/ read it. A
+// wrong value, row or file throws Error(kBadInput); indices and sizes are not checked. A change
+// must keep the names of the columns, which published tables have, and the order of the entries.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,18 +20,18 @@ namespace viscontact::swimmer {
 /// The matrix R at one set of gaps: F_i = sum_j R_ij U_j, with F_i the force of sphere i on the
 /// fluid [M L/T^2] and U_j the velocity of sphere j [L/T], both along the line.
 struct ResistanceRow {
-  static constexpr bool kIsOfLine = true;  ///< the head of the table has several radii
-  std::vector<double> gaps;  ///< gaps[i] [L], > 0: between the surfaces of spheres i and i + 1
+  static constexpr bool kIsOfLine = true;  ///< says that the head of the table has several radii
+  std::vector<double> gaps;  ///< gaps[i]: gap between the surfaces of spheres i and i + 1 [L], > 0
   /// The entries R_ij [M/T] with i <= j: R11, R12, ..., R1N, R22, ..., RNN. R is symmetric and
   /// positive definite.
   std::vector<double> entries;
-  /// Estimates of the errors of the entries, relative to the entry [1], >= 0. Errors of an entry
-  /// smaller than 1e-3 sqrt(R_ii R_jj) are relative to this value instead.
+  /// Estimates of the errors of the entries, divided by the entry [1], >= 0. If |R_ij| < 1e-3
+  /// sqrt(R_ii R_jj), the error of R_ij is divided by 1e-3 sqrt(R_ii R_jj) in place of R_ij.
   std::vector<double> relative_error_estimates;
   double degrees_of_freedom = 0;  ///< unknowns on the finest mesh, >= 0; 0: not known
   double seconds = 0;             ///< computing time of the row on a clock [s]; 0: not known
-  /// Order of convergence in the mesh size [1], observed in the entry with the largest estimate: 4
-  /// in theory, 0 if it was not observed.
+  /// Order of convergence in the mesh size [1], observed in the entry with the largest error
+  /// estimate. It is 4 in theory, and 0 if it was not observed.
   double observed_order = 0;
   double relative_error_estimate = 0;  ///< largest of relative_error_estimates [1], >= 0
 };
@@ -52,26 +52,29 @@ inline std::size_t entry_count(std::size_t spheres) { return spheres * (spheres 
 /// has fewer entries.
 Eigen::MatrixXd matrix_of(const ResistanceRow& row, std::size_t spheres);
 
-/// The columns of a row: gap12, gap23, ..., R11, R12, ..., R11_relative_error_estimate, ..., and
-/// how the row was computed. They point into `row`, which prepare() must have sized. The numbers of
-/// two spheres are separated by "_" if one of them is 10.
+/// The columns of a row: gap12, gap23, ..., R11, R12, ..., R11_relative_error_estimate, ...,
+/// relative_error_estimate, degrees_of_freedom, seconds and observed_order. Each column points to
+/// its number in `row`, which must have the sizes that prepare() sets (not checked). In a name the
+/// numbers of two spheres are separated by "_" if one of them is 10.
 std::vector<lubrication::Column> columns_of(const lubrication::TableHead& head, ResistanceRow& row);
 
-/// Gives the vectors of a row the sizes that belong to the number of radii in the head.
+/// Gives the vectors of a row the sizes that belong to the number of radii in the head, at least
+/// one (not checked).
 void prepare(const lubrication::TableHead& head, ResistanceRow& row);
 
-/// Sets `relative_error_estimate`, which follows from the other numbers.
+/// Sets row.relative_error_estimate to the largest of the error estimates of the entries.
 void complete(const lubrication::TableHead& head, ResistanceRow& row);
 
-/// Throws Error(kBadInput), which names file and line of `here`, if the matrix is not positive
-/// definite.
+/// Throws Error(kBadInput), which names the file and line of `here`, if the matrix of the row is
+/// not positive definite.
 void check(const lubrication::TableHead& head, const ResistanceRow& row, const FilePosition& here);
 
 /// The largest of the error estimates of the entries [1], 0 if there are none.
 double largest_estimate(const ResistanceRow& row);
 
-/// Reads a table, in which the columns of gaps and entries are required. Throws the errors of
-/// read_table() (lubrication/table_codec.hpp) and check().
+/// Reads a table. The columns of gaps and entries are required. Throws Error(kBadInput) with file
+/// and line if the file cannot be read, was cut short or has no rows, if a value is missing, not
+/// finite or out of range, or if a matrix is not positive definite.
 ResistanceTable read_resistance_table(const std::filesystem::path& path);
 
 /// The gaps of each pair of neighbours in the table [L], > 0, rising, without repetition; empty
@@ -79,20 +82,21 @@ ResistanceTable read_resistance_table(const std::filesystem::path& path);
 std::vector<std::vector<double>> gap_grid(const ResistanceTable& table);
 
 /// The ratio [1] of `radii` to `other`, two lists of radii [L], > 0: radii = ratio other. Throws
-/// Error(kBadInput) if the lists are no multiples of each other up to rounding, or differ in their
-/// length. No list may be empty (not checked). `what` is the word for the owner of `other` in the
-/// message, "table" or "fit".
+/// Error(kBadInput) if `radii` is not a multiple of `other` up to rounding, or if the lists differ
+/// in length. No list may be empty (not checked). `what` is the word in the message for the thing
+/// that has the radii `other`: "table" or "fit".
 double ratio_of_radii(const std::vector<double>& radii, const std::vector<double>& other,
                       std::string_view what);
 
 /// The table for spheres of other radii r' [L] > 0, in a fluid of another viscosity mu' [M/(L T)] >
-/// 0. Stokes flow has no length of its own: with r' = ratio r, the matrix at the gaps ratio q is
-/// (mu'/mu) ratio R(q). The container grows with the spheres, and the hash of the table becomes
-/// empty. Throws the error of ratio_of_radii().
+/// 0. A Stokes flow has no length of its own: if r are the radii, mu the viscosity and R(q) the
+/// matrix at the gaps q of `table`, and r' = ratio r, the matrix at the gaps ratio q is (mu'/mu)
+/// ratio R(q). The container grows with the spheres, and `case_hash` becomes empty. Throws
+/// Error(kBadInput) if r' is not a multiple of r.
 ResistanceTable scaled_to(ResistanceTable table, double viscosity,
                           const std::vector<double>& radii);
 
-/// The text of the file. `table` has at least one row (not checked).
+/// The text of the file (CSV). `table` must have at least one row (not checked).
 std::string write_resistance_table(const ResistanceTable& table);
 
 }  // namespace viscontact::swimmer

@@ -1,10 +1,10 @@
 // Rigid spheres on a line in a viscous fluid: the inputs of a table of their resistance matrices,
-// and the solution of one row by FreeFEM (physics.md, section 7). A resistance matrix R [M/T] maps
-// the velocities of the spheres along the line to their forces on the fluid. Lengths, masses and
-// times are in any consistent units. app/ and the other folders of swimmer/ use it. If FreeFEM
-// fails, also because its script refuses a number, Error(kExternalProgram) is thrown. A change must
-// keep the words of surroundings_in_words(), because lubrication/scaling.hpp finds the lengths in
-// them.
+// and the computation of a row of the table by FreeFEM (docs/physics.md, section 7). A resistance
+// matrix R [M/T] maps the velocities of the spheres along the line to their forces on the fluid.
+// Lengths, masses and times are in any consistent units. app/ and the other folders of swimmer/ use
+// this file. Only the FreeFEM script checks numbers. If FreeFEM fails, also because the script
+// refuses a number, Error(kExternalProgram) is thrown. A change must keep the words of
+// surroundings_in_words(), because lubrication/scaling.hpp finds the lengths in these words.
 #pragma once
 
 #include <optional>
@@ -16,11 +16,11 @@
 
 namespace viscontact::swimmer {
 
-/// A cylinder without slip whose axis is the line of the spheres [L].
+/// A cylinder without slip whose axis is the line of the spheres.
 struct Tube {
   double radius = 0;  ///< [L], larger than the radii of all spheres
-  /// Distance of the closed ends [L], with the row of spheres in the middle; longer than the
-  /// longest row. Nothing: the tube is so long that its ends do not matter.
+  /// Distance between the closed ends of the tube [L], larger than the length of the longest line
+  /// of spheres, which is in the middle. Nothing: the tube is so long that its ends do not matter.
   std::optional<double> height{};
 };
 
@@ -38,16 +38,17 @@ struct CollinearSpheres {
 /// radius 3, height 40".
 std::string surroundings_in_words(const CollinearSpheres& spheres);
 
-/// Solves for the matrix at these gaps [L] > 0, one less than there are spheres. Throws
-/// Error(kExternalProgram) with the last lines of FreeFEM if it fails, also because an argument is
-/// out of range, or exceeds its time limit; Error(kInterrupted) if freefem.stop requests a stop.
+/// Computes the row of the table at these gaps [L], > 0, whose number is one less than that of
+/// spheres. Throws Error(kExternalProgram) with the last lines of FreeFEM's output if FreeFEM
+/// fails, also because an argument is out of range, or exceeds its time limit (freefem.row_limit);
+/// Error(kInterrupted) if freefem.stop requests a stop.
 ResistanceRow solve_resistance(const freefem_axi::FreeFem& freefem, const CollinearSpheres& spheres,
                                const std::vector<double>& gaps);
 
-/// The plan of the table of all combinations of the gaps grid[k] between spheres k and k + 1 [L], >
-/// 0 and rising. The point of a row (TablePlan) is the list of its gaps. If the line of spheres is
-/// its own mirror image and the grids are equal, only one of each two mirrored rows of the table is
-/// computed, and the other one is its reflection. TablePlan::solve throws the errors of
+/// The plan of the table of all combinations of gaps. grid[k] has the gaps between spheres k and k
+/// + 1 [L], > 0 and rising (not checked). The point of a row (TablePlan) is the list of its gaps.
+/// If the radii and `grid` are the same in reverse order, only one of each two mirrored rows of the
+/// table is computed, and the other one is its reflection. TablePlan::solve throws the errors of
 /// solve_resistance().
 freefem_axi::TablePlan resistance_table_plan(const CollinearSpheres& spheres,
                                              const std::vector<std::vector<double>>& grid);
