@@ -54,6 +54,8 @@ void add_self_description(CLI::App& app) {
   });
 }
 
+/// Reads the command line, runs the command and returns the exit code, 0 to 255. Throws the errors
+/// of the command, and Error(kWrongUsage) if the first argument is not the name of a command.
 int run(int argc, char** argv) {
   CLI::App app("Lubrication force of a sphere near contact: tabulate, fit, simulate, compare.",
                "viscontact");
