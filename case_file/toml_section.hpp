@@ -46,8 +46,8 @@ class TomlSection {
   /// order. Tables with equal keys and values give equal texts. Numbers read back exactly.
   std::string as_toml() const;
 
-  /// True if the key exists. finish() then counts the key as asked for, as after the next four
-  /// functions, which return false for a key that does not exist.
+  /// True if the key exists. This function and the four below return false for a missing key and
+  /// throw nothing; finish() counts the key as asked for.
   bool has(std::string_view key) const;
   bool is_text(std::string_view key) const;   ///< the key exists and its value is a text
   bool is_array(std::string_view key) const;  ///< the key exists and its value is an array
