@@ -43,16 +43,17 @@ struct FitSettings {
   lubrication::FittedShape shape = lubrication::FittedShape::kDrag;
 };
 
-/// Fits a table with at least one row; the force of no row is 0 (neither is checked). A force F at
-/// the velocity u counts as F u0/u at the velocity u0 of the first row, because Stokes flow is
-/// linear in the velocity. All members of the fit are set except table_sha256 and versions. Throws
-/// Error(kBadInput) if the table has fewer different gaps than coefficients to fit, or fewer than
-/// two; if `row_scales` has another number of entries or an entry that is not > 0; if F/u of two
-/// rows with equal gaps differs relatively by more than the sum of their error estimates, unless
-/// both estimates are 0 (not known); if `fix_leading` is true but the basis lacks 1/q, has no other
-/// term, or there is no value for the coefficient; or if double precision cannot hold the result.
-/// Throws Error(kNotConverged) if the terms are linearly dependent on these gaps or the robust loss
-/// does not converge; Error(kInterrupted) if `stop` requests a stop during a robust fit.
+/// Fits a table with at least one row (not checked). A row with the force 0 throws Error(kBadInput)
+/// if the weights are relative and `row_scales` is empty. A force F at the velocity u counts as F
+/// u0/u at the velocity u0 of the first row, because Stokes flow is linear in the velocity. All
+/// members of the fit are set except table_sha256 and versions. Throws Error(kBadInput) if the
+/// table has fewer different gaps than coefficients to fit, or fewer than two; if `row_scales` has
+/// another number of entries or an entry that is not > 0; if F/u of two rows with equal gaps
+/// differs relatively by more than the sum of their error estimates, unless both estimates are 0
+/// (not known); if `fix_leading` is true but the basis lacks 1/q, has no other term, or there is no
+/// value for the coefficient; or if double precision cannot hold the result. Throws
+/// Error(kNotConverged) if the terms are linearly dependent on these gaps or the robust loss does
+/// not converge; Error(kInterrupted) if `stop` requests a stop during a robust fit.
 lubrication::Fit fit_force_table(const lubrication::MotionTable& table, const FitSettings& settings,
                                  const StopToken& stop = {});
 
