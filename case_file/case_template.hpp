@@ -35,7 +35,8 @@ struct SweepRequest {
   std::string y;                    ///< key of the vertical axis of a map; empty: lines over x
   std::vector<std::string> plot;    ///< columns to draw; empty: the default of the command
   std::uint64_t samples = 0;        ///< number of random samples, <= 1e12; 0: the whole grid
-  /// Number of random arrangements of particles at each point; 0: that of the case.
+  /// Number of random arrangements of particles at each point, from 1 to 1e12; 0: the key is not
+  /// given.
   std::uint64_t draws = 0;
 };
 
@@ -107,7 +108,8 @@ class CaseTemplate {
   }
 
   /// The root table of the case with these numbers. Throws Error(kBadInput) for a key whose table
-  /// is missing or whose value is no number; further checks are those of case_of_root().
+  /// is missing or whose value is not a number. Other faults of the numbers are found by
+  /// case_of_root().
   TomlSection root_with(std::span<const std::pair<std::string, double>> numbers) const {
     return file_.root.with_numbers(numbers);
   }

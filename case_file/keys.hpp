@@ -13,8 +13,9 @@
 //
 // The readers of cases in case_file/, particles/, rolling/ and swimmer/ use this file. Values have
 // the units of the case. Reading throws Error(kBadInput) with file, line and key; describing throws
-// nothing. After a change of a declaration the tables of docs/case-file.md must be made again; the
-// test CaseFilePage makes them and says where.
+// nothing. Words and examples in declarations may be changed; a change must keep keys and defaults,
+// on which users' cases rely. After a change of a declaration the tables of docs/case-file.md must
+// be made again; the test CaseFilePage makes them and says where.
 #pragma once
 
 #include <algorithm>
@@ -207,8 +208,8 @@ KeyValue text(std::string& place);
 KeyValue file_name(std::string& place);
 /// A list of at least one text.
 KeyValue texts(std::vector<std::string>& place);
-/// A list of at least one finite number, each of which passes the test `allowed`. `words` says in
-/// the tables which values are allowed.
+/// A list of at least one finite number, each of which passes the test `allowed`, which must
+/// outlive the KeyValue. `words` says in the tables which values are allowed.
 KeyValue numbers(std::vector<double>& place, const Allowed& allowed, std::string_view words);
 
 /// A text that parse(text) turns into the value. An Error that `parse` throws becomes an
@@ -221,7 +222,9 @@ KeyValue parsed(std::string_view words, Place& place, const Parse& parse) {
   });
 }
 
-/// A text that must be one of `words`, each of which stands for a value of `place`.
+/// A text that must be one of `words`, the first parts of pairs. `place` gets the second part of
+/// the pair. Another text throws Error(kBadInput). `words` must live as long as the KeyValue, as
+/// they do if both are made in one expression.
 template <class Meaning>
 KeyValue one_of(Meaning& place, std::initializer_list<std::pair<std::string_view, Meaning>> words) {
   using Word = std::pair<std::string_view, Meaning>;

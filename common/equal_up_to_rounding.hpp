@@ -1,8 +1,8 @@
 // Comparison of quantities that two files give, such as the radius or viscosity of a case and of
 // its fit. case_file/, fitting/, lubrication/, motions/, pipeline/, results/, rolling/ and swimmer/
-// use it, mostly to refuse files that differ. Nothing is thrown. The tolerance is a choice: a
-// smaller one would refuse files that have only been rounded, a larger one would accept files whose
-// values differ.
+// use this comparison, mostly to refuse files that differ. Nothing is thrown. The tolerance is a
+// choice: a smaller one would refuse files that have only been rounded, a larger one would accept
+// files whose values differ.
 #pragma once
 
 #include <algorithm>

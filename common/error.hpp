@@ -34,7 +34,7 @@ class Error : public std::runtime_error {
   /// `message` becomes what() of the error. It is not a format, so that braces in it stay. Whether
   /// it has the form of the comment of this class is not checked.
   Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
-  /// As above; the message is fmt::format(text, first, rest...).
+  /// Makes an error of this kind whose message is fmt::format(text, first, rest...).
   template <class First, class... Rest>
   Error(ErrorKind kind, fmt::format_string<First, Rest...> text, First&& first, Rest&&... rest)
       : Error(kind, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...)) {}
@@ -70,7 +70,7 @@ struct FilePosition {
   const std::string line = at.line > 0 ? ":" + std::to_string(at.line) : "";
   throw Error(ErrorKind::kBadInput, at.file + line + ": " + message);
 }
-/// As above; the message is fmt::format(text, first, rest...).
+/// Throws the same error with the message fmt::format(text, first, rest...).
 template <class First, class... Rest>
 [[noreturn]] void throw_bad_input(const FilePosition& at, fmt::format_string<First, Rest...> text,
                                   First&& first, Rest&&... rest) {

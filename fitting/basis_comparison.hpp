@@ -3,8 +3,8 @@
 // masses and times are in the units of the table; the criterion is a number without unit. If a fit
 // in a basis fails, nothing is thrown: its result has the reason. Only a requested stop throws,
 // Error(kInterrupted). Used by pipeline/fit_stages.cpp and report/ for the command `fit
-// --compare-bases`. Another criterion may be used for the choice. A change must keep that a basis
-// that cannot be fitted does not prevent the fits in the other bases.
+// --compare-bases`. A change must keep that a basis that cannot be fitted does not prevent the fits
+// in the other bases.
 #pragma once
 
 #include <optional>
@@ -35,8 +35,8 @@ std::vector<BasisResult> compare_bases(const lubrication::MotionTable& table,
 
 /// The element of `results` whose fit has the smallest FitDiagnostics::information_criterion; null
 /// if no fit has a criterion, as with robust losses or too few rows. Every fit must have
-/// diagnostics (not checked), as those of compare_bases() do. Among equal criteria the first one
-/// counts.
+/// diagnostics (not checked), as the fits of compare_bases() have. Among equal criteria the first
+/// one counts.
 const BasisResult* best_basis(const std::vector<BasisResult>& results);
 
 }  // namespace viscontact::fitting

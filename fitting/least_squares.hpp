@@ -11,7 +11,8 @@ namespace viscontact::fitting {
 
 /// The solution x of a least squares problem, with its uncertainty.
 struct LeastSquaresSolution {
-  /// x, with an entry for each column of A; its unit is that of b over that of the column.
+  /// x, with an entry for each column of A. The unit of an entry is the unit of b divided by the
+  /// unit of the column.
   Eigen::VectorXd coefficients;
   /// Covariance matrix of x, with a row and a column for each entry of x: s^2 (A^T A)^-1 with s^2 =
   /// |A x - b|^2/(rows - columns), the variance of a residual. Its unit is that of a product of two

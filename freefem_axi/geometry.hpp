@@ -1,11 +1,11 @@
 // The table of geometries: the kinds of bodies beside a sphere, its neighbour, for which FreeFEM
 // computes the force on the sphere. q is the gap between both, r the radius of the sphere, mu the
-// viscosity, and R the resistance (force over velocity). Lengths are in any one unit. Unknown names
-// throw Error(kBadInput). The functions of a Geometry check and throw nothing: their `parameters`
-// must have one allowed value for each of Geometry::parameters. Used by tabulation.hpp, case_file/
-// and rolling/. A new geometry needs a FreeFEM script and a row in geometry.cpp
-// (docs/extending.md). A change must keep names and keys, which case files and tables contain, and
-// flags, which the scripts read.
+// viscosity, and R the resistance (minus the force over the velocity). Lengths are in any one unit.
+// Unknown names throw Error(kBadInput). The functions of a Geometry check and throw nothing: their
+// `parameters` must have one allowed value for each of Geometry::parameters. Used by
+// tabulation.hpp, case_file/ and rolling/. A new geometry needs a FreeFEM script and a row in
+// geometry.cpp (docs/extending.md). A change must keep names and keys, which case files and tables
+// contain, and flags, which the scripts read.
 #pragma once
 
 #include <array>
@@ -55,8 +55,8 @@ struct Geometry {
   std::span<const GeometryParameter> parameters;
   /// True if the fluid is unbounded or in a container; false if the neighbour encloses the fluid.
   bool takes_container;
-  /// The neighbour's velocity (approach, slide) or angular velocity (roll, spin) over that of the
-  /// sphere [1]. Null: the neighbour is always at rest.
+  /// The ratio [1] of the neighbour's velocity (approach, slide) or angular velocity (roll, spin)
+  /// to that of the sphere. Null: the neighbour is always at rest.
   double (*neighbour_ratio)(lubrication::MotionKind motion, std::span<const double> parameters);
   /// The ratio [1] of k in R = k/q + ... near contact, by lubrication theory, to the k of a plane,
   /// 6 pi mu r^2. It depends on curvature and velocity of the neighbour, and is <= 0 if the

@@ -3,9 +3,10 @@
 // these rows (docs/cluster.md). main.cpp, commands/ and help/ of app/ use this file. The functions
 // that add an option throw CLI::OptionAlreadyAdded if the command has it. CLI11 checks values while
 // it parses the line, and throws CLI::ParseError for a wrong one. A change must keep the names of
-// options, because submitted scripts contain them. The ranges of widths, font sizes, jobs and tasks
-// are free choices that catch mistyped numbers. help/self_description.cpp must know each type name
-// below, because it offers files, folders or models for it.
+// options, because submitted scripts contain them. The ranges of widths, font sizes and jobs are
+// free choices that catch mistyped numbers; 4000000 tasks are about the most that Slurm allows.
+// help/self_description.cpp must know each type name below, because it offers files, folders or
+// models for it.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,7 +1,7 @@
 // Turns Ctrl-C and similar signals into a request to stop. main.cpp and the commands of app/ pass
-// it as a StopToken to the libraries, which check it during long computations and then throw
-// Error(kInterrupted). Nothing is thrown here. Further signals may be added; a change must keep
-// that the signal handler only sets a flag.
+// this request as a StopToken to the libraries, which check it during long computations and then
+// throw Error(kInterrupted). Nothing is thrown here. Further signals may be added; a change must
+// keep that the signal handler only sets a flag.
 #pragma once
 
 #include "viscontact/common/stop_token.hpp"

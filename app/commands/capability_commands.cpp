@@ -1,9 +1,10 @@
 // The command lines of `particles`, `rolling` and `swimmer` (docs/command-line.md). Each of these
 // commands reads a case file (TOML) and writes all results of the case and a web page about them
 // into the folder --output; numbers are in the units of the case. --jobs is from 1 to 1024.
-// main.cpp adds the commands. They throw Error(kWrongUsage) for an empty name of the folder,
-// Error(kBadInput) for a wrong case or a file that must not be replaced, Error(kExternalProgram) if
-// FreeFEM fails, Error(kNotConverged) if a computation fails, and Error(kInterrupted) after Ctrl-C.
+// main.cpp adds the commands. They throw Error(kWrongUsage) for an empty name of the folder, or for
+// --hdf5 if the program was built without HDF5, Error(kBadInput) for a wrong case or a file that
+// must not be replaced, Error(kExternalProgram) if FreeFEM or another program fails,
+// Error(kNotConverged) if a computation fails, and Error(kInterrupted) after Ctrl-C.
 // run_particles(), run_rolling() and run_swimmer() do the work. Texts of --help may be changed. A
 // change must keep the names of the options; the names of the commands are also in the list
 // kWriting of rerun_command.cpp.

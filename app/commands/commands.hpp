@@ -4,8 +4,9 @@
 // kind (common/error.hpp; kInterrupted after Ctrl-C), std::filesystem::filesystem_error for a path
 // that the system refuses, or CLI::ParseError for a wrong option. The argument CASE of a command is
 // a TOML file (docs/case-file.md) with numbers in any consistent units. docs/command-line.md
-// describes the commands. main.cpp calls these functions. A change must keep the names of commands
-// and options, which scripts of users contain.
+// describes the commands. main.cpp calls these functions. A new command that writes files must also
+// be added to the list kWriting in rerun_command.cpp. A change must keep the names of commands and
+// options, which scripts of users contain.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -89,7 +89,8 @@ void print_line(const Finding& finding) {
   fmt::print("{} {}\n", word, finding.what);
 }
 
-/// Prints the findings, one line each or as JSON. True if nothing is missing or wrong.
+/// Makes all checks and prints the findings, each on a line, or as JSON if `json` is true. Returns
+/// true if nothing is missing or wrong.
 bool examine(bool json) {
   std::vector<Finding> findings;
   const Report report = [&](const Finding& finding) {

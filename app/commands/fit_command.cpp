@@ -152,7 +152,7 @@ void fit_table(FitOptions& o) {
 /// and the words of --below and --above. An empty text means that the option was not given.
 struct ExportOptions {
   std::string fit, target, output, below, above;
-  double radius = 0, viscosity = 0;  // in the units of the fit; 0: those of the fit
+  double radius = 0, viscosity = 0;  // [L], [M/(L T)]; 0: as in the fit
 };
 
 /// Returns the fit in the file `o.fit` as text for `o.target`, the name of a language or format

@@ -41,9 +41,9 @@ struct RerunOptions {
       dry_run = false;          ///< true: prints the command and does not run it
 };
 
-/// Throws Error(kBadInput) unless the command is a command of Viscontact that writes files. The
-/// command `rerun` is refused, and so are the options by which a file could make this program run
-/// other programs (--launcher, --slurm-options).
+/// Throws Error(kBadInput) unless the command is a command of Viscontact that writes files. Refuses
+/// the command `rerun`, and the options by which a file could make this program run other programs
+/// (--launcher, --slurm-options).
 void check_command(const std::string& file, const std::vector<std::string>& command) {
   constexpr auto kWriting = std::to_array<std::string_view>(
       {"run", "tabulate", "fit", "export", "shift", "simulate", "sweep", "compare", "report",
@@ -85,7 +85,7 @@ std::string value_at(const std::vector<std::string>& command, const ValuePlace& 
   return command[place.word].substr(place.begin);
 }
 
-/// The command of the provenance, changed so that it writes to `o.output` instead of
+/// Returns the command of the provenance, changed so that it writes to `o.output` in place of
 /// provenance.output. Throws Error(kWrongUsage) if the command has no option for that, if the file
 /// is a picture that was drawn beside a table, or if `o.output` must be a folder but is the name of
 /// a file.

@@ -39,9 +39,9 @@ namespace {
 /// The values of the options of `tabulate`.
 struct TabulateOptions {
   std::vector<std::string> case_files,  ///< paths of the cases, at least one
-      motions;                          ///< names of motions; empty: those of the cases
+      motions;                          ///< names of motions; empty: as the cases say
   std::string output,                   ///< path of the table or folder
-      plot;                             ///< gaps separated by commas; may be empty
+      plot;                             ///< gaps [L] separated by commas; may be empty
   ArrayOptions array;                   ///< the options of a job on a cluster
   int jobs = default_jobs();            ///< number of rows at once, >= 1
   bool dry_run = false,                 ///< true: says how long the rows take, computes none

@@ -1,6 +1,6 @@
 // A text file to which lines are added and in which no line is changed, such as a table with a row
 // for each time step. After each sync(), the caller keeps the end of the file (FileEnd) in another
-// file. If the process is killed, the next one continues the file from this end. particles/run/
+// file. If the process is killed, the next process continues the file from this end. particles/run/
 // uses it for the logs of runs. A file that cannot be written, or that somebody else has changed,
 // throws Error(kBadInput) with its path. A change must keep that lines which sync() has written are
 // never changed.

@@ -99,11 +99,12 @@ class ChildProcess {
   /// returned kRead (not checked).
   void put_word_back() { at_ = word_start_; }
 
-  /// The largest resident memory of the child so far [1024 bytes], without that of its own
-  /// children; 0 if the child has ended.
+  /// The largest resident memory of the child so far [1024 bytes], without the memory of processes
+  /// that the child has started; 0 if the child has ended.
   long peak_memory_kb() const;
 
-  /// True if the child has written something that was not read yet, other than white space.
+  /// True if the child has written something other than white space that was not read yet. Does not
+  /// wait.
   bool has_unread_output();
 
   /// Adds `line`, a line that was read from the output, to last_lines().

@@ -80,7 +80,7 @@ class JsonFields {
     throw_bad_input({document_->file(), document_->line_of(where)}, "{} {}",
                     where.empty() ? "the file" : where, what);
   }
-  /// As above; `what` is a format with these arguments.
+  /// Throws the same error; `what` is a format with these arguments.
   template <class First, class... Rest>
   [[noreturn]] void fail(const std::string& key, fmt::format_string<First, Rest...> what,
                          First&& first, Rest&&... rest) const {

@@ -1,7 +1,7 @@
 // The flow of a fluid on a mesh of quadratic triangles in a plane, and its VTK file for ParaView.
 // freefem_axi/ and freefem_flow/ make flows, report/flow/ draws them, freefem_axi/ and particles/
-// write files, and particles/picture/ reads them again. Lengths, masses and times are in the units
-// of the case. A file that cannot be read, or whose triangles have nodes that do not exist, throws
+// write the files, and particles/picture/ reads them. Lengths, masses and times are in the units of
+// the case. A file that cannot be read, or whose triangles have nodes that do not exist, throws
 // Error(kBadInput). Lengths of lists that are written, and whether numbers are finite, are not
 // checked. Further arrays may be added. A change must keep the order of nodes, which is that of
 // VTK, and the names of the arrays in the file.

@@ -5,11 +5,12 @@
 // stiffness, end time and number of steps. tests/package/use_installed compares the output with the
 // table at the end of this comment, which must then be changed, too.
 //
-// The program is built with smallest_gap.cpp, whose head says how. Then type
+// The program is built together with smallest_gap.cpp; the head of that file says how. Then type
 //
 //   out/use_from_cpp/own_force
 //
-// The program prints (the largest distance is that of a centre from the origin):
+// The program prints this table. The largest distance is that of the centre of a disc from the
+// origin.
 //
 //   time   largest distance   contacts
 //      0            4.24264          0

@@ -18,7 +18,7 @@
 namespace viscontact::fitting {
 
 /// The weight of a term in a sum, and the term, which is a function of the gap. The unit of the
-/// weight is that of the sum over that of the term.
+/// weight is the unit of the sum divided by the unit of the term.
 using WeightedTerm = std::pair<double, lubrication::Term>;
 
 /// A function that writes a finite number as a literal of type double in one language.

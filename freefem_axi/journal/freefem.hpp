@@ -67,12 +67,12 @@ std::string failure_in_words(const ProcessResult& result, std::chrono::seconds t
 /// empty if there is no such line.
 std::string line_after(const std::string& output, std::string_view prefix);
 
-/// The version of FreeFEM: that of the Debian package that has installed the executable, and the
-/// one that FreeFEM states, such as "4.11+dfsg1-3 (Debian package freefem++; FreeFEM says 4.9)". If
-/// no package has installed it, the result is only what FreeFEM states, "4.9", which may differ
-/// from the number of the release. Throws Error(kInterrupted) if freefem.stop requests a stop, and
-/// Error(kExternalProgram) if FreeFEM cannot be started, fails, or does not answer within
-/// freefem.version_limit.
+/// The version of FreeFEM in words: the version of the Debian package that has installed the
+/// executable, and the version that FreeFEM states, such as "4.11+dfsg1-3 (Debian package
+/// freefem++; FreeFEM says 4.9)". If no package has installed it, the result is only what FreeFEM
+/// states, "4.9", which may differ from the number of the release. Throws Error(kInterrupted) if
+/// freefem.stop requests a stop, and Error(kExternalProgram) if FreeFEM cannot be started, fails,
+/// or does not answer within freefem.version_limit.
 std::string freefem_version(const FreeFem& freefem);
 
 }  // namespace viscontact::freefem_axi
