@@ -26,9 +26,9 @@ namespace viscontact::case_file {
 /// The kinds of cases, for commands that take several of them.
 enum class CaseKind {
   kSphere,     ///< one sphere; read_case() reads it
-  kParticles,  ///< has the section [space]; read_particles_case()
-  kRolling,    ///< has the section [rolling]; read_rolling_case()
-  kSwimmer     ///< has the section [swimmer]; read_swimmer_case()
+  kParticles,  ///< has the section [space]; read_particles_case() reads it
+  kRolling,    ///< has the section [rolling]; read_rolling_case() reads it
+  kSwimmer     ///< has the section [swimmer]; read_swimmer_case() reads it
 };
 
 /// The kind of a case by its sections, which are looked for in the order [space], [swimmer],
@@ -54,13 +54,13 @@ struct PublishedGap {
   std::string source;      ///< where it was published, in words; may be empty
 };
 
-/// What a case file says, checked.
+/// The content of a case file, after all checks.
 struct Case {
   std::string title;         ///< for the report; the key is required, the text may be empty
   Units units{};             ///< words for pages and axes; may be empty
   double viscosity = 0;      ///< [M/(L T)], > 0
   double radius = 0;         ///< of the sphere [L], > 0
-  double density = 0;        ///< of the sphere [M/L^3], >= 0; 0: not given, but its mass
+  double density = 0;        ///< of the sphere [M/L^3], >= 0; 0: the mass is given
   double fluid_density = 0;  ///< [M/L^3], >= 0; 0: no buoyancy
   /// Acceleration of gravity [L/T^2], < 0 towards the wall; nothing: not given. The external force
   /// in `motion` contains the weight already.
@@ -101,8 +101,8 @@ std::vector<std::string_view> sections_with_defaults<Case>();
 /// are not compared.
 lubrication::Fit fit_for(const Case& c, lubrication::Fit fit, const std::filesystem::path& file);
 
-/// What docs/case-file.md says about the keys of each section, in the order of the page. This does
-/// not throw.
+/// What docs/case-file.md says about the keys of each section, in the order of the page. This
+/// function does not throw.
 std::vector<KeyTable> tables_of_sphere_case();
 
 /// The section [tabulation] of a case. This function and the two functions below throw

@@ -45,7 +45,7 @@ struct TabulateOptions {
   ArrayOptions array;                   ///< the options of a job on a cluster
   int jobs = default_jobs();            ///< number of rows at once, >= 1
   bool dry_run = false,                 ///< true: says how long the rows take, computes none
-      json = false;                     ///< true: says it in JSON
+      json = false;                     ///< true: --dry-run prints JSON
   /// CLI11's objects of --jobs and --plot, whose count() is 0 if the option was not given.
   const CLI::Option *jobs_option = nullptr, *plot_option = nullptr;
 };

@@ -19,8 +19,8 @@
 
 namespace viscontact {
 
-/// The last lines of two streams, in the order in which the lines were completed. Left out are
-/// blank lines, the white space at both ends of a line, and the bytes of a line beyond kLongest.
+/// The last lines of two streams, in the order in which the lines were completed. The list has no
+/// blank lines, no white space at the ends of a line, and no bytes of a line beyond kLongest.
 class LastLines {
  public:
   // Error messages show the lines. Both numbers are free choices; other small ones would do as

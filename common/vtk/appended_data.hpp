@@ -75,7 +75,8 @@ struct PolyCells {
     lines.insert(lines.end(), {first, second});
     line_ends.push_back(std::ssize(lines));
   }
-  /// The element that opens a piece with `points` points and the cells of this object.
+  /// The XML elements that open PolyData and a piece of it with `points` points and the cells of
+  /// this object.
   std::string opening(std::size_t points) const {
     return fmt::format(
         "<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\">\n",

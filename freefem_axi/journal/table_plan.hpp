@@ -28,7 +28,7 @@ struct FinishedRow {
   RowPoint point;  ///< which row
   /// The computed numbers, as TablePlan::solve returns them. Their number is RowShape::numbers.
   std::vector<double> numbers;
-  std::string freefem_version;  ///< as freefem_version() in freefem.hpp states it; may be empty
+  std::string freefem_version;  ///< text of freefem_version() (freefem.hpp); may be empty
 };
 
 /// A row that could not be computed.

@@ -38,7 +38,7 @@ struct SweepOptions {
   int jobs = default_jobs();      ///< number of rows at once, from 1 to 1024
   ArrayOptions array;             ///< how the rows are divided among the jobs of a cluster
   bool dry_run = false,           ///< true: says how long the rows take, computes none
-      json = false,               ///< true: says it in JSON
+      json = false,               ///< true: --dry-run prints JSON
       keep_runs = false;          ///< true: keeps the files of runs of particles
   const CLI::Option* jobs_option = nullptr;  ///< CLI11's object; count() 0: not given
 };
