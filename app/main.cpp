@@ -1,7 +1,9 @@
 // The program viscontact: reads the command line and runs the command that it names
-// (commands/commands.hpp). Every Error is caught in main(), which prints its message and returns
-// its exit code (results/exit_code.hpp); so are all other exceptions, and a change must keep this.
-// Too little memory has the exit code of kNotConverged, any other exception that of kBadInput.
+// (commands/commands.hpp). main() catches every Error, prints its message and returns its exit code
+// (results/exit_code.hpp): 0 for success, 2 for kWrongUsage, 3 for kBadInput, 4 for kNotConverged,
+// 5 for kExternalProgram, 130 for kInterrupted. main() also catches all other exceptions: too
+// little memory has the exit code 4, any other exception 3. Texts of --help and the order of the
+// commands may be changed. A change must keep that no exception leaves main().
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -36,7 +38,7 @@ std::string version_text() {
                      results::freefem_version_or_not_found(interrupt_token()), text);
 }
 
-/// Adds the commands `completion` and `man`, whose texts are made from the declared commands.
+/// Adds the commands `completion` and `man`, which print the texts of self_description.hpp.
 void add_self_description(CLI::App& app) {
   auto* completion = app.add_subcommand(
       "completion", "print the completion for a shell: source <(viscontact completion bash)");
@@ -52,6 +54,8 @@ void add_self_description(CLI::App& app) {
   });
 }
 
+/// Reads the command line, runs the command and returns the exit code, 0 to 255. Throws the errors
+/// of the command, and Error(kWrongUsage) if the first argument is not the name of a command.
 int run(int argc, char** argv) {
   CLI::App app("Lubrication force of a sphere near contact: tabulate, fit, simulate, compare.",
                "viscontact");

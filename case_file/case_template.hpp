@@ -1,9 +1,10 @@
 // The parts that all kinds of cases share for sweeps: the section [sweep], and a case file that is
 // read once and from which cases with other numbers are made. Numbers have the units of the case.
-// Each kind of case (case_file.hpp, and those in particles/, rolling/ and swimmer/) has a function
-// read_root() for this, which its own header declares; the command `sweep` and python/ make such
-// cases. A wrong value throws Error(kBadInput) with its line. Whether the keys and columns that
-// [sweep] names exist is not checked here. A change must keep accepting users' cases.
+// Each kind of case (case_file.hpp, and those in particles/, rolling/ and swimmer/) needs a
+// function read_root(), which its own header declares. The command `sweep` and python/ make the
+// cases with other numbers. A wrong value throws Error(kBadInput) with its line. Whether the keys
+// and columns that [sweep] names exist is not checked here. A change must keep accepting users'
+// cases.
 #pragma once
 
 #include <cstdint>
@@ -21,30 +22,34 @@
 namespace viscontact::case_file {
 
 /// What the section [sweep] of a case asks of `viscontact sweep`. Options on the command line
-/// replace these values. Each kind of case has some of these keys.
+/// replace these values. A kind of case need not have all of these keys; a member whose key is
+/// missing keeps its default.
 struct SweepRequest {
-  std::vector<std::string> vary;    ///< "KEY=RANGE" each (sweep/variation.hpp); empty: one point
-  int vary_line = 0;                ///< line of `vary` in the case, from 1; 0 without `vary`
+  std::vector<std::string> vary;  ///< "KEY=RANGE" each (sweep/variation.hpp); empty: one point
+  /// Line of the key `vary` in the case file, from 1, or the line of [sweep] if this key is
+  /// missing; 0 without [sweep], and in a case that was made with other numbers.
+  int vary_line = 0;
   std::vector<std::string> models;  ///< names; empty: the default of the command
   std::string reference;            ///< a model; empty: the default of the command
   std::string x;                    ///< key of the horizontal axis of the plot; may be empty
   std::string y;                    ///< key of the vertical axis of a map; empty: lines over x
   std::vector<std::string> plot;    ///< columns to draw; empty: the default of the command
   std::uint64_t samples = 0;        ///< number of random samples, <= 1e12; 0: the whole grid
-  /// Number of random arrangements of particles at each point; 0: that of the case.
+  /// Number of random arrangements of particles at each point, from 1 to 1e12; 0: the key is not
+  /// given.
   std::uint64_t draws = 0;
 };
 
 /// Declares the keys of [sweep] that choose the points and the picture: samples, x, y and plot.
-/// Throws Error(kBadInput) with the line for a wrong value; whether keys and columns exist is not
-/// checked here.
+/// Sets vary_line, too. Throws Error(kBadInput) with the line for a wrong value; whether keys and
+/// columns exist is not checked here.
 void points_and_plot_keys(Keys& keys, SweepRequest& sweep);
 
 /// Reads the key `units` of the root table, if it is there. Throws Error(kBadInput) with the line
-/// if a word is missing, empty or longer than 20 bytes, or has a character that pages or gnuplot
-/// would read as a command.
+/// if a word is missing, empty or longer than 20 bytes, or has a character that web pages or
+/// gnuplot would read as a command.
 void read_units(const TomlSection& root, Units& units);
-/// What docs/case-file.md says about that key. This does not throw.
+/// What docs/case-file.md says about the key `units`. This function does not throw.
 KeyTable table_of_units();
 
 /// Reads the title and the units of a case. Throws Error(kBadInput) if the title is missing
@@ -56,8 +61,8 @@ void read_title_and_units(const TomlSection& root, CaseType& c, bool needs_title
 }
 
 /// The case whose root table is `root`. `text` is the content of the file at `path`. The function
-/// read_root(root, c) beside CaseType reads all but these two members. It throws Error(kBadInput)
-/// with the file, the line, the key, its value and what is allowed.
+/// read_root(root, c), which is declared beside CaseType, reads all members but `text` and `path`.
+/// It throws Error(kBadInput) with the file, the line, the key, its value and what is allowed.
 template <class CaseType>
 CaseType case_of_root(const TomlSection& root, std::string text,
                       const std::filesystem::path& path) {
@@ -103,7 +108,8 @@ class CaseTemplate {
   }
 
   /// The root table of the case with these numbers. Throws Error(kBadInput) for a key whose table
-  /// is missing or whose value is no number; further checks are those of case_of_root().
+  /// is missing or whose value is not a number. Other faults of the numbers are found by
+  /// case_of_root().
   TomlSection root_with(std::span<const std::pair<std::string, double>> numbers) const {
     return file_.root.with_numbers(numbers);
   }

@@ -1,7 +1,8 @@
 // Declarations of the keys of a case file. A function with a Keys object as its first argument
-// declares the keys of a section, each once: name, place in a struct, allowed values, default and
-// meaning. The same function reads the section of a case, with the errors of TomlSection, and
-// describes it for the tables of docs/case-file.md and for `viscontact init`:
+// declares the keys of a section, each once, with its name, its place (the variable into which its
+// value is read), allowed values, default and meaning. The same function reads the section of a
+// case, with the errors of TomlSection, and describes it for the tables of docs/case-file.md and
+// for `viscontact init`:
 //
 //     void solver_keys(Keys& keys, SolverSettings& settings) {
 //       keys.optional("tolerance", number(settings.tolerance, kTolerance), {"tolerance of the
@@ -10,10 +11,11 @@
 //     read_keys(root.section("solver"), solver_keys, settings);
 //     describe_keys("[solver]", solver_keys);
 //
-// The readers of cases in case_file/, particles/, rolling/ and swimmer/ use it. Values have the
-// units of the case. Reading throws Error(kBadInput) with file, line and key; describing throws
-// nothing. After a change of a declaration the tables of docs/case-file.md must be made again; the
-// test CaseFilePage makes them and says where.
+// The readers of cases in case_file/, particles/, rolling/ and swimmer/ use this file. Values have
+// the units of the case. Reading throws Error(kBadInput) with file, line and key; describing throws
+// nothing. Words and examples in declarations may be changed; a change must keep keys and defaults,
+// on which users' cases rely. After a change of a declaration the tables of docs/case-file.md must
+// be made again; the test CaseFilePage makes them and says where.
 #pragma once
 
 #include <algorithm>
@@ -33,9 +35,9 @@
 
 namespace viscontact::case_file {
 
-/// Calls `check`, with which another part of the program tests the value of `key`, and returns what
-/// it returns. If it throws an Error of any kind, throws an Error(kBadInput) that also names the
-/// key and its line in the case file.
+/// Calls `check`, a function of another part of the program that tests the value of `key`, and
+/// returns its result. If it throws an Error of any kind, throws an Error(kBadInput) that also
+/// names the key and its line in the case file.
 template <class Check>
 auto at_key(const TomlSection& section, std::string_view key, const Check& check)
     -> decltype(auto) {
@@ -46,9 +48,9 @@ auto at_key(const TomlSection& section, std::string_view key, const Check& check
   }
 }
 
-/// What the tables of docs/case-file.md say about a section.
+/// What docs/case-file.md says about a section: a table with a row for each key.
 struct KeyTable {
-  /// A row of such a table, which describes a key in Markdown.
+  /// A row of the table, which describes a key in Markdown.
   struct Row {
     std::string key;       ///< its name
     std::string value;     ///< which values are allowed
@@ -69,16 +71,17 @@ struct KeyTable {
 /// then describes keys within a value.
 std::string commented_case(std::span<const KeyTable> tables);
 
-/// What a declaration says about a key in words, in Markdown.
+/// What a declaration says about a key in words, in Markdown. An empty text means that there are no
+/// such words.
 struct Help {
   std::string_view meaning = {};   ///< what the key does
-  std::string_view fallback = {};  ///< the default, if the place does not have it
-  std::string_view value = {};     ///< the allowed values, if those of the type do not say it all
+  std::string_view fallback = {};  ///< the default, if the place does not contain it
+  std::string_view value = {};     ///< the allowed values, if KeyValue::words is not enough
   std::string_view example = {};   ///< for `viscontact init`, if it is not the default
 };
 
-/// How the value of a key is read and described. It refers to the place into which it reads, such
-/// as a member of a struct, which must outlive it.
+/// How the value of a key is read and described. A KeyValue has a reference to the place into which
+/// it reads, such as a member of a struct; the place must outlive the KeyValue.
 struct KeyValue {
   /// Reads the value of a key that the section has.
   std::function<void(const TomlSection& section, std::string_view key)> read;
@@ -96,20 +99,21 @@ class Keys {
 
   bool reads() const { return section_ != nullptr; }        ///< true: reads; false: describes
   const TomlSection& section() const { return *section_; }  ///< only if reads() (not checked)
-  /// True if it reads and the section has the key.
+  /// True if this object reads (reads() is true) and the section has the key.
   bool has(std::string_view key) const { return reads() && section_->has(key); }
 
-  // The declarations below throw the Error(kBadInput) of TomlSection for a key that is missing or
-  // has a value that is not allowed.
+  // If this object reads, the declarations below throw Error(kBadInput) with file, line and key for
+  // a key that is missing or has a value that is not allowed.
   /// Declares a key that a case must have.
   void required(std::string_view key, const KeyValue& value, const Help& help);
-  /// Declares a key that a case may have. Without it the place keeps the value that it has. Returns
-  /// true if it was read.
+  /// Declares a key that a case may have. If the case does not have it, the place keeps its value,
+  /// which is the default. Returns true if the key was read.
   bool optional(std::string_view key, const KeyValue& value, const Help& help);
-  /// Declares a key that the case must have if the condition is true.
+  /// Declares a key that the case must have if the condition is true, and may have otherwise.
   void required_if(bool condition, std::string_view key, const KeyValue& value, const Help& help);
 
-  /// Throws the error of TomlSection::require, if it reads and the condition is false.
+  /// Throws Error(kBadInput) with file, line and key if this object reads and the condition is
+  /// false; `what` is a format with these arguments.
   template <class... Arguments>
   void require(bool condition, std::string_view key, fmt::format_string<Arguments...> what,
                Arguments&&... arguments) const {
@@ -124,7 +128,8 @@ class Keys {
   KeyTable* table_ = nullptr;
 };
 
-/// Reads a section by its declaration. All its other keys are errors, Error(kBadInput).
+/// Reads the section into `places` by its declaration. Throws Error(kBadInput) for a key that is
+/// missing, has a value that is not allowed, or is not declared.
 template <class Declaration, class... Places>
 void read_keys(const TomlSection& section, const Declaration& declaration, Places&&... places) {
   Keys keys(section);
@@ -132,8 +137,9 @@ void read_keys(const TomlSection& section, const Declaration& declaration, Place
   section.finish();
 }
 
-/// The table of `section`, with a row for each key that `declaration` declares. Its first place is
-/// a new object, whose values are the defaults in the table; `more` are its other places.
+/// The table of `section`, with a row for each key that `declaration` declares. The first place of
+/// the declaration is a new object, whose values are the defaults in the table; `more` are its
+/// other places.
 template <class Place, class... More>
 KeyTable describe_keys(std::string section, void (*declaration)(Keys&, Place&, More...),
                        std::type_identity_t<More>... more) {
@@ -144,23 +150,24 @@ KeyTable describe_keys(std::string section, void (*declaration)(Keys&, Place&, M
   return table;
 }
 
-/// A whole number that may be greater than the largest int, such as a number of rows. The limit is
-/// a free choice, that of the points of a sweep (sweep/variation.cpp); doubles are exact to 9e15.
+/// A whole number that may be greater than the largest int, such as a number of rows. The limit
+/// 1e12 is a free choice up to 9e15, up to which a double holds each whole number;
+/// sweep/variation.cpp has the same limit for the points of a sweep.
 inline constexpr Allowed kWholeNumber = {
     [](double v) { return v >= 1 && v <= 1e12 && v == std::floor(v); },
     "from 1 to 1e12 without a fraction"};
 
-/// A number between 0 and 1, such as an accuracy.
+/// A number between 0 and 1, both excluded, such as an accuracy.
 inline constexpr Allowed kFraction = {[](double v) { return v > 0 && v < 1; }, "> 0 and < 1"};
 
 /// A number as text for the tables, such as "1e-6".
 std::string number_in_words(double number);
 
-// The functions below make the value of a key. It refers to the `place`, which must live until the
-// key is declared.
+// Each function below returns the KeyValue of a key with the described type of value. It has a
+// reference to `place`, which must live until the key is declared.
 
-/// A value that is described by `words`, and that read(section, key, places...) reads into the
-/// places.
+/// A value of any type. `words` says which values are allowed, and read(section, key, places...)
+/// reads the value into the places and throws if it is not allowed.
 template <class Read, class... Places>
 KeyValue custom(std::string_view words, Read read, Places&... places) {
   return {[read, &places...](const TomlSection& section, std::string_view key) {
@@ -169,9 +176,9 @@ KeyValue custom(std::string_view words, Read read, Places&... places) {
           [words] { return std::string(words); }};
 }
 
-/// A finite number that is `allowed`. `place` is a double, a whole number (`allowed` must then
-/// refuse fractions and what the type does not hold), or a std::optional<double>, which shows no
-/// default in the tables. `allowed` must outlive the value.
+/// A finite number that passes the test `allowed`. `place` is a double, an integer type (`allowed`
+/// must then refuse fractions and numbers beyond the type), or a std::optional<double>, for which
+/// the tables show no default. `allowed` must outlive the KeyValue.
 template <class Place>
 KeyValue number(Place& place, const Allowed& allowed) {
   return {[&](const TomlSection& section, std::string_view key) {
@@ -185,7 +192,7 @@ KeyValue number(Place& place, const Allowed& allowed) {
           }};
 }
 
-/// A whole number in [least, most], written without a decimal point.
+/// A whole number in [least, most], which the case gives without a decimal point.
 template <class Place>
 KeyValue count(Place& place, int least, int most) {
   return {[&place, least, most](const TomlSection& section, std::string_view key) {
@@ -201,10 +208,12 @@ KeyValue text(std::string& place);
 KeyValue file_name(std::string& place);
 /// A list of at least one text.
 KeyValue texts(std::vector<std::string>& place);
-/// A list of at least one number, each of which is `allowed`.
+/// A list of at least one finite number, each of which passes the test `allowed`, which must
+/// outlive the KeyValue. `words` says in the tables which values are allowed.
 KeyValue numbers(std::vector<double>& place, const Allowed& allowed, std::string_view words);
 
-/// A text that `parse` turns into the value, or refuses with an Error.
+/// A text that parse(text) turns into the value. An Error that `parse` throws becomes an
+/// Error(kBadInput) with file, line and key. `words` says which texts are allowed.
 template <class Place, class Parse>
 KeyValue parsed(std::string_view words, Place& place, const Parse& parse) {
   return custom(words, [&place, parse](const TomlSection& section, std::string_view key) {
@@ -213,7 +222,9 @@ KeyValue parsed(std::string_view words, Place& place, const Parse& parse) {
   });
 }
 
-/// A text that must be one of `words`, each of which stands for a value of `place`.
+/// A text that must be one of `words`, the first parts of pairs. `place` gets the second part of
+/// the pair. Another text throws Error(kBadInput). `words` must live as long as the KeyValue, as
+/// they do if both are made in one expression.
 template <class Meaning>
 KeyValue one_of(Meaning& place, std::initializer_list<std::pair<std::string_view, Meaning>> words) {
   using Word = std::pair<std::string_view, Meaning>;

@@ -1,8 +1,9 @@
 // A table of a TOML file, read strictly: the reader asks for every key by name, and a key that was
-// not asked for is an error. Sections whose keys are declared are read by keys.hpp. Numbers are in
-// the units of the file and have no unit here. Every fault of a file throws Error(kBadInput). All
-// readers of cases (case_file/, particles/, rolling/, swimmer/) use this class; a change must keep
-// the messages, which name file, line, key and what is allowed.
+// not asked for is an error. keys.hpp reads sections from declarations of their keys by means of
+// this class. Numbers are in the units of the file and have no unit here. Every fault of a file
+// throws Error(kBadInput). All readers of cases (case_file/, particles/, rolling/, swimmer/) use
+// this class; further types of values may be added, but a change must keep that messages name file,
+// line, key and what is allowed.
 #pragma once
 
 #include <fmt/format.h>
@@ -32,19 +33,21 @@ class TomlSection {
   /// A copy of this root table with other numbers, each at a path such as
   /// "motion.external_force[0].value". Only the last key of a path need not exist yet. A number
   /// without a fraction is stored as an integer, unless it replaces a decimal number. Throws
-  /// Error(kBadInput), without a line, if another part of a path does not exist, or if the path
-  /// leads to a value that is no number. The numbers are not checked; the reader of the case does.
+  /// Error(kBadInput), without a line, if another part of a path does not exist, or if there is a
+  /// value at the path that is not a number. The numbers are not checked here; the reader of the
+  /// case checks them.
   TomlSection with_numbers(std::span<const std::pair<std::string, double>> numbers) const;
 
-  /// A copy of this root table with other texts, each at a path as above. Throws Error(kBadInput),
-  /// without a line, if there is no text at a path.
+  /// A copy of this root table with other texts, each at a path of the same form. Throws
+  /// Error(kBadInput), without a line, if there is no text at a path yet.
   TomlSection with_texts(std::span<const std::pair<std::string, std::string>> texts) const;
 
   /// This root table as TOML, without the comments of the file and with its keys in alphabetical
   /// order. Tables with equal keys and values give equal texts. Numbers read back exactly.
   std::string as_toml() const;
 
-  /// True if the key exists. finish() then counts the key as asked for.
+  /// True if the key exists. This function and the four below return false for a missing key and
+  /// throw nothing; finish() counts the key as asked for.
   bool has(std::string_view key) const;
   bool is_text(std::string_view key) const;   ///< the key exists and its value is a text
   bool is_array(std::string_view key) const;  ///< the key exists and its value is an array
@@ -59,7 +62,7 @@ class TomlSection {
   std::string text(std::string_view key) const;                ///< a text, which may be empty
   std::string file_name(std::string_view key) const;           ///< a text that is not empty
   bool truth(std::string_view key) const;                      ///< true or false
-  /// An array of `count` values, each true or false.
+  /// An array of exactly `count` values, each true or false.
   std::vector<bool> truths(std::string_view key, std::size_t count) const;
   /// An array of at least one number, each finite and `allowed`.
   std::vector<double> numbers(std::string_view key, const Allowed& allowed) const;
@@ -71,19 +74,19 @@ class TomlSection {
   /// An array of at least one table.
   std::vector<TomlSection> sections(std::string_view key) const;
 
-  /// Throws Error(kBadInput) if this table has a key that none of the functions above was asked
-  /// for.
+  /// Throws Error(kBadInput), which lists the known keys, if this table has a key for which none of
+  /// the functions above was called.
   void finish() const;
 
   // Lines are counted from 1; they are 0 in a copy by with_numbers() or with_texts().
-  int line() const;                      ///< line of this table in the file
-  int line(std::string_view key) const;  ///< line of a key, or that of the table without it
-  std::string shown(std::string_view key) const;  ///< the value, for a message; empty without it
+  int line() const;                               ///< line of this table in the file
+  int line(std::string_view key) const;           ///< line of a key; if it is missing, of the table
+  std::string shown(std::string_view key) const;  ///< the value, for a message; empty if missing
 
   /// Throws Error(kBadInput) with the message "section.key what" at the line of this key, or at the
   /// line of this table if the key does not exist.
   [[noreturn]] void fail(std::string_view key, const std::string& what) const;
-  /// As above; `what` is a format with these arguments.
+  /// Throws the same error; `what` is a format with these arguments.
   template <class First, class... Rest>
   [[noreturn]] void fail(std::string_view key, fmt::format_string<First, Rest...> what,
                          First&& first, Rest&&... rest) const {
@@ -99,8 +102,8 @@ class TomlSection {
 
  private:
   struct Node;
-  /// As fail(), for a missing section. In the root table the message has no line, because a section
-  /// that is missing from the file has none.
+  /// Throws the error of fail() for a missing section. If the section is missing from the root
+  /// table, the message has no line, because the file has no such line.
   [[noreturn]] void fail_of_section(std::string_view key, const std::string& what) const;
   std::string full_name(std::string_view key) const;  // "tabulation.gaps"
   explicit TomlSection(Node node);

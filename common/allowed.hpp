@@ -1,8 +1,9 @@
 // Conditions that a number in an input must meet, each with the words for it in messages and in
-// docs/case-file.md. The keys of cases, geometries and models and the readers of JSON (case_file/,
-// freefem_axi/, lubrication/, reduced_model/, common/text/) use them. Numbers have any unit.
-// Nothing is thrown: the reader throws for a number that is refused. A change of words changes
-// messages and that page.
+// docs/case-file.md. case_file/, freefem_axi/, lubrication/, reduced_model/ and common/text/ use
+// them for the keys of cases, geometries, models and JSON files. Numbers have any unit. Nothing is
+// thrown here: the code that reads a number throws if its test is false. Further conditions may be
+// added. A change of a test refuses or accepts other files of users; a change of words changes
+// messages and docs/case-file.md.
 #pragma once
 
 #include <string_view>
@@ -19,9 +20,10 @@ struct Allowed {
 inline constexpr Allowed kPositive = {[](double v) { return v > 0; }, "> 0"};
 /// A number that is 0 or greater.
 inline constexpr Allowed kNotNegative = {[](double v) { return v >= 0; }, ">= 0"};
-/// A positive or negative number.
+/// A number that is greater or less than 0.
 inline constexpr Allowed kNotZero = {[](double v) { return v != 0; }, "different from 0"};
-/// Any number. Readers of files refuse NaN and infinity before they ask.
+/// Any finite number: the test is always true, because readers of files refuse NaN and infinity
+/// before they call it.
 inline constexpr Allowed kFinite = {[](double) { return true; }, "of finite value"};
 
 }  // namespace viscontact

@@ -1,11 +1,12 @@
 // Finds rows by name in tables, such as those of geometries, bases, terms, models and kinds of
-// pictures. Each row of a table has a member `name`. A name that is not in the table throws
-// Error(kBadInput), or gives a null pointer. All parts with such tables use it. A change must keep
-// the words of the error, which users see for a wrong name.
+// pictures. Each row of a table has a member `name`. A name that is not in the table gives a null
+// pointer (find_named) or throws Error(kBadInput) (require_named). All parts with such tables use
+// this file. Whether a name stands twice in a table is not checked. A change must keep the words of
+// the error, which users see for a wrong name.
 //
-// The row that find_named and require_named return belongs to the table. Therefore they take a
-// table that outlives the call, or a view of such a table (std::span); a call with a temporary
-// container does not compile.
+// find_named and require_named return a row of the table itself and not a copy. Therefore their
+// argument is a table that outlives the call, or a view of such a table (std::span); a call with a
+// temporary container does not compile.
 #pragma once
 
 #include <algorithm>
@@ -26,15 +27,15 @@ std::string names_of(const Table& table, const char* separator = ", ") {
   return names;
 }
 
-/// The first row with this name, in which case counts; nullptr if there is none.
+/// The first row with this name, in which upper and lower case differ; nullptr if there is none.
 template <std::ranges::borrowed_range Table>
 auto find_named(Table&& table, std::string_view name) -> decltype(&*table.begin()) {
   const auto found = std::ranges::find_if(table, [&](const auto& row) { return row.name == name; });
   return found == table.end() ? nullptr : &*found;
 }
 
-/// The row with this name. Throws Error(kBadInput), which lists all names, if there is none; `kind`
-/// is the word for a row in the message.
+/// The first row with this name. Throws Error(kBadInput), which lists all names, if there is none;
+/// `kind` is the word for a row in the message, such as "model".
 template <std::ranges::borrowed_range Table>
 const auto& require_named(Table&& table, std::string_view name, std::string_view kind) {
   if (const auto* row = find_named(table, name)) return *row;

@@ -1,16 +1,17 @@
 // Root finding in one unknown: bisection of a condition, and Newton's method in a bracket. Used by
 // lubrication/, reduced_model/ and rolling/. A change must keep the points at which functions are
-// evaluated, because results of these parts depend on them in their last digits. Arguments have the
-// unit of the caller; nothing is thrown. Boost.Math 1.74 takes other points and is therefore not
-// used; besides, its header takes 1.2 s to compile.
+// evaluated, because results of these parts depend on them in their last digits. Arguments and
+// functions have the units of the caller. Nothing is checked or thrown here. Boost.Math 1.74 is not
+// used, because it evaluates functions at other points, and because its header takes 1.2 s to
+// compile.
 #pragma once
 
 namespace viscontact {
 
-/// Returns the smallest double at which holds(x) is true. The caller knows that it is false at
-/// `from` and true at `to` >= `from`; neither is checked. The result is `to` if the condition is
-/// true only there, or if one end is NaN. If the condition changes more than once in between,
-/// returns one of the places where it becomes true. to - from must be finite (not checked).
+/// Returns the smallest double x at which holds(x) is true. holds() must be false at `from` and
+/// true at `to` >= `from`; neither is checked. The result is `to` if the condition is true only
+/// there, or if `from` or `to` is NaN. If the condition changes more than once between both, the
+/// result is one of the places where it becomes true. to - from must be finite (not checked).
 template <class Condition>
 double bisect_first_true(double from, double to, const Condition& holds) {
   for (double middle = from + (to - from) / 2; from < middle && middle < to;
@@ -19,21 +20,21 @@ double bisect_first_true(double from, double to, const Condition& holds) {
   return to;
 }
 
-/// Whether Newton's method may step onto an end of the bracket (kClosed), or bisection replaces
-/// such a step (kOpen).
+/// Says what happens if a step of Newton's method ends on an end of the bracket, the interval that
+/// contains the root: with kClosed it is taken, with kOpen bisection replaces it.
 enum class Bracket { kOpen, kClosed };
 
-/// The root in [low, high] of an increasing function, by Newton's method from x in [low, high]. A
-/// step that leaves the bracket, as it does with a slope of 0, is replaced by bisection.
-/// `excess_and_slope(x)` returns the function and its derivative. The search ends where the
-/// function is 0, or if settled(x, next) says that the step from x to next is round-off, or after
-/// 200 steps; then the last x is returned. That low <= x <= high, and that there is a root, is not
-/// checked.
+/// The root in [low, high] of an increasing function, by Newton's method, which starts at x in
+/// [low, high]. A step that leaves the bracket, as it does with a slope of 0, is replaced by
+/// bisection. `excess_and_slope(x)` returns the function and its derivative. The search ends where
+/// the function is 0, or if settled(x, next) returns true, which means that the step from x to
+/// `next` is only round-off, or after 200 steps. The result is the last point. It is not checked
+/// that low <= x <= high, that there is a root, or that values are finite.
 template <class ExcessAndSlope, class Settled>
 double bracketed_newton(double x, double low, double high, Bracket bracket,
                         const ExcessAndSlope& excess_and_slope, const Settled& settled) {
-  // A limit against endless loops that is not reached, because 60 steps of bisection alone shorten
-  // the bracket by a factor of 1e18.
+  // This limit prevents endless loops; any larger number would do. It is hardly ever reached,
+  // because 60 steps of bisection alone shorten the bracket by a factor of 1e18.
   constexpr int kMaxSteps = 200;
   for (int step = 0; step < kMaxSteps; ++step) {
     const auto [excess, slope] = excess_and_slope(x);

@@ -1,8 +1,9 @@
 // Random numbers that are the same bits on every machine: SplitMix64 (Steele, Lea & Flood 2014,
 // "Fast splittable pseudorandom number generators"). particles/, sweep/, swimmer/ and bench/ use
 // them. The distributions of the C++ library are not used, because each library may define them
-// differently. A change must keep all numbers, because sweeps compare them with earlier results,
-// and users repeat runs by their seeds. Nothing is thrown.
+// differently. Numbers have no unit, but those of between() have the unit of its bounds. Nothing is
+// checked or thrown. Further distributions may be added. A change must keep all numbers, because
+// sweeps compare them with earlier results, and users repeat runs by their seeds.
 #pragma once
 
 #include <cmath>
@@ -28,10 +29,11 @@ inline double unit_interval_of(std::uint64_t bits) {
 /// A sequence of random numbers. Equal seeds give equal sequences.
 class SplitMix64 {
  public:
-  /// Every seed is allowed, also 0.
+  /// Starts the sequence of this seed. Every seed is allowed, also 0.
   explicit SplitMix64(std::uint64_t seed) : state_(splitmix_hash(seed)) {}
 
-  /// The next 64 random bits. The functions below make their numbers from them.
+  /// The next 64 random bits. Each function below calls next() once and makes its number from these
+  /// bits.
   std::uint64_t next() {
     const std::uint64_t bits = splitmix_hash(state_);
     state_ += 0x9e3779b97f4a7c15ULL;
@@ -45,8 +47,8 @@ class SplitMix64 {
   /// finite and >= 0 (not checked). Rounding can give `to` itself.
   double between(double from, double to) { return from + (to - from) * unit(); }
 
-  /// A whole number in [0, count), count > 0 (not checked: 0 divides by zero). Small numbers are
-  /// likelier by at most count/2^64.
+  /// A whole number in [0, count). `count` must be > 0 (not checked: 0 divides by zero). The
+  /// probabilities of two numbers differ by at most 1/2^64.
   std::uint64_t below(std::uint64_t count) { return next() % count; }
 
  private:

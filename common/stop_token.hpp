@@ -1,7 +1,8 @@
-// A flag by which a long computation is asked to stop. All parts with long computations take a
-// StopToken and check it between two pieces of work; they do not know who requests the stop. Only
-// throw_if_stop_requested() throws, Error(kInterrupted). app/arguments/interrupt.cpp sets the flag
-// at Ctrl-C. A change must keep that checking is safe on any thread.
+// A flag by which a long computation is asked to stop. All parts with long computations have a
+// StopToken as an argument and check it between two pieces of work; they do not know who requests
+// the stop. Only throw_if_stop_requested() throws; its error is an Error(kInterrupted).
+// app/arguments/interrupt.cpp sets the flag at Ctrl-C. The words of the error may be changed; a
+// change must keep that the flag can be checked on any thread.
 #pragma once
 
 #include <atomic>

@@ -1,9 +1,10 @@
 // Fits of one force table in several bases (a basis is a list of functions of the gap, which a fit
 // combines linearly), and the choice between them by Akaike's information criterion. Lengths,
-// masses and times are in the units of the table. A basis that cannot be fitted throws nothing: its
-// result has the reason. Only a stop is thrown, as Error(kInterrupted). Used by
-// pipeline/fit_stages.cpp and report/ for the command `fit --compare-bases`. A change must keep
-// that a basis that cannot be fitted does not prevent the fits in the others.
+// masses and times are in the units of the table; the criterion is a number without unit. If a fit
+// in a basis fails, nothing is thrown: its result has the reason. Only a requested stop throws,
+// Error(kInterrupted). Used by pipeline/fit_stages.cpp and report/ for the command `fit
+// --compare-bases`. A change must keep that a basis that cannot be fitted does not prevent the fits
+// in the other bases.
 #pragma once
 
 #include <optional>
@@ -18,22 +19,24 @@ namespace viscontact::fitting {
 
 /// A fit in one basis, or the reason why there is none.
 struct BasisResult {
-  /// Name of the basis; kOwnTerms ("terms") for a user's list of terms.
+  /// Name of the basis, such as "lecture"; kOwnTerms ("terms") for a user's list of terms.
   std::string basis;
   std::optional<lubrication::Fit> fit{};  ///< nothing if the fit threw an Error
   std::string failure;                    ///< what() of that Error; empty if there is a fit
 };
 
-/// Fits the table in each of all_bases(), in this order, and then in the basis of `settings` if
-/// that is a user's list of terms. Each fit has the other settings of `settings`. An Error of a fit
-/// is stored in its result and not thrown, except Error(kInterrupted) if `stop` requests a stop,
-/// which is checked before each fit and during robust ones. The table has at least one row.
+/// Fits the table in each of all_bases(), in this order, and then in settings.basis if this is a
+/// user's list of terms. The other members of `settings` are the same for each fit. An Error of a
+/// fit is stored in its result and not thrown, except Error(kInterrupted) if `stop` requests a
+/// stop, which is checked before each fit and during a fit with a robust loss. The table must have
+/// at least one row (not checked).
 std::vector<BasisResult> compare_bases(const lubrication::MotionTable& table,
                                        const FitSettings& settings, const StopToken& stop = {});
 
 /// The element of `results` whose fit has the smallest FitDiagnostics::information_criterion; null
-/// if no fit has a criterion. Every fit must have diagnostics (not checked), as those of
-/// compare_bases() do. Among equal criteria the first one counts.
+/// if no fit has a criterion, as with robust losses or too few rows. Every fit must have
+/// diagnostics (not checked), as the fits of compare_bases() have. Among equal criteria the first
+/// one counts.
 const BasisResult* best_basis(const std::vector<BasisResult>& results);
 
 }  // namespace viscontact::fitting

@@ -1,10 +1,11 @@
 // The fit of a force table: the coefficients in F(q) = sum of coefficient * term(q), with the force
 // F at the gap q, by linear least squares (docs/physics.md (3.2)). Lengths, masses and times are in
 // the units of the table. A table and settings that determine no fit throw Error(kBadInput) or
-// Error(kNotConverged). A poor fit throws nothing, but its diagnostics have warnings. Used by
-// pipeline/ (commands `fit` and `run`), motions/fit/fit_pair.cpp (one fit for each resistance of a
-// pair), case_file/, examples/ and the Python module. A change must keep that units and order of
-// the rows change the fit by rounding only.
+// Error(kNotConverged). For a poor fit nothing is thrown, but its diagnostics have warnings. Used
+// by pipeline/ (commands `fit` and `run`), motions/fit/fit_pair.cpp (one fit for each resistance of
+// a pair), case_file/, examples/ and the Python module. Defaults of FitSettings are those of the
+// command `fit`. A change must keep that another system of units or another order of the rows
+// changes the fit by rounding errors only.
 #pragma once
 
 #include <optional>
@@ -24,37 +25,40 @@ struct FitSettings {
   lubrication::Basis basis = lubrication::default_basis();
   /// kRelative minimises the residuals (fit - force)/force, kAbsolute the residuals fit - force.
   lubrication::Weights weights = lubrication::Weights::kRelative;
-  /// kSquared is plain least squares; with kHuber and kCauchy large residuals count less.
+  /// kSquared gives plain least squares; with kHuber and kCauchy large residuals have less weight.
   lubrication::Loss loss = lubrication::Loss::kSquared;
-  /// True: the coefficient of 1/q is not fitted. Its value is `leading_value`, or else -k u0 with
-  /// the k that the table states (TableHead::leading_coefficient).
+  /// True: the coefficient of 1/q is not fitted. It has the value `leading_value` or, if this is
+  /// not given, -k u0, where k [M L/T] is TableHead::leading_coefficient of the table and u0 the
+  /// velocity of its first row.
   bool fix_leading = false;
-  /// The fixed coefficient of 1/q in the force at the velocity u0 of the table's first row
-  /// [M L^2/T^2]; in theory -k u0 if the resistance is k/q near contact. Without `fix_leading` it
-  /// has no effect.
+  /// The fixed coefficient of 1/q in the force at the velocity u0 of the table's first row [M
+  /// L^2/T^2], any finite number. In theory it is -k u0 if the resistance is k/q near contact. It
+  /// has no effect if `fix_leading` is false.
   std::optional<double> leading_value{};
-  /// Empty, or for each row of the table, in its order, a force > 0 [M L/T^2], by which its
-  /// residual is divided in place of the force of the row.
+  /// Empty, or a force > 0 [M L/T^2] for each row of the table, in the order of the rows. The
+  /// residual of a row is then divided by this force in place of the force of the row.
   std::vector<double> row_scales{};
-  /// What the fitted resistance must be according to theory: kDrag, positive and decreasing with
-  /// the gap; kPositive, positive; kAny, anything. Diagnostics warn of another result.
+  /// What theory says of the fitted resistance. kDrag: it is positive and decreases with the gap;
+  /// kPositive: it is positive; kAny: nothing. Diagnostics warn of a fit that contradicts this.
   lubrication::FittedShape shape = lubrication::FittedShape::kDrag;
 };
 
-/// Fits a table with at least one row (not checked). A force F at the velocity u counts as F u0/u
-/// at the velocity u0 of the first row, because Stokes flow is linear in the velocity. All members
-/// of the fit are set except table_sha256 and versions. Throws Error(kBadInput) if the table has
-/// fewer different gaps than coefficients to fit or than two, if `row_scales` is not as its comment
-/// says, if F/u of two rows of equal gap differs by more than the sum of their error estimates
-/// (unless both are 0: not known), if `fix_leading` is true but the basis has no other term, lacks
-/// 1/q, or there is no value for its coefficient, or if double precision cannot hold the result;
+/// Fits a table with at least one row (not checked). A row with the force 0 throws Error(kBadInput)
+/// if the weights are relative and `row_scales` is empty. A force F at the velocity u counts as F
+/// u0/u at the velocity u0 of the first row, because Stokes flow is linear in the velocity. All
+/// members of the fit are set except table_sha256 and versions. Throws Error(kBadInput) if the
+/// table has fewer different gaps than coefficients to fit, or fewer than two; if `row_scales` has
+/// another number of entries or an entry that is not > 0; if F/u of two rows with equal gaps
+/// differs relatively by more than the sum of their error estimates, unless both estimates are 0
+/// (not known); if `fix_leading` is true but the basis lacks 1/q, has no other term, or there is no
+/// value for the coefficient; or if double precision cannot hold the result. Throws
 /// Error(kNotConverged) if the terms are linearly dependent on these gaps or the robust loss does
 /// not converge; Error(kInterrupted) if `stop` requests a stop during a robust fit.
 lubrication::Fit fit_force_table(const lubrication::MotionTable& table, const FitSettings& settings,
                                  const StopToken& stop = {});
 
-/// The same with the basis of this name, these weights, and otherwise default settings. Throws also
-/// Error(kBadInput) for an unknown name.
+/// Fits the table with the basis of this name, these weights, and otherwise the default settings.
+/// Throws the errors of the function above, and Error(kBadInput) for an unknown name.
 lubrication::Fit fit_force_table(const lubrication::MotionTable& table, std::string_view basis,
                                  lubrication::Weights weights);
 

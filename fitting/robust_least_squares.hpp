@@ -1,9 +1,9 @@
 // Linear least squares in which a few wrong rows have little effect: M-estimates (Huber 1981),
 // which minimise a sum of losses that grow more slowly than the square of the residual. Residuals
-// have the unit of the right-hand side. An iteration that does not end throws Error(kNotConverged),
-// a stop Error(kInterrupted); other errors are those of least_squares.hpp. Used by
-// fit_force_table.cpp. A change must keep that with Loss::kSquared the result is that of
-// solve_least_squares().
+// have the unit of the right-hand side. An iteration that does not end, or linearly dependent
+// columns, throw Error(kNotConverged); numbers that are not finite throw Error(kBadInput), and a
+// requested stop throws Error(kInterrupted). Used by fit_force_table.cpp. Further losses may be
+// added. A change must keep that with Loss::kSquared the result is that of solve_least_squares().
 #pragma once
 
 #include "viscontact/common/stop_token.hpp"
@@ -16,7 +16,8 @@ namespace viscontact::fitting {
 struct RobustSolution {
   /// Solution for the rows with their final weights. With a robust loss its covariance is that of
   /// the M-estimate (Huber 1981, section 7.6), scale^2 sum psi^2/(n - p)/(mean psi')^2 (A^T A)^-1,
-  /// with the derivative psi of the loss at residual/scale, n rows and p columns.
+  /// where psi is the derivative of the loss at residual/scale, sum and mean are over the rows, and
+  /// A has n rows and p columns.
   LeastSquaresSolution least_squares;
   /// Weight of each row [1], in the order of A, > 0 and at most 1; all are 1 with Loss::kSquared.
   Eigen::VectorXd row_weights;
@@ -25,11 +26,12 @@ struct RobustSolution {
   double scale = 0;
 };
 
-/// The x that minimises the sum of loss((A x - b)_i/scale) over the rows i, with A = `matrix` and
-/// b = `right_hand_side`, by iteratively reweighted least squares. Throws the errors of
+/// The x that minimises the sum of loss((A x - b)_i/scale) over the rows i, with A = `matrix` and b
+/// = `right_hand_side`, by iteratively reweighted least squares. A has at least one column and at
+/// least as many rows as columns, and b an entry for each row (asserted). Throws the errors of
 /// solve_least_squares(), Error(kNotConverged) if 1000 reweightings do not suffice, and
-/// Error(kInterrupted) if `stop` requests a stop, which is checked before each reweighting; with
-/// Loss::kSquared there is none.
+/// Error(kInterrupted) if `stop` requests a stop, which is checked before each reweighting. With
+/// Loss::kSquared nothing is reweighted.
 RobustSolution solve_robust_least_squares(const Eigen::MatrixXd& matrix,
                                           const Eigen::VectorXd& right_hand_side,
                                           lubrication::Loss loss, const StopToken& stop = {});

@@ -1,10 +1,10 @@
 // The shift of a rough wall: how far below its crests a smooth wall would be that resists the
-// sphere as much (Lefebvre 2008, "Rugosité"; Vinogradova & Yakubov 2006). R is the resistance, drag
-// over velocity, and q the gap. Lengths, masses and times are in the units of the table. A table
-// and a smooth wall that do not belong together throw Error(kBadInput), an iteration that does not
-// end Error(kNotConverged). Used by pipeline/fit_stages.cpp (command `shift`) and report/. A change
-// must keep the sign: the shift is > 0 if the rough wall resists less than a smooth wall at its
-// crests.
+// sphere as much (Lefebvre 2008, "Rugosité"; Vinogradova & Yakubov 2006). R > 0 is the resistance
+// (drag over velocity) and q > 0 the gap. Lengths, masses and times are in the units of the table.
+// A table and a smooth wall that do not belong together throw Error(kBadInput); an iteration that
+// does not end throws Error(kNotConverged). Used by pipeline/fit_stages.cpp (command `shift`) and
+// report/. The method of the fit may be changed; a change must keep the sign: the shift is > 0 if
+// the rough wall resists less than a smooth wall at its crests.
 #pragma once
 
 #include <vector>
@@ -36,12 +36,13 @@ struct WallShift {
   std::vector<ShiftedRow> rows;  ///< in the order of the table
 };
 
-/// Fits q_s >= 0 in R_rough(q) = R_smooth(q + q_s): minimises the sum over the rows of `rough` of
-/// (R_smooth(q + q_s)/R_rough(q) - 1)^2. All q + q_s are in the fitted interval of `smooth`. Throws
-/// Error(kBadInput) if `smooth` has a formula for gaps outside this interval (OutsideInterval), if
-/// viscosity or radius of table and smooth force differ, if a resistance of the table is not one of
-/// the smooth force in its interval, or if no shift brings all gaps into the interval;
-/// Error(kNotConverged) after 100 steps of the iteration. Not checked: that there is a row.
+/// Fits the common shift q_s >= 0 [L] in R_rough(q) = R_smooth(q + q_s). It minimises the sum over
+/// the rows of `rough` of (R_smooth(q + q_s)/R_rough(q) - 1)^2. All q + q_s are in the fitted
+/// interval of `smooth`. Throws Error(kBadInput) if `smooth` has a formula for gaps outside this
+/// interval (OutsideInterval), if viscosity or radius of table and smooth force differ, if the
+/// smooth force does not have the resistance of some row at any gap of its interval, or if no shift
+/// brings all gaps into the interval; Error(kNotConverged) if 100 steps of the iteration do not
+/// suffice. The table must have a row (not checked).
 WallShift fit_wall_shift(const lubrication::MotionTable& rough,
                          const lubrication::LubricationForce& smooth);
 

@@ -1,9 +1,10 @@
 // How a process of FreeFEM (the finite element program) is started: which program, where its
 // scripts are, with which arguments, environment and working folder. Times are in seconds. Missing
-// scripts throw Error(kExternalProgram), a wrong time limit Error(kWrongUsage), a stop
-// Error(kInterrupted). A FreeFEM that is missing shows only when a process is started. Used by
-// freefem_axi/ and freefem_flow/. A change must keep each process on one thread, because as many
-// processes as cores can run at once.
+// scripts throw Error(kExternalProgram), a wrong time limit throws Error(kWrongUsage), and a
+// requested stop throws Error(kInterrupted). Whether FreeFEM exists is not checked here; the code
+// that starts a process finds out. Used by freefem_axi/ and freefem_flow/. The upper limit of times
+// only finds typing errors and is a free choice. A change must keep each process on one thread,
+// because as many processes as cores can run at once.
 #pragma once
 
 #include <chrono>
@@ -21,7 +22,7 @@ namespace viscontact::freefem {
 inline constexpr const char* kTimeLimit = "VISCONTACT_FREEFEM_TIME_LIMIT";
 
 /// The value of the environment variable VISCONTACT_FREEFEM if it is set and not empty, else
-/// FreeFem++-nw: a name to look for on PATH, or a path. It is not checked.
+/// FreeFem++-nw: a name to look for on PATH, or a path. Whether the program exists is not checked.
 std::string executable_of_user();
 
 /// The value of VISCONTACT_FREEFEM_TIME_LIMIT [s], or nothing if it is not set or empty. Throws
@@ -29,10 +30,10 @@ std::string executable_of_user();
 std::optional<std::chrono::seconds> time_limit_of_user();
 
 /// The folder share/viscontact/PART that contains the file `script`, where PART is `part`, the name
-/// of a source folder such as freefem_axi. It is looked for beside the running program (build
-/// tree), then one folder above (installed); then, if this code is in a shared library such as the
-/// Python module, beside the library and in all folders above it. Throws Error(kExternalProgram) if
-/// there is no such folder.
+/// of a source folder such as freefem_axi. The folder share/ is looked for beside the running
+/// program (as in a build folder), then one folder above it (as after an installation). If this
+/// code is in a shared library, such as the Python module, it is then looked for beside the library
+/// and in all folders above it. Throws Error(kExternalProgram) if there is no such folder.
 std::filesystem::path find_script_folder(std::string_view part, std::string_view script);
 
 /// How a process of FreeFEM is started.
@@ -55,12 +56,12 @@ struct Package {
   std::string version;  ///< with the revision of Debian, such as "4.11+dfsg1-3"
 };
 
-/// The package that has installed an executable, which is a path or a name to look for on PATH.
-/// Nothing if there is none, if the system has no dpkg, or if dpkg takes more than 10 s. Throws
-/// Error(kInterrupted) if `stop` requests a stop.
+/// The package that has installed an executable, which is a path or a name to look for on PATH. The
+/// result is nothing if no package has installed it, if the system has no dpkg, or if dpkg takes
+/// more than 10 s. Throws Error(kInterrupted) if `stop` requests a stop.
 std::optional<Package> package_of(const std::string& executable, const StopToken& stop = {});
 
-/// What to do if FreeFEM cannot be run, for an error message.
+/// The end of an error message, which says what to do if FreeFEM cannot be run.
 inline constexpr std::string_view kHowToInstall =
     "install FreeFEM (apt-get install freefem++) or set VISCONTACT_FREEFEM to it";
 

@@ -1,10 +1,11 @@
 // The table of geometries: the kinds of bodies beside a sphere, its neighbour, for which FreeFEM
 // computes the force on the sphere. q is the gap between both, r the radius of the sphere, mu the
-// viscosity, and R the resistance (force over velocity). Lengths are in any one unit. Unknown names
-// throw Error(kBadInput). The functions of a Geometry do not check number and values of their
-// parameters. Used by tabulation.hpp, case_file/ and rolling/. A new geometry needs a FreeFEM
-// script and a row in geometry.cpp (docs/extending.md). A change must keep names and keys, which
-// case files and tables contain, and flags, which the scripts read.
+// viscosity, and R the resistance (minus the force over the velocity). Lengths are in any one unit.
+// Unknown names throw Error(kBadInput). The functions of a Geometry check and throw nothing: their
+// `parameters` must have one allowed value for each of Geometry::parameters. Used by
+// tabulation.hpp, case_file/ and rolling/. A new geometry needs a FreeFEM script and a row in
+// geometry.cpp (docs/extending.md). A change must keep names and keys, which case files and tables
+// contain, and flags, which the scripts read.
 #pragma once
 
 #include <array>
@@ -23,10 +24,10 @@ namespace viscontact::freefem_axi {
 /// A number that describes a neighbour: a length, or a ratio without dimension.
 struct GeometryParameter {
   std::string_view key;   ///< its key in the table `geometry` of a case file, such as "radius"
-  std::string_view flag;  ///< its argument of the script, such as "-neighbourRadius"
+  std::string_view flag;  ///< name of the script's argument, as "-neighbourRadius"
   Allowed allowed;        ///< the values that are accepted
-  /// Value for a case without this key, in the unit of the parameter; nothing if the key is
-  /// required.
+  /// The value for a case without this key, in the unit of the parameter; nothing means that the
+  /// key is required.
   std::optional<double> fallback;
   /// True: the head of a table names the parameter only if it differs from the fallback.
   bool is_named_if_given = false;
@@ -43,36 +44,39 @@ struct RequiredSpace {
 /// The motions of a geometry that lists none in geometry.cpp.
 inline constexpr std::array kApproachAlone = {lubrication::MotionKind::kApproach};
 
-/// A kind of neighbour and what its tables need. The functions check and throw nothing.
+/// A kind of neighbour, and what the computation of its tables needs.
 struct Geometry {
   /// The name, which is the key `kind` of `geometry` in the case file.
   std::string_view name;
   /// File of the FreeFEM script in freefem_axi/scripts/, which docs/extending.md describes.
   std::string_view script;
-  /// What describes the neighbour. `parameters` below are the values, in this order.
+  /// The numbers that describe the neighbour. Each function below has an argument `parameters` with
+  /// their values in this order.
   std::span<const GeometryParameter> parameters;
   /// True if the fluid is unbounded or in a container; false if the neighbour encloses the fluid.
   bool takes_container;
-  /// The neighbour's velocity (approach, slide) or angular velocity (roll, spin) over that of the
-  /// sphere [1]. Null: the neighbour is always at rest.
+  /// The ratio [1] of the neighbour's velocity (approach, slide) or angular velocity (roll, spin)
+  /// to that of the sphere. Null: the neighbour is always at rest.
   double (*neighbour_ratio)(lubrication::MotionKind motion, std::span<const double> parameters);
-  /// Lubrication theory's k in R = k/q + ... near contact, over that of a plane, 6 pi mu r^2 [1].
-  /// It depends on curvature and velocity of the neighbour; <= 0 if the neighbour moves away at
-  /// least as fast as the sphere follows. Null: not known.
+  /// The ratio [1] of k in R = k/q + ... near contact, by lubrication theory, to the k of a plane,
+  /// 6 pi mu r^2. It depends on curvature and velocity of the neighbour, and is <= 0 if the
+  /// neighbour moves away at least as fast as the sphere follows. Null: not known.
   double (*leading_factor)(double radius, std::span<const double> parameters);
   /// The space that a sphere of radius `radius` [L] at the gap `gap` [L] needs.
   RequiredSpace (*required_space)(double radius, double gap, std::span<const double> parameters);
   /// True if the series for the drag near a plane (lubrication/plane_drag.hpp) is the drag of this
   /// geometry in unbounded fluid.
   bool has_exact_drag = false;
-  /// Computing time of a row over that of a row above a plane [1], > 0; only for estimates of time.
+  /// Ratio [1], > 0, of the computing time of a row to that of a row above a plane. It is only used
+  /// for estimates of time.
   double relative_cost = 1;
   /// The motions of the sphere that can be tabulated, in the order of MotionKind. The FreeFEM
   /// function that solves a motion must impose the neighbour's boundary condition: solveStokes
   /// (approach), solveSwirl (spin) or solveSideways (slide, roll) in scripts/.
   std::span<const lubrication::MotionKind> motions = kApproachAlone;
-  /// 1 over the neighbour's radius [1/L]: 0 of a plane, < 0 of a cavity. Null: not known, and so
-  /// are the leading coefficients of slide, roll and spin (lubrication/near_contact.hpp).
+  /// 1 over the neighbour's radius [1/L]: 0 for a plane, < 0 for a cavity. Null: not known; then
+  /// the leading coefficients of slide, roll and spin (lubrication/near_contact.hpp) are not known
+  /// either.
   double (*curvature)(std::span<const double> parameters) = nullptr;
   /// True: the tangential stress on the neighbour is 0. False: the fluid does not slip on it.
   bool is_shear_free = false;
@@ -81,7 +85,7 @@ struct Geometry {
 /// All geometries, at least one.
 std::span<const Geometry> all_geometries();
 
-/// The geometries with has_exact_drag.
+/// The geometries whose member has_exact_drag is true.
 std::vector<Geometry> geometries_with_exact_drag();
 
 /// The geometry of a case that names none: the plane.
@@ -90,9 +94,10 @@ const Geometry& default_geometry();
 /// True if `motion` is one of geometry.motions.
 bool has_motion(const Geometry& geometry, lubrication::MotionKind motion);
 
-/// The motions with these names, in the order of MotionKind, none for no names; {"all"} stands for
-/// all motions of the geometry with the name `geometry`. Throws Error(kBadInput) for an unknown
-/// name, a name that stands twice, a motion that the geometry lacks, and an unknown geometry.
+/// The motions with these names (approach, slide, roll, spin), in the order of MotionKind. No names
+/// give no motions; the one name "all" stands for all motions of the geometry with the name
+/// `geometry`. Throws Error(kBadInput) for an unknown name, for a name that stands twice, for a
+/// motion that the geometry lacks, and for an unknown geometry.
 std::vector<lubrication::MotionKind> parse_motions(const std::vector<std::string>& names,
                                                    std::string_view geometry);
 

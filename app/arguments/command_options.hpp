@@ -1,10 +1,12 @@
-// Options that several commands have, and checks of what a command line names; among them the
-// options of commands whose rows an array job on a Slurm cluster can compute (docs/cluster.md).
-// Used by main.cpp, commands/ and help/ of app/. help/self_description.cpp recognises by the type
-// names below whether to offer files, folders or models as the value of an option; a change of the
-// names must be made there, too. A change must keep the names of options, because submitted scripts
-// contain them. The functions that add an option throw CLI::OptionAlreadyAdded if the command has
-// it. CLI11 checks values while it parses the line, and throws CLI::ParseError for a wrong one.
+// Options that several commands have, and checks of the values of options. Some of the options
+// belong to commands that compute a table row by row; an array job on a Slurm cluster can compute
+// these rows (docs/cluster.md). main.cpp, commands/ and help/ of app/ use this file. The functions
+// that add an option throw CLI::OptionAlreadyAdded if the command has it. CLI11 checks values while
+// it parses the line, and throws CLI::ParseError for a wrong one. A change must keep the names of
+// options, because submitted scripts contain them. The ranges of widths, font sizes and jobs are
+// free choices that catch mistyped numbers; 4000000 tasks are about the most that Slurm allows.
+// help/self_description.cpp must know each type name below, because it offers files, folders or
+// models for it.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -20,30 +22,32 @@
 
 namespace viscontact::app {
 
-// Type names of options: they say what the value of an option is. --help and the manual page show
-// them. An option whose value is one of several words has the type name "word|word".
+// The type name of an option says what its value is. --help and the manual page show it. An option
+// whose value is one of several words has the type name "word|word".
 inline constexpr const char* kFile = "FILE";
 inline constexpr const char* kFolder = "DIR";
 inline constexpr const char* kModel = "MODEL";
 inline constexpr const char* kModels = "MODEL,...";
 
-/// Adds an option, or an argument without a name, whose value has this type name.
+/// Adds an option whose value has the type name `type` and is stored in `value`, which must outlive
+/// `command`. `name` is written as CLI11 demands: "-o,--output" is an option, and a word without
+/// dashes, such as "CASE", is an argument. `help` is its text in --help.
 template <class Value>
 CLI::Option* add_value(CLI::App& command, const std::string& name, Value& value,
                        const std::string& type, const std::string& help) {
   return command.add_option(name, value, help)->type_name(type);
 }
 
-/// A check that refuses any value but these words. It has no description, because --help shows the
-/// words in the type name. CLI11 throws CLI::ValidationError for another value.
+/// A check that accepts only these words. It has no description, because --help shows the words in
+/// the type name. For another value CLI11 throws CLI::ValidationError.
 CLI::Validator one_of(std::vector<std::string> words);
 
-/// A check that refuses any value but a whole number from `least` to `most`, written in digits.
-/// CLI11 throws CLI::ValidationError for another value.
+/// A check that accepts only a whole number from `least` to `most`, written in digits. For another
+/// value CLI11 throws CLI::ValidationError.
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t most);
 
-/// Calls `read`, which reads a word of the command line, such as the name of a basis, and returns
-/// its value. An Error(kBadInput) becomes an Error(kWrongUsage) that names the option; other errors
+/// Calls `read`, which turns the value of the option `option` into an object, and returns what it
+/// returns. An Error(kBadInput) becomes an Error(kWrongUsage) that names the option; other errors
 /// pass unchanged.
 template <class Read>
 auto from_option(std::string_view option, const Read& read) {
@@ -55,29 +59,33 @@ auto from_option(std::string_view option, const Read& read) {
   }
 }
 
-/// Throws Error(kWrongUsage), which names the option, if one of `names` is not a model's name.
+/// Throws Error(kWrongUsage), which names the option, if one of `names` is not the name of a model
+/// of motion. An empty list is accepted.
 void check_models(std::string_view option, const std::vector<std::string>& names);
 
 /// Throws Error(kWrongUsage) if an output has an empty name or two outputs are the same file, and
-/// std::filesystem::filesystem_error if a path cannot be resolved. An empty list is right.
+/// std::filesystem::filesystem_error if a path cannot be resolved. An empty list is accepted.
 void check_outputs(const std::vector<std::string>& paths);
 
-/// Throws Error(kWrongUsage) unless the ending of the file that --plot names is that of a kind of
-/// picture (results::kPictureKinds), and Error(kBadInput) if `path` is a file, but no picture of
-/// this kind that Viscontact wrote, or cannot be read. Does nothing if `path` is empty.
+/// Throws Error(kWrongUsage) unless the ending of the file that --plot names is .svg, .pdf, .png or
+/// .gp (results::kPictureKinds). Throws Error(kBadInput) if `path` is a file that cannot be read,
+/// or that is no picture of this kind written by Viscontact. Does nothing if `path` is empty.
 void check_picture(const std::string& path);
 
 /// Adds the options --plot, whose help is `help`, --width (100 to 10000) and --font-size (2 to
-/// 200), which set `picture`; their unit is a pixel of an SVG, or a point of a PDF.
+/// 200), which set `picture`, which must outlive `command`. The unit of both numbers is a pixel of
+/// an SVG, a point of a PDF, or two pixels of a PNG. Without --width the picture has its own width;
+/// the font size is 14 by default.
 void add_picture(CLI::App& command, results::PictureRequest& picture, const std::string& help);
 
-/// The default of --jobs, >= 1: one process or thread for each core; 1 if their number is unknown.
+/// The default of --jobs, >= 1: the number of cores, or 1 if this number is unknown.
 int default_jobs();
 
-/// Adds the option -j, --jobs, which sets `jobs` to a number from 1 to 1024.
+/// Adds the option -j, --jobs, which sets `jobs`, the number of processes or threads at once, to a
+/// number from 1 to 1024.
 CLI::Option* add_jobs(CLI::App& command, int& jobs, const std::string& help);
 
-/// Adds the flag --json, which sets `json`.
+/// Adds the flag --json, which sets `json` to true.
 CLI::Option* add_json(CLI::App& command, bool& json);
 
 /// Returns the arguments of a command line, from the command's name on, in an order that CLI11
@@ -85,7 +93,8 @@ CLI::Option* add_json(CLI::App& command, bool& json);
 /// `simulate --lubrication-limit`) would take the word after it as its value even if that is the
 /// command's file, as in `fit --fix own.csv`. In this case the option is moved to the end of the
 /// arguments or, if they contain the word "--", to just before it. A further option whose value may
-/// be left out must be added to the list in command_options.cpp.
+/// be left out must be added to the list `options` of this function in command_options.cpp. Throws
+/// nothing.
 std::vector<std::string> with_files_apart(std::vector<std::string> arguments);
 
 /// The values of the options of array jobs, which `tabulate` and `sweep` have: --launcher, --tasks,
@@ -93,8 +102,8 @@ std::vector<std::string> with_files_apart(std::vector<std::string> arguments);
 struct ArrayOptions {
   std::string launcher = "local",  ///< "local": computes here; "slurm": submits a job
       slurm_options,               ///< words for sbatch, quoted as in a shell; may be empty
-      task;                        ///< "K/T": rows K, K+T, ...; 0 <= K < T; empty: all
-  std::size_t tasks = 0;           ///< tasks, <= 4000000; 0: one for each row, at most 1000
+      task;                        ///< "K/T": rows K, K+T, ... from 0; 0 <= K < T; empty: all
+  std::size_t tasks = 0;           ///< tasks, 1 to 4000000; 0: one for each row, at most 1000
   bool gather = false;             ///< true: writes tables from finished rows, computes none
   /// CLI11's objects of --launcher, --gather and --task, by which a command declares that other
   /// options exclude them; nullptr before add_array_options().
@@ -103,21 +112,23 @@ struct ArrayOptions {
   bool is_slurm() const { return launcher == "slurm"; }  ///< whether a job is submitted
 };
 
-/// Adds these options, which set the members of `o`, which must outlive `command`. `results` is
-/// what --help calls the output of the command, such as "the tables".
+/// Adds the options of array jobs. They set the members of `o`, which must outlive `command`.
+/// `results` is what --help calls the output of the command, such as "the tables".
 void add_array_options(CLI::App& command, ArrayOptions& o, const std::string& results);
 
-/// Throws Error(kWrongUsage) if options are given that only --launcher slurm uses, or if --task is
-/// not K/T with 0 <= K < T.
+/// Throws Error(kWrongUsage) if --tasks or --slurm-options is given without --launcher slurm, or if
+/// --task is not K/T with 0 <= K < T.
 void check_array_options(const ArrayOptions& o);
 
-/// The rows that --task asks for; all rows if the option is not given. Throws Error(kWrongUsage) if
-/// --task is not K/T with 0 <= K < T.
+/// The rows that --task asks for: those whose number, from 0, leaves the remainder K when divided
+/// by T. All rows if the option is not given. Throws Error(kWrongUsage) if --task is not K/T with 0
+/// <= K < T.
 pipeline::Share share_of(const ArrayOptions& o);
 
-/// The request that these options make, for an array job that computes the rows of `output`.
-/// `jobs_option` is CLI11's object of --jobs, and `jobs` its value, the number of rows at once in a
-/// task, >= 1; if the option is not given, the request has none. Checks and throws nothing.
+/// The request for an array job that computes the rows of the table or folder `output`, made from
+/// the values in `o`. `jobs_option` is CLI11's object of --jobs. `jobs` is the value of --jobs, the
+/// number of rows that a task computes at once, >= 1; if --jobs is not given, the request has no
+/// such number. Checks and throws nothing.
 pipeline::ArrayRequest array_request(const ArrayOptions& o, const std::string& output,
                                      const CLI::Option& jobs_option, int jobs);
 
@@ -135,7 +146,8 @@ void with_remedy(std::string_view remedy, const Call& call) {
   }
 }
 
-/// Texts for with_remedy(): the options that help if a submission or --gather fails.
+/// These texts are arguments of with_remedy(). They name the options that help if a submission or
+/// --gather fails; their words may be changed.
 inline constexpr std::string_view kRemedyOfSlurm =
     "see --slurm-options, --tasks, or leave out --launcher slurm";
 inline constexpr std::string_view kRemedyOfGather =

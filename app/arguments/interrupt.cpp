@@ -1,6 +1,8 @@
-// Installs a signal handler with sigaction (interrupt.hpp), for main.cpp and the commands of app/.
-// A change must keep that the handler does nothing but set a lock-free flag, because a signal can
-// come in the middle of any function. Nothing is thrown, and a failure of sigaction is ignored.
+// Installs a handler for the signals SIGINT, SIGTERM and SIGHUP with sigaction (interrupt.hpp), for
+// main.cpp and the commands of app/. The first such signal sets a flag; further ones change
+// nothing, and the flag is never reset. Nothing is thrown, and a failure of sigaction is ignored.
+// Further signals may be added in catch_interrupts(). A change must keep that the handler does
+// nothing but set a lock-free flag, because a signal can come in the middle of any function.
 #include "viscontact/app/arguments/interrupt.hpp"
 
 #include <atomic>
@@ -16,9 +18,9 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 void remember_signal(int) { signal_came = true; }
 
-// Whether the program was started with SIGHUP ignored, as nohup does. main() would ask too late,
-// because libraries set handlers while they are loaded, such as the MPI that SUNDIALS of Debian 13
-// needs. A function in .preinit_array runs before those of all libraries.
+// True if the program was started with SIGHUP ignored, as by nohup. main() would ask too late,
+// because some libraries set handlers while they are loaded; one of them is the MPI that SUNDIALS
+// of Debian 13 needs. A function in .preinit_array runs before the functions of all libraries.
 bool hangup_is_ignored = false;
 
 void look_at_hangup() {

@@ -1,7 +1,7 @@
 // Turns Ctrl-C and similar signals into a request to stop. main.cpp and the commands of app/ pass
-// it as a StopToken to the libraries, which check it during long computations and then throw
-// Error(kInterrupted). Nothing is thrown here. A change must keep that the signal handler only sets
-// a flag.
+// this request as a StopToken to the libraries, which check it during long computations and then
+// throw Error(kInterrupted). Nothing is thrown here. Further signals may be added; a change must
+// keep that the signal handler only sets a flag.
 #pragma once
 
 #include "viscontact/common/stop_token.hpp"
@@ -15,8 +15,8 @@ namespace viscontact::app {
 /// the handlers is not checked. main() calls this function once.
 void catch_interrupts();
 
-/// The token that requests a stop after one of these three signals has come, for ever; it is valid
-/// as long as the process.
+/// The token of the program. It requests a stop as soon as SIGINT, SIGTERM or SIGHUP has come after
+/// catch_interrupts(), and from then on until the process ends. It is valid until the process ends.
 StopToken interrupt_token();
 
 }  // namespace viscontact::app

@@ -1,11 +1,12 @@
 // The commands of the program. Each function adds the command that it is named after, with its
 // options, to the command line `app`, and throws only CLI::OptionAlreadyAdded, if `app` has the
-// command. It runs while CLI11 parses the line, and throws viscontact::Error of any kind (common/
-// error.hpp; kInterrupted after Ctrl-C), std::filesystem::filesystem_error, or CLI::ParseError for
-// a wrong option. A CASE is a TOML file (docs/case-file.md) with numbers in its own units.
-// docs/command-line.md describes the commands. pipeline/ and the libraries do the work. main.cpp
-// calls these functions; a change must keep the names of commands and options, which scripts of
-// users contain.
+// command. A command runs while CLI11 parses the line. It then throws a viscontact::Error of any
+// kind (common/error.hpp; kInterrupted after Ctrl-C), std::filesystem::filesystem_error for a path
+// that the system refuses, or CLI::ParseError for a wrong option. The argument CASE of a command is
+// a TOML file (docs/case-file.md) with numbers in any consistent units. docs/command-line.md
+// describes the commands. main.cpp calls these functions. A new command that writes files must also
+// be added to the list kWriting in rerun_command.cpp. A change must keep the names of commands and
+// options, which scripts of users contain.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -13,8 +14,9 @@
 namespace viscontact::app {
 
 void add_compare(CLI::App& app);  ///< `compare`: compares trajectories of several models
-/// `doctor`: says which programs are installed. Sets `healthy`, which must outlive `app`, to false
-/// if one is missing or FreeFEM computes a wrong force; leaves it as it is otherwise.
+/// `doctor`: says which programs are installed. When the command runs, it sets `healthy`, which
+/// must outlive `app`: to true if all are installed and FreeFEM computes a right force, else to
+/// false.
 void add_doctor(CLI::App& app, bool& healthy);
 void add_export(CLI::App& app);     ///< `export`: writes a fit as code or numbers
 void add_fit(CLI::App& app);        ///< `fit`: fits a formula of the gap to a table of forces

@@ -1,9 +1,11 @@
 // The command `doctor`, which main.cpp adds: checks which programs are installed, says how to
 // install missing ones, and compares a drag factor (drag divided by Stokes' drag in unbounded
-// fluid) that FreeFEM computes with its exact value. --json prints the same findings; a change must
-// keep its keys `ok` and `what`. A failure of FreeFEM is a finding and no error. If one finding is
-// bad, main.cpp returns the exit code of kExternalProgram. Throws Error(kInterrupted) after Ctrl-C,
-// and std::system_error without free sockets for a child process.
+// fluid) that FreeFEM computes with its exact value. It prints one line for each finding. With
+// --json it prints an array of objects with the keys `ok` (true or false) and `what` (a text),
+// which a change must keep. A failure of FreeFEM is a finding and no error. If one finding is bad,
+// main.cpp returns the exit code of kExternalProgram. Throws Error(kInterrupted) after Ctrl-C, and
+// std::system_error if the system has no free sockets for a child process. Words, the time limit of
+// gnuplot and the known row may be changed.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -30,15 +32,16 @@ namespace {
 /// What one check has found.
 struct Finding {
   bool good;         ///< false: something is missing or wrong
-  std::string what;  ///< in words
+  std::string what;  ///< what was found, in words; one line
 };
 
 using Report = std::function<void(const Finding&)>;
 
 /// Computes a drag factor whose exact value is known: that of a sphere at a gap of 0.1 radii above
-/// a plane, with viscosity 1, radius 1 and velocity -1 (towards the plane), in a container so wide
-/// that it changes the drag factor by less than kTolerance. kBrenner is the exact value, from the
-/// series of Brenner (1961).
+/// a plane, with viscosity 1, radius 1 and velocity -1 (towards the plane). The container (radius
+/// 40, height 80) is so wide that it changes the drag factor by less than kTolerance. kBrenner is
+/// the exact value, from the series of Brenner (1961); another gap or geometry needs another exact
+/// value. Throws the errors of freefem_axi::solve_row().
 Finding solve_known_row(const freefem_axi::FreeFem& freefem) {
   constexpr double kBrenner = 11.45915720340955722964;
   constexpr double kTolerance = 1e-4;  // small enough to show a wrong installation
@@ -69,7 +72,8 @@ void examine_freefem(const Report& report) {
 }
 
 Finding examine_gnuplot() {
-  constexpr auto kLongest = std::chrono::minutes(1);  // gnuplot answers within a second
+  // gnuplot answers within a second; any longer limit would do.
+  constexpr auto kLongest = std::chrono::minutes(1);
   const auto gnuplot =
       run_process({"gnuplot", "--version"}, {}, {}, {}, kLongest, interrupt_token());
   if (!gnuplot.started || gnuplot.exit_status != 0)
@@ -85,7 +89,8 @@ void print_line(const Finding& finding) {
   fmt::print("{} {}\n", word, finding.what);
 }
 
-/// Prints the findings, one line each or as JSON. True if nothing is missing or wrong.
+/// Makes all checks and prints the findings, each on a line, or as JSON if `json` is true. Returns
+/// true if nothing is missing or wrong.
 bool examine(bool json) {
   std::vector<Finding> findings;
   const Report report = [&](const Finding& finding) {

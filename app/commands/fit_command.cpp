@@ -1,12 +1,13 @@
 // The command lines of `fit` (fits a formula to a table, or compares bases, which are lists of
 // terms), `shift` (fits the depth below the crests of a rough wall at which a smooth wall has equal
 // drag) and `export` (writes a fit as code or numbers), which main.cpp adds. docs/command-line.md
-// describes them, docs/theory.md the fit. Numbers are in the units of the table; a wrong option is
-// an Error(kWrongUsage), a file that must not be replaced an Error(kBadInput). Other errors are
-// those of command_options.hpp and of the functions in pipeline/, motions/, lubrication/ and
-// fitting/ that do the work; that of gnuplot, Error(kExternalProgram), is thrown after the fit is
-// written. refuse_other_kind() recognises a kind of file by a text that is given here, and in
-// python/fits.cpp again; a change must keep that the writer of the kind writes this text.
+// describes them, docs/theory.md the fit. Numbers are in the units of the table; --radius and
+// --viscosity are > 0. A wrong option is an Error(kWrongUsage); a wrong table or fit, and a file
+// that must not be replaced, are an Error(kBadInput); a fit that fails is an Error(kNotConverged).
+// A failure of gnuplot, Error(kExternalProgram), is thrown after the fit is written. Texts of
+// --help may be changed. refuse_other_kind() recognises a kind of file by a text in it, which is
+// given here and again in python/fits.cpp; a change must keep that the writer of this kind of file
+// writes the text.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -44,9 +45,10 @@ CLI::Validator positive_number() {
 }
 
 /// Reads `word`, the value of --fix, which fixes the coefficient of 1/q (q: the gap) in the force
-/// at the table's first velocity. The coefficient has the dimension [M L^2/T^2]. No value, "1/q" or
-/// "theory" fixes it at the value that lubrication theory gives (docs/theory.md); "1/q=56.5" fixes
-/// it at 56.5. Other values throw Error(kWrongUsage).
+/// at the table's first velocity. The coefficient has the dimension [M L^2/T^2]. An empty word,
+/// "1/q" or "theory" fixes it at the value that lubrication theory gives (docs/theory.md);
+/// "1/q=56.5" fixes it at 56.5, and any finite number is accepted. Other words throw
+/// Error(kWrongUsage).
 void read_fix(const std::string& word, fitting::FitSettings& settings) {
   settings.fix_leading = true;
   if (word.empty() || word == lubrication::kLeadingTerm || word == "theory") return;
@@ -59,9 +61,10 @@ void read_fix(const std::string& word, fitting::FitSettings& settings) {
                 word);
 }
 
-/// The values of the options of `fit`, which add_fit() explains. `fit` is that of --output, the
-/// file to write, and `table` is the first of `tables`. Other members are named after their
-/// options. A path or text without a value here is empty if its option was not given.
+/// The values of the options of `fit`, which add_fit() explains. `fit` is the value of --output,
+/// the path of the file to write. `tables` are the arguments TABLE, and `table` is the first of
+/// them. Each other member is named after its option. Of the texts, only `basis`, `weights` and
+/// `loss` have a default; the others are empty if their option was not given.
 struct FitOptions {
   std::string basis{lubrication::default_basis().name};
   std::vector<std::string> tables;
@@ -73,8 +76,9 @@ struct FitOptions {
                     *basis_option = nullptr, *weights_option = nullptr;
 };
 
-/// `fit` for the tables of a pair, a sphere beside its neighbour, in `files`. Throws
-/// Error(kWrongUsage) for options of a single table, and the errors of the stages of motions/.
+/// Runs `fit` for the tables `files` of a pair, which is a sphere and its neighbour (a plane or
+/// another body). Throws Error(kWrongUsage) for options of a single table, and the errors of the
+/// stages of motions/.
 void fit_tables_of_pair(const FitOptions& o, const std::vector<std::filesystem::path>& files) {
   if (o.terms_option->count() + o.fix_option->count() + o.weights_option->count() > 0 ||
       !o.plot.path.empty())
@@ -97,9 +101,10 @@ void fit_tables_of_pair(const FitOptions& o, const std::vector<std::filesystem::
   motions::fit_pair_stage(files, o.fit, settings, interrupt_token());
 }
 
-/// `fit`: checks the options and the files to write, then compares bases and writes the fit, as far
-/// as both were asked for. Throws Error(kWrongUsage) for options that contradict each other,
-/// Error(kBadInput) for a file that must not be replaced, and the errors of the stages.
+/// Runs `fit`: checks the options and the files to write, then compares bases if --compare-bases is
+/// given, and writes the fit if --output is given. Throws Error(kWrongUsage) for options that
+/// contradict each other, Error(kBadInput) for a file that must not be replaced, and the errors of
+/// the stages.
 void fit_table(FitOptions& o) {
   const auto files = motions::pair_table_files(o.tables);
   if (motions::are_of_pair(o.tables, files)) return fit_tables_of_pair(o, files);
@@ -143,16 +148,18 @@ void fit_table(FitOptions& o) {
   if (without_picture) throw Error(*without_picture);
 }
 
-/// The values of the options of `export`.
+/// The values of the options of `export`: paths of the fit and of the output, name of the target,
+/// and the words of --below and --above. An empty text means that the option was not given.
 struct ExportOptions {
   std::string fit, target, output, below, above;
-  double radius = 0, viscosity = 0;  // in the units of the fit; 0: those of the fit
+  double radius = 0, viscosity = 0;  // [L], [M/(L T)]; 0: as in the fit
 };
 
-/// The fit file `o.fit` as text for `o.target` (a language or format, fitting/export/). The file is
-/// the fit of one force, or of all resistances of a pair (a sphere and its neighbour). The text
-/// names `source` as its origin. Throws Error(kWrongUsage) if --below or --above is given for a
-/// pair or for a target without them, and Error(kBadInput) if the file is not a fit.
+/// Returns the fit in the file `o.fit` as text for `o.target`, the name of a language or format
+/// (fitting/export/). The file is the fit of one force, or of all resistances of a pair (a sphere
+/// and its neighbour). The text names `source` as its origin. Throws Error(kWrongUsage) if --below
+/// or --above is given for a pair or for a target without them, and Error(kBadInput) if the file is
+/// not a fit.
 std::string exported(const ExportOptions& o, const std::string& source) {
   const auto or_of_fit = [](double asked, double of_fit) { return asked > 0 ? asked : of_fit; };
   if (motions::is_pair_fit(o.fit)) {

@@ -1,7 +1,8 @@
 // The command `init`, which main.cpp adds: writes a commented case and prints the command that runs
-// it. The keys and defaults come from the declarations in case_file/case_file.cpp. Throws
-// Error(kBadInput) if the file exists or cannot be written, Error(kWrongUsage) for an empty name,
-// and std::filesystem::filesystem_error for a path that the system refuses. A change must keep that
+// it. The keys, their units, ranges and defaults come from the declarations in
+// case_file/case_file.cpp. Throws Error(kBadInput) if the file exists or cannot be written,
+// Error(kWrongUsage) for an empty name, and std::filesystem::filesystem_error for a path that the
+// system refuses. Title and comments of the case may be changed. A change must keep that
 // `viscontact run` accepts the case as it is written.
 
 #include <filesystem>
@@ -18,7 +19,8 @@
 namespace viscontact::app {
 namespace {
 
-/// The beginning of the case. The sections follow, made from the declarations of their keys.
+/// The beginning of the case. The sections follow it in the file; commented_case() makes them from
+/// the declarations of their keys.
 const std::string kHead =
     R"(# A case for Viscontact. Lengths, times and masses may be in any coherent system of units: all in SI
 # units, for example, or all lengths in radii of the sphere.

@@ -1,12 +1,12 @@
 // The command `rerun`, which main.cpp adds. Every output of Viscontact contains its provenance
-// (results/provenance.hpp): the command that made it, the folder of this command, and its inputs
-// with their hashes. `rerun` starts this command again. A provenance that is missing, or that names
-// a command which is not allowed, inputs that have changed and a missing folder are an
-// Error(kBadInput); an --output that the command cannot write is an Error(kWrongUsage), a failing
-// execv an Error(kExternalProgram), and a path that the system refuses a
-// std::filesystem::filesystem_error. Anybody may have written the file, so check_command() decides
-// which commands and options are run; a change must keep this check before execv. A new command
-// that writes files must be added to kWriting.
+// (results/provenance.hpp): the command that made it, the folder in which this command ran, and its
+// inputs with their hashes. `rerun` starts this command again. It throws Error(kBadInput) if the
+// provenance or the folder is missing, if the command is not allowed, or if inputs have changed;
+// Error(kWrongUsage) if the command cannot write --output; Error(kExternalProgram) if the program
+// cannot be started; and std::filesystem::filesystem_error for a path that the system refuses.
+// Anybody may have written the file, so check_command() decides which commands and options are run;
+// a change must keep this check before execv. A new command that writes files must be added to
+// kWriting.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -41,9 +41,9 @@ struct RerunOptions {
       dry_run = false;          ///< true: prints the command and does not run it
 };
 
-/// Throws Error(kBadInput) unless the command is a command of Viscontact that writes files. The
-/// command `rerun` is refused, and so are the options by which a file could make this program run
-/// other programs (--launcher, --slurm-options).
+/// Throws Error(kBadInput) unless the command is a command of Viscontact that writes files. Refuses
+/// the command `rerun`, and the options by which a file could make this program run other programs
+/// (--launcher, --slurm-options).
 void check_command(const std::string& file, const std::vector<std::string>& command) {
   constexpr auto kWriting = std::to_array<std::string_view>(
       {"run", "tabulate", "fit", "export", "shift", "simulate", "sweep", "compare", "report",
@@ -58,15 +58,15 @@ void check_command(const std::string& file, const std::vector<std::string>& comm
     throw_bad_input({file}, "its line 'provenance' contains a command that 'rerun' does not run");
 }
 
-/// The place of an option's value in a command: index of a word, and position in it at which the
-/// value begins.
+/// The place of an option's value in a command: `word` is the index of a word of the command, and
+/// `begin` is the position in this word at which the value begins; both count from 0.
 struct ValuePlace {
   std::size_t word = 0, begin = 0;
 };
 
-/// The place of the value of the option `name`, such as --output, with the short name `letter`
-/// ('\0': none). It may be written as "-o VALUE", "-oVALUE", "--output VALUE" or "--output=VALUE".
-/// Returns nothing if the command does not have the option.
+/// The place of the value of the option `name`, such as --output, which also has the one-letter
+/// name `letter` ('\0': it has none). The option may be written as "-o VALUE", "-oVALUE", "--output
+/// VALUE" or "--output=VALUE". Returns nothing if the command does not have the option.
 std::optional<ValuePlace> value_of(const std::vector<std::string>& command, char letter,
                                    const std::string& name) {
   const std::string shorter = letter == '\0' ? "" : std::string("-") + letter;
@@ -85,9 +85,10 @@ std::string value_at(const std::vector<std::string>& command, const ValuePlace& 
   return command[place.word].substr(place.begin);
 }
 
-/// The command of the provenance, changed so that it writes to `o.output` instead of
-/// provenance.output. Throws Error(kWrongUsage) if the command has no option for that, or if
-/// `o.output` must be a folder but is the name of a file.
+/// Returns the command of the provenance, changed so that it writes to `o.output` in place of
+/// provenance.output. Throws Error(kWrongUsage) if the command has no option for that, if the file
+/// is a picture that was drawn beside a table, or if `o.output` must be a folder but is the name of
+/// a file.
 std::vector<std::string> with_output(const RerunOptions& o, const results::Provenance& provenance) {
   auto command = provenance.command;
   const auto put = [&](const ValuePlace& place) {
@@ -203,7 +204,7 @@ void rerun(const RerunOptions& o) {
     throw_bad_input({folder.string()},
                     "the folder in which the file was made cannot be entered ({})",
                     std::strerror(errno));
-  // The program that runs now is started, not the one that the recorded command names.
+  // execv starts the program that runs now, and not the program that the recorded command names.
   std::vector<char*> arguments;
   for (auto& word : command) arguments.push_back(word.data());
   arguments.push_back(nullptr);

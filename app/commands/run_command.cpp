@@ -1,10 +1,13 @@
 // The command lines of `run` (all results of one case) and of its last stages, `simulate`,
-// `compare` and `report` (docs/command-line.md), which main.cpp adds. pipeline/, report/, rolling/,
-// swimmer/ and particles/ do the work, and the commands throw their errors; a wrong option is an
-// Error(kWrongUsage), a folder that another command has locked an Error(kBadInput), and a path that
-// the system refuses a std::filesystem::filesystem_error. A command must keep the folder into which
-// it writes locked until it ends, because two commands at once would mix their files.
-// report_again() repeats names of files that rolling/, swimmer/ and particles/ write.
+// `compare` and `report` (docs/command-line.md), which main.cpp adds. Numbers are in the units of
+// the case; --jobs is from 1 to 1024. pipeline/, report/, rolling/, swimmer/ and particles/ do the
+// work. The commands throw Error(kWrongUsage) for a wrong option; Error(kBadInput) for a wrong file
+// or a folder that another command has locked; Error(kExternalProgram) if FreeFEM or gnuplot fails;
+// Error(kNotConverged) if a computation fails; Error(kInterrupted) after Ctrl-C; and
+// std::filesystem::filesystem_error for a path that the system refuses. Texts of --help may be
+// changed. A command must keep the folder into which it writes locked until it ends, because two
+// commands at once would mix their files. report_again() repeats names of files that rolling/,
+// swimmer/ and particles/ write; a change of such a name must be made here, too.
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -133,8 +136,9 @@ void add_compare(CLI::App& app) {
 
 namespace {
 
-/// Writes the page and the pictures of a folder again. The command that made the folder is
-/// recognised by the names of its files.
+/// Writes the web page and the pictures of a folder again. The command that made the folder is
+/// recognised by the names of its files. Throws Error(kBadInput) if there is none of these files,
+/// and the errors of the function that is called.
 void report_again(const std::filesystem::path& folder) {
   const auto has = [&](const char* name) {
     return std::filesystem::is_regular_file(folder / name);

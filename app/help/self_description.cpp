@@ -1,9 +1,10 @@
 // Writes the completion scripts for bash and zsh, and the manual page in the language roff, which
 // main.cpp prints; self_description.hpp says what each function returns. Descriptions of options
-// contain special characters; before a change puts one into a script or the page, it must pass it
-// through zsh_description() and quoted(), or escaped(). kEnvironment repeats the time limits of
-// freefem_axi/journal/freefem.hpp. Nothing is thrown. help2man is not used for the page, because it
-// reads one --help, and here each command has its own.
+// contain special characters; a change must pass each text through zsh_description() and quoted()
+// before it stands in a script, and through escaped() before it stands in the page. kEnvironment
+// repeats the time limits of freefem_axi/journal/freefem.hpp. Nothing is thrown. The examples and
+// the widths of columns may be changed. help2man is not used for the page, because it reads one
+// --help, and here each command has its own.
 #include "viscontact/app/help/self_description.hpp"
 
 #include <fmt/format.h>
@@ -34,7 +35,8 @@ std::vector<std::string> names_of_option(const CLI::Option& option) {
   return names;
 }
 
-/// The words that the option's value can be, if it is one or a list of known words; else empty.
+/// The words that the option's value can be, if it is one known word or a list of them; otherwise
+/// there are no words.
 std::vector<std::string> words_for(const CLI::Option& option) {
   std::string type = option.get_type_name();
   if (type == kModel || type == kModels) type = names_of(reduced_model::all_models(), "|");
@@ -70,7 +72,8 @@ std::string zsh_description(const std::string& text) {
   return result;
 }
 
-/// Zsh code that offers the possible values of the option; a blank if they are not known.
+/// Zsh code that offers the possible values of the option. If they are not known, it is a blank,
+/// with which zsh shows the description of the option and offers nothing.
 std::string zsh_action(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   if (type == kFile) return "_files";

@@ -1,7 +1,8 @@
 // What the program says of its own command line: the manual page, and scripts by which shells
-// complete the command line. They are made from CLI11's list of options, so that they always agree
-// with --help. main.cpp prints them. A change must keep that every option is in all of them.
-// Nothing is thrown; no text is empty. `app` must have all its commands.
+// complete the command line. All are made from CLI11's list of options, so that they always agree
+// with --help. main.cpp prints them. Nothing is thrown; no text is empty. All commands must have
+// been added to `app` before (not checked), because a later one is missing in the text. Words and
+// layout may be changed; a change must keep that every option is in the page and in both scripts.
 #pragma once
 
 #include <string>
@@ -19,11 +20,13 @@ std::string help_footer();
 /// of Viscontact, such as "1.0".
 std::string manual(const CLI::App& app, const std::string& version);
 
-/// A script for bash that completes commands, options, words of a choice and files. The user
-/// sources it, or installs it as "viscontact" in bash's folder of completions.
+/// A script for bash that completes the names of commands, options and files, and the values of
+/// options that take one of several words. The user sources it, or installs it as "viscontact" in
+/// bash's folder of completions.
 std::string bash_completion(const CLI::App& app);
 
-/// A function for zsh, with descriptions, to be installed as "_viscontact" in a folder of fpath.
+/// A function for zsh that completes the same words and shows the descriptions of options. The user
+/// installs it as "_viscontact" in a folder of zsh's list fpath.
 std::string zsh_completion(const CLI::App& app);
 
 }  // namespace viscontact::app

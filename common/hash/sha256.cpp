@@ -1,5 +1,7 @@
-// Computes SHA-256 with OpenSSL (sha256.hpp), for all parts that write results. A failure of
-// OpenSSL is asserted. A change must keep the digits, which files contain.
+// Computes SHA-256 with OpenSSL (sha256.hpp), for all parts that write results. The input is any
+// number of bytes, the output 64 hexadecimal digits. A failure of OpenSSL is asserted; a build
+// without assertions then returns wrong digits or an empty text. Another library may be used; a
+// change must keep the digits, which published files contain.
 #include "viscontact/common/hash/sha256.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,8 @@
-// Compiles the decompositions of dense matrices that decompositions.hpp declares. Numbers have any
-// units; errors are those that Eigen documents. A change must keep that the list is the one of
-// decompositions.hpp, because the program cannot be linked without a definition.
+// Compiles the decompositions of dense matrices that decompositions.hpp declares. A source that
+// includes decompositions.hpp uses them. Numbers have any units. Eigen throws nothing for a bad
+// matrix: wrong sizes are asserted, and a singular or not finite matrix shows in info(), rank() or
+// the result. A further decomposition needs a line in both files. A change must keep the lists in
+// both files equal, because the program cannot be linked if a definition is missing here.
 #include "viscontact/common/matrices/decompositions.hpp"
 
 template void Eigen::ColPivHouseholderQR<Eigen::MatrixXd>::computeInPlace();

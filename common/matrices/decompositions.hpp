@@ -1,12 +1,15 @@
 // The decompositions of dense matrices by Eigen, compiled once. A source that decomposes an
 // Eigen::MatrixXd includes this header in place of Eigen/Cholesky, Eigen/Eigenvalues, Eigen/LU,
 // Eigen/QR and Eigen/SVD. Otherwise each such source compiles the decomposition again, which takes
-// 1 to 5 s. Numbers have any units; errors are those that Eigen documents.
+// 1 to 5 s. Numbers have any units. Eigen throws nothing for a bad matrix: wrong sizes are
+// asserted, and a singular or not finite matrix shows in info(), rank() or the result, which the
+// caller must check.
 //
 // The declarations below fit only if the argument is an Eigen::MatrixXd: a product or a sum must be
-// stored in a matrix before it is decomposed. Any other argument is right, too, but is compiled
-// with the source. Sources of fitting, reduced_model, swimmer, particles and freefem_flow use this
-// header. A change must keep that each declaration has its definition in decompositions.cpp.
+// stored in a matrix before it is decomposed. Any other argument is allowed, too, but its
+// decomposition is compiled with the source. Sources of fitting, reduced_model, swimmer, particles
+// and freefem_flow use this header. Further declarations may be added; each must have its
+// definition in decompositions.cpp.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -15,8 +18,8 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
-// Only the members that take time to compile. Whole classes would have members that nobody calls.
-// Doxygen does not understand these declarations.
+// These are only the members that take time to compile, because whole classes would have members
+// that nobody calls. Doxygen leaves them out, because it does not understand them.
 /// @cond
 extern template void Eigen::ColPivHouseholderQR<Eigen::MatrixXd>::computeInPlace();
 extern template void Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>::computeInPlace();

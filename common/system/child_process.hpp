@@ -1,9 +1,10 @@
 // A child process with which this process exchanges many messages, such as a fluid solver (Linux):
 // text goes to its standard input, and words come from its standard output. Used by freefem_flow/.
-// Failures are Error(kExternalProgram) if the program cannot be run, Error(kInterrupted) at a stop,
-// std::system_error without free sockets; a child that fails later is a state, no error. A change
-// must keep that no function waits longer than its deadline, also if a pipe is full, or if the
-// child has ended or is silent.
+// Throws Error(kExternalProgram) if the program cannot be run, Error(kInterrupted) if a stop is
+// requested while it waits, and std::system_error if the system has no free sockets. If the child
+// fails later, nothing is thrown: the state of a Reading says so. A change must keep that no
+// function waits longer than its deadline, also if the child no longer reads or writes, or has
+// ended.
 #pragma once
 
 #include <array>
@@ -18,23 +19,24 @@
 
 namespace viscontact {
 
-/// The last lines of two streams, in the order in which the lines were completed. Blank lines, the
-/// white space at both ends of a line, and its bytes beyond kLongest are left out.
+/// The last lines of two streams, in the order in which the lines were completed. The list has no
+/// blank lines, no white space at the ends of a line, and no bytes of a line beyond kLongest.
 class LastLines {
  public:
-  // Error messages show these lines. Other small numbers would do as well.
+  // Error messages show the lines. Both numbers are free choices; other small ones would do as
+  // well.
   static constexpr std::size_t kLines = 20,  ///< number of lines that are kept
       kLongest = 1000;                       ///< number of bytes of a line that are kept
 
-  /// The streams: standard output and standard error.
+  /// The two streams of a child: its standard output and its standard error.
   enum Stream { kOutput, kErrors };
 
   /// Adds what was read from a stream. `text` may end within a line, and the next text of the
   /// stream then continues it.
   void add(Stream stream, std::string_view text);
 
-  /// At most kLines lines without their ends, the oldest first, those that are not complete last;
-  /// none if nothing was added.
+  /// The lines without their line ends, at most kLines, the oldest first. Lines that are not
+  /// complete yet come last. There are no lines if nothing was added.
   std::deque<std::string> lines() const;
 
  private:
@@ -44,11 +46,12 @@ class LastLines {
   std::array<std::string, 2> incomplete_;
 };
 
-/// The child leads a process group of its own. The group is killed when the object is destroyed,
-/// and the child is ended by the kernel when the thread that made the object ends, even by SIGKILL.
+/// A child process, which leads a process group of its own. The group is killed when the object is
+/// destroyed. The kernel ends the child when the thread that made the object ends, even by SIGKILL.
 ///
-/// read_word() and read_line() throw Error(kInterrupted) if they would wait while `stop` of the
-/// constructor requests a stop, at most 0.1 s after the request. The other functions throw nothing.
+/// read_word() and read_line() throw Error(kInterrupted) if they have to wait and `stop` of the
+/// constructor requests a stop; they notice the request within 0.1 s. The other functions, except
+/// the constructor, throw nothing.
 class ChildProcess {
  public:
   /// The clock of the deadlines.
@@ -62,9 +65,9 @@ class ChildProcess {
   ChildProcess& operator=(const ChildProcess&) = delete;
   ~ChildProcess();
 
-  /// Adds `text` to what is sent to the child. It is sent while one of the functions below waits,
-  /// so that a child that writes before it reads cannot block both sides. If the child no longer
-  /// reads, the text is lost without an error.
+  /// Adds `text` to what is sent to the child. The text is sent while one of the functions below
+  /// waits, so that a child that writes before it reads cannot block both processes. If the child
+  /// no longer reads, the text is lost without an error.
   void send(std::string_view text);
 
   /// How the attempt to read a word or a line ended.
@@ -72,42 +75,46 @@ class ChildProcess {
     kRead,      ///< the word or line was read
     kClosed,    ///< the child has closed its standard output before the end of a word or line
     kTimedOut,  ///< the deadline has passed
-    kTooLong,   ///< longer than kLongestText; `text` is the beginning, and nothing was taken
+    kTooLong,   ///< longer than kLongestText; `text` is its beginning, and it stays unread
   };
   /// What was read. `text` is valid until the next call of a function of the object.
   struct Reading {
     State state = State::kRead;  ///< how reading ended
-    std::string_view text{};     ///< the word or line, or what there is of it; empty if kTimedOut
+    std::string_view text{};     ///< the word or line, or its beginning; empty if kTimedOut
   };
-  /// Bytes of the longest word or line that is accepted, which bounds the memory. Answers are
-  /// numbers and messages, which are shorter.
+  /// Number of bytes of the longest word or line that is accepted. The limit bounds the memory and
+  /// is a free choice; the solvers answer with numbers and messages, which are shorter.
   static constexpr std::size_t kLongestText = 4096;
 
-  /// The next word of the output, which white space must follow: after a last word without it the
-  /// state is kClosed and `text` is empty.
+  /// Reads the next word of the output. White space must follow the word: if the output ends
+  /// directly after it, the state is kClosed and `text` is empty. Waits at most until `deadline`.
   Reading read_word(Clock::time_point deadline);
 
-  /// The rest of the current line of the output, without its end. At the end of the output the line
-  /// need not be complete: state is kClosed, and `text` is what there is.
+  /// Reads the rest of the current line of the output, without its line end. If the output ends
+  /// before the line is complete, the state is kClosed, and `text` is the incomplete line. Waits at
+  /// most until `deadline`.
   Reading read_line(Clock::time_point deadline);
 
-  /// Makes the next call read the last word again; only directly after read_word() gave kRead.
+  /// Makes the next call read the last word again. It must be called directly after read_word() has
+  /// returned kRead (not checked).
   void put_word_back() { at_ = word_start_; }
 
-  /// The largest resident memory of the child so far [1024 bytes], without that of its own
-  /// children; 0 if the child has ended.
+  /// The largest resident memory of the child so far [1024 bytes], without the memory of processes
+  /// that the child has started; 0 if the child has ended.
   long peak_memory_kb() const;
 
-  /// True if the child has written something that was not read yet, other than white space.
+  /// True if the child has written something other than white space that was not read yet. Does not
+  /// wait.
   bool has_unread_output();
 
-  /// Adds a line of the output that was read to last_lines().
+  /// Adds `line`, a line that was read from the output, to last_lines().
   void keep(std::string_view line);
 
-  /// Closes the standard input of the child, waits for the end of the child until `grace` has
-  /// passed, and then kills its process group. All output that was not read is added to
-  /// last_lines(). Returns how the child ended: "ended with status 3", "ended by signal 11
-  /// (Segmentation fault)", or "had to be stopped". A stop request only ends the waiting.
+  /// Closes the standard input of the child, waits for the end of the child at most for `grace`
+  /// [ms], and then kills its process group. All output that was not read is added to last_lines().
+  /// Returns how the child ended: "ended with status 3", "ended by signal 11 (Segmentation fault)",
+  /// or "had to be stopped". A stop request only ends the waiting. Afterwards only last_lines() may
+  /// be called (not checked).
   std::string finish(std::chrono::milliseconds grace);
 
   /// The last lines of the standard error, and of the output that keep() or finish() added.

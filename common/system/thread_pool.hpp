@@ -1,9 +1,9 @@
 // Threads that share loops over fixed blocks, used by particles/ for the steps of many particles.
-// The first exception of a loop is thrown again where the loop was called; threads that the system
-// refuses are no error. A change must keep the results independent of the number of threads, bit
-// for bit. oneTBB 2021.8 is not used, because ThreadSanitizer cannot check it. It is hardly faster:
-// for a loop of 2, 4 and 16 blocks on two idle cores it takes 21, 40 and 156 us, and this class
-// takes 21, 45 and 159 us.
+// The first exception of a loop is thrown again where the loop was called. If the system refuses
+// threads, fewer are used and nothing is thrown. A change must keep the results independent of the
+// number of threads, bit for bit. oneTBB 2021.8 is not used, because ThreadSanitizer cannot check
+// it. oneTBB is hardly faster: for a loop of 2, 4 and 16 blocks on two idle cores it takes 21, 40
+// and 156 us, and this class takes 21, 45 and 159 us.
 #pragma once
 
 #include <algorithm>
@@ -15,34 +15,37 @@
 
 namespace viscontact {
 
-/// A loop is divided into blocks whose bounds depend on its length alone. Each block is computed by
-/// one thread, and the results of the blocks are added in their order. The result therefore has the
-/// same bits for any number of threads.
+/// Threads that compute loops over indices from 0. A loop is divided into blocks whose bounds
+/// depend on the length of the loop alone. Each block is computed by one thread, and the results of
+/// the blocks are added in their order. The result therefore has the same bits for any number of
+/// threads.
 class ThreadPool {
  public:
-  /// `threads` >= 1 (less counts as 1), including the calling thread; fewer are used if the system
-  /// refuses to start more. Between loops the threads look for the next loop for about 1 ms, then
-  /// sleep. One loop at a time: `body` must not start another one (not checked).
+  /// `threads` is the number of threads with the calling one; less than 1 counts as 1. If the
+  /// system refuses to start so many, fewer are used. Between loops the threads look for the next
+  /// loop for about 1 ms, then sleep. A pool computes one loop at a time: `body` must not start
+  /// another one (not checked).
   explicit ThreadPool(int threads);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
-  /// Number of entries in a block. In the loops of the solver of a particle step
-  /// (docs/particles.md) a block is about 0.1 ms of work; for less work, waking a thread costs more
-  /// time than the thread saves.
+  /// Number of indices in a block. Another number changes sums in their last digits. In the loops
+  /// of the solver of a particle step (docs/particles.md) a block is about 0.1 ms of work; for less
+  /// work, waking a thread costs more time than the thread saves.
   static constexpr std::size_t kBlock = 16384;
 
-  /// Number of threads, >= 1, with the calling one.
+  /// Number of threads, >= 1, including the calling thread.
   std::size_t threads() const;
 
-  /// Calls body(0) to body(blocks - 1), in this order, on the threads that are free. Throws as
-  /// for_blocks().
+  /// Calls body(0) to body(blocks - 1), which the threads take in this order when they
+  /// are free. Throws as for_blocks().
   void run(std::size_t blocks, const std::function<void(std::size_t)>& body);
 
-  /// Calls body(begin, end) for each block of [0, count), never for count = 0. The calls run on all
-  /// threads of the pool. If one throws, the first exception is thrown again when all calls have
-  /// ended; a pool of one thread throws at once and leaves out the remaining blocks.
+  /// Calls body(begin, end) for each block of [0, count), and does not call it if count is 0. The
+  /// calls run on all threads of the pool, in any order. If one throws, the first exception is
+  /// thrown again when all calls have ended; a pool of one thread throws at once and leaves out the
+  /// remaining blocks.
   template <class Body>
   void for_blocks(std::size_t count, const Body& body) {
     const std::size_t blocks = (count + kBlock - 1) / kBlock;
@@ -55,8 +58,9 @@ class ThreadPool {
     });
   }
 
-  /// Adds, by += in the order of the blocks, what body(begin, end) returns for each block. Returns
-  /// Result{} if count is 0. Throws as for_blocks().
+  /// Calls body(begin, end) for each block as for_blocks() does, and adds the returned values with
+  /// += in the order of the blocks. Returns Result{} if count is 0. Throws the errors of
+  /// for_blocks().
   template <class Result, class Body>
   Result sum_of_blocks(std::size_t count, const Body& body) {
     if (count <= kBlock) return count > 0 ? body(std::size_t{0}, count) : Result{};
@@ -74,18 +78,19 @@ class ThreadPool {
   std::unique_ptr<Workers> workers_;  // null for one thread
 };
 
-/// A Result of sum_of_blocks(): the largest of the values of all blocks; minus infinity if there
-/// are none.
+/// A type Result for sum_of_blocks() whose sum is the largest value of all blocks; minus infinity
+/// if there are no blocks.
 struct MaximumOfBlocks {
   double value = -std::numeric_limits<double>::infinity();  ///< largest value so far
-  /// Takes the larger value of both.
+  /// Takes the larger of both values; a NaN in `other` has no effect.
   MaximumOfBlocks& operator+=(const MaximumOfBlocks& other) {
     value = std::max(value, other.value);
     return *this;
   }
 };
 
-/// A Result of sum_of_blocks(): the lists of all blocks, one after the other.
+/// A type Result for sum_of_blocks() whose sum contains the lists of all blocks, one after the
+/// other.
 template <class T>
 struct ConcatenatedBlocks {
   std::vector<T> values;  ///< in the order of the blocks

@@ -1,7 +1,8 @@
 // Reads JSON texts (RFC 8259) and remembers the line of each value, so that an error can name it. A
-// text that is no JSON throws Error(kBadInput) with its line; what the values mean is not checked
-// here. Readers of fit files, comparisons, provenance and records of runs use it. A change must
-// keep the order of the keys, because files are written in this order.
+// text that is not valid JSON throws Error(kBadInput) with the line of the fault; units and meaning
+// of the values are not checked here. Readers of fit files, comparisons, provenance and records of
+// runs use this file. The limits of eight levels and 200 characters below are free choices. A
+// change must keep the order of the keys, because files are written in this order.
 #pragma once
 
 #include <filesystem>
@@ -43,9 +44,9 @@ class JsonDocument {
 /// a position, shortened to about 200 characters.
 std::string cause_in_words(const Json::exception& error);
 
-/// Calls `read` with the JSON in the file at `path`. Throws Error(kBadInput), which names the file,
-/// if it cannot be read or is not valid JSON, or if a value that `read` asks for is missing or of
-/// another type (a Json::exception). Other exceptions of `read` pass unchanged.
+/// Calls `read` with the JSON value in the file at `path`. Throws Error(kBadInput), which names the
+/// file, if the file cannot be read or is not valid JSON, or if a value that `read` asks for is
+/// missing or of another type (a Json::exception). Other exceptions of `read` pass unchanged.
 void read_json(const std::filesystem::path& path, const std::function<void(const Json&)>& read);
 
 }  // namespace viscontact

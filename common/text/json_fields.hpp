@@ -8,8 +8,9 @@
 //
 // with the fields in the order of the file. Numbers have the units of S. Every error of reading is
 // an Error(kBadInput), which names the file, the line, the key and what is allowed there; writing
-// checks and throws nothing, and a NaN or infinity becomes null. lubrication/, motions/,
-// reduced_model/ and swimmer/ use it for fits and comparisons; published files must stay readable.
+// checks and throws nothing, and writes a NaN or infinity as null. lubrication/, motions/,
+// reduced_model/ and swimmer/ use this file for fits and comparisons. Further types of members may
+// be added; a change must keep published files readable.
 #pragma once
 
 #include <fmt/format.h>
@@ -28,8 +29,9 @@
 
 namespace viscontact {
 
-/// Whether a file may lack a key: kRefused: no; kAllowed: yes; kLeftOutIfEmpty: yes, and a file is
-/// written without the key if the value is empty, nothing or 0.
+/// Says whether a file may lack a key. kRefused: the file must have it; kAllowed: it may lack it;
+/// kLeftOutIfEmpty: it may lack it, and it is written without the key if the value is an empty text
+/// or list, an optional without a value, or 0.
 enum class Absence { kRefused, kAllowed, kLeftOutIfEmpty };
 
 /// Writes or reads the fields of a JSON object; the functions below are called by fields_of() of a
@@ -37,7 +39,7 @@ enum class Absence { kRefused, kAllowed, kLeftOutIfEmpty };
 class JsonFields {
  public:
   /// The struct that `text`, the content of a file, describes; `file` names it in messages. Throws
-  /// Error(kBadInput) with the line, the key, what is allowed, and then `remedy`.
+  /// Error(kBadInput) with the line, the key and what is allowed; the message ends with `remedy`.
   template <class Struct>
   static Struct read(const std::string& text, const std::string& file,
                      const std::string& remedy = "") {
@@ -51,7 +53,7 @@ class JsonFields {
     }
   }
 
-  /// The JSON object of a struct.
+  /// The JSON object of a struct. Throws nothing.
   template <class Struct>
   static Json write(Struct value) {
     JsonFields fields;
@@ -59,7 +61,8 @@ class JsonFields {
     return fields.written_;
   }
 
-  /// The text of a file, in which each level is indented by `indent` >= 0 spaces more.
+  /// The text of a JSON file for `value`, in which each level is indented by `indent` >= 0 spaces
+  /// more than the level around it.
   template <class Struct>
   static std::string text_of(const Struct& value, int indent = 2) {
     // Texts from the head of a table may contain bytes that are not UTF-8. dump() replaces them
@@ -70,14 +73,14 @@ class JsonFields {
   /// True while the fields are read, not written; fields_of() may then check their values.
   bool reads() const { return json_ != nullptr; }
 
-  /// Throws Error(kBadInput) with "FILE:LINE: KEY WHAT". An empty `key` stands for the object. Only
-  /// while reads().
+  /// Throws Error(kBadInput) with "FILE:LINE: KEY WHAT". An empty `key` stands for the object
+  /// itself. It may only be called if reads() is true (not checked).
   [[noreturn]] void fail(const std::string& key, const std::string& what) const {
     const std::string where = path_of(key);
     throw_bad_input({document_->file(), document_->line_of(where)}, "{} {}",
                     where.empty() ? "the file" : where, what);
   }
-  /// As above; `what` is a format with these arguments.
+  /// Throws the same error; `what` is a format with these arguments.
   template <class First, class... Rest>
   [[noreturn]] void fail(const std::string& key, fmt::format_string<First, Rest...> what,
                          First&& first, Rest&&... rest) const {
@@ -85,10 +88,11 @@ class JsonFields {
   }
 
   /// Reads or writes the member `value` under `key`. Its type is double (finite), bool,
-  /// std::size_t, long, std::string, std::optional (an empty one is written as null, or left out
-  /// with kLeftOutIfEmpty), a map of texts, an array of two numbers, a struct with fields_of(), or
-  /// a vector of any of these. A key that a file may lack and lacks leaves `value` as it is. Throws
-  /// if another key is missing or its value has another type; a struct also for an unknown key.
+  /// std::size_t, long, std::string, std::optional (without a value it is written as null, or left
+  /// out with kLeftOutIfEmpty), a map of texts, an array of two numbers, a struct with fields_of(),
+  /// or a vector of any of these. If the key is missing and may be missing, `value` is not changed.
+  /// Throws Error(kBadInput) if the key is missing otherwise, if its value has another type, or if
+  /// the object of a struct has an unknown key.
   template <class Value>
   void operator()(const std::string& key, Value& value, Absence absence = Absence::kRefused) {
     if (!reads()) {
@@ -104,21 +108,24 @@ class JsonFields {
     }
   }
 
-  /// A finite number that must exist and pass the test `allowed` when it is read.
+  /// Reads or writes a finite number. When it is read, the key must exist and the number must pass
+  /// the test `allowed`, or Error(kBadInput) is thrown.
   void operator()(const std::string& key, double& value, const Allowed& allowed) {
     (*this)(key, value);
     if (reads() && !allowed.test(value)) fail(key, "is {}; it must be {}", value, allowed.words);
   }
 
-  /// Two gaps [L], of which, when they are read, the first must be > 0 and less than the second.
+  /// Reads or writes two gaps [L]. When they are read, the first must be > 0 and less than the
+  /// second, or Error(kBadInput) is thrown.
   void gap_interval(const std::string& key, std::array<double, 2>& interval) {
     (*this)(key, interval);
     if (reads() && !(interval[0] > 0 && interval[1] > interval[0]))
       fail(key, "is {}; it must be two gaps with 0 < first < second", json_->at(key).dump());
   }
 
-  /// A vector as a JSON object with a member for each element of `values`: its key is the element's
-  /// member `name`, and its value is part(element).
+  /// Reads or writes a vector as a JSON object that has one key for each element of `values`. The
+  /// key is the member `name` of the element, and the value is part(element), a reference to
+  /// another member. Throws Error(kBadInput) for a missing key or a value that is not an object.
   template <class Value, class Part>
   void by_name(const std::string& key, std::vector<Value>& values, std::string Value::*name,
                const Part& part, Absence absence = Absence::kRefused) {
@@ -135,9 +142,10 @@ class JsonFields {
     }
   }
 
-  /// A value, such as an enumerator, that is written as the word to_string(value) and read by
-  /// parse(word). For other words `parse` throws Error("...; what is allowed"); the error that is
-  /// thrown here ends with "; what is allowed".
+  /// Reads or writes a value, such as an enumerator, as a word: to_string(value) gives the word,
+  /// and parse(word) the value. For a wrong word `parse` must throw an Error whose message ends
+  /// with "; " and what is allowed; this end becomes the end of the Error(kBadInput) that is thrown
+  /// here.
   template <class Value, class Parse>
   void word(const std::string& key, Value& value, const Parse& parse,
             Absence absence = Absence::kRefused) {
@@ -153,15 +161,16 @@ class JsonFields {
     }
   }
 
-  /// A key that must exist and have this text.
+  /// Reads or writes a key that must exist and have the value `text`; another value throws
+  /// Error(kBadInput).
   void constant(const std::string& key, const std::string& text) {
     std::string found = text;
     (*this)(key, found);
     if (found != text) fail(key, "is '{}'; it must be '{}'", found, text);
   }
 
-  /// A key whose object other code reads and writes, and that a file may lack. Only its type is
-  /// checked when a file is read; nothing is written.
+  /// Accepts a key whose object other code reads and writes, and that a file may lack. When a file
+  /// is read, Error(kBadInput) is thrown if the value is not an object; nothing is written.
   void foreign_object(const std::string& key) {
     if (reads() && is_there(key, Absence::kAllowed))
       JsonFields(*document_, json_->at(key), path_of(key));

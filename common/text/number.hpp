@@ -1,6 +1,7 @@
 // Converts numbers to text and back without loss. The locale has no effect. All parts use these
-// functions for the numbers in text files other than JSON and TOML. A change must keep the texts,
-// because hashes in files are computed from them. Numbers have any unit. Nothing is thrown.
+// functions for the numbers in text files other than JSON and TOML. Numbers have any unit. Nothing
+// is thrown. Further formats may be read; a change must keep the text of each number, because
+// hashes in files are computed from such texts.
 #pragma once
 
 #include <optional>
@@ -9,7 +10,8 @@
 
 namespace viscontact {
 
-/// The shortest decimal text that reads back to the same double. `value` must be finite (asserted).
+/// The shortest decimal text that reads back to the same double. `value` must be finite (asserted;
+/// a build without assertions writes "inf" or "nan").
 std::string format_number(double value);
 
 /// The double nearest to a decimal text, which blanks and tabs may surround and a "+" may begin.

@@ -1,8 +1,9 @@
 // The arrays of a VTK XML file with appended raw data (VTK's file formats, "XML file formats"):
 // writes them, and reads what was written on a machine with the same byte order. Numbers are copied
-// without conversion, in the units of the caller. Only AppendedReader throws, Error(kBadInput).
-// particles/ and flow_vtk.cpp use it for frames and flows; a change must keep the files of earlier
-// versions readable.
+// without conversion, in the units of the caller. Writing checks and throws nothing; AppendedReader
+// throws Error(kBadInput) for a file that is not whole. particles/ and flow_vtk.cpp use this file
+// for frames (the particles at one time) and flows. Further kinds of cells may be added; a change
+// must keep the files of earlier versions readable.
 #pragma once
 
 #include <fmt/format.h>
@@ -23,9 +24,10 @@ namespace viscontact {
 /// Collects the `AppendedData` of a file and makes the elements that refer to it.
 class AppendedData {
  public:
-  /// Appends `values` and returns the element `DataArray` that refers to them. `type` is their type
-  /// in VTK, such as Float64 for double, and `components` >= 1 the number of values at a point or
-  /// cell, which stand together. Neither is checked; `values` may be empty.
+  /// Appends `values` and returns the XML element `DataArray` with the name `name` that refers to
+  /// them. `type` is the type of the values in VTK, such as Float64 for double. `components` >= 1
+  /// is the number of values of each point or cell, which follow each other. Neither is checked;
+  /// `values` may be empty.
   template <class Number>
   std::string array(const char* type, std::string_view name, int components,
                     const std::vector<Number>& values) {
@@ -38,7 +40,7 @@ class AppendedData {
     bytes_.append(reinterpret_cast<const char*>(values.data()), size);
     return element;
   }
-  /// The first lines of a file of type `type`, such as PolyData.
+  /// The first lines of a VTK file of the type `type`, such as PolyData; its words are not checked.
   static std::string opening(std::string_view type) {
     return fmt::format(
         "<?xml version=\"1.0\"?>\n"
@@ -54,32 +56,35 @@ class AppendedData {
   std::string bytes_;
 };
 
-/// The cells of PolyData: vertices, which VTK numbers first, and lines between two points.
+/// The cells of a file of the type PolyData: vertices, which VTK numbers first, and lines between
+/// two points.
 struct PolyCells {
   std::vector<std::int64_t> vertices,  ///< numbers of the points that are vertices, from 0
       vertex_ends,  ///< for each vertex, the number of entries of `vertices` up to it
       lines,        ///< numbers of the two points of each line, from 0
       line_ends;    ///< for each line, the number of entries of `lines` up to it
 
-  /// Adds a vertex at the point with this number, from 0; that the point exists is not checked here
-  /// and below.
+  /// Adds a vertex at the point with this number, from 0. That the point exists is not checked.
   void add_vertex(std::int64_t point) {
     vertices.push_back(point);
     vertex_ends.push_back(std::ssize(vertices));
   }
-  /// Adds a line between the points with these numbers.
+  /// Adds a line between the points with these numbers, from 0. That the points exist is not
+  /// checked.
   void add_line(std::int64_t first, std::int64_t second) {
     lines.insert(lines.end(), {first, second});
     line_ends.push_back(std::ssize(lines));
   }
-  /// The element that opens a piece with `points` points and the cells of this object.
+  /// The XML elements that open PolyData and a piece of it with `points` points and the cells of
+  /// this object.
   std::string opening(std::size_t points) const {
     return fmt::format(
         "<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\">\n",
         points, vertex_ends.size(), line_ends.size());
   }
-  /// The elements of the points, of the cells, and of the end of the piece; appends their arrays to
-  /// `data`. `points` has three coordinates [L] for each point, x, y, z (not checked).
+  /// Returns the elements of the points, of the cells, and of the end of the piece and of PolyData,
+  /// and appends their arrays to `data`. `points` has the three coordinates x, y, z [L] of each
+  /// point, one point after the other (not checked).
   std::string closing(AppendedData& data, const std::vector<double>& points) const {
     std::string text = "<Points>\n" + data.array("Float64", "Points", 3, points);
     text += "</Points>\n<Verts>\n";
@@ -92,8 +97,8 @@ struct PolyCells {
   }
 };
 
-/// The text between the first `before` and the next `after`; nothing if one of them is missing. It
-/// is a part of `text`, which must outlive it.
+/// The part of `text` between the first occurrence of `before` and the next one of `after`; nothing
+/// if one of them is missing. `text` must outlive the result.
 inline std::optional<std::string_view> between(std::string_view text, std::string_view before,
                                                std::string_view after) {
   const auto found = text.find(before);
@@ -107,8 +112,9 @@ inline std::optional<std::string_view> between(std::string_view text, std::strin
 /// Reads the arrays of a file that AppendedData wrote. `text` must outlive this object.
 class AppendedReader {
  public:
-  /// `text` is the content of `file`, which messages name; `what` says in them what it should be,
-  /// such as "frame". Throws the error of refuse() if the text has no appended data.
+  /// `text` is the content of the file with the name `file`, which messages contain. `what` says in
+  /// messages what the file should be, such as "frame". Throws the error of refuse() if the text
+  /// has no appended data.
   AppendedReader(std::string_view text, std::string file, std::string what)
       : file_(std::move(file)), what_(std::move(what)) {
     constexpr std::string_view kMark = "<AppendedData encoding=\"raw\">\n_";
@@ -118,14 +124,15 @@ class AppendedReader {
     bytes_ = text.substr(mark + kMark.size());
   }
 
-  /// True if the element `section`, such as PointData, has the array `name`.
+  /// True if the XML element `section`, such as PointData, contains the array `name`.
   bool has_array(std::string_view section, std::string_view name) const {
     return after_name(section, name).has_value();
   }
 
-  /// The array `name` in the element `section`: the values of all points or cells, one after the
-  /// other; may be empty. Throws Error(kBadInput), which names the file, if there is none or it is
-  /// cut short. That `Number` is the type which the file states is not checked.
+  /// The array `name` in the XML element `section`: the values of all points or cells, one after
+  /// the other. It may be empty. Throws Error(kBadInput), which names the file, if there is no such
+  /// array, if the file ends within it, or if its size is not a multiple of that of `Number`.
+  /// Whether `Number` is the type that the file states is not checked.
   template <class Number>
   std::vector<Number> array(std::string_view section, std::string_view name) const {
     const auto element = after_name(section, name);

@@ -1,9 +1,10 @@
 // The flow of a fluid on a mesh of quadratic triangles in a plane, and its VTK file for ParaView.
 // freefem_axi/ and freefem_flow/ make flows, report/flow/ draws them, freefem_axi/ and particles/
-// write files, and particles/picture/ reads them again. Lengths, masses and times are in the units
-// of the case. A file that cannot be read, or whose nodes do not exist, throws Error(kBadInput).
-// Lengths of lists that are written, and whether numbers are finite, are not checked. A change must
-// keep the order of nodes, which is that of VTK, and the arrays and names of the file.
+// write the files, and particles/picture/ reads them. Lengths, masses and times are in the units of
+// the case. A file that cannot be read, or whose triangles have nodes that do not exist, throws
+// Error(kBadInput). Lengths of lists that are written, and whether numbers are finite, are not
+// checked. Further arrays may be added. A change must keep the order of nodes, which is that of
+// VTK, and the names of the arrays in the file.
 #pragma once
 
 #include <array>
@@ -32,12 +33,12 @@ struct FlowField : QuadraticMesh {
   std::vector<double> pressure;    ///< of each node [M/(L T^2)]
 };
 
-/// Content of a VTK XML UnstructuredGrid file (VTK's file formats, "XML file formats"; appended raw
-/// data): quadratic triangles (VTK's cell type 22) with velocity [L/T], pressure [M/(L T^2)] and
-/// speed [L/T] at their nodes. `more` is empty or has a value for each node, which is written under
-/// the name `more_name`. x and y are those of VTK and z = 0; with `on_axis`, the flow is in the
-/// half-plane x >= 0, y = 0 of VTK, and z is the axis. Lengths of lists are not checked; nothing is
-/// thrown.
+/// The content of a VTK file of the type UnstructuredGrid (VTK's file formats, "XML file formats";
+/// appended raw data): quadratic triangles (VTK's cell type 22) with velocity [L/T], pressure [M/(L
+/// T^2)] and speed [L/T] at their nodes. `more` is empty or has a value for each node, in any unit;
+/// these values become the array `more_name`. In the file, x and y of a node are the coordinates x
+/// and y of VTK, and z = 0. If `on_axis` is true, they are the coordinates x >= 0 and z of VTK, and
+/// y = 0, so that z is the axis. Lengths of lists are not checked; nothing is thrown.
 std::string write_flow(const FlowField& flow, bool on_axis = false, std::string_view more_name = {},
                        const std::vector<double>& more = {});
 

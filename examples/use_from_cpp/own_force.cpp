@@ -1,13 +1,16 @@
 // Sets the forces on particles in each step from C++: a spring draws nine discs to the origin,
 // where they touch and stay together by viscous contact (docs/physics.md (5.2), (5.3)). Lengths,
-// masses and times are in any consistent units. An error ends the program with its message.
-// tests/package/use_installed compares the output with the lines that end this comment.
+// masses and times are in any consistent units. An error ends the program with its message and the
+// exit code 1. All numbers of the example may be changed: positions, radii, masses, time step,
+// stiffness, end time and number of steps. tests/package/use_installed compares the output with the
+// table at the end of this comment, which must then be changed, too.
 //
-// The program is built with smallest_gap.cpp, whose head says how. Then type
+// The program is built together with smallest_gap.cpp; the head of that file says how. Then type
 //
 //   out/use_from_cpp/own_force
 //
-// The program prints (the largest distance is that of a centre from the origin):
+// The program prints this table. The largest distance is that of the centre of a disc from the
+// origin.
 //
 //   time   largest distance   contacts
 //      0            4.24264          0
@@ -29,7 +32,8 @@ namespace {
 
 namespace particles = viscontact::particles;
 
-/// Nine discs of radius 1 and mass 1 at rest, three in each row, 3 apart.
+/// Nine discs of radius 1 [L] and mass 1 [M] at rest, in three rows of three discs. Neighbouring
+/// centres have the distance 3 [L], so that no discs overlap.
 particles::State discs_at_rest() {
   particles::State state;
   auto& p = state.particles;
@@ -44,6 +48,8 @@ particles::State discs_at_rest() {
   return state;
 }
 
+/// Prints the time [T], the largest distance of a centre from the origin [L], and the number of
+/// pairs of discs in contact.
 void print_row(const particles::Simulation& simulation) {
   const auto& p = simulation.state().particles;
   double largest = 0;
@@ -55,18 +61,21 @@ void print_row(const particles::Simulation& simulation) {
 
 void run() {
   particles::Setting setting;
+  // The time step is in [T], > 0. The last argument is the number of threads, >= 1.
   setting.time_step = 0.01;
   particles::Simulation simulation(std::move(setting), discs_at_rest(), 1);
 
-  // The forces [M L/T^2] of the caller: two numbers for each disc, 0 at first. They act in the next
-  // step with the values that they have when it begins.
+  // The forces [M L/T^2] that the caller sets: x and y for each disc, one disc after the other, 0
+  // at first. They act in the next step with the values that they have when this step begins.
   const auto forces = simulation.added_forces();
-  const double stiffness = 0.5;  // [M/T^2]
+  const double stiffness = 0.5;  // of the spring [M/T^2]
   std::printf("time   largest distance   contacts\n");
   print_row(simulation);
   for (int step = 1; step <= 400; ++step) {
     const auto& positions = simulation.state().particles.positions;
     std::ranges::transform(positions, forces.begin(), [&](double x) { return -stiffness * x; });
+    // The argument is a time that the step must not pass [T]. step() throws Error(kNotConverged) if
+    // the step cannot be computed.
     (void)simulation.step(4);
     if (step % 100 == 0) print_row(simulation);
   }

@@ -1,18 +1,21 @@
 // Uses Viscontact from C++: reads a table of forces, fits a formula to it, and computes the motion
 // of the sphere of the lecture's case by two models (docs/physics.md (4.1), (4.4)): `inertial`
-// resolves the film between sphere and plane, `viscous_contact` does not. Units are those of the
-// table. An error ends the program with its message. tests/package/use_installed compares the
-// output with the lines that end this comment.
+// resolves the film between sphere and plane, `viscous_contact` does not. Lengths, masses and times
+// are in the units of the table. An error ends the program with its message and the exit code 1.
+// The numbers of lecture_motion() and the models may be changed. tests/package/use_installed
+// compares the output with the lines at the end of this comment, which must then be changed, too.
 //
-// Type in the source folder of Viscontact, after scripts/build (PREFIX is any folder; without
-// --prefix it is /usr/local):
+// Type these commands in the source folder of Viscontact, after scripts/build has built it (PREFIX
+// is any folder; without --prefix it is /usr/local):
 //
 //   cmake --install build/release --prefix PREFIX
 //   cmake -S examples/use_from_cpp -B out/use_from_cpp -D CMAKE_PREFIX_PATH=PREFIX -D CMAKE_BUILD_TYPE=Release
 //   cmake --build out/use_from_cpp
 //   out/use_from_cpp/smallest_gap PREFIX/share/viscontact/data/tables/lecture.csv
 //
-// The program prints (q_min is the smallest gap; the last digits depend on table and compiler):
+// The program prints the following lines. R [M/T] is the resistance (minus the force over the
+// velocity) at the gap q [L], q_min [L] is the smallest gap of the motion, and the last digits
+// depend on the table and the compiler.
 //
 //   40 rows, fitted by 1/q, 1, q, q^2, q^3: largest residual 0.46 %
 //   R(q = 0.01) = 5761.06
@@ -35,8 +38,9 @@
 
 namespace {
 
-/// A sphere of mass 20, at rest at gap 1, is pushed towards the plane until t = 2, then pulled
-/// back.
+/// A sphere of mass 20 [M], at rest at the gap 1 [L], is pushed towards the plane with the force
+/// 200 [M L/T^2] until t = 2 [T], and then pulled back with the same force until t = 4. Mass, gap,
+/// times and tolerance must be > 0.
 viscontact::reduced_model::Motion lecture_motion() {
   const std::vector<viscontact::reduced_model::ExternalForce::Piece> pieces = {
       {.until = 2, .value = -200}, {.until = 4, .value = 200}};
@@ -54,12 +58,14 @@ viscontact::reduced_model::Motion lecture_motion() {
 }
 
 void print_smallest_gaps(const std::string& table_file) {
-  // The table has one row for each gap and velocity. Your own table needs only the columns gap,
-  // reference_velocity and force, and the comments viscosity and radius.
+  // The table has one row for each gap and velocity. Your own table needs only the columns gap [L],
+  // reference_velocity [L/T] and force [M L/T^2], and the lines "# viscosity: NUMBER" [M/(L T)] and
+  // "# radius: NUMBER" [L]. A wrong table throws Error(kBadInput).
   const viscontact::lubrication::MotionTable table =
       viscontact::lubrication::read_force_table(table_file);
 
-  // The fit has the coefficients of a basis, and diagnostics that say how far to trust them.
+  // The fit has the coefficients of the basis "lecture", a list of functions of the gap, and
+  // diagnostics that say how far to trust them. Weights::kRelative minimises relative residuals.
   const viscontact::lubrication::Fit fit = viscontact::fitting::fit_force_table(
       table, "lecture", viscontact::lubrication::Weights::kRelative);
   std::printf("%zu rows, fitted by", table.rows.size());
@@ -67,12 +73,12 @@ void print_smallest_gaps(const std::string& table_file) {
     std::printf("%s %s", &term == &fit.terms.front() ? "" : ",", term.name.c_str());
   std::printf(": largest residual %.2g %%\n", 100 * fit.largest_relative_residual);
 
-  // The force as a function of gap and velocity is F_lub(q, u) = -R(q) u. At a gap outside the
-  // interval of the fit, LubricationForce throws.
+  // The force [M L/T^2] as a function of the gap q and the velocity u is F_lub(q, u) = -R(q) u. At
+  // a gap outside the interval of the fit, LubricationForce throws an Error.
   const viscontact::lubrication::LubricationForce force(fit);
   std::printf("R(q = 0.01) = %.6g\n\n", force.resistance(0.01));
 
-  // The models of motion. all_models() lists them all.
+  // Two models of motion are compared; all_models() lists the names of all models.
   const viscontact::reduced_model::Motion motion = lecture_motion();
   std::printf("%-16s %12s %10s\n", "model", "q_min", "at time");
   for (const char* name : {"inertial", "viscous_contact"}) {
@@ -91,8 +97,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: %s TABLE\n", argv[0]);
     return 2;
   }
-  // Every error that a user can cause is a viscontact::Error (common/error.hpp), a
-  // std::runtime_error that says what to do.
+  // Every error that a user can cause is a viscontact::Error (common/error.hpp), which is a
+  // std::runtime_error and whose message says what to do.
   try {
     print_smallest_gaps(argv[1]);
     return 0;

@@ -1,6 +1,7 @@
 // Numbers and sums of terms as code of C, Fortran, Python and MATLAB. Numbers have the units of the
-// fit. Nothing is thrown. Used by export_fit.cpp and motions/fit/export_pair.cpp. A change must
-// keep that a compiler reads each literal as the double that was written.
+// fit, and must be finite (asserted by format_number()). Nothing is thrown. Used by export_fit.cpp
+// and motions/fit/export_pair.cpp. The layout of the code may be changed; a change must keep that a
+// compiler reads each literal as the double that was written.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,16 +17,15 @@
 
 namespace viscontact::fitting {
 
-/// A term, which is a function of the gap, and the weight by which a sum multiplies it, in the unit
-/// of the sum over that of the term.
+/// The weight of a term in a sum, and the term, which is a function of the gap. The unit of the
+/// weight is the unit of the sum divided by the unit of the term.
 using WeightedTerm = std::pair<double, lubrication::Term>;
 
-/// A function that writes a finite number (not checked) as a literal of type double in one
-/// language.
+/// A function that writes a finite number as a literal of type double in one language.
 using Literal = std::string (*)(double);
 
 /// A literal of Python or MATLAB, with as many digits as are needed to read the same double back,
-/// such as 56.5, 5 or 1e-05. These languages need no point in a number, unlike C.
+/// such as 56.5, 5 or 1e-05. Unlike C, these languages need no point in a number.
 inline std::string plain(double number) { return format_number(number); }
 
 /// A Fortran literal in double precision, such as 56.5d0 or 1d-05.
@@ -44,9 +44,11 @@ inline std::string c_literal(double number) {
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
 
-/// The sum of weight * formula as code. `formula` selects the function of a term: its value, slope
-/// or antiderivative. `between` is the text that joins two summands: a plus sign, and a line break
-/// in the syntax of the language. Empty if there are no terms.
+/// The sum of weight * formula over `terms` as code, with the gap as variable q and its logarithm
+/// as l. `formula` selects one function of each term: value, log_slope (q times the derivative) or
+/// antiderivative. `literal` writes the weights. `between` is the text that joins two summands: a
+/// plus sign, and a line break in the syntax of the language. The code is empty if there are no
+/// terms.
 inline std::string terms_text(const std::vector<WeightedTerm>& terms,
                               lubrication::Formula lubrication::Term::*formula, Literal literal,
                               std::string_view between) {
@@ -58,6 +60,7 @@ inline std::string terms_text(const std::vector<WeightedTerm>& terms,
 }
 
 /// The expression with MATLAB's operators for the entries of arrays: "a*b/c" becomes "a.*b./c".
+/// Only * and / are replaced.
 inline std::string elementwise(const std::string& expression) {
   std::string text;
   for (const char c : expression) {
@@ -70,7 +73,8 @@ inline std::string elementwise(const std::string& expression) {
 /// Python's function _evaluate(gap, formulas), which each exported module contains. `gap` is a
 /// number or an array. `formulas` are tuples (low, high, f): f(q, log) is the formula for gaps q in
 /// [low, high], with the logarithm of `math` or of NumPy. The first tuple whose interval contains a
-/// gap is used. Raises ValueError if there is none.
+/// gap is used. Raises ValueError, which names the interval of the first tuple, if a gap is in no
+/// interval.
 inline constexpr std::string_view kPythonEvaluate =
     "def _evaluate(gap, formulas):\n"
     "    if isinstance(gap, (int, float)):\n"
@@ -92,8 +96,8 @@ inline constexpr std::string_view kPythonEvaluate =
     "        outside = q[left][0]\n"
     "    raise ValueError(f\"gap {outside} is outside [{formulas[0][0]}, {formulas[0][1]}]\")\n";
 
-/// The lines with blanks in place of control characters. They become comments of the written code,
-/// and a line end within a text of the fit file would end the comment.
+/// The lines with blanks in place of control characters. The lines become comments of the written
+/// code, and a line end within a text from the fit file would end the comment.
 inline std::vector<std::string> on_lines_of_comments(std::vector<std::string> lines) {
   for (auto& line : lines)
     std::ranges::replace_if(
@@ -101,7 +105,7 @@ inline std::vector<std::string> on_lines_of_comments(std::vector<std::string> li
   return lines;
 }
 
-/// These lines as comments, each of which begins with `mark`.
+/// The lines as comments, each of which begins with `mark` (such as "//") and a blank.
 inline std::string commented(const std::vector<std::string>& lines, std::string_view mark) {
   std::string text;
   for (const auto& line : lines) text += fmt::format("{} {}\n", mark, line);

@@ -1,9 +1,10 @@
 // Runs a script of freefem_axi/scripts/ in a FreeFEM process, which gets numbers as arguments and
-// prints lines of text (docs/extending.md). Times are in seconds. A FreeFEM that cannot be started
-// throws Error(kExternalProgram), a stop Error(kInterrupted). A script that fails is no exception
-// here: the caller looks at the exit status. Used by tabulation.cpp, motion_row.cpp and
-// swimmer/tabulation/ for the rows of all tables, and by results/, app/ and bench/. A change must
-// keep each process on one thread and within its time limit.
+// prints lines of text (docs/extending.md). Times are in seconds. If FreeFEM cannot be started,
+// Error(kExternalProgram) is thrown; a requested stop throws Error(kInterrupted). If a script
+// fails, nothing is thrown here: the caller must check the exit status. The default time limits are
+// free choices. Used by tabulation.cpp, motion_row.cpp and swimmer/tabulation/ for the rows of all
+// tables, and by results/, app/ and bench/. A change must keep each process on one thread and
+// within its time limit.
 #pragma once
 
 #include <chrono>
@@ -23,10 +24,10 @@ struct FreeFem {
   std::string executable;  ///< a name to look for on PATH, or a path
   /// Folder share/viscontact/freefem_axi with the scripts.
   std::filesystem::path script_folder;
-  /// Time limit for one row of a table. The slowest row that was measured took less than two
-  /// minutes; the default leaves a factor of 15 for slower machines.
+  /// Time limit for one row of a table [s], > 0. The slowest row that was measured took less than
+  /// two minutes; the default leaves a factor of 15 for slower machines.
   std::chrono::seconds row_limit = std::chrono::minutes(30);
-  /// Time limit for FreeFEM to print its version, which takes it less than a second.
+  /// Time limit for FreeFEM to print its version [s], > 0. FreeFEM prints it in less than a second.
   std::chrono::seconds version_limit = std::chrono::minutes(2);
   /// If `stop` requests a stop, the FreeFEM process is killed and Error(kInterrupted) is thrown.
   StopToken stop{};
@@ -39,9 +40,10 @@ struct FreeFem {
 /// Error(kWrongUsage) if the limit is not a whole number from 1 to 10 million.
 FreeFem default_freefem(const StopToken& stop = {});
 
-/// Runs a script on one thread to its end. `arguments` are "-name" and "value" in turn. After
-/// `time_limit`, or freefem.row_limit if it is not given, FreeFEM is killed and `timed_out` is true
-/// in the result. A script that fails throws nothing: the caller must check exit_status. Throws
+/// Runs the script with the file name `script` on one thread to its end. In `arguments`, "-name"
+/// and "value" alternate, each an element of its own. After `time_limit` or, if this is not given,
+/// freefem.row_limit, FreeFEM is killed, and `timed_out` is true in the result. If the script
+/// fails, nothing is thrown: the caller must check exit_status and timed_out. Throws
 /// Error(kExternalProgram) if FreeFEM cannot be started, and Error(kInterrupted) if freefem.stop
 /// requests a stop.
 ProcessResult run_freefem(const FreeFem& freefem, std::string_view script,
@@ -49,26 +51,28 @@ ProcessResult run_freefem(const FreeFem& freefem, std::string_view script,
                           std::optional<std::chrono::seconds> time_limit = {});
 
 /// Appends the arguments that all scripts need: -accuracy, the largest relative error estimate of a
-/// force [1], in (0, 1) (not checked), and -cells, -levels and -attempts, which say how fine the
-/// meshes are.
+/// force [1], in (0, 1) (not checked), and -cells, -levels and -attempts, constants of freefem.cpp
+/// that say how fine the meshes are.
 void append_mesh_arguments(std::vector<std::string>& arguments, double relative_accuracy);
 
-/// Says in a message that FreeFEM was killed at its time limit, and what the user can do.
+/// Words for a message: FreeFEM was killed at its time limit, and what the user can do.
 std::string timed_out_in_words(std::chrono::seconds time_limit);
 
 /// Why a script failed, for an error message: that it exceeded `time_limit`, or the error that it
-/// printed, or else the last lines of its output; empty if it printed nothing.
+/// printed after the word "viscontact-error", or else the last four lines of its output. Empty if
+/// it printed nothing.
 std::string failure_in_words(const ProcessResult& result, std::chrono::seconds time_limit);
 
-/// The first line of `output` that starts with `prefix` and a space, without these; empty if there
-/// is none.
+/// The first line of `output` that starts with `prefix` and a space, without prefix and space;
+/// empty if there is no such line.
 std::string line_after(const std::string& output, std::string_view prefix);
 
-/// The version of FreeFEM: that of the Debian package that has installed the executable, and the
-/// one that FreeFEM states, such as "4.11+dfsg1-3 (Debian package freefem++; FreeFEM says 4.9)". If
-/// there is no package, only what FreeFEM states, "4.9", which may differ from the number of the
-/// release. Throws Error(kInterrupted) if freefem.stop requests a stop, and Error(kExternalProgram)
-/// if FreeFEM cannot be started, fails, or does not answer within freefem.version_limit.
+/// The version of FreeFEM in words: the version of the Debian package that has installed the
+/// executable, and the version that FreeFEM states, such as "4.11+dfsg1-3 (Debian package
+/// freefem++; FreeFEM says 4.9)". If no package has installed it, the result is only what FreeFEM
+/// states, "4.9", which may differ from the number of the release. Throws Error(kInterrupted) if
+/// freefem.stop requests a stop, and Error(kExternalProgram) if FreeFEM cannot be started, fails,
+/// or does not answer within freefem.version_limit.
 std::string freefem_version(const FreeFem& freefem);
 
 }  // namespace viscontact::freefem_axi

@@ -1,10 +1,10 @@
 // Makes a TablePlan, the functions that compute, read and write a table, for any type Row of rows
-// (lubrication/table.hpp). The caller gives what differs between types: which rows there are, how
-// FreeFEM solves them, and what the numbers depend on. Numbers have the units of the table. The
-// arguments are not checked. A plan throws what the functions in PlanParts throw; a file that is
-// not the planned table is no error. Used by motion_table_plan.cpp and swimmer/tabulation/. A
-// change must keep the order of the numbers in a row of a journal (the file of finished rows), in
-// which journals of earlier runs are read.
+// (lubrication/table.hpp). The caller gives what differs between types of rows: which rows there
+// are, how FreeFEM solves them, and what the numbers depend on. Numbers have the units of the
+// table. The arguments are not checked. A plan throws what the functions in PlanParts throw; for a
+// file that is not the planned table nothing is thrown. Used by motion_table_plan.cpp and
+// swimmer/tabulation/. A change must keep the order of the numbers in a row of a journal (the file
+// of finished rows), because journals of earlier runs are read in this order.
 #pragma once
 
 #include <fmt/format.h>
@@ -19,42 +19,47 @@
 
 namespace viscontact::freefem_axi {
 
-/// FreeFEM can compute several rows at a point (a gap, say) in one call, which belong to several
-/// tables: those of sliding and of rolling. This is one of these rows, with its table.
+/// One call of FreeFEM can compute several rows at a point, the numbers that identify a row, such
+/// as its gap. Each of these rows belongs to another table: sliding and rolling, for example, are
+/// computed together. A PlannedRow is one of these rows, with its table.
 template <class Row>
 struct PlannedRow {
-  lubrication::TableHead head;  ///< of the table; make_plan() adds hash, versions and failed rows
-  Row blank;  ///< a row of the table with any numbers; its vectors have their sizes
+  lubrication::TableHead head;  ///< of the table; make_plan() adds hash, versions, failures
+  Row blank;                    ///< a row with any numbers; its vectors have their final sizes
   /// False if the user did not ask for the table, so that it is not written.
   bool is_asked = true;
-  std::filesystem::path path;  ///< of the table; not used for the first table that is asked
+  std::filesystem::path path;  ///< of the table; not used for the first one with is_asked
 };
 
 /// The argument of make_plan().
 template <class Row>
 struct PlanParts {
-  /// A text with everything that the numbers depend on. Tables of another text are computed again.
+  /// A text with everything that the numbers depend on. A table that was made from another text is
+  /// computed again.
   std::string inputs;
-  /// Where rows are computed, in the order of computation; at least one point, all of one size. The
-  /// first columns of a row are its point.
+  /// The points at which rows are computed, in the order of computation. There is at least one, and
+  /// all have the same number of entries, which are the first columns of a row.
   std::vector<RowPoint> points;
-  /// In the order in which `solve` returns them; at least one is asked for.
+  /// The rows at each point, in the order in which `solve` returns them; is_asked is true for at
+  /// least one.
   std::vector<PlannedRow<Row>> rows;
-  double relative_accuracy = 0;  ///< TablePlan::relative_accuracy
-  double typical_seconds = 0;    ///< TablePlan::typical_seconds [s]
+  double relative_accuracy = 0;  ///< TablePlan::relative_accuracy [1], > 0
+  double typical_seconds = 0;    ///< TablePlan::typical_seconds [s], > 0
   bool needs_all_rows = false;   ///< TablePlan::needs_all_rows
-  /// Computes the rows at a point, one for each element of `rows`. Throws as TablePlan::solve.
+  /// Computes the rows at a point, one for each element of `rows`. Throws Error(kExternalProgram)
+  /// if FreeFEM fails for this point; another Error ends the computation of all rows.
   std::function<std::vector<Row>(const FreeFem&, const RowPoint&)> solve;
   std::function<std::string(const RowPoint&)> name_of;  ///< TablePlan::name_of
-  /// Returns the row that was computed at a point; nothing if it was not.
+  /// Returns the row that was computed at a point; nothing if no row was computed there.
   using Computed = std::function<std::optional<Row>(const RowPoint&)>;
-  /// Makes all rows of a table, in its order, from the computed ones. Empty: the table has the
-  /// computed rows, in the order of `points`.
+  /// Makes all rows of a table from the computed ones, in the order of the table. If this function
+  /// is empty, the table has the computed rows in the order of `points`.
   std::function<std::vector<Row>(const Computed&)> arrange{};
 };
 
-/// The addresses of the numbers of `row` that a journal stores after those of its point: all
-/// columns but the first `size_of_point` and those that complete() computes.
+/// The addresses of those numbers of `row` that a journal stores behind the numbers of the point:
+/// all columns but the first `size_of_point` columns and the columns that complete() always
+/// computes from others (IfAbsent::kAlwaysComputed).
 template <class Row>
 std::vector<double*> stored_numbers(const lubrication::TableHead& head, Row& row,
                                     std::size_t size_of_point) {
@@ -66,10 +71,11 @@ std::vector<double*> stored_numbers(const lubrication::TableHead& head, Row& row
   return numbers;
 }
 
-/// The plan. A row in a journal is a point and the numbers of all `given.rows` there, one after the
-/// other. TablePlan::solve throws what given.solve throws. TablePlan::read returns no rows, and
-/// throws nothing, if a file is not the planned table. TablePlan::write throws what given.arrange
-/// throws. What the comments of PlanParts demand is not checked.
+/// Makes the plan of a table from `given`. A row in a journal consists of a point and of the
+/// numbers of all `given.rows` at this point, one row after the other. TablePlan::solve throws what
+/// given.solve throws. TablePlan::read returns no rows, and throws nothing, if a file is not the
+/// planned table. TablePlan::write throws what given.arrange throws. What the comments of PlanParts
+/// demand is not checked.
 template <class Row>
 TablePlan make_plan(PlanParts<Row> given) {
   const std::size_t size_of_point = given.points.front().size();
@@ -77,8 +83,8 @@ TablePlan make_plan(PlanParts<Row> given) {
   plan.hash = sha256(given.inputs);
   plan.points = given.points;
   plan.shape = {size_of_point, 0};
-  // The indices of the given.rows that are asked for; for each of given.rows the index of its first
-  // number in FinishedRow::numbers.
+  // `asked` has the indices of those given.rows whose is_asked is true. `begins` has, for each of
+  // given.rows, the index of its first number in FinishedRow::numbers.
   std::vector<std::size_t> asked, begins;
   for (auto& row : given.rows) {
     row.head.case_hash = plan.hash;
@@ -100,7 +106,7 @@ TablePlan make_plan(PlanParts<Row> given) {
         numbers.push_back(*number);
     return numbers;
   };
-  // The row of the table of given.rows[i], from the numbers that a journal has stored.
+  // Returns a row of the table of given.rows[i], made from the numbers that a journal has stored.
   const auto row_of = [=](std::size_t i, const FinishedRow& finished) {
     const auto& head = parts->rows[i].head;
     auto row = parts->rows[i].blank;

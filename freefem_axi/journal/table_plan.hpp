@@ -1,10 +1,11 @@
 // A table whose rows FreeFEM computes one by one, independent of what its rows contain: forces and
 // torques on a sphere (motion_table_plan.hpp), or resistance matrices of spheres on a line
-// (swimmer/tabulation/). make_plan.hpp makes it; the other files of this folder, pipeline/ and
-// swimmer/ use it. Times are in seconds; other numbers have the units of the table. A row that
-// fails is an Error(kExternalProgram) of TablePlan::solve, which is recorded as its reason; any
-// other Error ends the computation. Sizes of points and rows are not checked. A change must keep
-// that equal inputs give equal hashes, by which tables and rows of earlier runs are found.
+// (swimmer/tabulation/). make_plan.hpp makes a TablePlan; the other files of this folder, pipeline/
+// and swimmer/ use it. Times are in seconds; other numbers have the units of the table. If a row
+// fails, TablePlan::solve throws Error(kExternalProgram), whose message is recorded as the reason;
+// any other Error ends the computation. Sizes of points and rows are not checked. Further members
+// may be added. A change must keep that equal inputs give equal hashes, by which tables and rows of
+// earlier runs are found.
 #pragma once
 
 #include <cstddef>
@@ -25,9 +26,9 @@ using RowPoint = std::vector<double>;
 /// A row that was computed.
 struct FinishedRow {
   RowPoint point;  ///< which row
-  /// The computed numbers, as TablePlan::solve returns them, RowShape::numbers of them.
+  /// The computed numbers, as TablePlan::solve returns them. Their number is RowShape::numbers.
   std::vector<double> numbers;
-  std::string freefem_version;  ///< as freefem_version() in freefem.hpp states it; may be empty
+  std::string freefem_version;  ///< text of freefem_version() (freefem.hpp); may be empty
 };
 
 /// A row that could not be computed.
@@ -43,7 +44,7 @@ struct RowRecord {
   std::map<RowPoint, std::string> failed;
 };
 
-/// How many numbers a row has.
+/// How many numbers a row of a table has; both are >= 1.
 struct RowShape {
   std::size_t point = 0;    ///< size of RowPoint
   std::size_t numbers = 0;  ///< size of FinishedRow::numbers
@@ -52,10 +53,12 @@ struct RowShape {
 /// Names and versions of the programs that made a table.
 using Versions = std::map<std::string, std::string>;
 
-/// Another table from the same calls of FreeFEM, such as that of rolling beside that of sliding.
+/// Another table whose rows the same calls of FreeFEM compute, such as the table of rolling beside
+/// the table of sliding.
 struct CompanionTable {
   std::filesystem::path path;  ///< of its file
-  /// Makes the text of its file, as TablePlan::write.
+  /// Makes the text of its file from the finished rows and the versions of the programs, as
+  /// TablePlan::write does for the first table.
   std::function<std::string(const RowRecord&, const Versions&)> write;
 };
 
@@ -68,23 +71,25 @@ struct TablePlan {
   RowShape shape;                ///< of every row
   double relative_accuracy = 0;  ///< largest relative error that the user allows a row [1], > 0
   double typical_seconds = 0;    ///< time of a row on one core [s], > 0, only for estimates of time
-  /// Computes the numbers of the row at a point. Throws Error(kExternalProgram) if FreeFEM fails
-  /// for this row. An Error of another kind ends the computation of all rows.
+  /// Computes the numbers of the row at a point, RowShape::numbers of them. Throws
+  /// Error(kExternalProgram) if FreeFEM fails for this row. An Error of another kind ends the
+  /// computation of all rows.
   std::function<std::vector<double>(const FreeFem&, const RowPoint&)> solve;
-  /// Reads the finished rows in the file of the table, and the failed rows that it names. No rows
-  /// if there is no such file or if it was computed with other inputs.
+  /// Reads the finished rows in the file of the table, and the failed rows that it names. Returns
+  /// no rows, and throws nothing, if there is no such file or if it was computed with other inputs.
   std::function<RowRecord(const std::filesystem::path&)> read;
-  /// Makes the text of the file from the finished rows, at least one; its head names the failed
-  /// ones.
+  /// Makes the text of the file of the table from the finished rows, of which there must be at
+  /// least one (not checked), and from the versions of the programs. The head of the file names the
+  /// failed rows.
   std::function<std::string(const RowRecord&, const Versions&)> write;
-  /// True if the table is useless without some of its rows. `write` then needs all of them.
+  /// True if the table cannot be used when rows are missing. `write` must then get all rows.
   bool needs_all_rows = false;
   /// Tables that are written together with this one.
   std::vector<CompanionTable> companions;
-  /// Describes a row in messages and in the head of the file: "gap 0.1, velocity -1". No two rows
-  /// have the same description.
+  /// Describes the row at a point in messages and in the head of the file, such as "gap 0.1,
+  /// velocity -1". No two rows have the same description.
   std::function<std::string(const RowPoint&)> name_of;
-  /// The largest relative error estimate of the row in this table and its companions [1], >= 0.
+  /// The largest relative error estimate [1], >= 0, of the row in this table and in its companions.
   std::function<double(const FinishedRow&)> estimate_of;
   std::function<double(const FinishedRow&)> seconds_of;  ///< time that the row took [s], >= 0
 };

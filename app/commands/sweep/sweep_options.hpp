@@ -1,8 +1,10 @@
-// The options of `sweep`, and the functions that turn options into a study (the points of the sweep
-// and the function that computes the row of a point), one for each kind of case. Numbers are in the
-// units of the case. Wrong options throw Error(kWrongUsage), wrong files Error(kBadInput), both
-// before a row is computed. A row that fails is no error unless all rows do. Used by the two
-// sources of this folder. docs/command-line.md describes the options, whose names must stay.
+// The options of `sweep`, and one function for each kind of case that turns options into a study. A
+// study consists of the points of the sweep and of the function that computes the row of a point; a
+// point gives a value to each varied key of the case. Numbers are in the units of the case. Wrong
+// options throw Error(kWrongUsage), wrong files Error(kBadInput), both before a row is computed. A
+// row that fails is no error unless all rows fail. Used by sweep_command.cpp and sweep_studies.cpp.
+// docs/command-line.md describes the options; a change must keep their names. Their upper limits
+// are free choices that catch mistyped numbers.
 #pragma once
 
 #include <cstdint>
@@ -19,55 +21,58 @@ namespace viscontact::app {
 
 /// The values of the options, each named after its option. An empty text or list, or 0 for samples
 /// and draws, means that the option was not given; the section [sweep] of the case or a default
-/// then decides. The command line always gives case_file and output.
+/// then decides. The members case_file and output are never empty, because CLI11 requires them.
 struct SweepOptions {
   std::string case_file,          ///< path of the case
       fit,                        ///< path of a fit file
       output,                     ///< path of the CSV file of the rows
       reference,                  ///< name of the model with which the others are compared
-      x, y;                       ///< keys of the axes of the picture
+      x, y;                       ///< keys of the horizontal and vertical axis of the picture
   std::vector<std::string> vary,  ///< "KEY=RANGE" each (sweep/variation.hpp)
       models,                     ///< names of models
-      columns;                    ///< columns that are drawn
-  results::PictureRequest plot;   ///< the picture
+      columns;                    ///< columns of the rows that are drawn
+  results::PictureRequest plot;   ///< the picture; without a path: none
   std::uint64_t samples = 0,      ///< number of random points, <= 1e12
-      seed = 1,                   ///< seed of the random points; any number
+      seed = 1,                   ///< seed of the random points; any 64-bit number
       draws = 0;                  ///< random arrangements of particles at a point, <= 1e9
   int jobs = default_jobs();      ///< number of rows at once, from 1 to 1024
   ArrayOptions array;             ///< how the rows are divided among the jobs of a cluster
   bool dry_run = false,           ///< true: says how long the rows take, computes none
-      json = false,               ///< true: says it in JSON
+      json = false,               ///< true: --dry-run prints JSON
       keep_runs = false;          ///< true: keeps the files of runs of particles
-  const CLI::Option* jobs_option = nullptr;  ///< tells whether --jobs was given
+  const CLI::Option* jobs_option = nullptr;  ///< CLI11's object; count() 0: not given
 };
 
-/// The study of a case with these options, and what is needed to write its files and messages.
+/// The study of a case with the options of SweepOptions, and what the files and messages of the
+/// sweep need.
 struct CaseStudy {
   sweep::Study study{};                        ///< points, and how rows are computed
-  std::vector<std::filesystem::path> files{};  ///< the inputs, for the provenance
-  std::string part{};                          ///< what may fail in a row, for messages: "model"
+  std::vector<std::filesystem::path> files{};  ///< the inputs, which the output records
+  std::string part{};                          ///< what may fail in a row: "model", "stroke", "run"
   case_file::SweepRequest request{};           ///< the section [sweep] of the case
   std::vector<std::string> columns{};  ///< columns that are drawn if nothing else is asked for
 };
 
-/// Each of these functions makes the study of the case o.case_file, which must be of its kind. They
-/// throw Error(kWrongUsage) for options that this kind does not have, for a wrong --vary, and if
-/// neither --fit nor (for one sphere or a rolling one) the case gives a fit; and Error(kBadInput)
-/// if case or fit is wrong, or if o.output is a file that is no sweep of this kind.
+/// Each of these functions makes the study of the case o.case_file, which must be of the kind in
+/// the name of the function. They throw Error(kWrongUsage) for options that this kind does not
+/// have, for a wrong --vary, and if neither --fit nor (for one sphere or a rolling one) the case
+/// gives a fit; and Error(kBadInput) if case or fit is wrong, or if o.output is a file that is not
+/// the output of a sweep of this kind.
 CaseStudy study_of_sphere(const SweepOptions& o);
 CaseStudy study_of_swimmer(const SweepOptions& o);
 CaseStudy study_of_rolling_sphere(const SweepOptions& o);
 
-/// The rows of a sweep of a case of many particles. Throws Error(kWrongUsage) for options that this
-/// kind does not have, for a wrong --vary, and if nothing is varied; and Error(kBadInput) if the
-/// case is wrong, or if o.output or its table of means is another file.
+/// The points of a sweep of a case of many particles, and how their rows are computed. Throws
+/// Error(kWrongUsage) for options that this kind does not have, for a wrong --vary, and if nothing
+/// is varied; and Error(kBadInput) if the case is wrong, or if o.output, or the table of means
+/// beside it, is a file of another kind.
 particles::ParticlesSweep sweep_of_particles(const SweepOptions& o);
-/// The study of these rows for a picture only: it cannot compute rows. Throws Error(kBadInput) if
-/// the case is wrong.
+/// The study of the rows of `sweep`, for a picture only: it cannot compute rows. Throws
+/// Error(kBadInput) if the case is wrong.
 CaseStudy study_of_particles(const particles::ParticlesSweep& sweep);
-/// Computes the rows here, submits them to a cluster (--launcher slurm), computes those of one task
-/// (--task), or collects finished rows (--gather). With --dry-run prints how long the rows take.
-/// Throws Error(kNotConverged) if all rows failed, or with --gather if rows are missing;
+/// Computes the rows here, submits them to a cluster (--launcher slurm), computes the rows of one
+/// task (--task), or collects finished rows (--gather). With --dry-run it only prints how long the
+/// rows take. Throws Error(kNotConverged) if all rows failed, or with --gather if rows are missing;
 /// Error(kExternalProgram) if Slurm fails; Error(kBadInput) if a file cannot be written; and
 /// Error(kInterrupted) after Ctrl-C. One failed row among others is no error.
 void sweep_many_particles(const SweepOptions& o, const particles::ParticlesSweep& sweep);
