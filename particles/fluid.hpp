@@ -34,7 +34,7 @@ enum class FluidMesh {
 enum class Coupling {
   kConstrained,  ///< the fluid moves the particles under forces that include those of the contacts
   /// The velocities without contact forces are computed first. The particles then move with the
-  /// nearest velocities that close no gap. All particles must have masses > 0.
+  /// nearest velocities that close no gap. Particles without a given motion must have masses > 0.
   kSplitting,
 };
 
