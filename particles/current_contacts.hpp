@@ -28,11 +28,11 @@ enum class ContactFriction : std::int8_t {
 struct CurrentContact {
   std::int32_t first;      ///< number of a particle, or -1 - k for obstacle k of obstacles_of()
   std::int32_t second;     ///< number of a particle, its place in Particles, from 0
-  double gap;              ///< [L], < 0 if the two overlap
+  double gap;              ///< distance of the surfaces [L], < 0 if the two overlap
   double gamma;            ///< Pair::gamma [M L/T], of discs in a fluid [M/T]; <= 0
   double gamma_error = 0;  ///< estimate of the error of gamma, in its unit, >= 0
   std::int32_t image = 0;  ///< periodic image of `second` that meets `first`, -13 to 13; 0: itself
-  ContactFriction friction = ContactFriction::kNone;  ///< in the last step
+  ContactFriction friction = ContactFriction::kNone;  ///< what friction did in the last step
   /// Mean normal force in the last step [M L/T^2], of discs in a fluid per length: that of solids
   /// and film together, > 0 where it pushes the bodies apart.
   double normal_force = 0;

@@ -20,9 +20,9 @@
 namespace viscontact::particles {
 
 /// Finds motions and impulses that obey Coulomb's law. The conditions of each contact are products
-/// that must be 0. The first is that of its gap u and r, the part of its normal impulse above the
-/// lowest allowed value. The second is that of the load of its solids and the impulse that its film
-/// can still absorb. The third is the product (bound, p) o (z, v) of two points of a cone
+/// that must be 0. The first is u r, with its gap u and the part r of its normal impulse above the
+/// lowest allowed value. The second is the load of its solids times the impulse that its film can
+/// still absorb. The third is the product (bound, p) o (z, v) of two points of a cone
 /// (cone.hpp): p is the friction, its bound is mu_s times this load with the coefficient of
 /// friction mu_s, and z is a bound of the slip v. On the path each product is a constant times the
 /// same positive number tau instead, and the error of each linear equation is another constant
@@ -51,14 +51,14 @@ class CoulombPath {
   static constexpr int kPaths = 3;
 
   /// Follows path `number`, from 0 to kPaths - 1, from its start until reached() is at most
-  /// `accuracy` [1], in (0, 1). Stops before if the path is lost, if rounding errors prevent
-  /// progress, or after `max_iterations` factorisations. Returns the number of factorisations, 0 if
-  /// there is no contact or no violation at the start.
+  /// `accuracy` [1], in (0, 1). Stops earlier if the path is lost, if rounding errors prevent
+  /// progress, or after `max_iterations` >= 0 factorisations. Returns the number of factorisations,
+  /// which is 0 if there is no contact or no violation at the start.
   int follow(int number, double accuracy, int max_iterations);
 
   /// The square root of the least tau in the last follow(), divided by its value at the start [1],
-  /// 0 to 1: a measure of the violations that are left. 0 if there were none at the start, 1 if
-  /// links have violations but there is no contact, NaN if a number of the problem is NaN.
+  /// 0 to 1: a measure of the violations that are left. It is 0 if there were none at the start, 1
+  /// if links have violations but there is no contact, and NaN if a number of the problem is NaN.
   double reached() const { return size_ == 0 ? 0 : std::sqrt(best_.tau) / size_; }
   /// The impulses [M L/T] at the point with the least tau in the last follow(), one for each row.
   const std::vector<double>& impulses() const { return impulses_; }
@@ -131,13 +131,13 @@ class CoulombPath {
   const std::vector<double>& w_;
   UnitMatrix<D>& matrix_;
   std::vector<Part> parts_;
-  State state_, best_;  // the present point, and that with the least tau
+  State state_, best_;  // the present point of the path, and its point with the least tau
   // Impulses on the units minus M/h (y - y*) [M L/T], where y* are the motions y without impulses;
   // and the same at the start, divided by tau there [1/L].
   std::vector<Motion<D>> error_, error_per_tau_;
   std::vector<double> impulses_;
   double size_ = 0;       // root of tau at the start: the largest scaled value with lowest impulses
-  double degree_ = 0;     // 1 for each contact without friction, 4 for each one with friction
+  double degree_ = 0;     // sum of 1 for each contact without friction and 4 for each one with it
   double smoothing_ = 1;  // bound times spare on the path, divided by tau [1]
 };
 

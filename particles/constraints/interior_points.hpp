@@ -48,10 +48,10 @@ class InteriorPoints {
                  UnitMatrix<D>& matrix);
 
   /// Solves the problem until its scaled violations are at most `accuracy` [1], in (0, 1), times
-  /// the largest scaled value of a row if all contacts have their lowest impulses. Stops before if
+  /// the largest scaled value of a row if all contacts have their lowest impulses. Stops earlier if
   /// rounding errors prevent progress, if the matrix cannot be factorised, if a number is NaN, or
-  /// after `max_iterations`. Returns the number of iterations, from which the caller cannot tell
-  /// whether the accuracy is reached.
+  /// after `max_iterations` >= 0 iterations. Returns the number of iterations, from which the
+  /// caller cannot tell whether the accuracy is reached.
   int solve(double accuracy, int max_iterations);
 
   /// The impulses [M L/T] with the smallest violations that the last solve() found, one for each
@@ -82,12 +82,12 @@ class InteriorPoints {
   // Points are in the coordinates of `Cone`, and W^2 is the square of `scaling` (cone.hpp).
   struct Cones {
     bool is_bound_given = false;
-    std::size_t block = 0, row = 0, rows = 1;  // row: the first one
+    std::size_t block = 0, row = 0, rows = 1;  // the block, its first row here, and their number
     std::size_t first = 0;  // component of u and r that belongs to the first row: 0, or 1 with z
     ConePoint scale{};      // of each component [(M/T)^(1/2)]
     InnerPoint u, r;        // the present point u and its dual point r, both inside the cone
     ConePoint change_of_u{}, change_of_r{};
-    double scaled_bound = 0;  // component 0 of r if the bound is given, which is constant
+    double scaled_bound = 0;  // if the bound is given: component 0 of r, which never changes
     ConePoint error{};        // values of the rows minus u
     ConePoint goal{};         // numbers (cone.hpp) that W^2 change_of_r + change_of_u must have
     typename Cone::Scaling scaling;

@@ -3,7 +3,7 @@
 // (constraint_problem.hpp): a unit is a particle or a rigid body, a block is a contact or a link, a
 // row is a gap, a slip or the left side of a link's equation. Lengths [L], masses [M] and times [T]
 // are in any consistent units. Nothing is checked or thrown. A step is unsolved if failed() is
-// true, and may be if solve() returns its largest number of iterations or more.
+// true, and it may be unsolved if solve() returns its argument `max_iterations` or more.
 // constraint_solver.cpp uses it. Another order of sums would change results by rounding errors.
 #pragma once
 
@@ -59,7 +59,7 @@ class ProximalStep {
   /// Sets the epsilon of gaps and links, and that of slips [1], both > 0. It must be called before
   /// the first solve().
   void set_epsilon(double of_gaps, double of_slips);
-  void set_epsilon(double epsilon) { set_epsilon(epsilon, epsilon); }  ///< the same for all rows
+  void set_epsilon(double epsilon) { set_epsilon(epsilon, epsilon); }  ///< sets that of all rows
 
   /// Computes the step from the impulses P^k = `center` [M L/T], one for each row, with the motions
   /// `start` [L, rad], one for each unit, as the first guess of y. Returns the number of
@@ -70,7 +70,8 @@ class ProximalStep {
 
   /// True if the last solve() gave up, because a matrix was singular or no step reduced the error.
   bool failed() const { return failed_; }
-  /// True if the last solve() followed a path: no step of Newton's method reduced the error.
+  /// True if the last solve() followed a path. It does so if no step of Newton's method reduces the
+  /// error.
   bool followed_path() const { return paths_ > 0; }
   /// The impulses P^{k+1} [M L/T] that the last solve() found, one for each row; also if it failed.
   const std::vector<double>& impulses() const { return projected_; }
@@ -120,8 +121,9 @@ class ProximalStep {
   std::vector<double> rho_, center_;         // rho_r [M/T]; P^k
   std::vector<double> values_, changes_;     // b + J y_, and J direction_
   std::vector<double> projected_;            // P^{k+1}
-  std::vector<Branch> branches_, factored_;  // of all blocks: now, and in the factors of matrix_
-  std::vector<Motion<D>> y_, direction_, error_;  // direction_: the step of Newton's method
+  std::vector<Branch> branches_, factored_;  // branches of all blocks: now, and in the factors
+  // y_: motions y; direction_: the step of Newton's method; error_: J^T P^{k+1} - M/h (y - y*).
+  std::vector<Motion<D>> y_, direction_, error_;
   UnitMatrix<D>& matrix_;
   bool has_factor_ = false, failed_ = false;
   int paths_ = 0;  // number of paths that the last solve() has followed

@@ -23,9 +23,10 @@ namespace viscontact::particles {
 
 /// Radii of both surfaces of a pair [L].
 struct PairRadii {
-  /// > 0 for a particle; infinite for a plane; minus the radius for a circle around the particle.
+  /// Radius of the first surface: > 0 for a particle, infinite for a plane, and minus the radius of
+  /// the circle for a circle around the second surface.
   double first = std::numeric_limits<double>::infinity();
-  double second = 0;  ///< of the second surface, which is that of a particle, > 0
+  double second = 0;  ///< radius of the second surface, which is that of a particle, > 0
 };
 
 /// The radii of the surfaces of `pair`, which are two particles, or an obstacle and a particle. The

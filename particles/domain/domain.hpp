@@ -1,6 +1,7 @@
-// The domain that holds the particles and, if there is one, the fluid: a disc, a box that may be
-// periodic, or a cylinder with the particles on its axis. Also the obstacles that bound the space
-// of the particles: planes, which may move (lines, if the particles are discs), and circles.
+// Describes the domain that holds the particles and, if there is one, the fluid: a disc, a box that
+// may be periodic, or a cylinder with the particles on its axis. Also describes the obstacles that
+// bound the space of the particles: planes, which may move (lines, if the particles are discs), and
+// circles.
 // Lengths [L] and times [T] are in any consistent units. Nothing is checked or thrown;
 // particles/case checks the values of a case. All of particles/ and freefem_flow/ use this file. A
 // change must keep the order of obstacles, by which output and restart files number them, and the

@@ -267,8 +267,8 @@ struct FrictionOfStep;
 
 /// The contacts of a step, solved.
 struct StepContacts {
-  std::vector<Pair> pairs,  ///< of particles in reach of each other in this step, with their memory
-      walls;                ///< the same of particles and obstacles
+  std::vector<Pair> pairs,  ///< pairs of particles that may touch in this step, with their memory
+      walls;                ///< pairs of a particle and an obstacle that may touch in this step
   /// The contacts of all `pairs`, then of all `walls`, then of the stops of hinges, which have no
   /// film. Contacts that take no part have the impulse 0 and w = 0 or kHeld.
   std::vector<Contact<2>> contacts;

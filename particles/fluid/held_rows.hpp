@@ -35,8 +35,9 @@ class HeldMotion {
   HeldMotion(const Links& links, const Particles& particles, const LinkTimes& times,
              std::span<const double> link_times = {});
 
-  /// First the rows that make bodies rigid, motion_components() rows for each member of a body but
-  /// its first one, then the rows of the links; empty if there are neither bodies nor links.
+  /// Returns first the rows that make bodies rigid, motion_components() rows for each member of a
+  /// body but its first one, and then the rows of the links. The result is empty if there are
+  /// neither bodies nor links.
   std::vector<HeldRow> rows() const;
 
   /// Returns for each row the number [L/T, 1/T] by which its sum must change, so that hinges and

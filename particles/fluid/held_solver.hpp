@@ -1,11 +1,11 @@
 // A fluid whose particles are held by rigid bodies, hinges, springs and arms, docs/physics.md
-// (6.7). Lengths [L], masses [M] and times [T] are in any consistent units. An array of velocities
-// [L/T, 1/T] or forces [M L/T^2, M L^2/T^2] of particles has motion_components() numbers for each
-// particle. An array for rows has one number for each row of hold() and is empty without rows.
-// Sizes and the order of calls are not checked. Rows that contradict each other throw
-// Error(kNotConverged); all other errors are those of the fluid solver. fluid_simulation.cpp,
-// fluid_links.cpp and held_rows.hpp use the class. A change must keep that rows that follow from
-// each other are no error, but rows that contradict each other are.
+// (6.7). Each of these puts linear conditions on velocities, which are called rows. Lengths [L],
+// masses [M] and times [T] are in any consistent units. An array of velocities [L/T, 1/T] or forces
+// [M L/T^2, M L^2/T^2] of particles has motion_components() numbers for each particle. An array for
+// rows has one number for each row of hold() and is empty without rows. Sizes and the order of
+// calls are not checked. Rows that contradict each other throw Error(kNotConverged); all other
+// errors are those of the fluid solver. fluid_simulation.cpp, fluid_links.cpp and held_rows.hpp use
+// the class. A change must keep that rows that follow from each other are no error.
 #pragma once
 
 #include <cstddef>
@@ -74,9 +74,10 @@ class HeldSolver : public FluidSolver {
   void hold(std::vector<HeldRow> rows, double h);
 
   void place(const FluidParticles& bodies) override;
-  /// Returns the velocities with which the rows hold; if `driving` is false, with the prescribed
-  /// sums and the extensions 0. If `driving` is true and rows contradict each other, throws
-  /// Error(kNotConverged), which names these rows. Also throws the errors of the fluid solver.
+  /// Returns the velocities with which the rows hold. If `driving` is false, the prescribed sums,
+  /// the motions of images and the extensions of springs are taken as 0. If `driving` is true and
+  /// rows contradict each other, throws Error(kNotConverged), which names these rows. Also throws
+  /// the errors of the fluid solver.
   std::vector<double> velocities(std::span<const double> forces, bool driving) override;
   FlowQuantities quantities() override { return solver_->quantities(); }
   double vary_penalty() override;
