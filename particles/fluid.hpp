@@ -91,7 +91,7 @@ struct LinearFlow {
 using SideVelocities = std::array<WallVelocity, 4>;
 
 /// A line across a channel: `[[probe]]` of a case. The flow through the line and the mean pressure
-/// on it are measured.
+/// on it are measured. The domain must be a box, and the fluid solver FreeFEM.
 struct Probe {
   std::string name;              ///< its name in the column `name` of the output file probes.csv
   std::array<double, 2> from{};  ///< a point on a wall [L]

@@ -43,8 +43,9 @@ struct Contact {
   std::int32_t image = 0;  ///< periodic image of `second` that meets `first`, -13 to 13; 0: itself
   /// If `first` is negative: number of the obstacle, or -1 for a stop, a bound of a hinge's angle.
   std::int32_t obstacle = 0;
-  /// Change of the gap per impulse of this contact [T/M]: without a fluid h (1/m_i + 1/m_j), with
-  /// the length h of the step and the masses of both particles.
+  /// Change of the gap per impulse of this contact [T/M], > 0 in a problem to be solved. Without a
+  /// fluid it is h (1/m_i + 1/m_j), with the length h of the step and the masses m of both
+  /// particles; an obstacle adds nothing.
   double w = 0;
   /// Change of the gap per counter-clockwise turn [rad] of the first and of the second particle
   /// [L]. They are 0 except in a fluid, for particles that are not discs and at stops of hinges.

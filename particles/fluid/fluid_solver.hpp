@@ -83,12 +83,13 @@ struct FlowQuantities {
   /// Forces and torques of the fluid on all particles [M L/T^2, M L^2/T^2], motion_components()
   /// numbers each.
   std::vector<double> fluid_forces;
-  // The members below are 0 or empty in a fluid without inertia.
-  double kinetic_energy = 0;  ///< of the fluid [M L^2/T^2], >= 0
+  /// Kinetic energy of the fluid [M L^2/T^2], >= 0; 0 in a fluid without inertia.
+  double kinetic_energy = 0;
   /// Largest distance that the fluid moves in a step relative to the mesh, divided by the size of
-  /// the triangle of the mesh [1], >= 0.
+  /// the triangle of the mesh [1], >= 0; 0 in a fluid without inertia.
   double courant_number = 0;
-  /// Flow [L^2/T] and mean pressure [M/(L T^2)] of each of Fluid::probes.
+  /// Flow [L^2/T] through each of Fluid::probes, and mean pressure [M/(L T^2)] on it, in the order
+  /// of the probes.
   std::vector<std::array<double, 2>> probes{};
 };
 

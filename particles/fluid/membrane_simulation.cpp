@@ -26,7 +26,7 @@
 namespace viscontact::particles {
 namespace {
 
-constexpr std::size_t kComponents = 3;  // numbers of a particle in the plane: x, y and turn
+constexpr std::size_t kComponents = 3;  // number of components of a particle: x, y and turn
 
 }  // namespace
 
@@ -316,8 +316,8 @@ StepContacts MembraneSimulation::Implementation::solve_contacts_of(
     return (is_driven(pair.first) && is_driven(pair.second)) ||
            (pair.first >= 0 && setting_.fluid->are_of_one_membrane(pair.first, pair.second));
   };
-  // Relative error of the velocities that the fluid solver gives; error_of_answers() in
-  // fluid/fluid_motion.hpp has the same number and its reason.
+  // The relative error of the velocities that the fluid solver gives. It is equal to kError in
+  // error_of_answers() of fluid/fluid_motion.hpp, where its reason is given.
   constexpr double kErrorOfAnswers = 1e-9;
   const double radius = mean_radius(state_.particles);
   const ContactConditions conditions{velocities,      h,      MotionLayout{kComponents},
