@@ -1,7 +1,8 @@
-// Lists the contacts of a state for output, and measures its overlaps. Lengths, masses and times
-// are in the units of the case. Tables, VTK files and pages show these contacts; io/, run/ and
-// python/ use this file. Nothing is checked or thrown. A change must keep the order of
-// contacts_of(), because io/vtk_reader.cpp returns the contacts of a file in the same order.
+// Lists the contacts of a state for output, and measures its overlaps. Lengths [L], masses [M] and
+// times [T] are in the units of the case. The tables, VTK files and HTML pages that a run writes
+// show these contacts; io/, run/ and python/ use this file. Nothing is checked or thrown. A change
+// must keep the order of contacts_of(), because io/vtk_reader.cpp returns the contacts of a file in
+// the same order.
 #pragma once
 
 #include <cstdint>
@@ -15,25 +16,27 @@ namespace viscontact::particles {
 
 /// What friction did at a contact in the last step.
 enum class ContactFriction : std::int8_t {
-  kNone,    ///< no load on the solids (given loads may bear friction), or a case without friction
+  /// The case has no friction, or the solids carried no load. With FrictionMethod::kConvex such a
+  /// contact may still have had friction, because a load that was given before the step bounds it.
+  kNone,
   kSticks,  ///< the friction is smaller than coefficient times load
   kSlides   ///< the friction is coefficient times load, its largest magnitude
 };
 
 /// A contact as files show it. gamma is minus the impulse that the fluid film between both surfaces
-/// has absorbed; a contact with gamma < 0 is glued.
+/// has absorbed. A contact with gamma < 0 is called glued, because the film can pull.
 struct CurrentContact {
   std::int32_t first;      ///< number of a particle, or -1 - k for obstacle k of obstacles_of()
   std::int32_t second;     ///< number of a particle, its place in Particles, from 0
-  double gap;              ///< [L], < 0 if the two overlap
+  double gap;              ///< distance of the surfaces [L], < 0 if the two overlap
   double gamma;            ///< Pair::gamma [M L/T], of discs in a fluid [M/T]; <= 0
   double gamma_error = 0;  ///< estimate of the error of gamma, in its unit, >= 0
   std::int32_t image = 0;  ///< periodic image of `second` that meets `first`, -13 to 13; 0: itself
-  ContactFriction friction = ContactFriction::kNone;  ///< in the last step
+  ContactFriction friction = ContactFriction::kNone;  ///< what friction did in the last step
   /// Mean normal force in the last step [M L/T^2], of discs in a fluid per length: that of solids
   /// and film together, > 0 where it pushes the bodies apart.
   double normal_force = 0;
-  Vector tangential_force{};  ///< mean friction on `second` in the last step, in the same unit
+  Vector tangential_force{};  ///< mean friction on `second` in the last step, unit of normal_force
   // The next members are not in VTK files.
   Vector normal{};  ///< unit normal from `first` to `second`
   /// Vector [L] to the centre of `second` from that of `first` or the nearest point of an obstacle.
@@ -43,21 +46,24 @@ struct CurrentContact {
   [[no_unique_address]] ShownMemory shown{};
 };
 
-/// Names of both bodies in files: the ids of two particles, or of one, and -1 - k for obstacle k.
+/// Names of both bodies in files: the ids of the first and the second particle; or, at obstacle k,
+/// the id of the particle and -1 - k, in this order.
 std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
                                              const CurrentContact& contact);
 
-/// The pairs that are glued, touch, or had a force in the last step: first pairs of particles, then
-/// particles at obstacles, each in the order of the state. A pair touches if its gap is at most
-/// SolverSettings::tolerance times the mean radius, to which Fluid::threshold_gap is added in a
-/// fluid.
+/// The pairs of the state that are glued, touch, or had a force in the last step. First come the
+/// pairs of particles in the order of State::pairs, then the particles at obstacles in the order of
+/// State::walls. A pair touches if its gap is at most SolverSettings::tolerance times the mean
+/// radius, to which Fluid::threshold_gap is added in a fluid. Before the first step all forces are
+/// 0.
 std::vector<CurrentContact> contacts_of(const Setting& setting, const State& state);
 
 /// Largest Pair::gamma_error of all pairs, in the unit of gamma, >= 0; 0 without pairs.
 double largest_gamma_error(const State& state);
 
-/// Largest overlap of two particles, or of a particle and an obstacle, divided by the mean radius;
-/// 0 if nothing overlaps. It checks all particles, not only the pairs in the neighbour list.
+/// Largest overlap of two particles, or of a particle and an obstacle, divided by the mean radius
+/// [1], >= 0; 0 if nothing overlaps. It checks all particles, not only the pairs in the neighbour
+/// list. Two particles of one body, or neighbours on a membrane, may overlap and do not count.
 double largest_overlap(const Setting& setting, const State& state);
 
 }  // namespace viscontact::particles

@@ -1,7 +1,10 @@
-// Sweeps of nonlinear Gauss-Seidel over the contacts and links of a time step: each sweep improves
-// the impulses of the problem of constraint_problem.hpp. Lengths, masses and times are in any
-// consistent units. Nothing is checked or thrown. constraint_solver.cpp uses them. Results depend
-// on the order of blocks and sums.
+// Sweeps of nonlinear Gauss-Seidel over the contacts, and the links (hinges, arms, springs), of a
+// time step: each sweep improves the impulses in a ConstraintProblem (constraint_problem.hpp). A
+// row of this problem is one scalar: a gap, a slip, or the left side of a link's equation. Lengths
+// [L], masses [M] and times [T] are in any consistent units; a row of angles has [rad] in place of
+// [L], and [M L^2/T] in place of [M L/T]. Nothing is checked, thrown or measured: the caller must
+// compute the residuals. constraint_solver.cpp uses the sweeps. Another order of blocks or sums
+// would change results within the tolerances.
 #pragma once
 
 #include <cstddef>
@@ -18,12 +21,12 @@ namespace viscontact::particles {
 template <int D>
 class ContactSweeps {
  public:
-  /// `problem` must outlive this object, and its units, rows and blocks must not change.
+  /// `problem` must outlive this object. Only its impulses may change meanwhile.
   explicit ContactSweeps(ConstraintProblem<D>& problem);
 
-  /// Improves problem.impulses [M L/T] by `count` >= 0 sweeps. `w` [T/M], > 0, are the
-  /// row_mobilities() of the problem, one for each row; both tangential rows of a contact must have
-  /// the same one.
+  /// Improves problem.impulses [M L/T], one for each row, by `count` sweeps, >= 0; 0 changes
+  /// nothing. `w` [T/M], > 0, has one number for each row, at least that of row_mobilities(): the
+  /// change of its value by a unit impulse. Both tangential rows of a contact have the same number.
   void sweep(int count, const std::vector<double>& w);
 
  private:
@@ -33,8 +36,9 @@ class ContactSweeps {
   void change(std::size_t row, double impulse);
 
   ConstraintProblem<D>& problem_;
-  std::vector<Motion<D>> pushes_;  // for each part: motion of its unit by a unit impulse on its row
-  std::vector<Motion<D>> y_;       // motions of all units with the present impulses [L, rad]
+  // For each part of the rows: the motion of its unit that a unit impulse on its row causes.
+  std::vector<Motion<D>> pushes_;
+  std::vector<Motion<D>> y_;  // motions of all units with the present impulses [L, rad]
 };
 
 }  // namespace viscontact::particles

@@ -1,9 +1,11 @@
-// Solves problems of contacts with Coulomb's law and links by following a path of smoothed
-// problems, docs/physics.md (5.20) (constraint_problem.hpp defines problem, rows and units).
-// Lengths [L], masses [M] and times [T] are in any consistent units; h is the length of the step,
-// M/h are the masses and moments of inertia over h. Nothing is thrown: the caller must measure the
-// residuals. constraint_solver.cpp uses it. The path depends neither on the order of the contacts
-// nor on a guess of the impulses, also where contacts are redundant; a change must keep that.
+// Finds the impulses of contacts with Coulomb's law, and of links, in a time step. It follows a
+// path of smoothed problems, docs/physics.md (5.20), whose end is the solution. The problem is a
+// ConstraintProblem (constraint_problem.hpp): a unit is a particle or a rigid body, a row is a gap,
+// a slip or the left side of a link's equation. Lengths [L], masses [M] and times [T] are in any
+// consistent units; h is the length of the step, M/h are the masses and moments of inertia over h.
+// Nothing is checked or thrown: the caller must measure the residuals. constraint_solver.cpp uses
+// it. A change must keep that the path depends neither on the order of the contacts nor on the
+// guess in ConstraintProblem::impulses, also where several impulses solve the problem.
 #pragma once
 
 #include <array>
@@ -18,56 +20,63 @@
 namespace viscontact::particles {
 
 /// Finds motions and impulses that obey Coulomb's law. The conditions of each contact are products
-/// that must be 0: of its gap u and its normal impulse r beyond the lowest one; of the load of its
-/// solids and the impulse that its film can still absorb; and of its friction p below the bound
-/// mu_s times this load, and its slip v. On the path all products have the same positive value tau
-/// instead (but for constant factors), and the errors of all linear equations are tau times those
-/// of a start at which gaps and impulses are large. The solution is where tau becomes 0.
+/// that must be 0. The first is u r, with its gap u and the part r of its normal impulse above the
+/// lowest allowed value. The second is the load of its solids times the impulse that its film can
+/// still absorb. The third is the product (bound, p) o (z, v) of two points of a cone
+/// (cone.hpp): p is the friction, its bound is mu_s times this load with the coefficient of
+/// friction mu_s, and z is a bound of the slip v. On the path each product is a constant times the
+/// same positive number tau instead, and the error of each linear equation is another constant
+/// times tau. These constants make the path start where all gaps and impulses are large. At the
+/// solution tau is 0.
 ///
 /// Coulomb's law is not the condition of a minimum, so that tau need not fall along the path: it
-/// grows between two folds, where the determinant of the equations is negative. A step of the
-/// method follows the path by a polynomial of second order, from one factorisation of a UnitMatrix,
-/// up to where the products would leave an interval around those on the path. The next one begins
-/// with a correction at right angles to the path, so that it also passes folds (Keller 1977,
-/// "Numerical solution of bifurcation and nonlinear eigenvalue problems"). A step whose end cannot
-/// be corrected is taken again with a smaller length.
+/// grows between two folds of the path, where the determinant of the equations is negative. A step
+/// of the method follows the path by a polynomial of second order. It takes one factorisation of a
+/// UnitMatrix, and ends before the products leave an interval around their values on the path. The
+/// next step begins with a correction at right angles to the path, so that steps also pass folds
+/// (Keller 1977, "Numerical solution of bifurcation and nonlinear eigenvalue problems"). A step
+/// whose end cannot be corrected is taken again with a smaller length.
 template <int D>
 class CoulombPath {
  public:
-  /// All arguments must outlive this object. `w` are the positive row_mobilities() of the problem
-  /// [T/M]. `matrix` is made for the problem without is_symmetric; follow() overwrites it. All
-  /// contacts with friction must have FrictionBound::kCoulomb.
+  /// All arguments must outlive this object. `w` [T/M] has one number > 0 for each row:
+  /// row_mobilities(), or larger ones. `matrix` was made for this problem with is_symmetric =
+  /// false, and follow() overwrites it. All contacts with friction must have
+  /// FrictionBound::kCoulomb. A contact whose film has an infinite capacity gets no friction.
   CoulombPath(const ConstraintProblem<D>& problem, const std::vector<double>& w,
               UnitMatrix<D>& matrix);
 
-  /// Number of different paths to a solution, which differ in how they smooth the bound of the
-  /// friction. On nearly all problems the first one suffices.
+  /// Number of different paths to a solution. They differ in how strongly they smooth the bound of
+  /// the friction (kSmoothing in coulomb_path.cpp). On nearly all problems the first path suffices.
   static constexpr int kPaths = 3;
 
-  /// Follows path `number`, from 0 to kPaths - 1, until the root of tau, which is a violation, is
-  /// at most `accuracy`, in (0, 1), times the largest scaled value of a row with the least
-  /// impulses. Stops before if the path is lost, if rounding errors prevent progress, or after
-  /// `max_iterations` factorisations. Returns their number.
+  /// Follows path `number`, from 0 to kPaths - 1, from its start until reached() is at most
+  /// `accuracy` [1], in (0, 1). Stops earlier if the path is lost, if rounding errors prevent
+  /// progress, or after `max_iterations` >= 0 factorisations. Returns the number of factorisations,
+  /// which is 0 if there is no contact or no violation at the start.
   int follow(int number, double accuracy, int max_iterations);
 
-  /// The root of the least tau of the last follow(), over its value at the start [1].
+  /// The square root of the least tau in the last follow(), divided by its value at the start [1],
+  /// 0 to 1: a measure of the violations that are left. It is 0 if there were none at the start, 1
+  /// if links have violations but there is no contact, and NaN if a number of the problem is NaN.
   double reached() const { return size_ == 0 ? 0 : std::sqrt(best_.tau) / size_; }
-  /// The impulses at the point with the least tau of the last follow(), one for each row [M L/T].
+  /// The impulses [M L/T] at the point with the least tau in the last follow(), one for each row.
   const std::vector<double>& impulses() const { return impulses_; }
 
  private:
   static constexpr std::size_t kMotion = static_cast<std::size_t>(D + kTurns<D>);
   static constexpr std::size_t kTangents = static_cast<std::size_t>(D - 1);
   using Tangent = std::array<double, kTangents>;
-  // The value of a row is multiplied by a scale, its impulse divided by it. With the scale
-  // 1/w^(1/2) of the first row of its block both are in the unit L (M/T)^(1/2), as all numbers
-  // below without another unit.
+  // The value of a row is multiplied by a scale, and its impulse is divided by the same scale:
+  // 1/w^(1/2) with the mobility w of the first row of the contact or link, and for tangential rows
+  // that of the first tangential row. Both then have the unit L (M/T)^(1/2), which is also the unit
+  // of all numbers below for which no unit is given.
   //
-  // What is unknown of a contact or a row of a link, or its change.
+  // The unknowns of a contact or of a row of a link, or their changes.
   struct Point {
     double u = 0;      // gap
-    double r = 0;      // its impulse minus the lowest one; impulse of the row of a link
-    double bound = 0;  // of the friction: mu_s times the load of the solids
+    double r = 0;      // normal impulse minus its lowest value; impulse of the row of a link
+    double bound = 0;  // bound of the friction: mu_s times the load of the solids
     double spare = 0;  // mu_s times the impulse that the film can still absorb
     double z = 0;      // upper bound of the slip, with the product (bound, p) o (z, v) of cone.hpp
     Tangent p{};       // friction
@@ -79,29 +88,29 @@ class CoulombPath {
     std::vector<Point> points;
     double tau = 0;
   };
-  // A step of the path: its end is at + correction + length tangent + length^2 second.
+  // A step along the path. Its end is the sum at + correction + length tangent + length^2 second.
   struct Step {
     State at, correction, tangent, second;
-    double length = 0;  // in which it was taken
+    double length = 0;  // length with which the step was taken [1]
   };
-  // A contact, or a row of a link.
+  // The constants and errors of a contact or of a row of a link.
   struct Part {
     std::size_t block = 0, row = 0;
-    bool is_equation = false;       // a row of a link
-    bool rubs = false;              // with friction
-    double scale = 1, of_slip = 1;  // of the row, and of the tangential rows [(M/T)^(1/2)]
+    bool is_equation = false;       // true: a row of a link
+    bool rubs = false;              // true: a contact with friction
+    double scale = 1, of_slip = 1;  // scale of the row, and of the tangential rows [(M/T)^(1/2)]
     double base = 0;                // impulse at which r is 0 [M L/T]
-    double compliance = 0;          // of an equation, over w [1]
-    double bound_per_impulse = 0;   // change of bound - spare by that of r [1]
-    double error = 0;               // value of the row minus u; of an equation its left side
+    double compliance = 0;          // compliance of a link divided by w [1]
+    double bound_per_impulse = 0;   // change of (bound - spare) divided by the change of r [1]
+    double error = 0;               // value of the row minus u; of a link value + compliance r
     Tangent slip_error{};           // values of the tangential rows minus v
-    double error_per_tau = 0;       // the same at the start, over tau [(T/M)^(1/2)/L]
-    Tangent slip_error_per_tau{};
-    // From factorise(): derivatives of the change of r by that of the value of the row, and of the
-    // change of p by that of the slip and of the bound.
-    double weight = 0;
-    std::array<double, kTangents * kTangents> inverse{};  // of the matrix before the change of p
-    Tangent by_bound{};
+    double error_per_tau = 0;       // error at the start divided by tau there [(T/M)^(1/2)/L]
+    Tangent slip_error_per_tau{};   // slip_error at the start divided by tau there
+    // The last three members are set by factorise().
+    double weight = 0;  // minus the derivative of the change of r by that of the row's value [1]
+    // Inverse of the matrix that multiplies the change of p in the equation of the friction.
+    std::array<double, kTangents * kTangents> inverse{};
+    Tangent by_bound{};  // derivative of the change of p by that of the bound [1]
   };
   void set_parts();
   void start();
@@ -122,13 +131,14 @@ class CoulombPath {
   const std::vector<double>& w_;
   UnitMatrix<D>& matrix_;
   std::vector<Part> parts_;
-  State state_, best_;  // the present point, and that with the least tau
-  // Impulses on the units minus M/h (y - y*) [M L/T], and those of the start over tau [1/L].
+  State state_, best_;  // the present point of the path, and its point with the least tau
+  // Impulses on the units minus M/h (y - y*) [M L/T], where y* are the motions y without impulses;
+  // and the same at the start, divided by tau there [1/L].
   std::vector<Motion<D>> error_, error_per_tau_;
   std::vector<double> impulses_;
-  double size_ = 0;       // the largest scaled value of a row with the least impulses
-  double degree_ = 0;     // number of products
-  double smoothing_ = 1;  // bound times spare on the path over tau
+  double size_ = 0;       // root of tau at the start: the largest scaled value with lowest impulses
+  double degree_ = 0;     // sum of 1 for each contact without friction and 4 for each one with it
+  double smoothing_ = 1;  // bound times spare on the path, divided by tau [1]
 };
 
 }  // namespace viscontact::particles

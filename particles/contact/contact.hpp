@@ -1,10 +1,11 @@
 // Contact of two particles, or of a particle and an obstacle (plane or circle): its gap and normal,
 // docs/physics.md (5.1), and whether given displacements close the gap. Lengths, masses and times
 // are in any consistent units; D is the number of dimensions, 1 (spheres on an axis), 2 (discs) or
-// 3 (spheres). The number of a particle or obstacle is its place in its array, from 0; arrays
-// `displacements` have D numbers [L] for each particle. Nothing is checked or thrown. projection/,
-// dual_problem/, constraints/, fluid/, impacts/ and current_contacts.cpp use it. A change must keep
-// that a gap of rounding errors counts as 0.
+// 3 (spheres). The number of a particle or obstacle is its place in its array, from 0. An array
+// `displacements` has D numbers [L] for each particle: its displacement in the step. Nothing is
+// checked or thrown. projection/, dual_problem/, constraints/, fluid/, impacts/ and
+// current_contacts.cpp use it. A change must keep that a gap as small as its rounding error counts
+// as 0.
 #pragma once
 
 #include <algorithm>
@@ -26,35 +27,37 @@ namespace viscontact::particles {
 /// gamma < 0, where gamma [M L/T] is minus the impulse that the film has absorbed (film_law.hpp).
 template <int D>
 struct Contact {
-  std::int32_t first = -1;       ///< number of a particle; -1 if `second` meets an obstacle
+  std::int32_t first = -1;       ///< number of a particle; -1 at an obstacle or the stop of a hinge
   std::int32_t second = 0;       ///< number of a particle
   std::array<double, D> normal;  ///< unit normal [1] from `first` (or the obstacle) to `second`
   /// Distance of the surfaces at the beginning of the step plus `tolerated` [L]. A plane is taken
   /// at its position at the end of the step.
   double gap = 0;
   double lowest = 0;  ///< lower bound of the impulse [M L/T], <= 0: gamma before the step
-  /// Impulse of the contact in the step [M L/T], >= lowest, > 0 where it pushes: before the
-  /// solution a guess, then the solution.
+  /// Impulse of the contact in the step [M L/T], >= `lowest`, > 0 if it pushes. It is a guess
+  /// before the problem is solved, and then the solution.
   double impulse = 0;
   /// Largest residual with which the contact counts as converged [L], > 0.
   double allowed = 0;
-  double tolerated = 0;    ///< overlap that the step does not remove [L], >= 0 (resolved())
+  double tolerated = 0;    ///< overlap that the step does not remove [L], >= 0; see resolved()
   std::int32_t image = 0;  ///< periodic image of `second` that meets `first`, -13 to 13; 0: itself
   /// If `first` is negative: number of the obstacle, or -1 for a stop, a bound of a hinge's angle.
   std::int32_t obstacle = 0;
-  /// Change of the gap per impulse of this contact [T/M]: without a fluid h (1/m_i + 1/m_j), with
-  /// the length h of the step and the masses of both particles.
+  /// Change of the gap per impulse of this contact [T/M], > 0 in a problem to be solved. Without a
+  /// fluid it is h (1/m_i + 1/m_j), with the length h of the step and the masses m of both
+  /// particles; an obstacle adds nothing.
   double w = 0;
-  /// Change of the gap per counter-clockwise turn of the first and of the second particle [L]. Not
-  /// 0 only in a fluid, for particles that are no discs and at stops of hinges.
+  /// Change of the gap per counter-clockwise turn [rad] of the first and of the second particle
+  /// [L]. They are 0 except in a fluid, for particles that are not discs and at stops of hinges.
   std::array<double, 2> levers{};
 
-  /// True if it is the stop of a hinge, whose gap changes only by the turn of `second` (`levers`).
+  /// True if this is the stop of a hinge. The gap of a stop changes only by turns (`levers`).
   bool is_stop() const { return first < 0 && obstacle < 0; }
 };
 
-/// Residual of the contact conditions: gap >= 0, impulse >= lowest, and one of them with equality
-/// [L]; 0 for a solution. `slack` is Contact::w times (impulse - lowest) [L].
+/// Residual [L] of the contact conditions, >= 0. The conditions are gap >= 0, impulse >= lowest,
+/// and equality in one of the two; the residual of a solution is 0. `gap_after` is the gap after
+/// the step [L], `slack` is Contact::w times (impulse - lowest) [L].
 inline double contact_residual(double gap_after, double slack) {
   return std::abs(std::min(gap_after, slack));
 }
@@ -74,7 +77,8 @@ std::array<double, D> separation(const Particles& p, std::int32_t first, std::in
   return x;
 }
 
-/// Contact of particle `pair.second` with a plane or circle at `place`, with its true gap; `w`,
+/// Contact of particle `pair.second` with a plane or circle at `place`; `pair.first` is -1 - k for
+/// obstacle k. The gap is the distance of the surfaces, < 0 if the two overlap. The members `w`,
 /// `allowed`, `tolerated` and `levers` keep their defaults.
 template <int D>
 Contact<D> contact_of(const Particles& p, const Pair& pair, const PlanePosition& place) {
@@ -87,9 +91,10 @@ Contact<D> contact_of(const Particles& p, const Pair& pair, const PlanePosition&
   return contact;
 }
 
-/// Contact of a pair with its true gap, < 0 if the two overlap; the obstacles are at `places`. If
-/// both centres coincide, the normal is the first axis, because every direction separates them. The
-/// members `w`, `allowed`, `tolerated` and `levers` keep their defaults.
+/// Contact of two particles, or of a particle and an obstacle of `places`. The gap is the distance
+/// of the surfaces, < 0 if the two overlap. If two centres coincide, the normal is the first axis,
+/// because every direction separates the particles. The members `w`, `allowed`, `tolerated` and
+/// `levers` keep their defaults.
 template <int D>
 Contact<D> contact_of(const Particles& p, const Pair& pair, std::span<const PlanePosition> places) {
   if (pair.first < 0) return contact_of<D>(p, pair, places[pair.plane()]);
@@ -107,8 +112,8 @@ Contact<D> contact_of(const Particles& p, const Pair& pair, std::span<const Plan
   return contact;
 }
 
-/// Linearised gap [L] after the step: the gap at its beginning plus the relative displacement along
-/// the normal.
+/// Linearised gap [L] after the step: Contact::gap plus the relative displacement of the two along
+/// the normal. An obstacle is taken as fixed.
 template <int D>
 double gap_after(const Contact<D>& contact, std::span<const double> displacements) {
   const double* wj = &displacements[index_of(contact.second) * D];
@@ -122,7 +127,8 @@ double gap_after(const Contact<D>& contact, std::span<const double> displacement
   return sum;
 }
 
-/// Displacement of the second particle relative to the first [L]; the first is not an obstacle.
+/// Displacement of the second particle relative to the first [L]. The contact must be one of two
+/// particles.
 template <int D>
 std::array<double, D> relative_displacement(const Contact<D>& contact,
                                             std::span<const double> displacements) {
@@ -133,9 +139,10 @@ std::array<double, D> relative_displacement(const Contact<D>& contact,
   return w;
 }
 
-/// The gap after the step as gap_after(), but along the line through both centres after the step.
-/// It is at least the linearised gap. If that line has no positive component along the normal (the
-/// particles have passed each other), and for an obstacle, it is the linearised gap.
+/// The gap [L] after the step, measured along the line through both centres after the step. It is
+/// at least the linearised gap, gap_after(). It is equal to the linearised gap at an obstacle, and
+/// if the particles have passed each other, so that the vector between their centres has no
+/// positive component along the normal.
 template <int D>
 double distance_after(const Particles& p, const Contact<D>& contact,
                       std::span<const double> displacements) {
@@ -158,14 +165,15 @@ double distance_after(const Particles& p, const Contact<D>& contact,
   return linear + square / (along + std::sqrt(along * along + square));
 }
 
-/// The `contact` that contact_of() gave for `pair`, with the gap that the step has to close in
+/// The `contact` that contact_of() gave for `pair`, with the gap from which the step starts in
 /// place of the true gap.
 ///
 /// The gap is set to 0 if its magnitude is at most the rounding error of the positions and radii
-/// that it is computed from. In a step of length h a gap D causes an impulse m D/h; if the step is
-/// short, that of a rounding error would exceed any load. An overlap of up to `tolerated` [L]
-/// counts as the gap 0. The step then keeps the overlap from growing but does not remove it,
-/// because a packing may have no space for that, and because particles would move without a force.
+/// from which it is computed. In a step of length h a gap q causes an impulse m q/h on a mass m. If
+/// the step is short, the impulse that a rounding error causes would exceed any load. An overlap of
+/// up to `tolerated` [L], >= 0, counts as the gap 0. The step then keeps the overlap from growing
+/// but does not remove it, because a packing may have no space for that, and because particles
+/// would move without a force. Of a larger overlap the step removes the part beyond `tolerated`.
 template <int D>
 Contact<D> resolved(Contact<D> contact, const Particles& p, const Pair& pair,
                     std::span<const PlanePosition> places, double tolerated) {
@@ -189,11 +197,12 @@ Contact<D> resolved(Contact<D> contact, const Particles& p, const Pair& pair,
   return contact;
 }
 
-/// True if two particles are so far from each other that these displacements cannot make their
-/// linearised gap smaller than `margin` [L], >= 0. The condition is |x_j - x_i| > r_i + r_j + |w|_1
-/// + margin with centres x and radii r, where w is the relative displacement and |w|_1 the sum of
-/// its components' magnitudes, which is at least its length. The test needs no square root and no
-/// division, and decides for most pairs of a neighbour list.
+/// True if the two particles of `pair` are so far from each other that the displacements cannot
+/// make their linearised gap smaller than `margin` [L], >= 0. The condition is
+/// |x_j - x_i| > r_i + r_j + |d|_1 + margin with centres x and radii r. d is the relative
+/// displacement, and |d|_1 is the sum of the magnitudes of its components, which is at least its
+/// length. This test needs no square root and no division, and is true for most pairs of a
+/// neighbour list.
 template <int D>
 bool cannot_close(const Particles& p, const Pair& pair, std::span<const double> displacements,
                   double margin = 0) {
@@ -210,9 +219,10 @@ bool cannot_close(const Particles& p, const Pair& pair, std::span<const double> 
   return square > farthest * farthest;
 }
 
-/// Largest tangential displacement of a pair in a step, divided by the sum of its radii, for which
-/// the linearised gap is used in place of the gap. The two differ by half the square of this ratio
-/// times the sum of the radii, so that 0.5 limits the difference to an eighth of this sum.
+/// Largest tangential displacement of a pair in a step, divided by the sum of its radii [1], for
+/// which the linearised gap is used in place of the gap. The two gaps differ by about half the
+/// square of this ratio times the sum of the radii. The value is a free choice: 0.5 limits the
+/// difference to about an eighth of this sum.
 inline constexpr double kLargestTurn = 0.5;
 
 /// True if particle `contact.second` moves around particle `contact.first` by more than
@@ -232,8 +242,8 @@ bool turns_too_far(const Particles& p, const Contact<D>& contact,
   return square - normal * normal > kLargestTurn * kLargestTurn * sum * sum;
 }
 
-/// True if the linearised gap of a contact may be used: if turns_too_far() is false, or if the two
-/// particles touch while they move along straight lines by `displacements`.
+/// True if the linearised gap of a contact may be used. This is so if turns_too_far() is false, or
+/// if the two particles overlap while they move along straight lines by `displacements`.
 template <int D>
 bool paths_meet(const Particles& p, const Contact<D>& contact,
                 std::span<const double> displacements) {

@@ -1,9 +1,11 @@
-// The domain that holds the particles and, if there is one, the fluid: a disc, a box that may be
-// periodic, or a cylinder with the particles on its axis; and the obstacles that bound the space of
-// the particles: planes (lines, for discs), which may move, and circles. Lengths and times are in
-// any consistent units. Nothing is checked or thrown; particles/case checks the values. All of
-// particles/ and freefem_flow/ use this file. A change must keep the order of obstacles, by which
-// files number them, and normals at length 1.
+// Describes the domain that holds the particles and, if there is one, the fluid: a disc, a box that
+// may be periodic, or a cylinder with the particles on its axis. Also describes the obstacles that
+// bound the space of the particles: planes, which may move (lines, if the particles are discs), and
+// circles.
+// Lengths [L] and times [T] are in any consistent units. Nothing is checked or thrown;
+// particles/case checks the values of a case. All of particles/ and freefem_flow/ use this file. A
+// change must keep the order of obstacles, by which output and restart files number them, and the
+// length 1 of normals.
 #pragma once
 
 #include <array>
@@ -16,24 +18,26 @@
 
 namespace viscontact::particles {
 
-/// Position of a plane. The points x with normal.(x - point) >= 0 are its free side. With a radius
-/// it is a circle, whose inside |x - point| <= radius is the free side; then `normal` is not used.
+/// Position of a plane or a circle. The free side, on which the particles are, is for a plane the
+/// set of the points x with normal.(x - point) >= 0. For a circle it is the inside |x - point| <=
+/// radius, and `normal` is not used.
 struct PlanePosition {
   Vector point;       ///< any point of the plane, or the centre of the circle [L]
   Vector normal;      ///< unit normal [1] into the free side
-  double radius = 0;  ///< of the circle [L], > 0; 0: a plane
+  double radius = 0;  ///< radius of the circle [L], > 0; 0: it is a plane
 
   bool is_curved() const { return radius > 0; }  ///< whether it is a circle
   /// True if all members are equal.
   bool operator==(const PlanePosition&) const = default;
 };
 
-/// A plane and its motion: it moves with `velocity` and turns about a point, its pivot, which moves
-/// with it. Without friction only the motion along its normal acts on particles.
+/// A plane and its motion: it moves with `velocity` and turns about its pivot, a point that moves
+/// with the same velocity. Without friction only the motion along its normal acts on particles.
 struct Plane {
   PlanePosition start;         ///< position at time 0
-  PiecewiseConstant velocity;  ///< [L/T]
-  /// Angular velocity, which is constant [1/T]; for discs (0, 0, omega).
+  PiecewiseConstant velocity;  ///< velocity [L/T], constant between given times; 0 after the last
+  /// Angular velocity [rad/T], constant in time; if the particles are discs, only its third
+  /// component may differ from 0.
   Vector angular_velocity{};
   Vector pivot{};  ///< position at time 0 of the point about which the plane turns [L]
 
@@ -49,15 +53,15 @@ struct Plane {
 /// Positions of all planes at time t >= 0 [T], in the order of `planes`.
 std::vector<PlanePosition> positions_of(const std::vector<Plane>& planes, double t);
 
-/// Gap between a disc or sphere with this centre [L] and radius [L] > 0, and a plane or a circle
-/// around it [L]; < 0 if they overlap.
+/// Gap [L] between a disc or sphere with the given centre [L] and radius [L], > 0, and a plane or a
+/// circle around it; < 0 if they overlap.
 inline double gap(const PlanePosition& plane, const Vector& centre, double radius) {
   if (plane.is_curved()) return plane.radius - norm(centre - plane.point) - radius;
   return dot(plane.normal, centre - plane.point) - radius;
 }
 
 /// Unit normal [1], into the free side, at the point of the plane or circle that is nearest to
-/// `centre` [L]. In the centre of a circle the normal is the first axis.
+/// `centre` [L]. If `centre` is the centre of the circle, the result is the first axis.
 inline Vector normal_at(const PlanePosition& plane, const Vector& centre) {
   if (!plane.is_curved()) return plane.normal;
   const Vector inward = plane.point - centre;
@@ -65,8 +69,8 @@ inline Vector normal_at(const PlanePosition& plane, const Vector& centre) {
   return distance > 0 ? (1 / distance) * inward : Vector{1, 0, 0};
 }
 
-/// The tangent to the circle at its point nearest to `centre` [L], with the circle in its free
-/// side; a plane is returned as it is.
+/// The tangent to the circle `plane` at its point nearest to `centre` [L]. The circle is on the
+/// free side of the tangent. If `plane` is a plane, the result is this plane.
 inline PlanePosition tangent_at(const PlanePosition& plane, const Vector& centre) {
   if (!plane.is_curved()) return plane;
   const Vector normal = normal_at(plane, centre);
@@ -81,7 +85,8 @@ struct DiscDomain {
 
 /// A rectangle in two dimensions, a cuboid in three. Its walls have the numbers -1, -2, ... in
 /// files, in the order smallest x, largest x, smallest y, largest y, smallest z, largest z. A
-/// periodic side is no wall and has no number.
+/// periodic side is no wall and gets no number; the numbers of the walls after it are the next
+/// ones.
 struct BoxDomain {
   /// Corner with the smallest coordinates [L]; in two dimensions both third components are 0.
   std::array<double, 3> from{},
@@ -102,10 +107,11 @@ struct CylinderDomain {
 /// The domain of a case. std::monostate: there is none, so that only planes bound the particles.
 using Domain = std::variant<std::monostate, DiscDomain, BoxDomain, CylinderDomain>;
 
-/// Area of a disc or a rectangle [L^2], volume of a cuboid or a cylinder [L^3]; 0 without a domain.
+/// Area [L^2] of a disc or a rectangle, or volume [L^3] of a cuboid or a cylinder; 0 without a
+/// domain.
 double measure(const Domain& domain);
 
-/// Lengths of the periods along x, y and z [L]; 0 where the domain is not periodic.
+/// Lengths [L] of the periods along x, y and z; 0 along an axis on which there is no period.
 inline std::array<double, 3> periods_of(const Domain& domain) {
   std::array<double, 3> periods{};
   if (const auto* box = std::get_if<BoxDomain>(&domain))
@@ -115,8 +121,8 @@ inline std::array<double, 3> periods_of(const Domain& domain) {
 }
 
 /// The walls of a domain, at rest, in the order of their numbers in files; empty without a domain.
-/// The side of a cylinder is replaced by a plane parallel to the axis at the distance of its
-/// radius.
+/// A plane that is parallel to the axis, at the distance of the radius, replaces the side of a
+/// cylinder.
 std::vector<Plane> obstacles_of(const Domain& domain);
 
 }  // namespace viscontact::particles

@@ -1,8 +1,9 @@
 // Periodic domains: the cell, which holds one copy of each particle, and the images of the
-// particles in the neighbouring cells. Lengths and times are in any consistent units. Nothing is
-// checked or thrown; numbers of images beyond -13 to 13 give wrong periods. Used in particles.hpp,
-// setting.hpp, bodies/, membranes/, neighbours/, io/, case/ and freefem_flow/membranes/. Restart
-// files store numbers of images (image_number()), so that a change must keep their meaning.
+// particles in the neighbouring cells. The shift of an image is its position minus that of its
+// particle. Lengths [L] and times [T] are in any consistent units. Nothing is checked or thrown;
+// numbers of images outside -13 to 13 give wrong periods. particles.hpp, setting.hpp, bodies/,
+// membranes/, neighbours/, io/, case/ and freefem_flow/membranes/ use this file. Restart files
+// store numbers of images (image_number()), so that a change must keep their meaning.
 #pragma once
 
 #include <array>
@@ -15,18 +16,19 @@
 
 namespace viscontact::particles {
 
-/// Numbers of periods along x, y and z by which an image is shifted.
+/// Numbers of periods along x, y and z by which an image is shifted, whole numbers of any sign [1].
 using Periods = Vector;
 
 /// The cell of a domain that is periodic along some of its axes.
 struct PeriodicCell {
   Vector from{};     ///< lowest coordinates of the cell [L]
-  Vector lengths{};  ///< periods along x, y and z [L]; 0 where there is no period
+  Vector lengths{};  ///< periods along x, y and z [L], >= 0; 0: no period along this axis
   /// Mean gradient du/dx, du/dy, dv/dx, dv/dy of the velocity (u, v) of a fluid in the cell [1/T],
-  /// in two dimensions only. An image moves relative to its particle with the velocity gradient
-  /// times its shift at the start. Zeros without a fluid.
+  /// only in two dimensions. The product of this gradient and the shift of an image at the start is
+  /// the velocity of the image relative to its particle. All four are 0 without a fluid.
   std::array<double, 4> gradient{};
-  double moved_for = 0;  ///< time since the start, when the shifts were along the axes [T], >= 0
+  /// Time since the start [T], >= 0. At the start all shifts were whole periods along the axes.
+  double moved_for = 0;
 
   /// True if there is a period.
   bool is_periodic() const { return lengths[0] > 0 || lengths[1] > 0 || lengths[2] > 0; }
@@ -39,7 +41,7 @@ struct PeriodicCell {
   bool operator==(const PeriodicCell&) const = default;
 };
 
-/// The cell of a domain without a mean velocity gradient.
+/// The cell of a domain, without a mean velocity gradient. A domain that is no box has no periods.
 inline PeriodicCell cell_of(const Domain& domain) {
   const auto* box = std::get_if<BoxDomain>(&domain);
   return box == nullptr ? PeriodicCell{} : PeriodicCell{box->from, periods_of(domain)};
@@ -52,7 +54,8 @@ constexpr std::int32_t image_number(int x, int y, int z = 0) { return x + 3 * y 
 /// Largest number of an image, image_number(1, 1, 1).
 inline constexpr std::int32_t kLargestImage = 13;
 
-/// Periods along x, y and z by which the image with number `image`, -13 to 13, is shifted.
+/// Periods along x, y and z, each -1, 0 or 1, by which the image with number `image`, -13 to 13, is
+/// shifted.
 constexpr std::array<int, 3> periods_of_image(std::int32_t image) {
   const auto places = image + kLargestImage;
   return {places % 3 - 1, places / 3 % 3 - 1, places / 9 - 1};
@@ -66,42 +69,43 @@ inline bool has_image(const PeriodicCell& cell, std::int32_t image) {
   return true;
 }
 
-/// Velocity [L/T], relative to its particle, of an image whose shift at the start was `shift` [L].
+/// Velocity [L/T] of an image relative to its particle, if its shift at the start was `shift` [L].
 inline Vector velocity_at(const PeriodicCell& cell, const Vector& shift) {
   const auto& g = cell.gradient;
   return {g[0] * shift[0] + g[1] * shift[1], g[2] * shift[0] + g[3] * shift[1], 0};
 }
 
-/// Shift of an image at the start [L], along the axes.
+/// Shift [L] of an image at the start: `periods` times the lengths of the periods.
 inline Vector shift_at_start(const PeriodicCell& cell, const Periods& periods) {
   return {periods[0] * cell.lengths[0], periods[1] * cell.lengths[1], periods[2] * cell.lengths[2]};
 }
 
-/// Velocity of an image relative to its particle [L/T]. Contacts, rigid bodies and links that have
-/// an image in place of a particle add it to the velocity of the particle.
+/// Velocity [L/T] of an image relative to its particle. Where a contact, a rigid body or a link
+/// joins an image in place of the particle, this velocity is added to that of the particle.
 inline Vector velocity_of_image(const PeriodicCell& cell, const Periods& periods) {
   return velocity_at(cell, shift_at_start(cell, periods));
 }
 
-/// The present shift of an image [L]: its position minus that of its particle.
+/// The shift [L] of an image at the time PeriodicCell::moved_for.
 inline Vector shift_of(const PeriodicCell& cell, const Periods& periods) {
   return shift_at_start(cell, periods) + cell.moved_for * velocity_of_image(cell, periods);
 }
 
-/// Velocity, relative to its particle, of the image with number `image` (image_number()) [L/T].
+/// Velocity [L/T], relative to its particle, of the image with number `image`, -13 to 13.
 inline Vector velocity_of_image(const PeriodicCell& cell, std::int32_t image) {
   const auto [x, y, z] = periods_of_image(image);
   return velocity_of_image(cell, Periods{double(x), double(y), double(z)});
 }
-/// Present shift of the image with number `image` [L].
+/// The shift [L] of the image with number `image`, -13 to 13, at the time PeriodicCell::moved_for.
 inline Vector shift_of(const PeriodicCell& cell, std::int32_t image) {
   const auto [x, y, z] = periods_of_image(image);
   return shift_of(cell, Periods{double(x), double(y), double(z)});
 }
 
 /// The inverse of the motion of the cell, applied to the vector `apart` [L] from one place to
-/// another: the motion has changed each shift of an image to (1 + moved_for gradient) times its
-/// value at the start. Infinite or NaN if this matrix is singular.
+/// another. The motion has multiplied the shift of each image at the start by the matrix I +
+/// moved_for gradient, with the identity I. The result [L] is infinite or NaN if this matrix is
+/// singular.
 inline Vector before_the_motion(const PeriodicCell& cell, const Vector& apart) {
   const double t = cell.is_sheared() ? cell.moved_for : 0;
   const auto& g = cell.gradient;
@@ -111,9 +115,9 @@ inline Vector before_the_motion(const PeriodicCell& cell, const Vector& apart) {
 }
 
 /// The whole numbers of periods whose shift is nearest to the vector `apart` [L] from one particle
-/// to another: the image of the first particle with this shift is the one nearest to the second.
-/// 0 along an axis without a period. In a sheared cell, nearest is meant before the motion of the
-/// cell.
+/// to another: of all images of the first particle, the one with this shift is nearest to the
+/// second particle. The number is 0 along an axis without a period. In a sheared cell the shift is
+/// found that would be the nearest one before the motion of the cell, before_the_motion().
 inline Periods periods_towards(const PeriodicCell& cell, const Vector& apart) {
   const auto at_start = before_the_motion(cell, apart);
   Periods periods{};
@@ -122,14 +126,15 @@ inline Periods periods_towards(const PeriodicCell& cell, const Vector& apart) {
   return periods;
 }
 
-/// `apart` [L], the vector from one particle to another, minus the shift nearest to it
-/// (periods_towards()): the vector from the nearest image of the first particle to the second.
+/// The vector [L] from the nearest image of one particle to another particle: `apart` [L], the
+/// vector from the first to the second particle, minus the shift of periods_towards().
 inline Vector nearest_image(const PeriodicCell& cell, const Vector& apart) {
   return apart - shift_of(cell, periods_towards(cell, apart));
 }
 
-/// Number of periods along axis `axis` (0 to 2) that are subtracted from the coordinate `x` [L] to
-/// bring it into the cell: from <= x < from + length. 0 where there is no period.
+/// Number of periods along axis `axis`, 0 to 2, that must be subtracted from the coordinate `x` [L]
+/// to bring it into the cell, where from <= x < from + length. The number is 0 if there is no
+/// period along this axis.
 inline double periods_beyond(const PeriodicCell& cell, std::size_t axis, double x) {
   const double from = cell.from[axis], length = cell.lengths[axis];
   if (!(length > 0)) return 0;

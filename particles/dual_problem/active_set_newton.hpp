@@ -1,8 +1,9 @@
-// Newton's method for the dual problem of a time step: find scaled impulses z >= bound of the
+// Newton's method for the dual problem of a time step: it finds scaled impulses z >= bound of the
 // contacts with a gradient W z + linear_term >= 0, such that one of the two is an equality for each
-// contact. dual_problem.hpp has the problem and its units. dual_solver.cpp and
-// fluid/contact_problem.cpp use the method; nothing is checked or thrown. A change must keep that a
-// call that finds no solution leaves z as it was.
+// contact. With the impulse p [M L/T] and the mobility w [T/M] of a contact, z is w^(1/2) p, and
+// the gradient is its gap [L] divided by w^(1/2); W is a matrix without dimension
+// (dual_problem.hpp). dual_solver.cpp and fluid/contact_problem.cpp use the method. Nothing is
+// checked or thrown. A change must keep that a call that finds no solution leaves z as it was.
 #pragma once
 
 #include <algorithm>
@@ -15,20 +16,22 @@
 namespace viscontact::particles {
 
 /// The primal-dual active set method (Hintermueller, Ito & Kunisch 2003, "The primal-dual active
-/// set strategy as a semismooth Newton method"). With g the gradient, each iteration calls the
-/// contacts with z - g < bound active, except those that meet this condition by no more than their
-/// allowed residual. It sets z of the active contacts to their bounds. A factor of W then gives the
-/// z of all others, the free contacts, at which their g is 0. The method ends when no residual is
-/// larger than allowed. A chain of contacts of any length takes a few iterations.
+/// set strategy as a semismooth Newton method"). With g the gradient, each iteration calls those
+/// contacts active for which z - g is smaller than the bound by more than the allowed residual. It
+/// sets z of the active contacts to their bounds. A factor of W then gives the z of all other
+/// contacts, the free ones, at which their g is 0. The method ends when no residual is larger than
+/// allowed. A chain of contacts of any length takes a few iterations.
 ///
 /// `factor` has the interface of FreeSetFactor (mass_dual_problem.hpp): factorise(problem, free)
-/// makes a factor of W between the contacts with free[c] != 0 or returns false, solve(gradient,
-/// correction) applies it, and exists() says whether there is one. At the call there must be none.
+/// makes a factor of W between the contacts c with free[c] != 0 and returns true, or returns false;
+/// solve(gradient, correction) applies the factor; and exists() says whether there is a factor. At
+/// the call of active_set_newton() there must be none.
 ///
 /// The method converges fast near the solution and may cycle far from it. It stops after
 /// `max_iterations` solutions with the factor. If it has not converged then, or if factorise()
-/// returns false, problem.z is what it was before the call, and the returned residual is infinite;
-/// otherwise it is at most 1.
+/// returns false, problem.z is what it was before the call, and the returned residual is infinite.
+/// Otherwise the returned residual is at most 1. A contact with a gradient NaN does not count in
+/// it.
 template <SolvableDualProblem Problem, class Factor>
 SolverResult active_set_newton(Problem& problem, Factor& factor, int max_iterations) {
   const auto start = problem.z;
@@ -43,9 +46,9 @@ SolverResult active_set_newton(Problem& problem, Factor& factor, int max_iterati
   compute_gradient();
   SolverResult solved;
   while (solved.iterations < max_iterations) {
-    // Decide which contacts are free. One whose gap closes by no more than its allowed residual
-    // counts as free too, because it may bear load once its neighbours do: in a column at rest
-    // without impulses, at first only the lowest contact closes.
+    // Decide which contacts are free. A contact at its bound whose gap stays open by no more than
+    // its allowed residual counts as free, too, because it may bear load once its neighbours do. In
+    // a column at rest without impulses, for example, at first only the lowest contact closes.
     bool changed = false;
     for (std::size_t c = 0; c < problem.count(); ++c) {
       const double slack = 1 / problem.per_allowed[c];

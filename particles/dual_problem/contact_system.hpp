@@ -1,8 +1,9 @@
-// The contacts and particles of the problem that a time step solves, docs/physics.md (5.4), for the
-// impulses of contacts. Lengths, masses and times are in any consistent units. Numbers of
-// particles, bodies and contacts count from 0. projection/ and constraints/ use it; nothing is
-// checked or thrown. A change must keep the order of contacts and bodies, because rounding errors,
-// and with redundant contacts also the impulses, depend on it.
+// The contacts and particles of the problem that a time step solves for the impulses of contacts,
+// docs/physics.md (5.4). Lengths [L], masses [M] and times [T] are in any consistent units.
+// Particles, bodies and contacts are numbered from 0; D is the number of dimensions, 2 or 3.
+// projection/ and constraints/ use the class. Nothing is checked or thrown. A change must keep the
+// order of contacts and bodies. Rounding errors depend on it and, if several impulses solve the
+// problem, also the impulses.
 #pragma once
 
 #include <cstddef>
@@ -17,17 +18,19 @@
 
 namespace viscontact::particles {
 
-/// A particle takes part in the problem if add(), connect() or the rigid body of such a particle
-/// put it there. It is then called a body here, also if it belongs to a rigid body. Bodies are
-/// numbered in the order in which the contacts name them. Bodies that contacts connect, directly or
-/// through other bodies, form an island. Contacts are only added. h is the length of the step [T],
-/// u* the velocity of a body without contacts [L/T], v with them, m its mass [M].
+/// A particle takes part in the problem if add() or connect() names it, or if another particle of
+/// its rigid body takes part. It is then called a body here, also if it belongs to a rigid body.
+/// Bodies are numbered in the order in which they begin to take part. Bodies that contacts,
+/// connect() or rigid bodies join, directly or through other bodies, form an island. Contacts can
+/// be added but not removed. h is the length of the step [T] and m the mass of a body [M]. u* is
+/// the velocity of a body without the impulses of contacts [L/T], and v its velocity with them.
 template <int D>
 class ContactSystem {
  public:
-  /// `displacements`: h u* of all particles [L], D numbers for each. `mobilities`: h/m of all
-  /// particles [T/M], > 0. If one particle of a rigid body of `particles` takes part, all do. All
-  /// must outlive the object.
+  /// `displacements` holds h u* of all particles [L], D numbers for each; solve() overwrites it.
+  /// `mobilities` holds h/m of all particles [T/M], > 0. If one particle of a rigid body of
+  /// `particles` takes part, all particles of this body do. The three arguments must outlive the
+  /// object.
   ContactSystem(std::span<double> displacements, std::span<const double> mobilities,
                 const Particles& particles)
       : displacements_(displacements),
@@ -35,32 +38,38 @@ class ContactSystem {
         particles_(particles),
         body_of_(mobilities.size(), -1) {}
 
-  /// Adds a contact, makes its particles take part, and joins them to one island.
+  /// Adds a contact, makes its particles take part, and joins them to one island. The contact must
+  /// have `allowed` > 0, and `w` equal to the sum of the mobilities of its particles.
   void add(const Contact<D>& contact);
 
-  /// Makes two particles take part, in one island; if `first` is -1, only `second`.
+  /// Makes two particles take part, and joins them to one island. If `first` is -1, it makes only
+  /// `second` take part.
   void connect(std::int32_t first, std::int32_t second);
-  /// Tells that a rigid link holds `particle`, which must take part in the problem.
+  /// Tells the object that a rigid link holds `particle`, which must take part in the problem.
   void hold(std::int32_t particle) { is_held_[index_of(island(body_of(particle)))] = 1; }
 
   /// Solves the dual problem, with the impulses of `contacts` as the first guess and at most
-  /// `max_iterations` > 0 iterations. Sets these impulses, and in the array of the constructor the
-  /// displacements h v of the bodies. If `is_rough`, the caller uses the solution only to find
-  /// contacts that it must add. If it is not solved, SolverResult::residual is larger than 1.
+  /// `max_iterations` > 0 iterations. Sets these impulses [M L/T], and sets the displacements of
+  /// the bodies in the array of the constructor to h v. `is_rough` is true if the caller uses the
+  /// solution only to find contacts that it must add. If the problem is not solved,
+  /// SolverResult::residual is larger than 1; a NaN does not show in it, so that the caller must
+  /// measure the residuals of the step.
   SolverResult solve(bool is_rough, int max_iterations, ThreadPool& pool);
 
-  /// The contacts, which name particles by their own numbers, not by those of bodies. A caller may
-  /// change `impulse` and `allowed` of a contact, and nothing else.
+  /// The contacts in the order of add(). They name particles by the numbers of the particles, not
+  /// by those of the bodies. A caller may change `impulse` and `allowed` of a contact, and nothing
+  /// else.
   std::vector<Contact<D>> contacts;
 
   /// True if a particle of the contact is in an island with a rigid body or a rigid link.
   bool is_held(const Contact<D>& contact);
-  /// Gap of a contact, which need not be in the system, after the present displacements [L]: the
-  /// linearised gap, gap_after(), or distance_after() if uses_distance().
+  /// Gap [L] of a contact, which need not be in the system, after the present displacements. It is
+  /// distance_after() if uses_distance() is true, otherwise the linearised gap, gap_after().
   double gap(const Contact<D>& contact);
-  /// Makes gap() the distance for the contacts of the island of this body. The island must be held,
-  /// and may_use_distances(). The linearised gap of two particles in touch becomes negative when
-  /// they turn about each other, and would contradict rigid bodies and links that turn with them.
+  /// Makes gap() the distance of the surfaces for all contacts of the island of this body. For this
+  /// is_held() must be true for its contacts, and may_use_distances() must be true. When two
+  /// particles in touch turn about each other, their linearised gap becomes negative, which would
+  /// contradict rigid bodies and links that turn with them.
   void use_distances(std::int32_t body) {
     uses_distances_[index_of(island(body))] = 1;
     has_distances_ = true;
@@ -72,12 +81,12 @@ class ContactSystem {
   bool may_use_distances() const { return may_use_distances_; }  ///< false: they are forbidden
 
   const std::vector<std::int32_t>& bodies() const { return bodies_; }  ///< particle of each body
-  /// Number of the body that a particle is; -1 if the particle does not take part.
+  /// Number of the body that `particle` is, or -1 if the particle does not take part.
   std::int32_t body_of(std::int32_t particle) const { return body_of_[index_of(particle)]; }
-  /// Displacement h u* of a body: D numbers [L].
+  /// Displacement h u* [L] of a body: D numbers, valid until another particle takes part.
   const double* free_displacement(std::size_t body) const { return &free_[body * D]; }
-  /// The number of the body that represents the island of `body` >= 0; add() and connect() may
-  /// change it.
+  /// The number of the body that represents the island of `body` >= 0. add() and connect() may
+  /// choose another body for an island.
   std::int32_t island(std::int32_t body);
 
  private:
@@ -94,13 +103,13 @@ class ContactSystem {
   // island, or the body itself if it is the root, which represents the island.
   std::vector<std::int32_t> island_of_;
   std::vector<std::size_t> island_sizes_;  // number of bodies of each island, at its root
-  // 1 for an island with a rigid body or a rigid link, and for one whose gaps are distances,
-  // otherwise 0; at its root.
+  // Marks of each island, at its root: is_held_ is 1 if it has a rigid body or a rigid link,
+  // uses_distances_ is 1 if its gaps are distances; otherwise both are 0.
   std::vector<char> is_held_, uses_distances_;
-  // has_distances_: true if uses_distances_ has a 1, which saves two searches for each gap.
+  // has_distances_ is true if uses_distances_ has a 1. It saves two searches for each gap.
   bool may_use_distances_ = true, has_distances_ = false;
   std::size_t largest_island_ = 1;
-  FreeSetFactor<D> factor_;  // of the last solve() that needed a factor, for the next one
+  FreeSetFactor<D> factor_;  // made by the last solve() that needed a factor, for the next solve()
 };
 
 }  // namespace viscontact::particles

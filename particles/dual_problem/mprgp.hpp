@@ -1,10 +1,11 @@
 // Modified proportioning with reduced gradient projections, MPRGP (Dostal & Schoeberl 2005,
 // "Minimizing quadratic functions subject to bound constraints with the rate of convergence and
-// finite termination"): minimises z^T W z/2 + b^T z over z >= bound, the scaled problem for the
-// impulses of contacts in a time step, whose quantities dual_problem.hpp explains. dual_solver.cpp
-// and fluid/contact_problem.cpp use it; nothing is checked or thrown. A change must keep that sums
-// are taken in blocks of the thread pool, so that the results do not depend on the number of
-// threads.
+// finite termination"). It minimises z^T W z/2 + b^T z over z >= bound, the scaled problem for the
+// impulses of contacts in a time step (dual_problem.hpp). With the impulse p [M L/T] and the
+// mobility w [T/M] of a contact, z is w^(1/2) p, and the gradient is its gap [L] over w^(1/2); W
+// has no dimension and about the diagonal 1. dual_solver.cpp and fluid/contact_problem.cpp use the
+// class. Nothing is checked or thrown. A change must keep that sums are taken in blocks of the
+// thread pool, so that the results do not depend on the number of threads.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,18 +21,18 @@
 namespace viscontact::particles {
 
 /// The state of the iteration: z, the gradient g = W z + b, and the direction in which z moves.
-/// Contacts with z above the bound are called free. The free gradient is g on the free contacts;
-/// the chopped gradient is the negative part of g on the other ones, which would move them off the
-/// bound. A step is one of three:
+/// Contacts with z above the bound are called free. The free gradient is g on the free contacts.
+/// The chopped gradient is the negative part of g on the other contacts, which would move them off
+/// the bound. Each step is one of three:
 ///
-/// - proportioning: along the chopped gradient, if it is larger than the free gradient;
-/// - otherwise a preconditioned conjugate gradient step;
-/// - expansion: if that step leaves the bounds, it is projected on them.
+/// - proportioning is a step along the chopped gradient, made if this is larger than the free one;
+/// - otherwise the step is one of preconditioned conjugate gradients;
+/// - expansion: if such a step leaves the bounds, its end is projected on them.
 ///
-/// `Preconditioner` has apply(gradient, swept, y), which sets swept to the preconditioned gradient
-/// and y to B swept (dual_problem.hpp) and returns their slope, the inner product of swept and
-/// gradient. If its kMaySweep is true, it also has sweeps(), factorise() and both sweep_forward()
-/// of dual_solver.cpp.
+/// `Preconditioner` has apply(gradient, swept, y). It sets `swept` to the preconditioned gradient
+/// and y to B swept (dual_problem.hpp), and returns the inner product of swept and gradient. If its
+/// constant kMaySweep is true, it must also have sweeps(), factorise() and both sweep_forward() of
+/// the class Preconditioner in dual_solver.cpp.
 template <SolvableDualProblem Problem, class Preconditioner>
 class Mprgp {
  public:
@@ -68,24 +69,25 @@ class Mprgp {
     restart_ = true;
   }
 
-  /// Largest residual of a contact over its allowed residual [1]: at most 1 if all contacts have
-  /// converged. After some steps it is that of up to three steps before.
+  /// Largest DualProblem::residual() of all contacts [1], >= 0. It is at most 1 if all contacts
+  /// have converged. It may be that of up to three steps before; after refresh() it is the present
+  /// one. A contact with a residual NaN does not count.
   double residual() const { return statistics_.residual; }
 
-  /// Omits the regularisation (regularisation_) from now on.
+  /// From now on omits the regularisation, the 1e-14 that the object adds to the diagonal of W.
   void drop_regularisation() {
     regularisation_ = 0;
     refresh();
   }
 
-  /// Makes a new factor for the preconditioner. Returns false if it cannot be made; the caller may
-  /// go on without it.
+  /// Makes a new factor for the preconditioner. Returns false if the factor cannot be made; the
+  /// caller may then go on without it.
   bool factorise() {
     restart_ = true;
     return preconditioner_.factorise();
   }
 
-  /// Number of conjugate gradient steps since contacts last became free or got to their bounds.
+  /// Number of conjugate gradient steps since a contact last became free or reached its bound.
   int steps_between_same() const { return steps_between_same_; }
 
   /// Makes one step. Returns the number of products with W that it took, >= 1.
@@ -119,9 +121,9 @@ class Mprgp {
     double chopped_square = 0;  ///< sum of the squares of the chopped gradient
     double distance_to_bound = std::numeric_limits<double>::infinity();  ///< smallest z - bound
 
-    /// Adds a contact with the gradient `g` and z - bound = `distance`. `per_step` is 1 over the
-    /// length of a projected gradient step. The function has no branches, because a processor could
-    /// not predict which contacts of a packing are free.
+    /// Adds a contact with the gradient `g` and z - bound = `distance`. `per_step` is 1 divided by
+    /// the length of a projected gradient step. The function has no branches, because a processor
+    /// could not predict which contacts of a packing are free.
     void add(double g, double distance, double per_allowed, double per_step) {
       const bool is_free = distance > 0;
       const double phi = is_free ? g : 0.0, beta = is_free ? 0.0 : std::min(g, 0.0);
@@ -197,7 +199,8 @@ class Mprgp {
     statistics_ = pass<true, false>(length);
   }
 
-  /// The loop of move(): with all statistics if kMeasure, with the forward sweep if kSweep.
+  /// The loop of move(). It computes all statistics if kMeasure is true, and makes the forward
+  /// sweep if kSweep is true.
   template <bool kMeasure, bool kSweep>
   PassStatistics pass(double length) {
     return problem_.pool().template sum_of_blocks<PassStatistics>(
@@ -231,7 +234,8 @@ class Mprgp {
   }
 
   /// Expansion, after a step of this length that left the bounds: projects the new z on the bounds.
-  /// If the objective has not fallen, goes to the first bound instead. Returns the products with W.
+  /// If the objective has not fallen, goes to the first bound instead. Returns the number of
+  /// products with W.
   int expand(double length) {
     // The objective is a quadratic function of the length, which gives its value before the step.
     const double before = objective() + length * (slope_ - length * curvature_ / 2);
@@ -240,7 +244,7 @@ class Mprgp {
   }
 
   /// Goes from the point before the step along the direction to the first bound, if there is one,
-  /// and makes a projected gradient step from there. Returns the products with W.
+  /// and makes a projected gradient step from there. Returns the number of products with W.
   int go_to_bound() {
     double feasible = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < problem_.count(); ++c)
@@ -262,7 +266,8 @@ class Mprgp {
         if (problem_.is_free(c))
           problem_.z[c] = std::max(problem_.bound[c], problem_.z[c] - step_ * gradient_[c]);
       refresh();
-      // At this step length a rise of the objective is a rounding error, and the step is accepted.
+      // With a step shorter than this, a rise of the objective is a rounding error, and the step is
+      // accepted. The value is a free choice.
       constexpr double kShortest = 1e-6;
       if (objective() <= before || step_ < kShortest) return products;
       // An eigenvalue of W exceeds 4, as a particle with many contacts can cause.
@@ -278,8 +283,8 @@ class Mprgp {
     for (std::size_t c = 0; c < problem_.count(); ++c)
       direction_[c] = !problem_.is_free(c) && gradient_[c] < 0 ? gradient_[c] : 0.0;
     const double curvature = problem_.to_bodies(direction_, y_direction_);
-    // Largest step length; a single contact (W = 1) takes the length 1. Contacts that contradict
-    // each other would make the length infinite.
+    // The largest step length is a free choice far above 1, the length for a single contact (W =
+    // 1). Contacts that contradict each other would make the length infinite.
     constexpr double kLongest = 1e6;
     restart_ = true;
     move(std::min(statistics_.chopped_square / curvature, kLongest));
@@ -288,8 +293,8 @@ class Mprgp {
 
   Problem& problem_;
   Preconditioner preconditioner_;
-  /// Length of a projected gradient step: 2 over the largest eigenvalue of W, which is at most 4 in
-  /// packings of similar particles, because W has the diagonal 1.
+  /// Length of a projected gradient step: 2 divided by the largest eigenvalue of W, which is at
+  /// most 4 in packings of similar particles, because W has the diagonal 1.
   double step_ = 0.5;
   std::vector<double> before_;           // z before the step
   std::vector<double> y_, y_direction_;  // B z and B direction (dual_problem.hpp)
@@ -299,7 +304,7 @@ class Mprgp {
   /// directions the slope and the curvature are only rounding errors, and impulses would move along
   /// them without end. 1e-14 is above rounding errors, far below the curvatures of a chain of 10000
   /// contacts (1e-8), and below any tolerance. Where particles are jammed in a wedge, impulses may
-  /// be so large that this term leaves a gap; drop_regularisation() is for them.
+  /// be so large that this term leaves a gap; drop_regularisation() is for such impulses.
   double regularisation_ = 1e-14;
   double slope_ = 0;      // inner product of gradient and direction
   double curvature_ = 0;  // direction^T W direction, with the regularisation

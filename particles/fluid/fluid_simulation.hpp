@@ -1,11 +1,11 @@
 // Simulates rigid particles in a fluid with viscous contact, docs/physics.md (6.1) to (6.5)
 // (Lefebvre 2007, "Fluid-particle simulations with FreeFem++"; Lefebvre 2009, "Numerical simulation
-// of gluey particles"). Lengths, masses and times are in any consistent units; in the plane masses,
-// forces and powers are per unit length. particles/run/ and the other sources of this folder use
-// it. A step that cannot be computed throws Error(kNotConverged), a fluid solver that fails
-// Error(kExternalProgram), a stop Error(kInterrupted). Values of the setting are not checked. A
-// change must keep that a run which was interrupted and continued gives the same bits as a run
-// without a break.
+// of gluey particles"). Lengths [L], masses [M] and times [T] are in any consistent units; in the
+// plane masses, forces and powers are per unit length. particles/run/ and the other sources of this
+// folder use it. A step that cannot be computed throws Error(kNotConverged), a fluid solver that
+// fails Error(kExternalProgram), a stop that is requested Error(kInterrupted). Values of the
+// setting are not checked. A change must keep that a run which was interrupted and continued gives
+// the same bits as a run without a break.
 #pragma once
 
 #include <memory>
@@ -32,8 +32,8 @@ struct StepContacts;
 /// Estimates of the errors of the forces of one step, each >= 0 [M L/T^2, M L^2/T^2]; both members
 /// are empty if there are no estimates.
 struct ForceErrors {
-  std::vector<double> of_fluid;  ///< of FluidSimulation::fluid_forces(), as many numbers
-  std::vector<double> of_links;  ///< of State::link_forces, as many; empty without links
+  std::vector<double> of_fluid;  ///< errors of FluidSimulation::fluid_forces(), as many numbers
+  std::vector<double> of_links;  ///< errors of State::link_forces, as many; empty without links
 };
 
 /// Rigid particles in a fluid. Each step asks the fluid solver for the velocities that the
@@ -43,66 +43,75 @@ struct ForceErrors {
 ///
 /// Away from contact a step is of second order. Step n, of length h^n = h, begins at the time t^n
 /// with the places x^n and the velocities u^n. S^n g are the velocities that the fluid gives the
-/// particles at x^n under the forces g, F^{n-1} the forces on the fluid in the step before, M the
-/// masses. theta, from 1/2 to 1, says how implicit the step is (step_equation.hpp). With the sum
-/// g^n of the forces of the step and M/(theta h) u^n, a step is
+/// particles at x^n under the forces g. F^{n-1} are the forces of the particles on the fluid in the
+/// step before, M the masses and moments of inertia. theta, from 1/2 to 1, says how implicit the
+/// step is (step_equation.hpp). With the sum g^n of the forces of the step and M/(theta h) u^n, a
+/// step is
 ///
 ///     U^n = S^n g^n,   U^+ = U^n + (h^n/(2 h^{n-1})) (S^n g* - U^{n-1}),   x^{n+1} = x^n + h U^+,
 ///     g* = F^{n-1} + M/(theta h) U^{n-1}.
 ///
 /// The second term of U^+ estimates by how much the velocities change in half a step because the
 /// particles move. Without inertia and with a constant force g* = g^n, so that this is the formula
-/// of Adams and Bashforth; it remains of second order if a force jumps. Links act where the
-/// particles are in the middle of the step if a particle has mass, and U^{n-1} is replaced by the
-/// nearest velocities that the links allow (6.7). A particle that was in contact in the step before
-/// moves with U^n, which is of first order; all particles do in a step in which a given motion
-/// jumps.
+/// of Adams and Bashforth; it remains of second order if a force jumps. If a particle of a link has
+/// mass, the link acts where its particles are in the middle of the step. The nearest velocities
+/// that the links allow take the place of U^{n-1} (6.7). A particle that was in contact in the step
+/// before moves with U^n, which is of first order. All particles move with U^n in a step in which a
+/// given motion jumps.
 ///
-/// In a fluid with inertia (docs/physics.md (6.9)) the solver has the masses, and U^n is the
-/// velocity at the time t^n of x^n. Away from contact the particles move with
+/// In a fluid with inertia (docs/physics.md (6.9)) the problem of the fluid solver contains the
+/// masses, and U^n are the velocities at the time t^n. Away from contact the particles move with
 ///
 ///     U^+ = U^n + (h^n/(2 h^{n-1})) (U^n - U^{n-1}).
 ///
 /// The first step computes U^1 at x^0, and moves the particles by h (U^0 + U^1)/2. The second step
-/// computes U^1 and the impulses of contacts again, at x^1. Therefore films do not remember the
-/// impulses of the first step: they would otherwise absorb them twice.
+/// computes U^1 and the impulses of contacts again, at x^1. Films do not remember the impulses of
+/// the first step, because they would otherwise absorb these impulses twice.
 class FluidSimulation {
  public:
-  /// `setting.fluid` must have a value, and `solver` not be null; both are not checked. `state` is
-  /// that of a restart file, or one of which only the particles are set. Throws Error(kBadInput) if
-  /// the fluid has inertia and a state after steps has no flow, and the errors of
-  /// FluidSolver::load_flow().
+  /// `setting.fluid` must have a value, and `solver` must not be null; both are not checked.
+  /// `state` is the state of a restart file, or a state of which only the particles are set. Throws
+  /// Error(kBadInput) if the fluid has inertia and the state has done steps but has no flow. Throws
+  /// the errors of FluidSolver::load_flow().
   FluidSimulation(Setting setting, State state, std::unique_ptr<FluidSolver> solver);
 
   /// Computes one step of length Setting::time_step, or less if `end` [T] is nearer. If the state
   /// has reached `end`, computes no step and returns a report without contacts. In a fluid without
   /// inertia the first step of a simulation and the step that reaches `end` estimate the errors of
   /// velocities and forces. Throws the errors of FluidSolver, also Error(kInterrupted) if a stop is
-  /// requested, and Error(kNotConverged) if an overlap of more than the mean radius is left, if
-  /// links are off by more than that or contradict each other, if an ellipse or plate touches where
-  /// it must not, or if a particle moves too far for the precision of a double. The state is then
-  /// that before the step. A smaller residual that is not allowed throws nothing:
-  /// StepReport::converged is then false.
+  /// requested. Throws Error(kNotConverged)
+  /// - if an overlap of more than the mean radius is left;
+  /// - if the length or place of a link is off by more than the mean radius, or links contradict
+  ///   each other;
+  /// - if an ellipse comes as near to a wall, plane or particle as the threshold gap, or two plates
+  ///   touch at a place that was no contact at the beginning of the step;
+  /// - if a particle moves too far for the precision of a double.
+  /// After an error the state is that before the step. A smaller residual that is not allowed
+  /// throws nothing, but StepReport::converged is then false.
   StepReport step(double end);
 
-  /// Forces of the caller on the particles [M L/T^2], which the caller may change between steps, in
-  /// the order and number of Particles::velocities. Those of driven particles have no effect.
+  /// Forces of the caller on the particles [M L/T^2], which the caller may change between steps.
+  /// Their order and number are those of Particles::velocities. Forces on driven particles, whose
+  /// motion is given, have no effect.
   std::span<double> added_forces() { return added_forces_for(state_.particles, setting_); }
-  /// The same for torques, one for each particle [M L^2/T^2]; empty if particles do not turn.
+  /// Torques of the caller on the particles [M L^2/T^2], one for each particle, which the caller
+  /// may change between steps; empty if particles do not turn. Torques on driven particles have no
+  /// effect.
   std::span<double> added_torques() { return added_torques_for(state_.particles, setting_); }
 
-  const State& state() const { return state_; }  ///< after the last step
+  const State& state() const { return state_; }  ///< the state after the last step
   /// The state with the flow of a fluid with inertia, for a restart file. Throws the errors of
   /// FluidSolver.
   State state_to_save();
-  const Setting& setting() const { return setting_; }  ///< with the added forces and torques
+  const Setting& setting() const { return setting_; }  ///< the case, with the added forces
 
-  /// The flow of the last step, around the places of the particles at its beginning; there must
-  /// have been a step (not checked). Throws the errors of FluidSolver.
+  /// The flow of the last step, around the places of the particles at the beginning of this step.
+  /// There must have been a step (not checked). Throws the errors of FluidSolver.
   FlowField flow() { return solver_->flow(); }
 
-  /// The flow around the particles where they are now. It solves the problem of the next step,
-  /// whose length is that of the setting, and moves nothing. Throws the errors of step().
+  /// The flow around the particles at their present places. It is that of the next step of length
+  /// Setting::time_step, whose problem is solved without moving anything. Throws the errors of
+  /// FluidSolver, and Error(kNotConverged) if links or plates make step() throw it.
   FlowField flow_at_present();
 
   /// Forces and torques of the fluid on the particles in the last step [M L/T^2, M L^2/T^2],
@@ -112,11 +121,11 @@ class FluidSimulation {
   /// The contacts in which solids rebounded in the last step; empty without restitution.
   const std::vector<Rebound>& rebounds() const { return rebounds_; }
 
-  /// The errors of the forces of the last step; empty if they were not estimated there.
+  /// The errors of the forces of the last step; empty if the last step did not estimate them.
   const ForceErrors& force_errors() const { return force_errors_; }
 
-  /// The particles with their velocities after the last step. If errors were estimated there, the
-  /// velocities are extrapolated from two meshes; the next step does not use these.
+  /// The particles with their velocities after the last step. If the last step estimated errors,
+  /// the velocities are extrapolated from two meshes; the next step does not use such velocities.
   Particles reported_particles() const;
 
   /// Number of unknowns of the last mesh; 0 if the solver does not say.
@@ -162,7 +171,7 @@ class FluidSimulation {
   Setting setting_;
   State state_;
   std::unique_ptr<FluidSolver> solver_;
-  HeldSolver* held_ = nullptr;  // solver_, if the case has bodies or links
+  HeldSolver* held_ = nullptr;  // points to *solver_ if the case has bodies or links
   MotionLayout layout_;
   double mean_radius_;  // [L]
   ThreadPool pool_;

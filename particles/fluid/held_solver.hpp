@@ -1,10 +1,11 @@
 // A fluid whose particles are held by rigid bodies, hinges, springs and arms, docs/physics.md
-// (6.7). Lengths, masses and times are in any consistent units. Velocities [L/T, 1/T] and forces [M
-// L/T^2, M L^2/T^2] of particles have motion_components() numbers each; numbers of rows are one for
-// each row of hold(), empty without rows. Sizes are not checked. Rows that contradict each other
-// throw Error(kNotConverged); other errors are those of the fluid solver. fluid_simulation.cpp,
-// fluid_links.cpp and held_rows.hpp use it. A change must keep that redundant rows are no error,
-// but rows that contradict each other are.
+// (6.7). Each of these puts linear conditions on velocities, which are called rows. Lengths [L],
+// masses [M] and times [T] are in any consistent units. An array of velocities [L/T, 1/T] or forces
+// [M L/T^2, M L^2/T^2] of particles has motion_components() numbers for each particle. An array for
+// rows has one number for each row of hold() and is empty without rows. Sizes and the order of
+// calls are not checked. Rows that contradict each other throw Error(kNotConverged); all other
+// errors are those of the fluid solver. fluid_simulation.cpp, fluid_links.cpp and held_rows.hpp use
+// the class. A change must keep that rows that follow from each other are no error.
 #pragma once
 
 #include <cstddef>
@@ -19,61 +20,64 @@
 
 namespace viscontact::particles {
 
-/// A linear condition on the velocities of all particles. Its sum is that of coefficient times
-/// velocity over `entries`, plus `image_rate`. The condition is sum = `rate`, but for a spring
-/// force = -stiffness (extension + theta h sum) with the length h of the step; theta: HeldSolver.
+/// A linear condition on the velocities of all particles. Its sum adds coefficient times velocity
+/// over all `entries`, and `image_rate`. The condition is sum = `rate`. For a spring it is force =
+/// -stiffness (extension + theta h sum), with the length h of the step and the number theta, which
+/// HeldSolver explains.
 struct HeldRow {
   /// Places of velocities in the array of all particles (MotionLayout), with their coefficients
-  /// [1], or [L] of an angular velocity in a sum that is a velocity.
+  /// [1]. The coefficient of an angular velocity in a sum that is a velocity is in [L].
   std::vector<std::pair<std::size_t, double>> entries;
-  double rate = 0;  ///< [L/T], [1/T]; not used for a spring
-  /// Part of the sum by the motion of periodic images relative to particles in a sheared cell
-  /// [L/T].
+  double rate = 0;  ///< prescribed sum [L/T, 1/T]; not used for a spring
+  /// Part of the sum [L/T] that the motion of periodic images relative to their particles causes in
+  /// a sheared cell.
   double image_rate = 0;
   double stiffness = 0;  ///< of a spring [M/T^2, M L^2/T^2], > 0; 0: the row is no spring
   double extension = 0;  ///< of a spring at the beginning of the step [L, rad]; else not used
-  /// Whether a particle of the row accelerates: it has a mass and no given motion.
+  /// True if a particle of the row accelerates, that is, has a mass and no given motion.
   bool accelerates = false;
-  std::string name{};  ///< in messages
+  std::string name{};  ///< name of the body or link in messages of errors
 };
 
 /// A fluid solver that holds the particles: it adds forces along the rows with which the conditions
 /// hold, and asks the fluid solver that it owns.
 ///
 /// With the mobility S of the fluid (velocities per force), forces f of the caller and the matrix A
-/// of the rows, the velocities are v = S (f + A^T l), and the forces l of the rows solve
-/// A S A^T l = rate - A S f. Each placement asks the fluid solver once for each row, and each call
-/// of velocities() asks it once, with `driving` twice.
+/// of the coefficients of the rows, the velocities are v = S (f + A^T l), and the forces l of the
+/// rows solve A S A^T l = rate - A S f. place() asks the fluid solver for velocities once for each
+/// row. velocities() asks it once, or twice if `driving` is true.
 ///
 /// Springs have theta = (1 + z)/(2 + z) with z = h stiffness (A S A^T)_rr of their row r. If an end
-/// of the spring accelerates, z^2 takes the place of z: an oscillation of angular frequency omega
+/// of the spring accelerates, z^2 takes the place of z. An oscillation of angular frequency omega
 /// has z = (omega h)^2 theta, and theta is then nearly 1/2, without damping, if omega h is small.
 ///
 /// In a fluid with inertia the velocities are those at the beginning of the step, where the
-/// extensions are known, and theta = 2 z^2/(2 + z^2): a spring that the step resolves has the force
-/// at that time up to the second order of the step, and a stiff one is damped. The limit 2 is above
-/// 1 because the step extrapolates velocities by half of their change: the extension x of a stiff
-/// spring, with h V = -x/theta, obeys x^{n+1} = x^n + h (3/2 V^n - 1/2 V^{n-1}), which would not
-/// decay with theta = 1. S is not symmetric there, because moving fluid carries the effect of a
-/// force along.
+/// extensions are known, and theta = 2 z^2/(2 + z^2). A spring whose motion the step resolves then
+/// has the force at that time up to the second order of the step, and a stiff spring is damped. The
+/// limit 2 of theta is above 1, because the step extrapolates velocities by half of their change:
+/// the extension x of a stiff spring, with h V = -x/theta, obeys x^{n+1} = x^n + h (3/2 V^n -
+/// 1/2 V^{n-1}), which would not decay with theta = 1. S is not symmetric in such a fluid, because
+/// moving fluid carries the effect of a force along.
 ///
 /// If rows depend on each other, A S A^T is singular up to the errors of the velocities. The
 /// compliance 1/(theta h stiffness) of a spring may be far larger or smaller than the entries of
-/// A S A^T. Therefore the rank is found for the rows without stiffness alone; these are eliminated,
-/// which leaves a mobility for the springs.
+/// A S A^T. Therefore the rank is found only for the rows without stiffness. These rows are then
+/// eliminated, which leaves a mobility for the springs.
 class HeldSolver : public FluidSolver {
  public:
-  /// `relative_error` > 0 [1] is that of the velocities of `solver`, which must not be null;
+  /// `solver` must not be null. `relative_error` [1], > 0, is the relative error of its velocities.
   /// `has_inertia` says whether its fluid has inertia.
   HeldSolver(std::unique_ptr<FluidSolver> solver, double relative_error, bool has_inertia);
 
-  /// Sets the rows that hold from the next placement on, in steps of length h > 0 [T]; without rows
-  /// the particles are not held. place() must follow before any other function.
+  /// Sets the rows that hold from the next place() on, in steps of length h > 0 [T]. If `rows` is
+  /// empty, the particles are not held. place() must follow before any other function.
   void hold(std::vector<HeldRow> rows, double h);
 
   void place(const FluidParticles& bodies) override;
-  /// With `driving`, besides the errors of the fluid solver, throws Error(kNotConverged), which
-  /// names the rows, if rows contradict each other.
+  /// Returns the velocities with which the rows hold. If `driving` is false, the prescribed sums,
+  /// the motions of images and the extensions of springs are taken as 0. If `driving` is true and
+  /// rows contradict each other, throws Error(kNotConverged), which names these rows. Also throws
+  /// the errors of the fluid solver.
   std::vector<double> velocities(std::span<const double> forces, bool driving) override;
   FlowQuantities quantities() override { return solver_->quantities(); }
   double vary_penalty() override;
@@ -87,35 +91,36 @@ class HeldSolver : public FluidSolver {
   std::size_t unknowns() const override { return solver_->unknowns(); }
   double peak_memory_mebibytes() const override { return solver_->peak_memory_mebibytes(); }
 
-  /// velocities(forces, false), but with the force 0 of all springs. The rows without stiffness
-  /// have the sum 0. Throws the errors of the fluid solver.
+  /// Returns the same as velocities(forces, false), but without forces of springs: the rows without
+  /// stiffness have the sum 0. Throws the errors of the fluid solver.
   std::vector<double> velocities_without_springs(std::span<const double> forces);
 
-  /// Changes `velocities` by forces along the rows that change the sum of each row without
-  /// stiffness by its number in `changes` [L/T, 1/T]. `with_springs`, the sum plus compliance times
-  /// force of each spring changes by its number, too; otherwise springs keep their forces. Returns
-  /// the forces of all rows. The fluid solver is not asked.
+  /// Changes `velocities` by forces along the rows. They change the sum of each row without
+  /// stiffness by its number in `changes` [L/T, 1/T]. If `with_springs` is true, they also change,
+  /// for each spring, the sum plus compliance times force by its number; otherwise springs keep
+  /// their forces. Returns the added forces of all rows. The fluid solver is not asked.
   std::vector<double> change(std::span<double> velocities, std::span<const double> changes,
                              bool with_springs) const;
 
-  /// The forces of the rows without stiffness that change the sums of these rows by as much as the
-  /// velocities `changes` of all particles do; 0 for springs.
+  /// Returns the forces of the rows without stiffness that change the sums of these rows by as much
+  /// as a change of the velocities of all particles by `changes` does; 0 for springs.
   std::vector<double> row_forces_for(std::span<const double> changes) const;
 
-  /// The theta of each row [1]: of a spring 1/2 to 1, in a fluid with inertia 1e-9 to 2; of other
-  /// rows the least of these numbers.
+  /// The theta of each row [1]. That of a spring is from 1/2 to 1, in a fluid with inertia from
+  /// 1e-9 to 2; that of another row is the smaller one of these bounds.
   std::vector<double> thetas() const;
 
-  /// True if row `r` is a spring with theta > 2/3, that is z > 1 for the z above or, if it
-  /// accelerates or the fluid has inertia, z^2 > 1: the step does not resolve its motion.
+  /// True if row `r` is a spring with theta > 2/3, which means that the step does not resolve its
+  /// motion. This is so if z > 1 for the z of this class.
   bool is_stiff(std::size_t r) const { return theta(static_cast<Eigen::Index>(r)) > 2.0 / 3; }
 
-  /// The forces of the rows in the last velocities(forces, true) [M L/T^2, M L^2/T^2]; empty
-  /// before.
+  /// The forces of the rows in the last velocities(forces, true) [M L/T^2, M L^2/T^2]; empty before
+  /// the first such call.
   const std::vector<double>& row_forces() const { return row_forces_; }
 
-  /// The forces and torques on all particles by the springs and by the rows with a particle that
-  /// accelerates, in the last velocities(forces, true) [M L/T^2, M L^2/T^2]; empty without rows.
+  /// The forces and torques [M L/T^2, M L^2/T^2] that the springs, and the rows with a particle
+  /// that accelerates, exerted on all particles in the last velocities(forces, true); empty without
+  /// rows.
   std::vector<double> forces_of_step() const;
 
   /// Changes `velocities` by forces along the rows until the rows without stiffness hold. The fluid
@@ -145,8 +150,10 @@ class HeldSolver : public FluidSolver {
   // Numbers of the rows without stiffness (fixed) and of the springs.
   std::vector<Eigen::Index> fixed_, springs_;
   Eigen::VectorXd scale_;  // factor of each row with which the diagonal of the matrix is 1
-  // In scaled rows: matrix_ of the fixed rows; sums of springs by forces of fixed rows; forces of
-  // fixed rows that undo the effect of a spring on them; matrix of the springs with these forces.
+  // The next four are for rows that are multiplied by scale_. fixed_matrix_ is matrix_ of the fixed
+  // rows. coupling_ has the sums of springs by unit forces of fixed rows, spring_responses_ the
+  // forces of fixed rows that undo the effect of a spring on these rows, and spring_matrix_ is the
+  // matrix of the springs with these forces.
   Eigen::MatrixXd fixed_matrix_, coupling_, spring_responses_, spring_matrix_;
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factor_;  // of fixed_matrix_
   std::vector<double> row_forces_;

@@ -1,12 +1,12 @@
 // Time steps of membranes (closed curves through particles, their beads) and rigid discs without
 // mass in a fluid without inertia, docs/physics.md (8.1) to (8.8). Units are those of the case:
-// places [L, rad], velocities [L/T, 1/T], forces [M L/T^2, M L^2/T^2], M a mass per length; arrays
-// for the fluid solver have 3 numbers for each particle. Throws Error(kBadInput) if a restart file
-// has membranes of other shapes, Error(kNotConverged) if a step is not solved or leaves a deep
-// overlap, and the errors of FluidSolver; the state is then as before the step.
-// run/particle_simulation.cpp uses it. A change must keep that a step depends on nothing but the
-// setting and the state, because a run that continues from a restart file must give the same bits
-// as one without a break.
+// places [L, rad], velocities [L/T, 1/T], forces [M L/T^2, M L^2/T^2], where M is a mass per
+// length. Arrays for the fluid solver have 3 numbers for each particle. Throws Error(kBadInput) if
+// a restart file has membranes of other lengths or areas, Error(kNotConverged) if a step is not
+// solved or leaves an overlap of more than the mean radius, and the errors of FluidSolver; the
+// state is then as before the step. run/particle_simulation.cpp uses it. A change must keep that a
+// step depends only on the setting and the state, because a run that continues from a restart file
+// must give the same bits as a run without a break.
 #include "viscontact/particles/fluid/membrane_simulation.hpp"
 
 #include <Eigen/Core>
@@ -26,7 +26,7 @@
 namespace viscontact::particles {
 namespace {
 
-constexpr std::size_t kComponents = 3;  // x, y and turn of a particle in the plane
+constexpr std::size_t kComponents = 3;  // number of components of a particle: x, y and turn
 
 }  // namespace
 
@@ -41,9 +41,9 @@ class MembraneSimulation::Implementation {
   const FluidSolver& solver() const { return *solver_; }
 
  private:
-  // The Eigen vectors of this class, of places [L, rad], velocities [L/T, 1/T] or forces and
-  // torques [M L/T^2, M L^2/T^2], have first x of all beads, then y of all beads, and then x, y and
-  // the angle of each disc. The discs are the particles that are no beads.
+  // The Eigen vectors of this class hold places [L, rad], velocities [L/T, 1/T], or forces and
+  // torques [M L/T^2, M L^2/T^2]: first x of all beads, then y of all beads, and then x, y and the
+  // angle of each disc. The discs are the particles that are no beads.
   Eigen::Index bead_components() const { return 2 * membranes_.beads(); }
   Eigen::VectorXd places(std::span<const double> positions,
                          const Eigen::VectorXd* near = nullptr) const;
@@ -73,7 +73,7 @@ class MembraneSimulation::Implementation {
   std::vector<std::int32_t> discs_;  // the particles that are no beads
   ThreadPool pool_;
   std::vector<Plane> obstacles_;
-  std::vector<double> impulse_errors_;  // of the contacts of the step
+  std::vector<double> impulse_errors_;  // residual impulse of each contact of the step [M L/T]
 };
 
 MembraneSimulation::Implementation::Implementation(Setting setting, State state,
@@ -117,8 +117,9 @@ MembraneSimulation::Implementation::Implementation(Setting setting, State state,
   to_particles(forces, state_.earlier_forces);
 }
 
-/// Places of all beads and discs from `positions` of all particles, two numbers for each [L]. In a
-/// periodic domain, if `near` is given, the images nearest to the places in `near` are taken.
+/// Places of all beads and discs from `positions` [L] of all particles, two numbers for each. If
+/// `near` is not null and the domain is periodic, the images that are nearest to the places in
+/// `near` are taken.
 Eigen::VectorXd MembraneSimulation::Implementation::places(std::span<const double> positions,
                                                            const Eigen::VectorXd* near) const {
   const auto& p = state_.particles;
@@ -140,7 +141,7 @@ Eigen::VectorXd MembraneSimulation::Implementation::places(std::span<const doubl
   return places;
 }
 
-/// An array of all beads and discs from kComponents numbers for each particle.
+/// The vector of all beads and discs from `numbers`, which are kComponents for each particle.
 Eigen::VectorXd MembraneSimulation::Implementation::from_particles(
     std::span<const double> numbers) const {
   const auto beads = bead_components();
@@ -185,8 +186,9 @@ Eigen::VectorXd MembraneSimulation::Implementation::applied_forces(double from, 
   return from_particles(forces);
 }
 
-/// Gives the fluid solver the places of all beads and discs, and the mean velocities, between the
-/// times `from` and `to` [T], of the discs whose motion is given (driven discs).
+/// Gives the fluid solver the places of all beads and discs. Also gives it the mean velocities,
+/// between the times `from` and `to` [T], of the driven discs, whose motion is given; if the times
+/// are equal, the velocities at this time.
 void MembraneSimulation::Implementation::place(const Eigen::VectorXd& places, double from,
                                                double to) {
   auto placed = state_.particles;
@@ -202,8 +204,9 @@ void MembraneSimulation::Implementation::place(const Eigen::VectorXd& places, do
   solver_->place(bodies);
 }
 
-/// Asks the fluid solver for the velocities of beads and discs at `places`: without forces, with
-/// walls and driven discs that move as between the times `from` and `to` [T]; and per force.
+/// Asks the fluid solver for two results at `places`. The first is the velocities of beads and
+/// discs without forces, if walls and driven discs move as between the times `from` and `to` [T].
+/// The second is the mobility, the velocities per force, if walls and driven discs are at rest.
 FluidAnswer MembraneSimulation::Implementation::ask(const Eigen::VectorXd& places, double from,
                                                     double to) {
   place(places, from, to);
@@ -225,7 +228,8 @@ FluidAnswer MembraneSimulation::Implementation::ask(const Eigen::VectorXd& place
   return answer;
 }
 
-/// The `answer` for the beads alone, whose flow is that with `loads` on the discs.
+/// The part of `answer` for the beads. Its flow is that of `answer`, to which the velocities that
+/// the `loads` on the discs cause are added.
 FluidAnswer MembraneSimulation::Implementation::answer_to_beads(
     const FluidAnswer& answer, const Eigen::VectorXd& loads) const {
   const auto b = bead_components(), d = answer.flow.size() - b;
@@ -233,7 +237,8 @@ FluidAnswer MembraneSimulation::Implementation::answer_to_beads(
           answer.mobility.topLeftCorner(b, b)};
 }
 
-/// The velocities of all, with the forces of `motion` at the beads and `loads` on the discs.
+/// The velocities of all beads and discs, with the forces of `motion` on the beads and `loads` on
+/// the discs.
 Eigen::VectorXd MembraneSimulation::Implementation::velocities_of_all(
     const FluidAnswer& answer, const MembraneMotion& motion, const Eigen::VectorXd& loads) const {
   const auto b = bead_components(), d = answer.flow.size() - b;
@@ -244,10 +249,10 @@ Eigen::VectorXd MembraneSimulation::Implementation::velocities_of_all(
   return velocities;
 }
 
-/// Change of the places at the end of a step per force on beads and discs, a symmetric matrix:
-/// displacements per force [T^2/M], turns per force and displacements per torque [T^2/(M L)], turns
-/// per torque [T^2/(M L^2)]. `time` and `motion` are those of Membranes::step, `loads` the forces
-/// on all in this step.
+/// Change of the places at the end of a step per force on beads and discs. It is a symmetric matrix
+/// of displacements per force [T^2/M], turns per force and displacements per torque [T^2/(M L)],
+/// and turns per torque [T^2/(M L^2)]. `time`, `motion` and `positions` are those of
+/// Membranes::step(), `loads` the forces on all beads and discs in this step.
 Eigen::MatrixXd MembraneSimulation::Implementation::response(
     double time, const FluidAnswer& answer, const Eigen::VectorXd& loads,
     const MembraneMotion& motion, const Eigen::VectorXd& positions) const {
@@ -264,10 +269,10 @@ Eigen::MatrixXd MembraneSimulation::Implementation::response(
   return (response + response.transpose()) / 2;
 }
 
-/// Places of the discs at the end of a step of length `h` that begins at the places `now`. Centres
-/// of free discs are at `from` + `time` times their velocities, the backward difference of second
-/// order. Those of driven discs are at `now` + h times their mean velocities. Angles are integrated
-/// by the trapezoidal rule.
+/// Places of the discs at the end of a step of length `h` [T] that begins at the places `now`.
+/// Centres of free discs are at `from` + `time` times their velocities, which is the backward
+/// difference of second order. Centres of driven discs are at `now` + h times their mean
+/// velocities. Angles are integrated by the trapezoidal rule.
 Eigen::VectorXd MembraneSimulation::Implementation::moved_discs(const Eigen::VectorXd& now,
                                                                 const Eigen::VectorXd& from,
                                                                 double time,
@@ -286,10 +291,11 @@ Eigen::VectorXd MembraneSimulation::Implementation::moved_discs(const Eigen::Vec
   return moved;
 }
 
-/// Solves the contacts of a step of length `h` that ends at the time `next` [T]. Beads of one
-/// membrane make no contact with each other. `free` are the mean velocities of the step without
-/// contacts, and response() returns the matrix of the displacements per force. Enters iterations
-/// and residuals in `report`. Throws Error(kNotConverged) if a deep overlap would remain.
+/// Solves the contacts of a step of length `h` [T] that ends at the time `next` [T]. Beads of one
+/// membrane make no contact with each other. `free` are the mean velocities in the step without
+/// contacts. The argument `response` returns the matrix of the displacements per force. Enters
+/// iterations and residuals in `report`. Throws Error(kNotConverged) if the step is not solved and
+/// an overlap of more than the mean radius would remain.
 StepContacts MembraneSimulation::Implementation::solve_contacts_of(
     const Eigen::VectorXd& free, double h, double next,
     const std::function<Eigen::MatrixXd()>& response, StepReport& report) {
@@ -310,8 +316,8 @@ StepContacts MembraneSimulation::Implementation::solve_contacts_of(
     return (is_driven(pair.first) && is_driven(pair.second)) ||
            (pair.first >= 0 && setting_.fluid->are_of_one_membrane(pair.first, pair.second));
   };
-  // Relative error of the velocities that the fluid solver gives; error_of_answers() in
-  // fluid/fluid_motion.hpp has the same number and its reason.
+  // The relative error of the velocities that the fluid solver gives. It is equal to kError in
+  // error_of_answers() of fluid/fluid_motion.hpp, where its reason is given.
   constexpr double kErrorOfAnswers = 1e-9;
   const double radius = mean_radius(state_.particles);
   const ContactConditions conditions{velocities,      h,      MotionLayout{kComponents},
@@ -436,7 +442,7 @@ StepReport MembraneSimulation::step(double end) { return implementation_->step(e
 
 const State& MembraneSimulation::state() const { return implementation_->state(); }
 
-/// There must have been a step (asserted). Throws the errors of FluidSolver.
+/// Needs a step before (asserted). Throws the errors of FluidSolver.
 FlowField MembraneSimulation::flow() {
   assert(implementation_->before_step().particles.count() > 0);
   return implementation_->flow_at(implementation_->before_step());
