@@ -65,9 +65,10 @@ class BlockFactor {
   bool is_below(std::size_t edge, std::size_t from) const { return edges_[edge].later == from; }
 
   /// Replaces A by its factors. Returns false if a block on the diagonal becomes singular, infinite
-  /// or NaN, or, for a symmetric A, is not positive definite; the factors are then unusable. Returns
-  /// true otherwise, also if there are no bodies. The threads of `pool` share the work on a large
-  /// matrix, with the same bits for any number of threads; null: the calling thread works alone.
+  /// or NaN, or, for a symmetric A, is not positive definite; the factors are then unusable.
+  /// Returns true otherwise, also if there are no bodies. The threads of `pool` share the work on a
+  /// large matrix, with the same bits for any number of threads; null: the calling thread works
+  /// alone.
   bool factorise(ThreadPool* pool = nullptr);
   /// Sign of the determinant of A, 1 or -1; 1 if A is symmetric. It has a meaning only after a
   /// factorise() that returned true.
@@ -109,8 +110,8 @@ class BlockFactor {
   // For factorise(): the entries of each row, with increasing columns, and the first of each row.
   std::vector<Update> updates_;
   std::vector<std::size_t> update_offsets_;
-  // The tasks into which threads divide the work: their columns, which increase in a task, the first
-  // of each task, and the task of each column. A task needs no columns of later tasks.
+  // The tasks into which threads divide the work: their columns, which increase in a task, the
+  // first of each task, and the task of each column. A task needs no columns of later tasks.
   std::vector<std::int32_t> task_columns_, task_of_;
   std::vector<std::size_t> task_offsets_;
   double products_ = 0;  // number of products of blocks in a factorisation

@@ -5,8 +5,8 @@
 // residual [L] is allowed if it is at most ConstraintBlock::allowed or allowed_slip, both > 0.
 // Nothing is thrown; an unsolved problem has SolverResult::residual > 1. Used by
 // constraint_system.cpp, impacts/ and fluid/fluid_friction.cpp. A change must keep that results
-// do not depend on the number of threads, which share factorisations only. Constants without another
-// reason are free choices.
+// do not depend on the number of threads, which share factorisations only. Constants without
+// another reason are free choices.
 //
 // `epsilon` [1], > 0, is the parameter of a proximal step: the impulse of a row with the value v
 // and the mobility w is center - v/(epsilon w), projected on the allowed impulses. A smaller
