@@ -83,9 +83,14 @@ void check(const TableHead& head, const MotionRow& row, const FilePosition& here
                                 (head.motion != MotionKind::kApproach && !(factor > 0))))
     throw_bad_input(here, "{} is {} at velocity {}; a drag must be opposed to the velocity",
                     turning ? "torque" : "force", own, row.reference_velocity);
-  if (!std::isfinite(row.force_factor) || !std::isfinite(row.torque_factor))
-    throw_bad_input(here, "{} is {}, which is {} times Stokes' drag; it must be a finite multiple",
-                    turning ? "torque" : "force", own, factor);
+  const auto check_finite = [&](const char* name, double value, double of_stokes) {
+    if (!std::isfinite(of_stokes))
+      throw_bad_input(here,
+                      "{} is {}, which is {} times Stokes' drag; it must be a finite multiple",
+                      name, value, of_stokes);
+  };
+  check_finite("force", row.force, row.force_factor);
+  check_finite("torque", row.torque, row.torque_factor);
 }
 
 double largest_estimate(const MotionRow& row) {

@@ -3,7 +3,8 @@
 // times are in the units of the case file. impacts/ and fluid/ make the records, particles/io and
 // run/ write them, and python/ returns rebounds. Numbers of particles and obstacles count from 0.
 // Nothing is checked or thrown. A change must keep the columns of rebounds.csv, which are the
-// members of Rebound in their order, with ids of particles in place of numbers.
+// members of Rebound in their order, with ids of particles in place of numbers. At an obstacle, the
+// column `first` has the id of the particle, and `second` the number of the obstacle.
 #pragma once
 
 #include <cstdint>

@@ -20,8 +20,8 @@ namespace viscontact::particles {
 /// CSV text: a line "# rows: N" with the number of contacts, the names of the columns, and a row
 /// for each contact. The columns are
 ///
-/// - i,j: j is the id (>= 0) of the second particle; i is the id of the first particle, or -1, -2,
-///   ... for the first, second obstacle of the case;
+/// - i,j: the ids (>= 0) of the first and the second particle; at an obstacle i is the id of the
+///   particle, and j is -1, -2, ... for the first, second obstacle of the case;
 /// - gap [L], < 0 where the two overlap;
 /// - gamma [M L/T], <= 0, minus the impulse that the fluid film between both has absorbed, and
 ///   gamma_error, an estimate >= 0 of its error;
@@ -34,8 +34,8 @@ std::string write_contacts(const Particles& particles, std::span<const CurrentCo
 inline constexpr const char* kReboundsHeader =
     "time,first,second,approach_velocity,solid_impulse,velocity\n";
 /// The rows of rebounds.csv, one for each of `rebounds`; empty without rebounds. The columns are
-/// the members of Rebound (rebound.hpp): time [T], velocities [L/T] and impulse [M L/T]. `first` is
-/// the id of a particle, or -1, -2, ... for the first, second obstacle; `second` is an id.
+/// the members of Rebound (rebound.hpp): time [T], velocities [L/T] and impulse [M L/T]. `first` and
+/// `second` are ids; at an obstacle `second` is -1, -2, ... for the first, second obstacle.
 std::string rebound_rows(const Particles& particles, std::span<const Rebound> rebounds);
 
 /// Tables over time that a case may ask for (output.tables). A run in a fluid always writes the

@@ -36,8 +36,9 @@ struct ParticlesRequest {
 /// last restart.bin. Throws after everything is written: Error(kNotConverged) if a step missed the
 /// tolerances by more than the factor kStillAResult, 10 (particles_folder.hpp), or cannot be
 /// computed, Error(kExternalProgram) if the fluid solver failed in a step, Error(kInterrupted) if
-/// `stop` requested a stop. Throws Error(kWrongUsage) at the beginning if `hdf5` is true and the
-/// program was built without libhdf5.
+/// `stop` requested a stop. If the flow of a frame cannot be computed, its error is thrown at once,
+/// and the same request continues from the last restart.bin. Throws Error(kWrongUsage) at the
+/// beginning if `hdf5` is true and the program was built without libhdf5.
 void run_particles(const ParticlesRequest& request);
 
 }  // namespace viscontact::particles
