@@ -10,7 +10,8 @@ namespace viscontact::case_file {
 namespace {
 
 /// Reads the word for a unit: 1 to 20 bytes, without blanks and characters that HTML pages or
-/// gnuplot read as commands. Any limit that keeps the labels of axes short works.
+/// gnuplot read as commands. Any limit that keeps the labels of axes short works. Throws
+/// Error(kBadInput) for another word.
 void read_unit(const TomlSection& section, std::string_view key, std::string& word) {
   word = section.text(key);
   constexpr std::size_t kLongest = 20;
@@ -28,10 +29,15 @@ void unit_keys(Keys& keys, Units& units) {
 
 }  // namespace
 
+/// Reads the section `units` into `units`, which stays as it is if the case does not have this
+/// section. Throws Error(kBadInput) for a missing or wrong word.
 void read_units(const TomlSection& root, Units& units) {
   if (root.has("units")) read_keys(root.section("units"), unit_keys, units);
 }
 
+/// Declares the keys of [sweep] that choose points and picture: the number of random samples, the
+/// keys of the axes x and y, and the columns to draw. When it reads, it also notes the line of the
+/// key `vary` (that of [sweep] if there is no such key), for messages.
 void points_and_plot_keys(Keys& keys, SweepRequest& sweep) {
   if (keys.reads()) sweep.vary_line = keys.section().line("vary");
   keys.optional("samples", number(sweep.samples, kWholeNumber),

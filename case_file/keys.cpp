@@ -1,9 +1,10 @@
-// Makes the tables of docs/case-file.md and the case that the command `init` writes from the
-// declarations of keys in case_file/, particles/, rolling/ and swimmer/. Values and examples have
-// the units of the case; a declaration gives the allowed range of each number, and the default is
-// the value that the place has before. Reading a missing, wrong or disallowed value throws an
-// Error(kBadInput) with file, line and key; describing throws nothing. A change alters that page,
-// whose test CaseFilePage then fails.
+// Makes the tables of docs/case-file.md and the case that the command `init` writes, from the
+// declarations of keys in case_file/, particles/, rolling/ and swimmer/. The same declarations read
+// cases. Values and examples have the units of the case. A declaration gives the allowed range of
+// each number. The default of a key is the value that its place (the variable into which it is
+// read) has before. Reading a missing, wrong or disallowed value throws an Error(kBadInput) with
+// file, line and key; describing throws nothing. The words and the layout of the tables may be
+// changed; the test CaseFilePage then fails until the page is made again.
 #include "viscontact/case_file/keys.hpp"
 
 #include <regex>
@@ -12,7 +13,7 @@
 namespace viscontact::case_file {
 namespace {
 
-/// Markdown without its links and backticks.
+/// The text `markdown` without backticks and with only the words of its links.
 std::string plain(const std::string& markdown) {
   static const std::regex link("\\[([^\\]]*)\\]\\([^)]*\\)");
   auto text = std::regex_replace(markdown, link, "$1");
@@ -20,7 +21,8 @@ std::string plain(const std::string& markdown) {
   return text;
 }
 
-/// A text as lines of a TOML comment, of at most 100 characters, as in all files of the project.
+/// The text as lines of a TOML comment, each of at most 100 bytes unless one word is longer. The
+/// width is a free choice; all files of the project have it.
 std::string comment(const std::string& text) {
   constexpr std::size_t kWidth = 100;
   std::string lines, line = "#";
@@ -35,6 +37,10 @@ std::string comment(const std::string& text) {
 
 }  // namespace
 
+/// The text of a case with these sections, for `viscontact init`: each key has a comment with its
+/// meaning, and its example as value. Keys with a default are commented out. A table is left out if
+/// a required key has no example, or if its name does not begin with "[", because it then describes
+/// keys within a value.
 std::string commented_case(std::span<const KeyTable> tables) {
   std::string text;
   for (const auto& table : tables) {
@@ -57,6 +63,7 @@ std::string commented_case(std::span<const KeyTable> tables) {
   return text;
 }
 
+/// The rows as a table in Markdown.
 std::string KeyTable::markdown() const {
   std::string table = "| key | value | default | meaning |\n| --- | --- | --- | --- |\n";
   for (const auto& row : rows)
@@ -65,6 +72,7 @@ std::string KeyTable::markdown() const {
   return table;
 }
 
+/// Reads the key, which the section must have, or describes it.
 void Keys::required(std::string_view key, const KeyValue& value, const Help& help) {
   if (reads())
     value.read(*section_, key);
@@ -72,6 +80,8 @@ void Keys::required(std::string_view key, const KeyValue& value, const Help& hel
     describe(key, value, "required", help);
 }
 
+/// Reads the key if the section has it, or describes it. Returns true if the key was read;
+/// otherwise its place keeps its value.
 bool Keys::optional(std::string_view key, const KeyValue& value, const Help& help) {
   if (!reads()) describe(key, value, value.fallback(), help);
   if (!has(key)) return false;
@@ -79,6 +89,7 @@ bool Keys::optional(std::string_view key, const KeyValue& value, const Help& hel
   return true;
 }
 
+/// Does what required() does if the condition is true, and what optional() does otherwise.
 void Keys::required_if(bool condition, std::string_view key, const KeyValue& value,
                        const Help& help) {
   if (condition)
@@ -87,6 +98,9 @@ void Keys::required_if(bool condition, std::string_view key, const KeyValue& val
     optional(key, value, help);
 }
 
+/// Adds the row of a key to the table. `fallback` is its default in Markdown, "required", or empty
+/// for none. A text of `help` that is not empty replaces that of `value` or `fallback`; without an
+/// example in `help` the default is the example.
 void Keys::describe(std::string_view key, const KeyValue& value, std::string fallback,
                     const Help& help) {
   auto example =
