@@ -124,8 +124,8 @@ void piece_keys(Keys& keys, ExternalForce::Piece& piece) {
                   {"the constant force of the piece", "required without `polynomial`"});
 }
 
-/// Declares the keys of a sinusoidal force: the amplitude [M L/T^2], the angular frequency [1/T], >
-/// 0, and the phase in radians.
+/// Declares the keys of a sinusoidal force: the amplitude [M L/T^2], the angular frequency
+/// [1/T], > 0, and the phase in radians.
 void sinusoid_keys(Keys& keys, ExternalForce::Sinusoid& sinusoid) {
   keys.required("amplitude", number(sinusoid.amplitude, kFinite),
                 {"the force is `amplitude` sin(`angular_frequency` t + `phase`)"});

@@ -3,7 +3,8 @@
 // units have 1 to 20 bytes; `samples` is a whole number from 1 to 1e12 without a unit; the other
 // keys are texts. Whether the keys and columns that [sweep] names exist is not checked here. A
 // wrong value is an Error(kBadInput) with file and line. A change must keep accepting users' cases.
-// After a change of a declaration the tables of docs/case-file.md must be made again.
+// After a change of a declaration the tables of docs/case-file.md must be made again (the test
+// CaseFilePage makes them and says where).
 #include "viscontact/case_file/case_template.hpp"
 
 namespace viscontact::case_file {

@@ -112,6 +112,7 @@ void Keys::describe(std::string_view key, const KeyValue& value, std::string fal
                           std::string(help.meaning), std::move(example)});
 }
 
+/// The number in its shortest form, such as "1e-6".
 std::string number_in_words(double number) {
   auto text = fmt::format("{}", number);
   // fmt writes exponents with at least two digits; "1e-06" becomes "1e-6".
@@ -119,24 +120,30 @@ std::string number_in_words(double number) {
   return text;
 }
 
+/// A text, which may be empty. This value and those below have a reference to `place`, which must
+/// live until the key is declared.
 KeyValue text(std::string& place) {
   return custom("a text", [&place](const TomlSection& section, std::string_view key) {
     place = section.text(key);
   });
 }
 
+/// A text that is not empty.
 KeyValue file_name(std::string& place) {
   return custom("a text", [&place](const TomlSection& section, std::string_view key) {
     place = section.file_name(key);
   });
 }
 
+/// A list of at least one text.
 KeyValue texts(std::vector<std::string>& place) {
   return custom("a list of texts", [&place](const TomlSection& section, std::string_view key) {
     place = section.texts(key);
   });
 }
 
+/// A list of at least one finite number, each of which passes the test `allowed`. `words` says in
+/// the tables which values are allowed.
 KeyValue numbers(std::vector<double>& place, const Allowed& allowed, std::string_view words) {
   return custom(words, [&](const TomlSection& section, std::string_view key) {
     place = section.numbers(key, allowed);

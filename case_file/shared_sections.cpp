@@ -36,6 +36,7 @@ struct GapGrid {
   bool is_logarithmic = true;
 };
 
+/// Declares the keys of a grid of gaps: `from` and `to` [L], `count` and `spacing`.
 void grid_keys(Keys& keys, GapGrid& grid) {
   keys.required("from", number(grid.from, kPositive), {"the smallest gap"});
   keys.required("to", number(grid.to, kPositive), {"the largest gap, greater than `from`"});

@@ -242,12 +242,14 @@ std::string TomlSection::text(std::string_view key) const {
   return *value;
 }
 
+/// The text of the key. Throws Error(kBadInput) if it is missing, no text, or empty.
 std::string TomlSection::file_name(std::string_view key) const {
   auto name = text(key);
   require(!name.empty(), key, "is empty; it must be the name of a file");
   return name;
 }
 
+/// The value of the key. Throws Error(kBadInput) unless it is true or false.
 bool TomlSection::truth(std::string_view key) const {
   if (!has(key)) fail(key, "is missing; it must be true or false");
   const auto value = node_->table->get(key)->value_exact<bool>();
@@ -409,6 +411,7 @@ TomlSection TomlSection::with_texts(
   return TomlSection(Node{root, root.get(), node_->file, "", {}});
 }
 
+/// This root table as TOML, without comments and with the keys in alphabetical order.
 std::string TomlSection::as_toml() const {
   std::ostringstream text;
   text << *node_->root << "\n";

@@ -17,6 +17,7 @@
 namespace viscontact::fitting {
 namespace {
 
+/// The resistance of a row, minus the force over the velocity [M/T].
 double resistance_of(const lubrication::MotionRow& row) {
   return -row.force / row.reference_velocity;
 }
@@ -41,6 +42,12 @@ double smooth_gap_of(const lubrication::LubricationForce& smooth, double resista
 
 }  // namespace
 
+/// The common shift q_s >= 0 [L], in [`least`, `most`] below, that minimises the sum over the rows
+/// of (R_smooth(q + q_s)/R_rough(q) - 1)^2, where q is the gap from the crests and R the
+/// resistance. It is > 0 if the rough wall resists less than a smooth wall at its crests. The
+/// result also has for each row, in the order of the table, the shift [L], of any sign, that fits
+/// this row alone. Throws Error(kBadInput) if viscosity or radius of both differ, if `smooth` has a
+/// formula outside its fitted interval, or if no gap or shift fits.
 WallShift fit_wall_shift(const lubrication::MotionTable& rough,
                          const lubrication::LubricationForce& smooth) {
   if (!equal_up_to_rounding(rough.viscosity, smooth.viscosity()) ||

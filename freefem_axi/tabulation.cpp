@@ -24,7 +24,8 @@ namespace viscontact::freefem_axi {
 namespace {
 
 /// The first numbers of the line "viscontact-result" of a script: the force in the units of
-/// solve_scale(), its relative error estimate, number of unknowns, observed order of convergence.
+/// solve_scale(), its relative error estimate [1], the number of unknowns, and the observed order
+/// of convergence.
 struct Answer {
   double force = 0, estimate = 0, unknowns = 0, order = 0;
 };
@@ -50,6 +51,8 @@ Answer read_answer(const ProcessResult& result, double gap, double reference_vel
 
 }  // namespace
 
+/// The container in words, such as "closed cylinder, radius 40, height 80", "unbounded", or "none"
+/// if the neighbour encloses the fluid.
 std::string container_in_words(const Tabulation& tabulation) {
   if (!find_geometry(tabulation.geometry).takes_container) return "none";
   if (!tabulation.container) return "unbounded";
@@ -58,8 +61,8 @@ std::string container_in_words(const Tabulation& tabulation) {
                      format_number(tabulation.container->height));
 }
 
-/// Throws std::out_of_range if tabulation.geometry_parameters is too short; so does
-/// row_arguments().
+/// The neighbour in words, such as "sphere, radius 2, velocity_ratio 0". Throws std::out_of_range
+/// if tabulation.geometry_parameters is too short; so does row_arguments().
 std::string geometry_in_words(const Tabulation& tabulation) {
   const auto& geometry = find_geometry(tabulation.geometry);
   std::string words(geometry.name);
@@ -72,6 +75,8 @@ std::string geometry_in_words(const Tabulation& tabulation) {
   return words;
 }
 
+/// The velocity of the neighbour (angular velocity for kRoll and kSpin) divided by that of the
+/// sphere [1]; 0 if the neighbour is always at rest.
 double neighbour_ratio(const Tabulation& tabulation, lubrication::MotionKind motion) {
   const auto& geometry = find_geometry(tabulation.geometry);
   if (geometry.neighbour_ratio == nullptr) return 0;
@@ -92,6 +97,7 @@ std::optional<double> leading_coefficient(const Tabulation& tabulation) {
   return coefficient;
 }
 
+/// The arguments of the script for the row at this gap and velocity: "-name" and "value" alternate.
 std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
                                        double reference_velocity) {
   const auto& geometry = find_geometry(tabulation.geometry);
@@ -111,8 +117,8 @@ std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
   return arguments;
 }
 
-/// The units of viscosity [M/(L T)] and speed [L/T] in which FreeFEM computes: 1, unless viscosity
-/// or |velocity| is outside [1e-9, 1e9].
+/// The units of viscosity [M/(L T)] and speed [L/T] in which FreeFEM computes. Both are 1 if
+/// viscosity and |velocity| are in [1e-9, 1e9]; otherwise they are viscosity and |velocity|.
 SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity) {
   // Any limits far from those of a double would do: products of these numbers stay normal.
   constexpr double kLeast = 1e-9, kMost = 1e9;
@@ -122,6 +128,10 @@ SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity) 
   return {tabulation.viscosity, speed};
 }
 
+/// Solves the approach at `gap` and `reference_velocity`. Returns the row with the force, its
+/// relative error estimate [1] (which may exceed relative_accuracy) and the time [s].
+/// `further_arguments` are added to the arguments of the script. If `output` is not null, it gets
+/// all that FreeFEM printed.
 lubrication::MotionRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap,
                                  double reference_velocity,
                                  const std::vector<std::string>& further_arguments,

@@ -35,7 +35,8 @@ namespace {
   throw_bad_input({path.string()}, "cannot be {} ({})", action, std::strerror(code));
 }
 
-// While a process PID writes the file NAME, the file is called NAME.viscontact-PID.tmp.
+// While a process PID writes the file NAME, the file is called NAME.viscontact-PID.tmp. Both words
+// are free choices.
 constexpr std::string_view kUnfinishedOf = ".viscontact-", kUnfinished = ".tmp";
 
 /// Removes the files NAME.viscontact-PID.tmp that killed processes have left in a folder, where

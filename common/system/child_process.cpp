@@ -227,6 +227,7 @@ long ChildProcess::peak_memory_kb() const {
   return 0;
 }
 
+/// True if the child has ended. Does not wait.
 bool ChildProcess::has_ended() const {
   siginfo_t info{};
   // With WNOWAIT the child stays a zombie, so that its group keeps its number and can be killed.

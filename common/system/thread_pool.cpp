@@ -72,6 +72,7 @@ ThreadPool::ThreadPool(int threads) {
   }
 }
 
+/// Ends the workers and waits for their end. No loop may run (not checked).
 ThreadPool::~ThreadPool() {
   if (!workers_) return;
   workers_->stop = true;

@@ -30,8 +30,9 @@ namespace {
 constexpr std::string_view kByteOrderMark =
     "\xEF\xBB\xBF";  // some spreadsheets write it at the head
 
-/// Text to be added to a message about missing columns: ", 'the header line'", or the probable
-/// reason why its columns were not found (quotes, another separator, UTF-16).
+/// The end of a message about missing columns: the header line of `text` in quotes, or the probable
+/// reason why its columns were not found (names in quotes, another separator, UTF-16). Empty if
+/// neither can be said.
 std::string hint_of_separator(const std::string& text) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {

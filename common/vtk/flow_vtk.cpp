@@ -44,7 +44,9 @@ std::vector<double> component(const std::vector<double>& vectors, std::size_t d)
 /// The text of a VTK file of quadratic triangles, whose nodes have the arrays "velocity",
 /// "pressure" and "speed" (the length of the velocity) in 64-bit numbers. If `more` is not empty,
 /// its numbers, one for each node in any unit, become the array `more_name`. With `on_axis`, y of
-/// `flow` is the axis z of VTK, and the file says so by the field "axisymmetric".
+/// `flow` is the axis z of VTK, and the file says so by the field "axisymmetric". A triangle has
+/// six nodes in the order of VTK: its corners 0, 1, 2, and the middles of the sides 0-1, 1-2 and
+/// 2-0.
 std::string write_flow(const FlowField& flow, bool on_axis, std::string_view more_name,
                        const std::vector<double>& more) {
   std::vector<double> speeds;

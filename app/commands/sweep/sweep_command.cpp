@@ -228,7 +228,7 @@ void add_sweep(CLI::App& app) {
             "sphere.mass, motion.external_force[0].value; several --vary make a grid")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  // The limit is kMostPoints of sweep/variation.cpp; that of --draws below is a free choice.
+  // The limit is kMostPoints of sweep/variation.cpp; the limit of --draws below is a free choice.
   add_value(*command, "--samples", o->samples, "N",
             "number of random points in the ranges, in place of the grid")
       ->check(whole_number(1, 1000000000000));

@@ -70,8 +70,10 @@ sweep::SpherePlan sphere_plan(const SweepOptions& o, const case_file::Case& c) {
 
 }  // namespace
 
-/// The study of a case of one sphere; each row compares the models. Throws Error(kWrongUsage) for
-/// an option of particles, an unknown model, a wrong --vary, or if there is no fit; and
+/// The study of a case of one sphere; each row compares the models. In the result, `files` are the
+/// inputs, which the output names, `part` is what may fail in a row, `request` is the section
+/// [sweep], and `columns` are drawn if nothing else is asked for. Throws Error(kWrongUsage) for an
+/// option of particles, an unknown model, a wrong --vary, or if there is no fit; and
 /// Error(kBadInput) if case or fit is wrong, or if o.output is a file of another kind.
 CaseStudy study_of_sphere(const SweepOptions& o) {
   check_models("--models", o.models);
