@@ -177,7 +177,8 @@ void read_forces(const TomlSection& section, std::string_view key, Motion& motio
   for (const auto& summand : summands) motion.external_force += summand;
 }
 
-/// A list of names of models, each of which must exist.
+/// A list of names of models. Reading throws Error(kBadInput) if one of them is not the name of a
+/// model.
 auto models(std::vector<std::string>& place) {
   return custom("a list of names", [&](const TomlSection& section, std::string_view key) {
     place = section.texts(key);
@@ -342,7 +343,8 @@ void sweep_keys(Keys& keys, SweepRequest& sweep) {
   points_and_plot_keys(keys, sweep);
 }
 
-/// Checks that nothing uses the exact drag near a plane if the geometry is another one.
+/// Throws Error(kBadInput) if the fit or a model uses the exact drag near a plane although the
+/// geometry is another one.
 void check_exact_drag(const TomlSection& root, const Case& c) {
   if (!c.tabulation || freefem_axi::find_geometry(c.tabulation->geometry).has_exact_drag) return;
   if (c.fit)

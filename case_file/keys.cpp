@@ -4,7 +4,8 @@
 // each number. The default of a key is the value that its place (the variable into which it is
 // read) has before. Reading a missing, wrong or disallowed value throws an Error(kBadInput) with
 // file, line and key; describing throws nothing. The words and the layout of the tables may be
-// changed; the test CaseFilePage then fails until the page is made again.
+// changed; the test CaseFilePage then fails until the page is made again. A change must keep that
+// users' cases can be read.
 #include "viscontact/case_file/keys.hpp"
 
 #include <regex>

@@ -214,7 +214,8 @@ void tabulation_keys(Keys& keys, Tabulation& tabulation) {
 
 }  // namespace
 
-/// Viscosity [M/(L T)] and radius [L] must be positive, which is not checked here.
+/// Reads [tabulation] for a fluid of this viscosity [M/(L T)] and a sphere of this radius [L]. Both
+/// must be positive, which is not checked here. The gaps of the result rise.
 Tabulation read_tabulation(const TomlSection& section, double viscosity, double radius) {
   Tabulation tabulation;
   tabulation.viscosity = viscosity;

@@ -3,11 +3,11 @@
 // of the table, q > 0 is the gap [L], F the force [M L/T^2] and u the velocity [L/T], not 0, of a
 // row, r > 0 the radius of the sphere [L]; relative residuals, fit/F - 1, have no dimension. A
 // table with fewer different gaps than coefficients, or fewer than 2, rows that contradict each
-// other, and a result that a double cannot hold throw Error(kBadInput), dependent terms
-// Error(kNotConverged), a stop Error(kInterrupted). Used by pipeline/, motions/fit/,
-// basis_comparison.cpp, examples/ and python/. A change must keep that units and order of the rows
-// change the fit by rounding only, and the numbers 0.99 and 5 below, which lubrication/fit.hpp
-// repeats.
+// other, and a result that a double cannot hold throw Error(kBadInput), dependent terms throw
+// Error(kNotConverged), and a requested stop throws Error(kInterrupted). Used by pipeline/,
+// motions/fit/, basis_comparison.cpp, examples/ and python/. A change must keep that units and
+// order of the rows change the fit by rounding only. It must also keep the numbers 0.99 and 5
+// below, which lubrication/fit.hpp repeats.
 #include "viscontact/fitting/fit_force_table.hpp"
 
 #include <fmt/format.h>
@@ -56,7 +56,7 @@ double gap_of_row(const lubrication::MotionTable& table, Eigen::Index row) {
 }
 
 /// The 99 % quantile of the chi-squared distribution with this number of degrees of freedom, > 0.
-/// double compiles faster than long double.
+/// The type is double, because it compiles faster than long double.
 double chi_squared_quantile(double degrees_of_freedom) {
   using DoublePolicy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
   const boost::math::chi_squared_distribution<double, DoublePolicy> chi_squared(degrees_of_freedom);
@@ -106,7 +106,7 @@ void compare_with_estimates(const lubrication::MotionTable& table, const FittedS
                                                            : lubrication::Misfit::kData;
 }
 
-/// Leverages of the rows: the diagonal of the projection onto the columns of `matrix`.
+/// Leverages of the rows, from 0 to 1: the diagonal of the projection onto the columns of `matrix`.
 Eigen::VectorXd leverages(const Eigen::MatrixXd& matrix) {
   if (matrix.cols() == 0) return Eigen::VectorXd::Zero(matrix.rows());
   // The columns are scaled to length 1. The leverages do not depend on the scale of the columns,
@@ -137,13 +137,14 @@ void take_largest(std::optional<lubrication::LeftOutRow>& largest,
   if (!largest || row.relative_residual > largest->relative_residual) largest = row;
 }
 
-/// Sets the members of `d` on the residual that each row has in the fit of the other rows. It
-/// follows from the one fit of all rows: residual/(1 - leverage).
+/// Sets the members of `d` that describe the residual of each row in the fit of the other rows.
+/// This residual follows from the fit of all rows: residual/(1 - leverage).
 void leave_one_out(const lubrication::MotionTable& table, const FittedSystem& system,
                    lubrication::FitDiagnostics& d) {
   if (d.degrees_of_freedom == 0) return;
   const Eigen::VectorXd leverage = leverages(system.weighted_matrix);
   const auto is_end = end_rows(table);
+  // Rounding errors of a leverage are smaller; a free choice.
   const double round_off = 100 * std::numeric_limits<double>::epsilon();
   double squares = 0;
   std::optional<lubrication::LeftOutRow> inner, end;
@@ -226,7 +227,7 @@ std::string names_of_failed_rows(const lubrication::MotionTable& table) {
 
 /// Adds warnings if no degree of freedom is left, if a coefficient is smaller than its standard
 /// error, or if the coefficient of 1/q differs from that of theory by more than the errors allow.
-/// `d` has its numbers already.
+/// The numbers in `d` must be set before.
 void warn_of_coefficients(const lubrication::Fit& fit, const FittedSystem& system,
                           const lubrication::FitDiagnostics& d,
                           std::vector<std::string>& warnings) {
@@ -354,7 +355,7 @@ struct Equations {
   Eigen::VectorXd force;
   // `force` minus the fixed coefficient times 1/q, if that coefficient is fixed.
   Eigen::VectorXd left;
-  // The values of the fitted terms, a column for each.
+  // The values of the fitted terms at the gaps of the rows, a column for each term.
   Eigen::MatrixXd terms;
   // The force [M L/T^2] by which the residual of the row is divided to make it relative, not 0:
   // FitSettings::row_scales, or else `force`.

@@ -1,8 +1,8 @@
 // Solves min |A x - b| in three steps: the columns of A are divided by powers of two, Ceres solves
 // the scaled problem, and the solution is refined in extended precision. Numbers have any units. A
 // has at least one column and at least as many rows as columns, and b an entry for each row (only
-// asserted). Entries that are not finite and a |b|^2 that overflows are an Error(kBadInput),
-// dependent columns and a failure of Ceres an Error(kNotConverged). The covariance is 0 if A is
+// asserted). Entries that are not finite and a |b|^2 that overflows are an Error(kBadInput), and
+// dependent columns and a failure of Ceres are an Error(kNotConverged). The covariance is 0 if A is
 // square. Used by robust_least_squares.cpp. A change must keep the number of correct digits that
 // tests/fitting/ demands for NIST's reference problems.
 #include "viscontact/fitting/least_squares.hpp"

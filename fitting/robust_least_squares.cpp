@@ -3,10 +3,10 @@
 // unknowns x minimise the sum of the losses of the residuals A x - b. A has at least one column and
 // at least as many rows, b an entry for each row (only asserted). Residuals and their scale, >= 0,
 // have the unit of b; weights of rows are > 0 and at most 1. Weights that do not converge in 1000
-// steps are an Error(kNotConverged), a stop an Error(kInterrupted); solve_least_squares() throws
-// Error(kBadInput) for numbers that are not finite and Error(kNotConverged) for dependent columns.
-// Used by fit_force_table.cpp. A change must keep that with Loss::kSquared the result is that of
-// solve_least_squares(), to the last bit.
+// steps are an Error(kNotConverged), and a requested stop is an Error(kInterrupted);
+// solve_least_squares() throws Error(kBadInput) for numbers that are not finite and
+// Error(kNotConverged) for dependent columns. Used by fit_force_table.cpp. A change must keep that
+// with Loss::kSquared the result is that of solve_least_squares(), to the last bit.
 #include "viscontact/fitting/robust_least_squares.hpp"
 
 #include <ceres/loss_function.h>

@@ -1,10 +1,10 @@
 // Makes the command line and the environment of FreeFEM processes, and finds the scripts and the
 // Debian package of FreeFEM. Used by freefem_axi/journal/freefem.cpp and
 // freefem_flow/freefem_solver.cpp. Time limits are whole numbers of seconds from 1 to 10 million.
-// Missing scripts are an Error(kExternalProgram), a wrong time limit an Error(kWrongUsage), a stop
-// request while dpkg answers an Error(kInterrupted). That FreeFEM exists is not checked here. A
-// change must keep that files in a user's folder and a user's settings of FreeFEM have no effect on
-// a script.
+// Missing scripts are an Error(kExternalProgram), a wrong time limit is an Error(kWrongUsage), and
+// a stop request while dpkg answers is an Error(kInterrupted). That FreeFEM exists is not checked
+// here. A change must keep that files in a user's folder and a user's settings of FreeFEM have no
+// effect on a script.
 #include "viscontact/freefem/freefem_command.hpp"
 
 #include <dlfcn.h>

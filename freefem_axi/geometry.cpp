@@ -68,8 +68,8 @@ double ratio_of_pair(MotionKind motion, Parameters parameters) {
   return parameters[motion == MotionKind::kRoll || motion == MotionKind::kSpin ? 2 : 1];
 }
 
-/// No container, but a largest gap [L]. The gap is the distance to the nearest wall; it is largest
-/// if sphere and cavity are concentric.
+/// A cavity needs no container, but it limits the gap [L], the distance to its nearest wall. The
+/// gap is largest if sphere and cavity are concentric.
 RequiredSpace space_in_cavity(double radius, double, Parameters parameters) {
   return {0, 0, parameters[0] - radius};
 }
@@ -100,7 +100,7 @@ double curvature_of_sphere(Parameters parameters) { return 1 / parameters[0]; }
 double curvature_of_cavity(Parameters parameters) { return -1 / parameters[0]; }
 
 // The first row is default_geometry(). Members that a row leaves out have the values of
-// geometry.hpp.
+// geometry.hpp. relative_cost only changes the estimates of time.
 constexpr std::array kGeometries = {
     Geometry{.name = "plane",
              .script = "plane.edp",

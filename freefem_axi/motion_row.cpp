@@ -3,10 +3,10 @@
 // radius and velocity of the motion. The rows are in the units of the case: gap > 0 [L] (the script
 // refuses others), velocity 1 [L/T] or angular velocity 1 [1/T], forces [M L/T^2], torques
 // [M L^2/T^2], factors and error estimates [1]. Lines that are missing or contradict each other,
-// and a FreeFEM that fails, are an Error(kExternalProgram), an unknown geometry an
-// Error(kBadInput), a stop an Error(kInterrupted). Used by motion_table_plan.cpp, row_picture.cpp
-// and bench/. A change must agree with scripts/row.idp, which numbers its solutions in the order of
-// motions_of().
+// and a FreeFEM that fails, are an Error(kExternalProgram), an unknown geometry is an
+// Error(kBadInput), and a requested stop is an Error(kInterrupted). Used by motion_table_plan.cpp,
+// row_picture.cpp and bench/. A change must agree with scripts/row.idp, which numbers its solutions
+// in the order of motions_of().
 #include "viscontact/freefem_axi/motion_row.hpp"
 
 #include <array>

@@ -3,9 +3,9 @@
 // case, viscosity [M/(L T)], radius [L] and gaps [L] are positive, velocities [L/T] or [1/T] not 0,
 // the relative accuracy [1] in (0, 1); none of this is checked here. An unknown geometry is an
 // Error(kBadInput). Solving a row throws Error(kExternalProgram) if FreeFEM fails, Error(kBadInput)
-// for a force that a double cannot hold, and Error(kInterrupted). Used by pipeline/tabulate/. A
-// change must keep this text: with another hash all tables that users have count as out of date and
-// are computed again.
+// for a force that a double cannot hold, and Error(kInterrupted) for a requested stop. Used by
+// pipeline/tabulate/. A change must keep this text: with another hash all tables that users have
+// count as out of date and are computed again.
 #include "viscontact/freefem_axi/motion_table_plan.hpp"
 
 #include <fmt/format.h>

@@ -1,10 +1,11 @@
 // Reads the meshes and the flow that scripts/pictures.idp prints, and writes them for ParaView.
 // Results are in the units of the case: places [L], velocities [L/T], pressure [M/(L T^2)], stream
-// function [L^3/T], all finite, one number for each node. The gap is > 0 [L] and the velocity not 0
-// [L/T] or [1/T]: FreeFEM refuses others. A FreeFEM that fails and an incomplete mesh are an
-// Error(kExternalProgram), an unknown geometry or a force beyond a double an Error(kBadInput), a
-// stop an Error(kInterrupted). Used by report/flow/ and pipeline/tabulate/. A change must keep that
-// this file reads the format that is described in scripts/pictures.idp, and kWords in the order of
+// function [L^3/T], all finite, one number for each node. The gap must be > 0 [L], which FreeFEM
+// checks, and the velocity [L/T] or [1/T] must not be 0, which FreeFEM checks for the approach
+// only. A FreeFEM that fails and an incomplete mesh are an Error(kExternalProgram), an unknown
+// geometry or a force beyond a double is an Error(kBadInput), and a requested stop is an
+// Error(kInterrupted). Used by report/flow/ and pipeline/tabulate/. A change must keep that this
+// file reads the format that is described in scripts/pictures.idp, and kWords in the order of
 // BoundaryKind.
 #include "viscontact/freefem_axi/row_picture.hpp"
 

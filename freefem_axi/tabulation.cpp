@@ -2,9 +2,9 @@
 // runs it and reads the result. In the units of the case, viscosity [M/(L T)], radius and gap [L]
 // are positive, the velocity [L/T] not 0, the force in [M L/T^2]; only FreeFEM checks this, and it
 // writes the force in the units of solve_scale(). A row without a result is an
-// Error(kExternalProgram), an unknown geometry and a force beyond the range of a double an
-// Error(kBadInput), a stop an Error(kInterrupted). Used by motion_row.cpp, row_picture.cpp,
-// case_file/, rolling/, app/ and bench/. A change must agree with the flags in
+// Error(kExternalProgram), an unknown geometry and a force beyond the range of a double are an
+// Error(kBadInput), and a requested stop is an Error(kInterrupted). Used by motion_row.cpp,
+// row_picture.cpp, case_file/, rolling/, app/ and bench/. A change must agree with the flags in
 // scripts/sphere_arguments.idp and the output of row.idp, and keep the words for geometry and
 // container, on which the hashes of tables depend.
 #include "viscontact/freefem_axi/tabulation.hpp"
@@ -91,8 +91,8 @@ std::optional<double> leading_coefficient(const Tabulation& tabulation) {
   const double coefficient =
       lubrication::stokes_resistance(tabulation.viscosity, tabulation.radius) * tabulation.radius *
       geometry.leading_factor(tabulation.radius, tabulation.geometry_parameters);
-  // A table cannot contain an infinite coefficient, and has none if the neighbour moves away (<=
-  // 0).
+  // A table cannot contain an infinite coefficient. It contains none if the coefficient is <= 0,
+  // because the neighbour then moves away at least as fast as the sphere follows.
   if (!std::isfinite(coefficient) || !(coefficient > 0)) return std::nullopt;
   return coefficient;
 }
@@ -120,7 +120,7 @@ std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
 /// The units of viscosity [M/(L T)] and speed [L/T] in which FreeFEM computes. Both are 1 if
 /// viscosity and |velocity| are in [1e-9, 1e9]; otherwise they are viscosity and |velocity|.
 SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity) {
-  // Any limits far from those of a double would do: products of these numbers stay normal.
+  // Other limits work, too, if the products of viscosity and speed within them stay normal doubles.
   constexpr double kLeast = 1e-9, kMost = 1e9;
   const double speed = std::abs(reference_velocity);
   const auto is_ordinary = [](double value) { return value >= kLeast && value <= kMost; };

@@ -2,7 +2,7 @@
 // line names; main.cpp, commands/ and help/ use them. Widths are 100 to 10000 and font sizes 2 to
 // 200, both in pixels of an SVG or points of a PDF; --jobs is 1 to 1024, --tasks 1 to 4000000. A
 // wrong option is an Error(kWrongUsage) or, if CLI11 checks it, a CLI::ParseError; a file that
-// --plot must not replace is an Error(kBadInput), and a path that cannot be resolved a
+// --plot must not replace is an Error(kBadInput), and a path that cannot be resolved is a
 // std::filesystem::filesystem_error. The list `options` in with_files_apart() must contain every
 // option for which a command calls CLI11's expected(0, 1), which allows an option without its
 // value. The names of the options of array jobs (jobs of many tasks on a Slurm cluster) must stay,
@@ -35,7 +35,7 @@ namespace {
 /// std::filesystem::filesystem_error if the system cannot resolve it.
 std::filesystem::path resolved_place_of(std::filesystem::path path) {
   namespace fs = std::filesystem;
-  constexpr int kMostLinks = 40;  // the limit of Linux; a larger one works
+  constexpr int kMostLinks = 40;  // the limit of Linux; a larger number works, too
   path = fs::absolute(path);
   for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path)); ++i)
     path = path.parent_path() / fs::read_symlink(path);
@@ -159,7 +159,7 @@ std::vector<std::string> with_files_apart(std::vector<std::string> arguments) {
   };
   for (const auto& option : options) {
     if (arguments.empty() || arguments[0] != option.command) continue;
-    // Words behind -- are files, even if one has the name of an option.
+    // Words behind "--" are files, even if one has the name of an option.
     const auto end = std::ranges::find(arguments, "--");
     const auto at = std::find(arguments.begin(), end, option.name);
     if (at == end || at + 1 == end) continue;

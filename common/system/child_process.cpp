@@ -178,7 +178,7 @@ ChildProcess::Reading ChildProcess::read_word(Clock::time_point deadline) {
 }
 
 /// Reads the rest of the line without its line end, at most until `deadline`. If the output ends
-/// within the line, the state is kClosed, and the text is what there is of the line. Throws
+/// within the line, the state is kClosed, and the text is the incomplete line. Throws
 /// Error(kInterrupted) if a stop is requested.
 ChildProcess::Reading ChildProcess::read_line(Clock::time_point deadline) {
   word_start_ = at_;

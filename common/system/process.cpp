@@ -4,8 +4,8 @@
 // (not checked); without a time limit the child may run for ever. A program that cannot be run is
 // no exception: the result says so (exit status 127, as in a shell; 128 + number of a signal that
 // ended the child). A requested stop throws Error(kInterrupted) within about 0.1 s, and a system
-// without free sockets std::system_error. A change must keep that a child that neither reads nor
-// writes nor ends is killed at its time limit or at a stop.
+// without free sockets throws std::system_error. A change must keep that a child that neither reads
+// nor writes nor ends is killed at its time limit or at a stop.
 #include "viscontact/common/system/process.hpp"
 
 #include <poll.h>

@@ -42,12 +42,13 @@ struct ThreadPool::Workers {
     }
   }
 
-  /// The life of a worker: waits for the next loop, works in it, and ends when `stop` is true.
+  /// The function of a worker thread: waits for the next loop, works in it, and ends when `stop` is
+  /// true.
   void serve() {
     for (unsigned seen = 0;;) {
       // In the solver of a particle step (the projection, docs/particles.md) loops follow each
-      // other within microseconds. A thread therefore checks 2000 times, which takes about 1 ms,
-      // before it sleeps. The number is a free choice and changes only the time.
+      // other within microseconds. A thread therefore looks 2000 times for the next loop, which
+      // takes about 1 ms, before it sleeps. The number is a free choice and changes only the time.
       constexpr int kLooks = 2000;
       for (int look = 0; look < kLooks && round.load() == seen; ++look) std::this_thread::yield();
       round.wait(seen);

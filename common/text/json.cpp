@@ -2,9 +2,10 @@
 // those of values up to eight levels deep are recorded; numbers must fit into a double. A text is
 // read twice: once for errors, lines and repeated keys, and once for the values. Every fault of a
 // text becomes an Error(kBadInput) with file, line and cause. A file that cannot be read throws
-// Error(kBadInput) with its path, and so does, without a line, a value that is missing or has
-// another type than the argument `read` of read_json() asks for. Other exceptions of `read` pass
-// unchanged. What values mean is not checked here. A change must keep published files readable.
+// Error(kBadInput) with its path. If the argument `read` of read_json() asks for a value that is
+// missing or has another type, Error(kBadInput) without a line is thrown; other exceptions of
+// `read` pass unchanged. What values mean is not checked here. A change must keep published files
+// readable.
 #include "viscontact/common/text/json.hpp"
 
 #include <fmt/format.h>

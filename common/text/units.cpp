@@ -22,7 +22,8 @@ std::string Units::words() const {
 namespace {
 
 /// The product of the words with these powers, each from -9 to 9, and with `times` between two
-/// factors. The symbol "/" stands before the words with negative powers.
+/// factors. The symbol "/" stands before the words with negative powers. More powers only need more
+/// superscripts in kPowers.
 std::string quantity(const Units& words, std::string_view times, int mass_power, int length_power,
                      int time_power) {
   constexpr std::array<std::string_view, 10> kPowers = {"",  "",  "²", "³", "⁴",

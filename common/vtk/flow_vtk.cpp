@@ -3,8 +3,8 @@
 // is one number for each node, and nodes of triangles are counted from 0. When a file is written,
 // lengths of lists are not checked and nothing is thrown. A file that cannot be read, is no such
 // file or is cut short is an Error(kBadInput) with its path; that numbers are finite is not
-// checked. A change must keep the names of the arrays, because the reader and users' pictures refer
-// to them.
+// checked. A change must keep the names of the arrays and the order of the nodes, because the
+// reader and users' pictures rely on them.
 #include "viscontact/common/vtk/flow_vtk.hpp"
 
 #include <algorithm>

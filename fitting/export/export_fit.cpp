@@ -1,11 +1,12 @@
-// Writes a fit as code or numbers: the resistance R [M/T] of a sphere as a function of the gap q
-// > 0 [L], the sum of weight * term(q), and its primitive Gamma(q) = int_r^q R [M L/T], with the
+// Writes a fit as code or numbers: the resistance R [M/T] of a sphere as a function of the gap
+// q > 0 [L], the sum of weight * term(q), and its primitive Gamma(q) = int_r^q R [M L/T], with the
 // sphere's radius r (docs/physics.md (3.2), (3.3), (4.2)), in the units of the fit. Three faults
 // are an Error(kBadInput): an unknown target, a resistance that is not positive and finite, and a
-// fit without the coefficient k > 0 that a formula for small gaps needs. The target csv with gaps
-// outside the interval is an Error(kWrongUsage). Used by app/ and motions/fit/export_pair.cpp,
-// which repeats the names of the targets. A change must keep the names of functions and keys, which
-// programs of users call, and the order of the sums.
+// fit without the coefficient k > 0 that a formula for small gaps needs. A formula outside the
+// interval for the target csv is an Error(kWrongUsage). Used by app/ and
+// motions/fit/export_pair.cpp, which repeats the names of the targets. A change must keep the names
+// of functions and keys, which programs of users call, and the order of the sums. The comments in
+// exported texts may be changed.
 #include "viscontact/fitting/export/export_fit.hpp"
 
 #include <fmt/format.h>
@@ -149,7 +150,7 @@ std::vector<std::string> facts(const lubrication::Fit& fit, std::string_view sou
 
 /// The target c-header: inline functions viscontact_resistance(gap), viscontact_impulse(gap)
 /// (Gamma) and viscontact_force(gap, velocity) [M L/T^2]. This function and those below have the
-/// arguments of export_fit().
+/// arguments of export_fit(). In C, Fortran and MATLAB a gap without a formula gives NaN.
 std::string write_c_header(const lubrication::Fit& fit, std::string_view source,
                            const Limits& limits) {
   const Sum sum = sum_of(fit);

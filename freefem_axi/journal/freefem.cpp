@@ -2,10 +2,11 @@
 // default at most 30 minutes for a row and 2 minutes for the version, or what the user's time limit
 // says (1 to 10 million). Accuracies are relative, in (0, 1) (not checked). A FreeFEM that does not
 // start and scripts that are not found are an Error(kExternalProgram), a wrong time limit of the
-// user an Error(kWrongUsage), a stop an Error(kInterrupted); a script that fails throws nothing.
-// Used by tabulation.cpp, motion_row.cpp, tabulate.cpp, swimmer/tabulation/, pipeline/tabulate/,
-// results/, app/ and bench/. A change must keep each process on one thread and within its time
-// limit, and the words "viscontact-error" and "viscontact-version", which the scripts print.
+// user is an Error(kWrongUsage), and a requested stop is an Error(kInterrupted); a script that
+// fails throws nothing. Used by tabulation.cpp, motion_row.cpp, tabulate.cpp, swimmer/tabulation/,
+// pipeline/tabulate/, results/, app/ and bench/. A change must keep each process on one thread and
+// within its time limit, and the words "viscontact-error" and "viscontact-version", which the
+// scripts print.
 #include "viscontact/freefem_axi/journal/freefem.hpp"
 
 #include <fmt/format.h>

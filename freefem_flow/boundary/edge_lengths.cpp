@@ -47,8 +47,8 @@ double size_of(const particles::Domain& domain) {
   return std::min(box.to[0] - box.from[0], box.to[1] - box.from[1]);
 }
 
-/// Throws Error(kNotConverged) unless `edge` [L] is longer than 1e-7 times `length` [L], also for
-/// NaN.
+/// Throws Error(kNotConverged) if the length `edge` [L] is NaN or not more than 1e-7 times `length`
+/// [L], the length of the curve that is cut into edges.
 void check_edge_length(double edge, double length) {
   constexpr double kShortest = 1e-7;      // FreeFEM merges nearer points
   if (edge > kShortest * length) return;  // false for NaN
@@ -60,12 +60,13 @@ void check_edge_length(double edge, double length) {
 }
 
 /// Computes the images of the particles (the particles shifted by periods), for each particle the
-/// neighbours that are near enough to shorten its edges, and these numbers, all multiplied by
-/// `coarsening`: longest_ [L], the edge on the smallest particle; cap_ [L], the longest edge on
-/// walls and in the fluid; per_radius_ [1], the edge on a particle over the radius of curvature;
-/// growth_ [1], the increase of an edge per distance; and of_gap_ [1] and further_ [1], with which
-/// across(gap) = of_gap_ gap + further_ max(0, gap - narrow_) is the longest edge [L] in a gap [L].
-/// `bodies.particles` must not be null; there may be no particles.
+/// neighbours that are near enough to shorten its edges, and these numbers, which are multiplied by
+/// `coarsening` (narrow_ and kFastestWithInertia are not): longest_ [L], the edge on the smallest
+/// particle; cap_ [L], the longest edge on walls and in the fluid; per_radius_ [1], the edge on a
+/// particle over the radius of curvature; growth_ [1], the increase of an edge per distance; and
+/// of_gap_ [1] and further_ [1], with which across(gap) = of_gap_ gap + further_ max(0, gap -
+/// narrow_) is the longest edge [L] in a gap [L]. `bodies.particles` must not be null; there may be
+/// no particles.
 EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain& domain,
                          const particles::FluidParticles& bodies, double coarsening)
     : domain_(domain) {

@@ -4,8 +4,8 @@
 // is an Error(kWrongUsage); a wrong case or fit, and an output that is a file of another kind, are
 // an Error(kBadInput). A row that fails is no error, but Error(kNotConverged) is thrown if all rows
 // failed or rows are missing for --gather. A failure of gnuplot or Slurm is an
-// Error(kExternalProgram), Ctrl-C an Error(kInterrupted). A change must keep that an option of the
-// command line takes precedence over the section [sweep] of the case.
+// Error(kExternalProgram), and Ctrl-C is an Error(kInterrupted). A change must keep that an option
+// of the command line takes precedence over the section [sweep] of the case.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -69,7 +69,7 @@ report::SweepPlot picture_of(const SweepOptions& o, const CaseStudy& s) {
   };
   report::SweepPlot picture{o.x, o.y, o.columns, {}, points.draws > 0};
   for (auto* axis : {&picture.x, &picture.y})
-    // Earlier versions called this key so.
+    // Earlier versions used the name motion.mass for this key.
     if (*axis == "motion.mass") *axis = "sphere.mass";
   if (picture.x.empty() && picture.y.empty()) {
     if (points.is_varied(request.x)) picture.x = request.x;

@@ -3,10 +3,10 @@
 // those that are missing, the section [sweep] of the case decides, which the case of a swimmer does
 // not have. Numbers have the units of the case; samples are at most 1e12, draws (random
 // arrangements of particles at a point) at most 1e9, and 0 means "not given". A wrong option is an
-// Error(kWrongUsage), a wrong case, fit or output file an Error(kBadInput). sweep_many_particles()
-// throws Error(kNotConverged) if all rows failed or if rows are missing for --gather,
-// Error(kExternalProgram) if Slurm fails, and Error(kInterrupted) after Ctrl-C. A change must keep
-// the texts such as "# viscontact: sweep", because the output files begin with them.
+// Error(kWrongUsage), and a wrong case, fit or output file is an Error(kBadInput).
+// sweep_many_particles() throws Error(kNotConverged) if all rows failed or if rows are missing for
+// --gather, Error(kExternalProgram) if Slurm fails, and Error(kInterrupted) after Ctrl-C. A change
+// must keep the texts such as "# viscontact: sweep", because the output files begin with them.
 #include <fmt/format.h>
 
 #include <algorithm>
