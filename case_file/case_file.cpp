@@ -40,6 +40,10 @@ void read_fix(const TomlSection& section, std::string_view key, fitting::FitSett
                     section.text(key));
 }
 
+/// Declares the keys of [fit]: a fit file, relative to `folder` (the folder of the case), or the
+/// exact drag, or else the settings of a fit of the table; and what replaces the fit at gaps
+/// outside its interval. Throws Error(kBadInput) for a wrong value, and for `terms` together with
+/// `basis`.
 void fit_keys(Keys& keys, FitRequest& fit, const fs::path& folder) {
   const auto read_file_name = [&](const TomlSection& section, std::string_view key) {
     fit.file = folder / section.file_name(key);
@@ -100,7 +104,8 @@ void fit_keys(Keys& keys, FitRequest& fit, const fs::path& folder) {
 }
 
 /// The keys of a piece of the external force: `until` [T], and `value` [M L/T^2] or a polynomial of
-/// the time. The piece begins at the time at which the piece before it ends.
+/// the time. The piece begins at the time at which the piece before it ends. Throws
+/// Error(kBadInput) if the case gives both, or none.
 void piece_keys(Keys& keys, ExternalForce::Piece& piece) {
   keys.required("until", number(piece.until, kPositive),
                 {"end of a piece of the force; the pieces follow each other from time 0"});
@@ -119,6 +124,8 @@ void piece_keys(Keys& keys, ExternalForce::Piece& piece) {
                   {"the constant force of the piece", "required without `polynomial`"});
 }
 
+/// Declares the keys of a sinusoidal force: the amplitude [M L/T^2], the angular frequency
+/// [1/T], > 0, and the phase in radians.
 void sinusoid_keys(Keys& keys, ExternalForce::Sinusoid& sinusoid) {
   keys.required("amplitude", number(sinusoid.amplitude, kFinite),
                 {"the force is `amplitude` sin(`angular_frequency` t + `phase`)"});
@@ -142,7 +149,8 @@ fs::path force_file(const fs::path& folder, const fs::path& file) {
 }
 
 /// Reads `external_force` [M L/T^2]. The entries with `until` follow each other and make one force.
-/// Every other entry, a sinusoid or a file, is added to this force.
+/// Every other entry, a sinusoid or a file, is added to this force. Throws Error(kBadInput) for a
+/// wrong entry or file, and if the entries with `until` end before `end_time`.
 void read_forces(const TomlSection& section, std::string_view key, Motion& motion, Case& c) {
   const double end_time = motion.end_time;
   std::vector<ExternalForce::Piece> pieces;
@@ -169,7 +177,8 @@ void read_forces(const TomlSection& section, std::string_view key, Motion& motio
   for (const auto& summand : summands) motion.external_force += summand;
 }
 
-/// A list of names of models, each of which must exist.
+/// A list of names of models. Reading throws Error(kBadInput) if one of them is not the name of a
+/// model.
 auto models(std::vector<std::string>& place) {
   return custom("a list of names", [&](const TomlSection& section, std::string_view key) {
     place = section.texts(key);
@@ -179,6 +188,7 @@ auto models(std::vector<std::string>& place) {
 }
 
 /// The keys of [motion]. `time_scale` [1], > 0, keeps its value if the case does not give it.
+/// Throws Error(kBadInput) for a wrong value, and if the weight is not finite.
 void motion_keys(Keys& keys, Case& c, Motion& motion, double& time_scale) {
   keys.required("end_time", number(motion.end_time, kPositive),
                 {.meaning = "end of the motion", .example = "4.0"});
@@ -226,7 +236,8 @@ void motion_keys(Keys& keys, Case& c, Motion& motion, double& time_scale) {
        "and the times of files are those of the unscaled time"});
 }
 
-/// Heights of the roughness of sphere and plane [L], whose sum must be less than the radius.
+/// Reads the heights of the roughness of sphere and plane [L] into `place`. Throws Error(kBadInput)
+/// unless they are two numbers >= 0 whose sum is less than `radius`.
 void read_roughness(const TomlSection& section, std::string_view key, const double& radius,
                     std::array<double, 2>& place) {
   const auto heights = section.numbers(key, kNotNegative);
@@ -242,7 +253,9 @@ void read_roughness(const TomlSection& section, std::string_view key, const doub
 
 /// The keys of `section`: those parameters of models that belong to this section, and in one
 /// section the roughness, which is a property of the surfaces and no parameter of a model. The
-/// caller has given each parameter of the motion its default (set_default_parameters).
+/// caller has given each parameter of the motion its default (set_default_parameters). Throws
+/// Error(kBadInput) for a value that is not allowed, a time step that is longer than the motion, or
+/// a coefficient of restitution without roughness.
 void model_keys(Keys& keys, Case& c, Motion& motion, std::string_view section) {
   const double radius = c.radius;
   for (const auto& parameter : reduced_model::model_parameters()) {
@@ -270,6 +283,8 @@ void model_keys(Keys& keys, Case& c, Motion& motion, std::string_view section) {
                  motion.restitution());
 }
 
+/// Gives each parameter of the models its default for this motion and this radius [L]. All defaults
+/// are computed before the first one is set, so that none depends on another one.
 void set_default_parameters(Motion& motion, double radius) {
   const auto parameters = reduced_model::model_parameters();
   std::vector<double> values;
@@ -318,6 +333,8 @@ void published_keys(Keys& keys, PublishedGap& published) {
   keys.required("source", text(published.source), {"where it was published"});
 }
 
+/// Declares the keys of [sweep]. Throws Error(kBadInput) for an unknown model. Whether the varied
+/// keys and the columns exist is not checked here.
 void sweep_keys(Keys& keys, SweepRequest& sweep) {
   keys.required("vary", texts(sweep.vary), {"`KEY=RANGE` each, as on the command line"});
   keys.optional("models", models(sweep.models), {"the models that are run", "that of the command"});
@@ -326,7 +343,8 @@ void sweep_keys(Keys& keys, SweepRequest& sweep) {
   points_and_plot_keys(keys, sweep);
 }
 
-/// Checks that nothing uses the exact drag near a plane if the geometry is another one.
+/// Throws Error(kBadInput) if the fit or a model uses the exact drag near a plane although the
+/// geometry is another one.
 void check_exact_drag(const TomlSection& root, const Case& c) {
   if (!c.tabulation || freefem_axi::find_geometry(c.tabulation->geometry).has_exact_drag) return;
   if (c.fit)
@@ -341,6 +359,8 @@ void check_exact_drag(const TomlSection& root, const Case& c) {
         model, c.tabulation->geometry);
 }
 
+/// The part of the case that its section `section` gives. Throws Error(kBadInput), which names the
+/// section, if the case does not have it.
 template <class Part>
 const Part& required(const std::optional<Part>& part, const Case& c, std::string_view section) {
   if (!part)
@@ -350,8 +370,9 @@ const Part& required(const std::optional<Part>& part, const Case& c, std::string
 
 }  // namespace
 
-/// The kind of a case, by its sections. Throws Error(kBadInput) for a pipe, and for a file that
-/// cannot be read or is not valid TOML.
+/// The kind of a case: that of the first of the sections [space] (particles), [swimmer] and
+/// [rolling] that it has, and one sphere if it has none of them. Throws Error(kBadInput) for a
+/// pipe, and for a file that cannot be read or is not valid TOML.
 CaseKind kind_of_case(const fs::path& path) {
   std::error_code none;  // read_toml_file() says what is wrong
   if (fs::is_fifo(path, none))
@@ -363,6 +384,9 @@ CaseKind kind_of_case(const fs::path& path) {
   return root.has("rolling") ? CaseKind::kRolling : CaseKind::kSphere;
 }
 
+/// Reads all members of `c` but `text` and `path` from the root table of the file. c.path must be
+/// set before, because the case names files relative to its folder. Throws Error(kBadInput) for a
+/// wrong, missing or unknown key.
 void read_root(const TomlSection& root, Case& c) {
   read_title_and_units(root, c, true);
   read_keys(root.section("fluid"), fluid_keys, c.viscosity, c.fluid_density);
@@ -411,6 +435,8 @@ std::vector<std::string_view> sections_with_defaults<Case>() {
 
 Case read_case(const fs::path& path) { return read_case_file<Case>(path); }
 
+/// The tables of docs/case-file.md, one for each section, in the order of the page. Nothing is
+/// thrown.
 std::vector<KeyTable> tables_of_sphere_case() {
   // docs/case-file.md shows the default of a model's parameter as its example. The default can
   // depend on the motion and the radius, which therefore get here the values that are the examples

@@ -1,9 +1,11 @@
-// Makes the tables of docs/case-file.md and the case that the command `init` writes from the
-// declarations of keys in case_file/, particles/, rolling/ and swimmer/. Values and examples have
-// the units of the case; a declaration gives the allowed range of each number, and the default is
-// the value that the place has before. Reading a missing, wrong or disallowed value throws an
-// Error(kBadInput) with file, line and key; describing throws nothing. A change alters that page,
-// whose test CaseFilePage then fails.
+// Makes the tables of docs/case-file.md and the case that the command `init` writes, from the
+// declarations of keys in case_file/, particles/, rolling/ and swimmer/. The same declarations read
+// cases. Values and examples have the units of the case. A declaration gives the allowed range of
+// each number. The default of a key is the value that its place (the variable into which it is
+// read) has before. Reading a missing, wrong or disallowed value throws an Error(kBadInput) with
+// file, line and key; describing throws nothing. The words and the layout of the tables may be
+// changed; the test CaseFilePage then fails until the page is made again. A change must keep that
+// users' cases can be read.
 #include "viscontact/case_file/keys.hpp"
 
 #include <regex>
@@ -12,7 +14,7 @@
 namespace viscontact::case_file {
 namespace {
 
-/// Markdown without its links and backticks.
+/// The text `markdown` without backticks and with only the words of its links.
 std::string plain(const std::string& markdown) {
   static const std::regex link("\\[([^\\]]*)\\]\\([^)]*\\)");
   auto text = std::regex_replace(markdown, link, "$1");
@@ -20,7 +22,8 @@ std::string plain(const std::string& markdown) {
   return text;
 }
 
-/// A text as lines of a TOML comment, of at most 100 characters, as in all files of the project.
+/// The text as lines of a TOML comment, each of at most 100 bytes unless one word is longer. The
+/// width is a free choice; all files of the project have it.
 std::string comment(const std::string& text) {
   constexpr std::size_t kWidth = 100;
   std::string lines, line = "#";
@@ -35,6 +38,10 @@ std::string comment(const std::string& text) {
 
 }  // namespace
 
+/// The text of a case with these sections, for `viscontact init`: each key has a comment with its
+/// meaning, and its example as value. Keys with a default are commented out. A table is left out if
+/// a required key has no example, or if its name does not begin with "[", because it then describes
+/// keys within a value.
 std::string commented_case(std::span<const KeyTable> tables) {
   std::string text;
   for (const auto& table : tables) {
@@ -57,6 +64,7 @@ std::string commented_case(std::span<const KeyTable> tables) {
   return text;
 }
 
+/// The rows as a table in Markdown.
 std::string KeyTable::markdown() const {
   std::string table = "| key | value | default | meaning |\n| --- | --- | --- | --- |\n";
   for (const auto& row : rows)
@@ -65,6 +73,7 @@ std::string KeyTable::markdown() const {
   return table;
 }
 
+/// Reads the key, which the section must have, or describes it.
 void Keys::required(std::string_view key, const KeyValue& value, const Help& help) {
   if (reads())
     value.read(*section_, key);
@@ -72,6 +81,8 @@ void Keys::required(std::string_view key, const KeyValue& value, const Help& hel
     describe(key, value, "required", help);
 }
 
+/// Reads the key if the section has it, or describes it. Returns true if the key was read;
+/// otherwise its place keeps its value.
 bool Keys::optional(std::string_view key, const KeyValue& value, const Help& help) {
   if (!reads()) describe(key, value, value.fallback(), help);
   if (!has(key)) return false;
@@ -79,6 +90,7 @@ bool Keys::optional(std::string_view key, const KeyValue& value, const Help& hel
   return true;
 }
 
+/// Does what required() does if the condition is true, and what optional() does otherwise.
 void Keys::required_if(bool condition, std::string_view key, const KeyValue& value,
                        const Help& help) {
   if (condition)
@@ -87,6 +99,9 @@ void Keys::required_if(bool condition, std::string_view key, const KeyValue& val
     optional(key, value, help);
 }
 
+/// Adds the row of a key to the table. `fallback` is its default in Markdown, "required", or empty
+/// for none. A text of `help` that is not empty replaces that of `value` or `fallback`; without an
+/// example in `help` the default is the example.
 void Keys::describe(std::string_view key, const KeyValue& value, std::string fallback,
                     const Help& help) {
   auto example =
@@ -98,6 +113,7 @@ void Keys::describe(std::string_view key, const KeyValue& value, std::string fal
                           std::string(help.meaning), std::move(example)});
 }
 
+/// The number in its shortest form, such as "1e-6".
 std::string number_in_words(double number) {
   auto text = fmt::format("{}", number);
   // fmt writes exponents with at least two digits; "1e-06" becomes "1e-6".
@@ -105,24 +121,30 @@ std::string number_in_words(double number) {
   return text;
 }
 
+/// A text, which may be empty. This value and those below have a reference to `place`, which must
+/// live until the key is declared.
 KeyValue text(std::string& place) {
   return custom("a text", [&place](const TomlSection& section, std::string_view key) {
     place = section.text(key);
   });
 }
 
+/// A text that is not empty.
 KeyValue file_name(std::string& place) {
   return custom("a text", [&place](const TomlSection& section, std::string_view key) {
     place = section.file_name(key);
   });
 }
 
+/// A list of at least one text.
 KeyValue texts(std::vector<std::string>& place) {
   return custom("a list of texts", [&place](const TomlSection& section, std::string_view key) {
     place = section.texts(key);
   });
 }
 
+/// A list of at least one finite number, each of which passes the test `allowed`. `words` says in
+/// the tables which values are allowed.
 KeyValue numbers(std::vector<double>& place, const Allowed& allowed, std::string_view words) {
   return custom(words, [&](const TomlSection& section, std::string_view key) {
     place = section.numbers(key, allowed);

@@ -36,6 +36,7 @@ struct GapGrid {
   bool is_logarithmic = true;
 };
 
+/// Declares the keys of a grid of gaps: `from` and `to` [L], `count` and `spacing`.
 void grid_keys(Keys& keys, GapGrid& grid) {
   keys.required("from", number(grid.from, kPositive), {"the smallest gap"});
   keys.required("to", number(grid.to, kPositive), {"the largest gap, greater than `from`"});
@@ -45,7 +46,9 @@ void grid_keys(Keys& keys, GapGrid& grid) {
                 {"equal ratios of neighbours, or equal differences"});
 }
 
-/// Reads a list of gaps [L], or a grid, into tabulation.gaps, in rising order.
+/// Reads a list of gaps [L], or a grid, into tabulation.gaps, in rising order. Throws
+/// Error(kBadInput) for a gap that occurs twice, a grid whose `to` is not greater than `from`, or a
+/// grid with more gaps than there are doubles between its ends.
 void read_gaps(const TomlSection& section, std::string_view key, Tabulation& tabulation) {
   auto& gaps = tabulation.gaps;
   if (section.is_array(key)) {
@@ -70,7 +73,10 @@ void read_gaps(const TomlSection& section, std::string_view key, Tabulation& tab
                 count, from, to);
 }
 
-/// The keys of tabulation.geometry that are parameters of this geometry, which has a row for each.
+/// Declares the keys of tabulation.geometry other than `kind`: one for each parameter of this
+/// geometry, in the order of geometry.parameters. Their values are added to
+/// tabulation.geometry_parameters in the same order. A key whose parameter has no default is
+/// required.
 void geometry_keys(Keys& keys, Tabulation& tabulation, const freefem_axi::Geometry& geometry) {
   for (const auto& parameter : geometry.parameters) {
     double& value = tabulation.geometry_parameters.emplace_back(parameter.fallback.value_or(0));
@@ -81,6 +87,8 @@ void geometry_keys(Keys& keys, Tabulation& tabulation, const freefem_axi::Geomet
   }
 }
 
+/// Reads tabulation.geometry: the name of the geometry (`kind`) and its parameters. Throws
+/// Error(kBadInput) for an unknown geometry or key, or a wrong value.
 void read_geometry(const TomlSection& parent, std::string_view key, Tabulation& tabulation) {
   const auto section = parent.section(key);
   tabulation.geometry = section.text("kind");
@@ -95,7 +103,9 @@ void container_keys(Keys& keys, Container& container) {
 }
 
 /// Reads a container. Throws Error(kBadInput) if the sphere and its neighbour, such as a plane, do
-/// not fit into it at every gap.
+/// not fit into it at every gap. The container is a closed cylinder, or "unbounded". Throws the
+/// same error if the geometry takes no container, and if the container is longer or wider than 2e5
+/// radii.
 void read_container(const TomlSection& section, std::string_view key, Tabulation& tabulation) {
   const auto& geometry = freefem_axi::find_geometry(tabulation.geometry);
   section.require(geometry.takes_container, key,
@@ -131,6 +141,7 @@ void read_container(const TomlSection& section, std::string_view key, Tabulation
 }
 
 /// Reads the motions: a name, a list of names, or "all", which are all motions of the geometry.
+/// Throws Error(kBadInput) for a motion that the geometry does not have.
 void read_motions(const TomlSection& section, std::string_view key, Tabulation& tabulation) {
   const auto names = section.is_array(key) ? section.texts(key) : std::vector{section.text(key)};
   tabulation.motions =
@@ -155,6 +166,8 @@ void check_gaps(const TomlSection& section, const Tabulation& tabulation) {
                   space.largest_gap);
 }
 
+/// Reads the reference velocities [L/T] (angular ones [1/T]), in the order of the case. Throws
+/// Error(kBadInput) if one is 0 or occurs twice.
 void read_velocities(const TomlSection& section, std::string_view key, Tabulation& tabulation) {
   auto velocities = tabulation.reference_velocities = section.numbers(key, kNotZero);
   std::ranges::sort(velocities);
@@ -162,6 +175,8 @@ void read_velocities(const TomlSection& section, std::string_view key, Tabulatio
                   "contains the same velocity twice; each velocity must be given once");
 }
 
+/// Declares the keys of [tabulation]. The order of the declarations must stay: the gaps and the
+/// geometry are read first, because motions and container are checked against them.
 void tabulation_keys(Keys& keys, Tabulation& tabulation) {
   keys.required("gaps", custom("a list, or `{ from, to, count, spacing }`", read_gaps, tabulation),
                 {.meaning = "the gaps q at which FreeFEM computes the force, at least 1e-8 r each",
@@ -199,7 +214,8 @@ void tabulation_keys(Keys& keys, Tabulation& tabulation) {
 
 }  // namespace
 
-/// Viscosity [M/(L T)] and radius [L] must be positive, which is not checked here.
+/// Reads [tabulation] for a fluid of this viscosity [M/(L T)] and a sphere of this radius [L]. Both
+/// must be positive, which is not checked here. The gaps of the result rise.
 Tabulation read_tabulation(const TomlSection& section, double viscosity, double radius) {
   Tabulation tabulation;
   tabulation.viscosity = viscosity;
@@ -208,12 +224,15 @@ Tabulation read_tabulation(const TomlSection& section, double viscosity, double 
   return tabulation;
 }
 
+/// The tables of docs/case-file.md for [tabulation], its gaps and its container. Nothing is thrown.
 std::vector<KeyTable> tables_of_tabulation() {
   return {describe_keys("[tabulation]", tabulation_keys),
           describe_keys("tabulation.gaps", grid_keys),
           describe_keys("tabulation.container", container_keys)};
 }
 
+/// Declares the keys of [fluid]: the viscosity and the density. A density that is not given stays
+/// as it is.
 void fluid_keys(Keys& keys, double& viscosity, double& density) {
   viscosity_keys(keys, viscosity);
   keys.optional("density", number(density, kNotNegative),
@@ -221,6 +240,10 @@ void fluid_keys(Keys& keys, double& viscosity, double& density) {
                  .example = "0.0"});
 }
 
+/// Declares the keys of [sphere]: the radius [L], and the mass [M] or the density [M/L^3], all > 0.
+/// A density that is given sets `mass`, too; otherwise what is not given stays as it is. Throws
+/// Error(kBadInput) if both mass and density are given, if none of the two is although `needs_mass`
+/// is true, or if a double does not hold the mass.
 void sphere_keys(Keys& keys, double& radius, double& density, double& mass, bool needs_mass) {
   keys.required("radius", number(radius, kPositive),
                 {.meaning = "radius r of the sphere", .example = "1.0"});

@@ -11,6 +11,8 @@
 
 namespace viscontact::fitting {
 
+/// The fit in each known basis, and then in settings.basis if this is the user's own list of terms.
+/// Each result has a fit or the text of its error. The table must have a row (not checked).
 std::vector<BasisResult> compare_bases(const lubrication::MotionTable& table,
                                        const FitSettings& settings, const StopToken& stop) {
   auto bases = lubrication::all_bases();
@@ -32,6 +34,8 @@ std::vector<BasisResult> compare_bases(const lubrication::MotionTable& table,
   return results;
 }
 
+/// The result with the smallest criterion, the first among equal ones. A fit with a robust loss, or
+/// with few rows, has no criterion. Each fit must have diagnostics (not checked).
 const BasisResult* best_basis(const std::vector<BasisResult>& results) {
   const auto criterion = [](const BasisResult& result) {
     return result.fit ? result.fit->diagnostics->information_criterion : std::nullopt;

@@ -2,12 +2,12 @@
 // solves them by least squares, and sets the members of the fit and its diagnostics. In the units
 // of the table, q > 0 is the gap [L], F the force [M L/T^2] and u the velocity [L/T], not 0, of a
 // row, r > 0 the radius of the sphere [L]; relative residuals, fit/F - 1, have no dimension. A
-// table needs as many different gaps as there are coefficients, at least 2; fewer, rows that
-// contradict each other and a result that a double cannot hold are an Error(kBadInput), dependent
-// terms an Error(kNotConverged), a stop an Error(kInterrupted). Used by pipeline/, motions/fit/,
-// basis_comparison.cpp, examples/ and python/. A change must keep that units and order of the rows
-// change the fit by rounding only, and the numbers 0.99 and 5 below, which lubrication/fit.hpp
-// repeats.
+// table with fewer different gaps than coefficients, or fewer than 2, rows that contradict each
+// other, and a result that a double cannot hold throw Error(kBadInput), dependent terms throw
+// Error(kNotConverged), and a requested stop throws Error(kInterrupted). Used by pipeline/,
+// motions/fit/, basis_comparison.cpp, examples/ and python/. A change must keep that units and
+// order of the rows change the fit by rounding only. It must also keep the numbers 0.99 and 5
+// below, which lubrication/fit.hpp repeats.
 #include "viscontact/fitting/fit_force_table.hpp"
 
 #include <fmt/format.h>
@@ -28,9 +28,10 @@
 namespace viscontact::fitting {
 namespace {
 
-/// The solved least squares problem: a row for each row of the table, a column for each fitted
-/// coefficient. `weight` is Equations::weight; `row weight` is RobustSolution::row_weights, the
-/// factor from 0 to 1 that a robust loss gives the square of a row (1 without a robust loss).
+/// The solved least squares problem. Its matrix and vectors have a row for each row of the table;
+/// the matrix has a column for each fitted coefficient. `weight` is Equations::weight; `row weight`
+/// is RobustSolution::row_weights, the factor from 0 to 1 that a robust loss gives the square of
+/// the residual of a row (1 without a robust loss).
 struct FittedSystem {
   /// weight * sqrt(row weight) * term(gap).
   Eigen::MatrixXd weighted_matrix;
@@ -54,7 +55,8 @@ double gap_of_row(const lubrication::MotionTable& table, Eigen::Index row) {
   return table.rows[static_cast<std::size_t>(row)].gap;
 }
 
-/// The 99 % quantile of the chi-squared distribution. double compiles faster than long double.
+/// The 99 % quantile of the chi-squared distribution with this number of degrees of freedom, > 0.
+/// The type is double, because it compiles faster than long double.
 double chi_squared_quantile(double degrees_of_freedom) {
   using DoublePolicy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
   const boost::math::chi_squared_distribution<double, DoublePolicy> chi_squared(degrees_of_freedom);
@@ -104,7 +106,7 @@ void compare_with_estimates(const lubrication::MotionTable& table, const FittedS
                                                            : lubrication::Misfit::kData;
 }
 
-/// Leverages of the rows: the diagonal of the projection onto the columns of `matrix`.
+/// Leverages of the rows, from 0 to 1: the diagonal of the projection onto the columns of `matrix`.
 Eigen::VectorXd leverages(const Eigen::MatrixXd& matrix) {
   if (matrix.cols() == 0) return Eigen::VectorXd::Zero(matrix.rows());
   // The columns are scaled to length 1. The leverages do not depend on the scale of the columns,
@@ -135,13 +137,14 @@ void take_largest(std::optional<lubrication::LeftOutRow>& largest,
   if (!largest || row.relative_residual > largest->relative_residual) largest = row;
 }
 
-/// Sets the members of `d` on the residual that each row has in the fit of the other rows. It
-/// follows from the one fit of all rows: residual/(1 - leverage).
+/// Sets the members of `d` that describe the residual of each row in the fit of the other rows.
+/// This residual follows from the fit of all rows: residual/(1 - leverage).
 void leave_one_out(const lubrication::MotionTable& table, const FittedSystem& system,
                    lubrication::FitDiagnostics& d) {
   if (d.degrees_of_freedom == 0) return;
   const Eigen::VectorXd leverage = leverages(system.weighted_matrix);
   const auto is_end = end_rows(table);
+  // Rounding errors of a leverage are smaller; a free choice.
   const double round_off = 100 * std::numeric_limits<double>::epsilon();
   double squares = 0;
   std::optional<lubrication::LeftOutRow> inner, end;
@@ -162,6 +165,8 @@ void leave_one_out(const lubrication::MotionTable& table, const FittedSystem& sy
   d.leave_one_out_rms = std::sqrt(squares / static_cast<double>(leverage.size()));
 }
 
+/// Akaike's information criterion with the correction for small samples; nothing if there are too
+/// few rows for it or if all residuals are 0.
 std::optional<double> information_criterion(const FittedSystem& system,
                                             const lubrication::FitDiagnostics& d) {
   const auto n = static_cast<double>(d.rows);
@@ -171,6 +176,8 @@ std::optional<double> information_criterion(const FittedSystem& system,
   return n * std::log(squares / n) + 2 * k + 2 * k * (k + 1) / (n - k - 1);
 }
 
+/// The outliers of a fit with a robust loss, in the order of the table: gap [L], velocity [L/T] and
+/// relative residual [1].
 std::vector<lubrication::Outlier> outliers(const lubrication::MotionTable& table,
                                            const FittedSystem& system) {
   std::vector<lubrication::Outlier> found;
@@ -218,6 +225,9 @@ std::string names_of_failed_rows(const lubrication::MotionTable& table) {
   return fmt::format("{}", fmt::join(names, "; "));
 }
 
+/// Adds warnings if no degree of freedom is left, if a coefficient is smaller than its standard
+/// error, or if the coefficient of 1/q differs from that of theory by more than the errors allow.
+/// The numbers in `d` must be set before.
 void warn_of_coefficients(const lubrication::Fit& fit, const FittedSystem& system,
                           const lubrication::FitDiagnostics& d,
                           std::vector<std::string>& warnings) {
@@ -249,6 +259,7 @@ void warn_of_coefficients(const lubrication::Fit& fit, const FittedSystem& syste
   }
 }
 
+/// The diagnostics of `fit`, whose other members are complete.
 lubrication::FitDiagnostics diagnose(const lubrication::MotionTable& table,
                                      const FittedSystem& system, const lubrication::Fit& fit,
                                      lubrication::FittedShape shape) {
@@ -273,8 +284,9 @@ lubrication::FitDiagnostics diagnose(const lubrication::MotionTable& table,
                     d.failed_rows, d.failed_rows + d.rows, names_of_failed_rows(table)));
   warn_of_shape(fit, shape, d.warnings);
   warn_of_coefficients(fit, system, d, d.warnings);
-  // The warning is for gaps that are too few or terms that do not suit. A sound fit must not get
-  // it: the default basis (1/q, 1, q, q^2, q^3) on forty gaps misses a left-out row by 0.05.
+  // The warning is for gaps that are too few or terms that do not suit. The number is a free
+  // choice, but a sound fit must not get the warning: the default basis (1/q, 1, q, q^2, q^3) on
+  // forty gaps misses a left-out row by 0.05.
   constexpr double kFar = 0.1;
   if (d.left_out_inner && d.left_out_inner->relative_residual > kFar)
     d.warnings.push_back(
@@ -343,7 +355,7 @@ struct Equations {
   Eigen::VectorXd force;
   // `force` minus the fixed coefficient times 1/q, if that coefficient is fixed.
   Eigen::VectorXd left;
-  // The values of the fitted terms, a column for each.
+  // The values of the fitted terms at the gaps of the rows, a column for each term.
   Eigen::MatrixXd terms;
   // The force [M L/T^2] by which the residual of the row is divided to make it relative, not 0:
   // FitSettings::row_scales, or else `force`.
@@ -369,7 +381,9 @@ bool is_fixed(const lubrication::Term& term, const FitSettings& settings) {
   return settings.fix_leading && term.name == lubrication::kLeadingTerm;
 }
 
-/// `fixed` [M L^2/T^2] is the coefficient of 1/q, without effect unless the settings fix it.
+/// The equations of the fit; the table has a row. `fixed` [M L^2/T^2] is the coefficient of 1/q,
+/// without effect unless the settings fix it. Nothing is checked: a term that overflows gives an
+/// entry that is not finite.
 Equations assemble(const lubrication::MotionTable& table, const FitSettings& settings,
                    double fixed) {
   const auto rows = static_cast<Eigen::Index>(table.rows.size());
@@ -420,7 +434,8 @@ void shift_logarithms(const FitSettings& settings, double radius, lubrication::F
   }
 }
 
-/// Sets terms and covariance of `fit`. The covariance of a fixed coefficient is 0.
+/// Sets terms and covariance of `fit`. The covariance of a fixed coefficient is 0. `fixed`
+/// [M L^2/T^2] is the value of the fixed coefficient of 1/q; it has no effect if none is fixed.
 void set_coefficients(const LeastSquaresSolution& solution, const FitSettings& settings,
                       double fixed, lubrication::Fit& fit) {
   std::vector<Eigen::Index> columns;  // column in the solution; -1 if fixed
@@ -443,6 +458,7 @@ void set_coefficients(const LeastSquaresSolution& solution, const FitSettings& s
         fit.covariance[i][j] = solution.covariance(columns[i], columns[j]);
 }
 
+/// All members of FittedSystem but fitted_terms, for the solution of the equations.
 FittedSystem residuals_of(const Equations& equations, const RobustSolution& solution) {
   const Eigen::VectorXd residual =
       equations.terms * solution.least_squares.coefficients - equations.left;
@@ -458,8 +474,8 @@ FittedSystem residuals_of(const Equations& equations, const RobustSolution& solu
 
 }  // namespace
 
-/// Sets all members of the fit but table_sha256 and versions. A poor fit throws nothing: its
-/// diagnostics have warnings.
+/// Fits the table with these settings. Sets all members of the fit but table_sha256 and versions. A
+/// poor fit throws nothing: its diagnostics have warnings.
 lubrication::Fit fit_force_table(const lubrication::MotionTable& table, const FitSettings& settings,
                                  const StopToken& stop) {
   check_linearity(table);
@@ -507,6 +523,8 @@ lubrication::Fit fit_force_table(const lubrication::MotionTable& table, const Fi
   return fit;
 }
 
+/// Fits the table with the basis of this name, these weights, and otherwise the default settings.
+/// Throws the errors of the function above, and Error(kBadInput) for an unknown name.
 lubrication::Fit fit_force_table(const lubrication::MotionTable& table, std::string_view basis,
                                  lubrication::Weights weights) {
   FitSettings settings;

@@ -3,10 +3,10 @@
 // unknowns x minimise the sum of the losses of the residuals A x - b. A has at least one column and
 // at least as many rows, b an entry for each row (only asserted). Residuals and their scale, >= 0,
 // have the unit of b; weights of rows are > 0 and at most 1. Weights that do not converge in 1000
-// steps are an Error(kNotConverged), a stop an Error(kInterrupted); solve_least_squares() throws
-// Error(kBadInput) for numbers that are not finite and Error(kNotConverged) for dependent columns.
-// Used by fit_force_table.cpp. A change must keep that with Loss::kSquared the result is that of
-// solve_least_squares(), to the last bit.
+// steps are an Error(kNotConverged), and a requested stop is an Error(kInterrupted);
+// solve_least_squares() throws Error(kBadInput) for numbers that are not finite and
+// Error(kNotConverged) for dependent columns. Used by fit_force_table.cpp. A change must keep that
+// with Loss::kSquared the result is that of solve_least_squares(), to the last bit.
 #include "viscontact/fitting/robust_least_squares.hpp"
 
 #include <ceres/loss_function.h>
@@ -23,8 +23,9 @@
 namespace viscontact::fitting {
 namespace {
 
-/// The constants make the standard errors on Gaussian residuals nearly those of least squares (95 %
-/// efficiency). The comment of Loss in lubrication/fit.hpp repeats them.
+/// The loss as a function of the square of residual/scale. The constants make the standard errors
+/// on Gaussian residuals nearly those of least squares (95 % efficiency). The comment of Loss in
+/// lubrication/fit.hpp repeats them.
 std::unique_ptr<ceres::LossFunction> make_loss(lubrication::Loss loss) {
   switch (loss) {
     case lubrication::Loss::kHuber:
@@ -37,8 +38,10 @@ std::unique_ptr<ceres::LossFunction> make_loss(lubrication::Loss loss) {
   return std::make_unique<ceres::TrivialLoss>();
 }
 
-/// RobustSolution::scale of the residuals of a fit with `columns` coefficients. 1.4826 is the ratio
-/// of the standard deviation to the median of |z| for Gaussian z.
+/// The scale of the residuals of a fit with `columns` coefficients, in the unit of the residuals,
+/// >= 0: the median of their absolute values times sqrt(rows/(rows - columns)) and 1.4826, the
+/// ratio of the standard deviation to the median of |z| for Gaussian z. The number of rows must be
+/// > 0.
 double scale_of(const Eigen::VectorXd& residual, Eigen::Index columns) {
   std::vector<double> sizes(static_cast<std::size_t>(residual.size()));
   std::ranges::transform(residual, sizes.begin(), [](double r) { return std::abs(r); });
@@ -114,6 +117,8 @@ Eigen::MatrixXd robust_covariance(const Eigen::MatrixXd& matrix,
 
 }  // namespace
 
+/// The x that minimises the sum of the losses, the weights of the rows, and the scale of the
+/// residuals, with A = `matrix` and b = `right_hand_side`.
 RobustSolution solve_robust_least_squares(const Eigen::MatrixXd& matrix,
                                           const Eigen::VectorXd& right_hand_side,
                                           lubrication::Loss loss, const StopToken& stop) {

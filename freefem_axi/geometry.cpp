@@ -1,11 +1,11 @@
 // The table of the bodies beside a sphere, its neighbours: plane, free surface, sphere, cavity,
 // rough plane. q > 0 is the gap [L], r > 0 the radius of the sphere [L], mu the viscosity
-// [M/(L T)], R the resistance [M/T]; lengths are in any one unit, curvatures in 1 over it, ratios
-// and factors without dimension. The functions of a row do not check their parameters, which must
-// be complete. An unknown name or motion is an Error(kBadInput). Used by tabulation.cpp, case_file/
-// and rolling/. A change must keep the names, which case files and tables contain; the flags, which
-// the scripts read; the order of the parameters, which functions here find by their index; and
-// motions in the order of MotionKind.
+// [M/(L T)], R the resistance [M/T]; lengths are in any one unit, curvatures in the inverse of this
+// unit, ratios and factors without dimension. The functions of a row do not check their parameters,
+// which must be complete. An unknown name or motion is an Error(kBadInput). Used by tabulation.cpp,
+// case_file/ and rolling/. A change must keep the names, which case files and tables contain; the
+// flags, which the scripts read; the order of the parameters, which functions here find by their
+// index; and motions in the order of MotionKind.
 #include "viscontact/freefem_axi/geometry.hpp"
 
 #include <algorithm>
@@ -19,6 +19,9 @@ namespace {
 using lubrication::MotionKind;
 using Parameters = std::span<const double>;
 
+// The parameters of each geometry: its key in a case, the flag of the script, the allowed values,
+// and the default (none: a case must give the key). Radii, amplitude and wavelength are lengths
+// [L]; ratios are those of the neighbour's velocity or angular velocity to that of the sphere [1].
 constexpr std::array kSphereParameters = {
     GeometryParameter{
         .key = "radius", .flag = "-neighbourRadius", .allowed = kPositive, .fallback = {}},
@@ -41,6 +44,8 @@ constexpr std::array kRoughPlaneParameters = {
         .key = "wavelength", .flag = "-wavelength", .allowed = kPositive, .fallback = {}},
 };
 
+/// The radius and the height that a container must exceed [L], so that it holds the sphere at this
+/// gap above a floor. The functions below return the same for other neighbours.
 RequiredSpace space_above_floor(double radius, double gap, Parameters) {
   return {radius, gap + 2 * radius};
 }
@@ -57,17 +62,19 @@ RequiredSpace space_of_pair(double radius, double gap, Parameters parameters) {
   return {larger, gap + 4 * larger};
 }
 
-/// The rotation_ratio for motions about an axis, the velocity_ratio for the others.
+/// The neighbour's angular velocity over that of the sphere for motions about an axis
+/// (rotation_ratio), the velocity over that of the sphere for the others (velocity_ratio).
 double ratio_of_pair(MotionKind motion, Parameters parameters) {
   return parameters[motion == MotionKind::kRoll || motion == MotionKind::kSpin ? 2 : 1];
 }
 
-/// The gap is the distance to the nearest wall; it is largest if sphere and cavity are concentric.
+/// A cavity needs no container, but it limits the gap [L], the distance to its nearest wall. The
+/// gap is largest if sphere and cavity are concentric.
 RequiredSpace space_in_cavity(double radius, double, Parameters parameters) {
   return {0, 0, parameters[0] - radius};
 }
 
-// Geometry::leading_factor, k/(6 pi mu r^2) with the resistance R = k/q + ... near contact. Theory
+// These functions give k/(6 pi mu r^2), where R = k/q + ... is the resistance near contact. Theory
 // (Cox & Brenner 1967; Jeffrey & Onishi 1984) gives k = 6 pi mu r_eff^2 with
 // 1/r_eff = 1/r + 1/r_neighbour, where the radius of a cavity counts as negative. If the neighbour
 // moves, k is multiplied by the rate of change of the gap over the velocity of the sphere. Beside a
@@ -87,12 +94,13 @@ constexpr std::array kAllMotions = {MotionKind::kApproach, MotionKind::kSlide, M
                                     MotionKind::kSpin};
 constexpr std::array kAlongAndAroundTheAxis = {MotionKind::kApproach, MotionKind::kSpin};
 
+// The curvature of the neighbour, 1 over its radius; that of a cavity is negative.
 double flat(Parameters) { return 0; }
 double curvature_of_sphere(Parameters parameters) { return 1 / parameters[0]; }
 double curvature_of_cavity(Parameters parameters) { return -1 / parameters[0]; }
 
 // The first row is default_geometry(). Members that a row leaves out have the values of
-// geometry.hpp.
+// geometry.hpp. relative_cost only changes the estimates of time.
 constexpr std::array kGeometries = {
     Geometry{.name = "plane",
              .script = "plane.edp",
@@ -150,6 +158,7 @@ constexpr std::array kGeometries = {
 
 std::span<const Geometry> all_geometries() { return kGeometries; }
 
+/// The geometries for which the drag near a plane is exact.
 std::vector<Geometry> geometries_with_exact_drag() {
   std::vector<Geometry> geometries;
   std::ranges::copy_if(kGeometries, std::back_inserter(geometries), &Geometry::has_exact_drag);

@@ -3,10 +3,10 @@
 // radius and velocity of the motion. The rows are in the units of the case: gap > 0 [L] (the script
 // refuses others), velocity 1 [L/T] or angular velocity 1 [1/T], forces [M L/T^2], torques
 // [M L^2/T^2], factors and error estimates [1]. Lines that are missing or contradict each other,
-// and a FreeFEM that fails, are an Error(kExternalProgram), an unknown geometry an
-// Error(kBadInput), a stop an Error(kInterrupted). Used by motion_table_plan.cpp, row_picture.cpp
-// and bench/. A change must agree with scripts/row.idp, which numbers its solutions in the order of
-// motions_of().
+// and a FreeFEM that fails, are an Error(kExternalProgram), an unknown geometry is an
+// Error(kBadInput), and a requested stop is an Error(kInterrupted). Used by motion_table_plan.cpp,
+// row_picture.cpp and bench/. A change must agree with scripts/row.idp, which numbers its solutions
+// in the order of motions_of().
 #include "viscontact/freefem_axi/motion_row.hpp"
 
 #include <array>
@@ -26,16 +26,17 @@ using lubrication::Action;
 using lubrication::MotionKind;
 using lubrication::MotionRow;
 
-// Force and torque of a sphere alone in units of viscosity, radius and velocity: Action's factors
-// are relative to them.
+// Force and torque of a sphere alone in unbounded fluid, in units of viscosity, radius and
+// velocity. The factors of an Action are force and torque divided by these numbers.
 constexpr double kForceUnit = 6 * std::numbers::pi, kTorqueUnit = 8 * std::numbers::pi;
 
-/// A line "viscontact-action".
+/// A line "viscontact-action": force and torque on one body in one solution.
 struct ActionLine {
   /// The solution is the index in motions_of(); body 0 is the sphere, 1 the neighbour.
   std::size_t solution = 0, body = 0;
-  /// Force, torque, error estimates of their factors (both over the sphere's force factor if it
-  /// slides, over its torque factor if it turns), observed order of convergence.
+  /// Force and torque in units of viscosity, radius and velocity; the error estimates of their
+  /// factors, both divided by the sphere's force factor if the sphere slides, or by its torque
+  /// factor if it turns; and the observed order of convergence.
   std::array<double, 5> numbers{};
 };
 
@@ -115,17 +116,24 @@ double asymmetry(const Tabulation& tabulation, const std::vector<MotionRow>& row
 
 }  // namespace
 
+/// The motions of a group, in the order in which scripts/row.idp numbers its solutions.
 std::vector<MotionKind> motions_of(MotionGroup group) {
   if (group == MotionGroup::kAlong) return {MotionKind::kApproach};
   if (group == MotionGroup::kAround) return {MotionKind::kSpin};
   return {MotionKind::kSlide, MotionKind::kRoll};
 }
 
+/// True if the body beside the sphere is a sphere outside it. Throws Error(kBadInput) for an
+/// unknown geometry.
 bool neighbour_is_sphere(const Tabulation& tabulation) {
   const auto& geometry = find_geometry(tabulation.geometry);
   return geometry.curvature != nullptr && geometry.curvature(tabulation.geometry_parameters) > 0;
 }
 
+/// Solves the motions of `group`, kAcross or kAround (not checked), at `gap` [L], and returns a row
+/// for each, in the order of motions_of(). `further_arguments` are added to the arguments of the
+/// script. If `output` is not null, it gets all that FreeFEM printed. Throws
+/// Error(kExternalProgram), too, if sliding and rolling contradict the reciprocal theorem.
 std::vector<MotionRow> solve_motions(const FreeFem& freefem, const Tabulation& tabulation,
                                      MotionGroup group, double gap,
                                      const std::vector<std::string>& further_arguments,

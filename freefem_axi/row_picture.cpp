@@ -1,10 +1,11 @@
 // Reads the meshes and the flow that scripts/pictures.idp prints, and writes them for ParaView.
 // Results are in the units of the case: places [L], velocities [L/T], pressure [M/(L T^2)], stream
-// function [L^3/T], all finite, one number for each node. The gap is > 0 [L] and the velocity not 0
-// [L/T] or [1/T]: FreeFEM refuses others. A FreeFEM that fails and an incomplete mesh are an
-// Error(kExternalProgram), an unknown geometry or a force beyond a double an Error(kBadInput), a
-// stop an Error(kInterrupted). Used by report/flow/ and pipeline/tabulate/. A change must keep that
-// this file reads the format that is described in scripts/pictures.idp, and kWords in the order of
+// function [L^3/T], all finite, one number for each node. The gap must be > 0 [L], which FreeFEM
+// checks, and the velocity [L/T] or [1/T] must not be 0, which FreeFEM checks for the approach
+// only. A FreeFEM that fails and an incomplete mesh are an Error(kExternalProgram), an unknown
+// geometry or a force beyond a double is an Error(kBadInput), and a requested stop is an
+// Error(kInterrupted). Used by report/flow/ and pipeline/tabulate/. A change must keep that this
+// file reads the format that is described in scripts/pictures.idp, and kWords in the order of
 // BoundaryKind.
 #include "viscontact/freefem_axi/row_picture.hpp"
 
@@ -23,9 +24,9 @@ class PictureReader {
  public:
   explicit PictureReader(const std::string& output) : stream_(output) {}
 
-  /// Reads the next mesh and its boundary. Each node has `columns` numbers, >= 2: rho, z, and
-  /// values that are stored in `fields`, a vector over the nodes for each. Throws
-  /// Error(kExternalProgram) if a number is missing, not finite or out of range.
+  /// Reads the next mesh and its boundary. Each node has `columns` numbers, >= 2: its distance rho
+  /// from the axis, its height z, and values. `fields` gets a vector over the nodes for each value.
+  /// Throws Error(kExternalProgram) if a number is missing, not finite or out of range.
   QuadraticMesh read_mesh(std::size_t columns, std::vector<std::vector<double>>& fields,
                           std::vector<BoundaryEdge>& boundary) {
     std::string line;
@@ -59,10 +60,12 @@ class PictureReader {
   }
 
  private:
+  /// Throws Error(kExternalProgram).
   [[noreturn]] static void fail() {
     throw Error(ErrorKind::kExternalProgram,
                 "the mesh and flow that FreeFEM wrote for a picture are incomplete");
   }
+  /// The next word of `stream`, a number of nodes, triangles or edges.
   static std::size_t size_from(std::istream& stream) {
     // A larger number comes from a damaged line, and would exhaust the memory. Any limit far above
     // the number of nodes for which FreeFEM can solve (some 1e5) works.
@@ -85,6 +88,7 @@ class PictureReader {
     if (found == kWords.end()) fail();
     return static_cast<BoundaryKind>(found - kWords.begin());
   }
+  /// The next word, the number of a node, which must be less than `nodes`.
   std::size_t node_below(std::size_t nodes) {
     std::size_t node = 0;
     if (!(stream_ >> node) || node >= nodes) fail();
@@ -94,8 +98,10 @@ class PictureReader {
   std::istringstream stream_;
 };
 
-/// The factors from FreeFEM's units to those of the case, of u_rho, u_z, pressure and the last
-/// column: stream function (approach) or u_phi (other motions).
+/// The factors from FreeFEM's units to those of the case, for the velocities u_rho and u_z, the
+/// pressure and the last column, which is the stream function for the approach and the velocity
+/// u_phi about the axis for other motions. `velocity` is in [L/T], or in [1/T] for rolling and
+/// spinning.
 std::array<double, 4> factors_of_approach(const Tabulation& tabulation, double velocity) {
   const auto scale = solve_scale(tabulation, velocity);
   return {scale.speed, scale.speed, scale.viscosity * scale.speed, scale.speed};
@@ -120,6 +126,9 @@ std::string picture_of_motion(const FreeFem& freefem, const Tabulation& tabulati
 
 }  // namespace
 
+/// Solves the flow at `gap` and `reference_velocity` and returns the flow on the finest mesh, the
+/// edges of its boundary, and the coarsest mesh. The stream function is empty for motions other
+/// than the approach, and the velocity about the axis is empty for the approach.
 RowPicture solve_row_for_picture(const FreeFem& freefem, const Tabulation& tabulation, double gap,
                                  double reference_velocity, lubrication::MotionKind motion) {
   RowPicture picture;
@@ -149,6 +158,8 @@ RowPicture solve_row_for_picture(const FreeFem& freefem, const Tabulation& tabul
   return picture;
 }
 
+/// The text of a VTK file of the flow in the half-plane (rho, z), with the array "stream_function"
+/// or "azimuthal_velocity". Throws nothing.
 std::string write_vtu(const RowPicture& picture) {
   return picture.azimuthal_velocity.empty()
              ? write_flow(picture.flow, false, "stream_function", picture.stream_function)

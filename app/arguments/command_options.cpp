@@ -1,12 +1,12 @@
-// Options that several commands of app/ share, and checks of what a command line names; main.cpp,
-// commands/ and help/ use them. Widths are 100 to 10000 and font sizes 2 to 200, both in pixels of
-// an SVG or points of a PDF; jobs are 1 to 1024, tasks 1 to 4000000. A wrong option is an
-// Error(kWrongUsage) or, if CLI11 checks it, a CLI::ParseError; a file that --plot must not replace
-// is an Error(kBadInput), and a path that cannot be resolved a std::filesystem::filesystem_error.
-// The list `options` in with_files_apart() must contain every option for which a command calls
-// CLI11's expected(0, 1), which allows an option without its value. The names of the options of
-// array jobs (jobs of many tasks on a Slurm cluster) must stay, because submitted scripts contain
-// them.
+// Options that several commands of app/ share, and checks of the files and models that a command
+// line names; main.cpp, commands/ and help/ use them. Widths are 100 to 10000 and font sizes 2 to
+// 200, both in pixels of an SVG or points of a PDF; --jobs is 1 to 1024, --tasks 1 to 4000000. A
+// wrong option is an Error(kWrongUsage) or, if CLI11 checks it, a CLI::ParseError; a file that
+// --plot must not replace is an Error(kBadInput), and a path that cannot be resolved is a
+// std::filesystem::filesystem_error. The list `options` in with_files_apart() must contain every
+// option for which a command calls CLI11's expected(0, 1), which allows an option without its
+// value. The names of the options of array jobs (jobs of many tasks on a Slurm cluster) must stay,
+// because submitted scripts contain them.
 #include "viscontact/app/arguments/command_options.hpp"
 
 #include <fmt/format.h>
@@ -31,10 +31,11 @@ namespace viscontact::app {
 namespace {
 
 /// The path of the file that `path` names, with symbolic links resolved. A link whose target does
-/// not exist yet is resolved, too, because an output need not exist yet.
+/// not exist yet is resolved, too, because an output need not exist yet. Throws
+/// std::filesystem::filesystem_error if the system cannot resolve it.
 std::filesystem::path resolved_place_of(std::filesystem::path path) {
   namespace fs = std::filesystem;
-  constexpr int kMostLinks = 40;  // Linux refuses a path with more links, too
+  constexpr int kMostLinks = 40;  // the limit of Linux; a larger number works, too
   path = fs::absolute(path);
   for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path)); ++i)
     path = path.parent_path() / fs::read_symlink(path);
@@ -43,7 +44,8 @@ std::filesystem::path resolved_place_of(std::filesystem::path path) {
 
 }  // namespace
 
-/// Throws Error(kWrongUsage) for an empty name and for two names of one file.
+/// Checks the paths of all outputs of a command; there may be none. Throws Error(kWrongUsage) if a
+/// path is empty or two of them name the same file.
 void check_outputs(const std::vector<std::string>& paths) {
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (paths[i].empty())
@@ -55,8 +57,9 @@ void check_outputs(const std::vector<std::string>& paths) {
   }
 }
 
-/// Does nothing if `path` is empty. Throws Error(kWrongUsage) for an unknown ending, and
-/// Error(kBadInput) if `path` is a file, but no picture of this kind that Viscontact wrote.
+/// Checks the path that --plot gives; an empty path is accepted. Throws Error(kWrongUsage) for an
+/// unknown ending (the known ones are .svg, .pdf, .png and .gp), and Error(kBadInput) if the file
+/// exists, but is no picture of this kind that Viscontact wrote.
 void check_picture(const std::string& path) {
   if (path.empty()) return;
   const auto* kind = results::picture_kind(path);
@@ -67,6 +70,8 @@ void check_picture(const std::string& path) {
   results::refuse_other_kind(path, kind->marker, "picture");
 }
 
+/// Adds the options --plot, --width and --font-size to `command`. CLI11 stores their values in
+/// `picture`, which must outlive `command`. `help` is the text of --plot in --help.
 void add_picture(CLI::App& command, results::PictureRequest& picture, const std::string& help) {
   // The limits of width and font size only catch mistyped numbers; other limits would do as well.
   auto* plot = add_value(command, "--plot", picture.path, kFile, help);
@@ -84,7 +89,8 @@ void add_picture(CLI::App& command, results::PictureRequest& picture, const std:
       ->needs(plot);
 }
 
-/// Throws Error(kWrongUsage) if one of `names` is no name of a model.
+/// Throws Error(kWrongUsage), which names `option`, if one of `names` is not the name of a model of
+/// motion. The list may be empty.
 void check_models(std::string_view option, const std::vector<std::string>& names) {
   for (const auto& name : names)
     from_option(option, [&] { return reduced_model::find_model(name); });
@@ -96,6 +102,8 @@ CLI::Validator one_of(std::vector<std::string> words) {
   return CLI::IsMember(std::move(words)).description("");
 }
 
+/// A check that accepts a whole number from `least` to `most`, both included, written in digits
+/// without a sign. For any other text CLI11 throws CLI::ValidationError.
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
   const auto check = [least, most](const std::string& text) {
     std::uint64_t value = 0;
@@ -114,6 +122,8 @@ CLI::Option* add_json(CLI::App& command, bool& json) {
   return command.add_flag("--json", json, "print the table as JSON");
 }
 
+/// Adds the option --jobs, which sets `jobs`, the number of processes or threads that run at once.
+/// `help` is its text in --help.
 CLI::Option* add_jobs(CLI::App& command, int& jobs, const std::string& help) {
   // The default is given in words and not as a number of cores, because the manual is made on one
   // machine and read on another.
@@ -149,7 +159,7 @@ std::vector<std::string> with_files_apart(std::vector<std::string> arguments) {
   };
   for (const auto& option : options) {
     if (arguments.empty() || arguments[0] != option.command) continue;
-    // Words behind -- are files, even if one has the name of an option.
+    // Words behind "--" are files, even if one has the name of an option.
     const auto end = std::ranges::find(arguments, "--");
     const auto at = std::find(arguments.begin(), end, option.name);
     if (at == end || at + 1 == end) continue;
@@ -161,6 +171,8 @@ std::vector<std::string> with_files_apart(std::vector<std::string> arguments) {
   return arguments;
 }
 
+/// Adds the options of array jobs. CLI11 stores their values in `o`, which must outlive `command`.
+/// `results` is what --help calls the output, such as "the table".
 void add_array_options(CLI::App& command, ArrayOptions& o, const std::string& results) {
   o.launcher_option = add_value(command, "--launcher", o.launcher, "local|slurm",
                                 "local: compute here; slurm: submit an array job")
@@ -182,15 +194,17 @@ void add_array_options(CLI::App& command, ArrayOptions& o, const std::string& re
   o.task_option->excludes(o.launcher_option)->excludes(o.gather_option);
 }
 
-/// Throws Error(kWrongUsage) for options that need --launcher slurm without it, and for a wrong
-/// --task.
+/// Throws Error(kWrongUsage) if --tasks or --slurm-options is given without --launcher slurm, or if
+/// --task is not K/T with 0 <= K < T.
 void check_array_options(const ArrayOptions& o) {
   if (!o.is_slurm() && (o.tasks > 0 || !o.slurm_options.empty()))
     throw Error(ErrorKind::kWrongUsage, "--tasks and --slurm-options need --launcher slurm");
   (void)share_of(o);
 }
 
-/// The rows of --task; all rows without this option. Throws Error(kWrongUsage) unless 0 <= K < T.
+/// The rows that --task K/T asks for: the rows K, K+T, K+2T, ..., counted from 0. Without this
+/// option these are all rows. Throws Error(kWrongUsage) unless the option has this form with whole
+/// numbers 0 <= K < T.
 pipeline::Share share_of(const ArrayOptions& o) {
   pipeline::Share share;
   if (o.task.empty()) return share;
@@ -203,6 +217,9 @@ pipeline::Share share_of(const ArrayOptions& o) {
   throw Error(ErrorKind::kWrongUsage, "--task is '{}'; it must be K/T with 0 <= K < T", o.task);
 }
 
+/// The request for an array job that computes the rows of the table or folder `output`. It has a
+/// number of tasks only if --tasks is given, and a number `jobs` of rows at once only if --jobs is
+/// given, whose CLI11 object is `jobs_option`. Nothing is checked or thrown.
 pipeline::ArrayRequest array_request(const ArrayOptions& o, const std::string& output,
                                      const CLI::Option& jobs_option, int jobs) {
   return {output, o.tasks > 0 ? std::optional(o.tasks) : std::nullopt,

@@ -28,12 +28,15 @@
 namespace viscontact {
 namespace {
 
+/// Throws Error(kBadInput) "PATH cannot be ACTION (REASON)". `action` is a participle such as
+/// "read"; `code` is a value of errno.
 [[noreturn]] void throw_system_error(const std::filesystem::path& path, const char* action,
                                      int code) {
   throw_bad_input({path.string()}, "cannot be {} ({})", action, std::strerror(code));
 }
 
-// While a process PID writes the file NAME, the file is called NAME.viscontact-PID.tmp.
+// While a process PID writes the file NAME, the file is called NAME.viscontact-PID.tmp. Both words
+// are free choices.
 constexpr std::string_view kUnfinishedOf = ".viscontact-", kUnfinished = ".tmp";
 
 /// Removes the files NAME.viscontact-PID.tmp that killed processes have left in a folder, where
@@ -78,7 +81,8 @@ Descriptor open_locked(const std::filesystem::path& path, const std::filesystem:
 
 /// Makes a new file beside `path` by write(beside), which returns its descriptor, flushes it to
 /// disk if `is_flushed`, and renames it to `path`, or to the file to which `path` is a link.
-/// Returns the path of this file.
+/// Returns the path of this file. Throws what `write` throws, or Error(kBadInput), and then removes
+/// the new file.
 template <class Write>
 std::filesystem::path put_in_place(const std::filesystem::path& path, bool is_flushed,
                                    const Write& write) {
@@ -98,7 +102,7 @@ std::filesystem::path put_in_place(const std::filesystem::path& path, bool is_fl
   }
 }
 
-/// put_in_place() for a file with these bytes.
+/// Does what put_in_place() does, for a file with the bytes `content`.
 std::filesystem::path put_content(const std::filesystem::path& path, std::string_view content,
                                   bool is_flushed) {
   return put_in_place(path, is_flushed, [&](const std::filesystem::path& beside) {
@@ -108,7 +112,8 @@ std::filesystem::path put_content(const std::filesystem::path& path, std::string
   });
 }
 
-/// The last steps of writing a file, after the file at `place` was replaced.
+/// Ends the writing of a file, after the file at `place` was replaced: flushes its folder, and
+/// removes files that killed processes have left. Throws the error of sync_folder_of().
 void finish_replacement(const std::filesystem::path& place) {
   sync_folder_of(place);
   remove_left_behind(folder_of(place), place.filename().string());
@@ -116,12 +121,12 @@ void finish_replacement(const std::filesystem::path& place) {
 
 }  // namespace
 
-/// All bytes of a file or a pipe. A folder or a device is an Error(kBadInput), too.
+/// All bytes of a file or a pipe. Throws Error(kBadInput) for a folder or a device, too.
 std::string read_file(const std::filesystem::path& path) {
-  // A signal ends open and read only while they wait for a pipe. In the program it then asks for a
-  // stop, because other signals have no handler or let them go on (SA_RESTART). In the Python
-  // module it may also be a signal whose handler the user has set, which could not run during the
-  // wait.
+  // A signal ends open() and read() only while they wait for a pipe. In the program such a signal
+  // asks for a stop, because other signals have no handler or a handler with SA_RESTART, after
+  // which the calls continue. In the Python module it may also be a signal whose handler the user
+  // has set; Python can run this handler only after the wait.
   const auto fail = [&] {
     if (errno == EINTR)
       throw Error(ErrorKind::kInterrupted, "interrupted while {} was read", path.string());
@@ -143,6 +148,8 @@ std::string read_file(const std::filesystem::path& path) {
   }
 }
 
+/// Makes the folder and its missing parents, and flushes them to disk. A folder that exists is no
+/// error; Error(kBadInput) is thrown if one cannot be made.
 void make_folder(const std::filesystem::path& path) {
   std::error_code error;
   std::vector<std::filesystem::path> missing;
@@ -154,14 +161,16 @@ void make_folder(const std::filesystem::path& path) {
   for (const auto& folder : missing) sync_folder_of(folder);
 }
 
+/// Removes a file or an empty folder; it is no error if there is none. Throws Error(kBadInput) if
+/// that fails.
 void remove_file(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::remove(path, error);
   if (error) throw_system_error(path, "removed", error.value());
 }
 
-/// A folder that cannot be opened or flushed by its file system is no error; an error of the disk
-/// is.
+/// Flushes the folder that contains `path` to disk. A folder that cannot be opened, or that its
+/// file system cannot flush, is no error; Error(kBadInput) is thrown if the disk reports an error.
 void sync_folder_of(const std::filesystem::path& path) {
   const Descriptor file(::open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   // EINVAL: the file system cannot flush folders.
@@ -193,10 +202,14 @@ std::filesystem::path check_output_file(const std::filesystem::path& path) {
   return place;
 }
 
+/// Replaces the file at `path` by `content` in one step, and flushes it to disk. Makes missing
+/// parent folders.
 void write_file(const std::filesystem::path& path, std::string_view content) {
   finish_replacement(put_content(path, content, true));
 }
 
+/// Does what write_file() does, for content that `write` puts into a file at the path that is its
+/// argument. Throws what `write` throws, and Error(kBadInput) if it made no file.
 void write_file_by(const std::filesystem::path& path,
                    const std::function<void(const std::filesystem::path&)>& write) {
   finish_replacement(put_in_place(path, true, [&](const std::filesystem::path& beside) {
@@ -205,13 +218,14 @@ void write_file_by(const std::filesystem::path& path,
   }));
 }
 
-/// The caller must call flush_files() afterwards, or a power cut may lose the file.
+/// Does what write_file() does, but does not flush the file. The caller must call flush_files()
+/// afterwards, or a power cut may lose the file.
 void write_unflushed(const std::filesystem::path& path, std::string_view content) {
   (void)put_content(path, content, false);
 }
 
-/// All files must be in the folder of the first one, which is not checked: only that folder is
-/// flushed.
+/// Flushes these files and the folder of the first one to disk. All files must be in this folder,
+/// which is not checked. Throws Error(kBadInput) if a file cannot be opened or flushed.
 void flush_files(std::span<const std::filesystem::path> paths) {
   for (const auto& path : paths) {
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
@@ -220,6 +234,7 @@ void flush_files(std::span<const std::filesystem::path> paths) {
   if (!paths.empty()) sync_folder_of(paths.front());
 }
 
+/// Removes all files that killed processes have left in the folder. Throws nothing.
 void remove_unfinished(const std::filesystem::path& folder) { remove_left_behind(folder, ""); }
 
 }  // namespace viscontact

@@ -4,8 +4,8 @@
 // (not checked); without a time limit the child may run for ever. A program that cannot be run is
 // no exception: the result says so (exit status 127, as in a shell; 128 + number of a signal that
 // ended the child). A requested stop throws Error(kInterrupted) within about 0.1 s, and a system
-// without free sockets std::system_error. A change must keep that a child that neither reads nor
-// writes nor ends is killed at its time limit or at a stop.
+// without free sockets throws std::system_error. A change must keep that a child that neither reads
+// nor writes nor ends is killed at its time limit or at a stop.
 #include "viscontact/common/system/process.hpp"
 
 #include <poll.h>
@@ -27,8 +27,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Sends `input` to the child and returns its output, which is collected until the child closes its
-/// output, a stop is requested, or `deadline` has passed.
+/// Sends `input` to the child and returns its output. Returns when the child closes its output, a
+/// stop is requested, or `deadline` has passed. An `input` that the child does not read is no
+/// error. Throws nothing.
 std::string converse(Descriptor& to_child, int from_child, std::string_view input,
                      Clock::time_point deadline, const StopToken& stop) {
   std::string output;
@@ -36,7 +37,7 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
   for (;;) {
     std::array<pollfd, 2> files = {pollfd{from_child, POLLIN, 0},
                                    pollfd{to_child.get(), POLLOUT, 0}};
-    // The longest delay until a stop is noticed [ms], which process.hpp promises.
+    // The longest delay until a stop is noticed [ms]; process.hpp promises this time.
     constexpr int kMilliseconds = 100;
     const int ready = ::poll(files.data(), to_child.get() >= 0 ? 2 : 1, kMilliseconds);
     if (stop.stop_requested() || Clock::now() > deadline) return output;
@@ -58,14 +59,14 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
 
 /// How a child ended, and the resources that it used.
 struct ChildEnd {
-  int status = 0;  ///< status from wait4
-  rusage usage{};
+  int status = 0;         ///< status from wait4
+  rusage usage{};         ///< memory and times from wait4
   bool stopped = false,   ///< true: killed because of a stop request
       timed_out = false;  ///< true: killed at the deadline
 };
 
 /// Waits until the child has ended. Kills its process group if a stop is requested or `deadline`
-/// passes, because a child can close its output and continue to run.
+/// passes, because a child can close its output and continue to run. Throws nothing.
 ChildEnd wait_for_end(pid_t child, Clock::time_point deadline, const StopToken& stop) {
   constexpr int kFirstPause = 1, kLongestPause = 20;  // milliseconds; any short times work
   ChildEnd end;
@@ -84,6 +85,11 @@ ChildEnd wait_for_end(pid_t child, Clock::time_point deadline, const StopToken& 
 
 }  // namespace
 
+/// Runs the program arguments[0] with the other arguments, the variables `environment`
+/// ("NAME=value" each) in addition to those of this process, the standard input `input` (any
+/// bytes), and the working folder `folder` (empty: that of this process). After `time_limit`, if
+/// given, the child and the processes that it has started are killed. The result has the exit
+/// status, the output (standard output and standard error), and the peak memory.
 ProcessResult run_process(const std::vector<std::string>& arguments,
                           const std::vector<std::string>& environment, const std::string& input,
                           const std::string& folder,

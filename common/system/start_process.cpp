@@ -25,14 +25,16 @@
 namespace viscontact {
 namespace {
 
+/// Two connected sockets: what is written to `write_end` can be read from `read_end`.
 struct Pipe {
   Descriptor read_end{}, write_end{};
 };
 
-/// The open file `number`, which is closed if its number is that of a standard stream, under
-/// another number. If this process was started without such a stream, a new file can have its
-/// number, and dup2() of this number to itself would leave the file to be closed when the child
-/// becomes the program.
+/// Returns the open file `end` under a number above those of the standard streams (0 to 2); closes
+/// `end` if its number changes. If this process was started without a standard stream, a new file
+/// can have the number of this stream, and dup2() of this number to itself would leave the file to
+/// be closed when the child becomes the program. Throws std::system_error if there is no free
+/// descriptor.
 Descriptor beyond_standard_streams(Descriptor end) {
   if (end.get() > STDERR_FILENO) return end;
   const int other = ::fcntl(end.get(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
@@ -41,7 +43,8 @@ Descriptor beyond_standard_streams(Descriptor end) {
 }
 
 /// Makes a pair of sockets and not a pipe, because send() with MSG_NOSIGNAL fails with EPIPE if the
-/// child no longer reads, while a write to a pipe would raise SIGPIPE.
+/// child no longer reads, while a write to a pipe would raise SIGPIPE. Throws std::system_error if
+/// there is no free socket.
 Pipe make_pipe() {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
@@ -50,7 +53,8 @@ Pipe make_pipe() {
   return {beyond_standard_streams(std::move(first)), beyond_standard_streams(std::move(second))};
 }
 
-/// The variables of this process that `added` does not set, followed by `added`.
+/// The environment of the child, "NAME=value" each: the variables of this process that `added` does
+/// not set, followed by `added`.
 std::vector<std::string> merged_environment(const std::vector<std::string>& added) {
   std::vector<std::string> all;
   for (char** variable = environ; *variable != nullptr; ++variable) {
@@ -64,6 +68,8 @@ std::vector<std::string> merged_environment(const std::vector<std::string>& adde
   return all;
 }
 
+/// Pointers to the texts, followed by a null pointer, as exec demands. They are valid as long as
+/// `texts` is not changed.
 std::vector<char*> pointers(const std::vector<std::string>& texts) {
   std::vector<char*> result;
   for (const auto& text : texts)
@@ -79,7 +85,9 @@ struct ChildStreams {
 };
 
 /// Runs in the child between fork and exec (see the rule at the head of this file). Becomes the
-/// program, or writes the error number to `streams.failure` and ends.
+/// program, or writes the error number to `streams.failure` and ends. `arguments` and `variables`
+/// end with a null pointer; an empty `folder` keeps the working folder; `parent` is the number of
+/// the process that has called fork.
 [[noreturn]] void become(char* const* arguments, char* const* variables, const char* folder,
                          const ChildStreams& streams, pid_t parent) {
   // In a process group of its own the child does not receive Ctrl-C. Only the parent receives
@@ -98,6 +106,8 @@ struct ChildStreams {
 
 }  // namespace
 
+/// Starts the program command.arguments[0] and returns the numbers and streams of the child. Waits
+/// until the child has become the program, or until this has failed.
 StartedProcess start_process(const ProcessCommand& command, ErrorStream errors) {
   const bool separate = errors == ErrorStream::kSeparate;
   Pipe in = make_pipe();
@@ -139,6 +149,8 @@ StartedProcess start_process(const ProcessCommand& command, ErrorStream errors) 
   return started;
 }
 
+/// Words such as "ended by signal 11 (Segmentation fault)". Any number is accepted; an unknown
+/// signal has no words in brackets.
 std::string end_by_signal_in_words(int signal) {
   // Real-time signals have no description.
   const char* description = sigdescr_np(signal);

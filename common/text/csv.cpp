@@ -3,9 +3,9 @@
 // at least one column must be asked for. Every fault of a file (it cannot be read, no header line,
 // a column twice or missing, too few or too many fields, a field that is no number, another number
 // of rows than a line "# rows:" says) is an Error(kBadInput) with the file and, if it is in one
-// line, the line; the messages are those of the library only where no other one fits. A file
-// without rows is right. What `add_row` throws passes unchanged. A change must keep published files
-// readable.
+// line, the line. Only a fault that has no message here gets the message of the library. A file
+// without rows is accepted. What `add_row` throws passes unchanged. A change must keep published
+// files readable.
 #include "viscontact/common/text/csv.hpp"
 
 #include <fmt/format.h>
@@ -30,8 +30,9 @@ namespace {
 constexpr std::string_view kByteOrderMark =
     "\xEF\xBB\xBF";  // some spreadsheets write it at the head
 
-/// Text to be added to a message about missing columns: ", 'the header line'", or the probable
-/// reason why its columns were not found (quotes, another separator, UTF-16).
+/// The end of a message about missing columns: the header line of `text` in quotes, or the probable
+/// reason why its columns were not found (names in quotes, another separator, UTF-16). Empty if
+/// neither can be said.
 std::string hint_of_separator(const std::string& text) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
@@ -88,12 +89,15 @@ void check_not_truncated(const CsvComments& comments, std::size_t rows, const st
 
 using Fields = std::span<const std::optional<double>>;
 
-/// Number of columns that the library reads at once. It is a template argument of the library, and
-/// the same for all files, because each other value takes seconds to compile.
+/// Number of columns that the library reads at once; any number > 0 works. It is a template
+/// argument of the library, and the same for all files, because each other value takes seconds to
+/// compile.
 constexpr std::size_t kColumnsAtOnce = 16;
 
 /// Calls `add_row` with the fields of each row and its line. There are at most kColumnsAtOnce
-/// `names`, of which the first `required` must be in the header line.
+/// `names`, of which the first `required` must be in the header line. `text` is the content of the
+/// file, and `file` its name in messages. A column that is missing or whose field is empty gives no
+/// number. Throws Error(kBadInput) for the faults at the head of this file, but the number of rows.
 void read_columns(const std::string& text, const std::string& file,
                   std::span<const std::string> names, std::size_t required,
                   const std::function<void(Fields fields, int line)>& add_row) {
@@ -145,8 +149,8 @@ void read_columns(const std::string& text, const std::string& file,
 
 }  // namespace
 
-/// The lines "# key: value" of a text; of two values of a key the last one counts, and
-/// `contradictions` (may be null) gets keys with different values. Throws nothing.
+/// The lines "# key: value" of a text. If a key has several values, the last one counts, and the
+/// key is added to `contradictions`, unless this pointer is null. Throws nothing.
 CsvComments read_csv_comments(const std::string& text, std::set<std::string>* contradictions) {
   CsvComments comments;
   std::istringstream stream(text);
@@ -167,12 +171,15 @@ CsvComments read_csv_comments(const std::string& text, std::set<std::string>* co
   return comments;
 }
 
+/// The lines "# key: value", sorted by key. Keys and values must have no line ends, which is not
+/// checked.
 std::string write_csv_comments(const CsvComments& comments) {
   std::string text;
   for (const auto& [key, value] : comments) text += fmt::format("# {}: {}\n", key, value);
   return text;
 }
 
+/// The texts between the commas of a line, unchanged; an empty line has one empty field.
 std::vector<std::string> csv_fields(const std::string& line) {
   std::vector<std::string> fields(1);
   for (const char c : line)
@@ -183,7 +190,9 @@ std::vector<std::string> csv_fields(const std::string& line) {
   return fields;
 }
 
-/// Throws nothing; a text without a header line has no names, and the line after its last one.
+/// The names in the header line, the first line that is neither empty nor a comment, and its
+/// number. Throws nothing; a text without a header line has no names, and the number is that after
+/// its last line.
 CsvHeader csv_header(const std::string& text) {
   std::istringstream lines(text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size())
                                                             : text);
@@ -200,6 +209,7 @@ CsvHeader csv_header(const std::string& text) {
   return header;
 }
 
+/// The text for a message: at most its first 60 bytes, and "?" for each control character.
 std::string shortened(const std::string& text) {
   constexpr std::size_t kLongest = 60;  // a free choice
   auto shown = text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
@@ -209,6 +219,8 @@ std::string shortened(const std::string& text) {
   return shown;
 }
 
+/// The number in the line "# key: NUMBER". Throws Error(kBadInput), which names `file`, if this
+/// line is missing or its value is no finite number.
 double csv_comment_number(const CsvComments& comments, const std::string& key,
                           const std::string& file) {
   const auto found = comments.find(key);
@@ -221,8 +233,9 @@ double csv_comment_number(const CsvComments& comments, const std::string& key,
   return *value;
 }
 
-/// The first `required` of `names` must be in the header line; another column that is missing has
-/// empty fields. Rows above a faulty one may have been passed to `add_row` when the error is
+/// Calls `add_row` with the fields of each row, in the order of `names`, and with the number of its
+/// line. The first `required` of `names` must be in the header line; another column that is missing
+/// has empty fields. Rows above a faulty one may have been passed to `add_row` when the error is
 /// thrown.
 void read_csv_rows(
     std::string text, const std::string& file, std::span<const std::string> names,

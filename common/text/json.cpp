@@ -1,10 +1,11 @@
 // Reads JSON for fits, comparisons, provenance and records of runs. Lines are counted from 1, and
 // those of values up to eight levels deep are recorded; numbers must fit into a double. A text is
 // read twice: once for errors, lines and repeated keys, and once for the values. Every fault of a
-// text becomes an Error(kBadInput) with file, line and cause; a file that cannot be read is one
-// with its path, and a value that the `read` of read_json() misses becomes one without a line.
-// Other exceptions of `read` pass unchanged. What values mean is not checked here. A change must
-// keep published files readable.
+// text becomes an Error(kBadInput) with file, line and cause. A file that cannot be read throws
+// Error(kBadInput) with its path. If the argument `read` of read_json() asks for a value that is
+// missing or has another type, Error(kBadInput) without a line is thrown; other exceptions of
+// `read` pass unchanged. What values mean is not checked here. A change must keep published files
+// readable.
 #include "viscontact/common/text/json.hpp"
 
 #include <fmt/format.h>
@@ -23,15 +24,18 @@
 namespace viscontact {
 namespace {
 
-/// Follows the events of the parser and records the line of each value, the first key that stands
-/// twice in its object, and where and why the parser stopped. The parser alone is not enough: if a
-/// number is too large for a double, its exception does not say where.
+/// Follows the events of the parser. Records the line of each value, the first key that stands
+/// twice in its object, and where and why the parser stopped. The exception of the parser is not
+/// enough: if a number is too large for a double, it does not say where.
 class LineRecorder {
  public:
+  /// Will read `text` and store in `lines` the line of each value by its path, such as
+  /// "terms[2].name". Both must outlive the object.
   LineRecorder(const std::string& text, std::map<std::string, int>& lines)
       : text_(text), stream_(text), lines_(lines) {}
 
-  /// Reads the text. Throws Error(kBadInput) if it is not valid JSON or if a key stands twice.
+  /// Reads the text; messages call it `file`. Throws Error(kBadInput) with the line if the text is
+  /// not valid JSON or if a key stands twice in its object.
   void run(const std::string& file) {
     bool is_valid = Json::sax_parse(stream_, this);
     // The parser ends at a NUL character and ignores what follows.
@@ -82,6 +86,7 @@ class LineRecorder {
   }
 
  private:
+  /// An array or object that the parser has entered and not yet left.
   struct Level {
     bool is_object = false;
     std::string path;            // of the array or object
@@ -150,6 +155,8 @@ class LineRecorder {
 
 }  // namespace
 
+/// The cause that an error of the library states, without the library's prefix and position, and
+/// cut after 200 bytes.
 std::string cause_in_words(const Json::exception& error) {
   // The text of an error has this form:
   // "[json.exception.parse_error.101] parse error at line 1, column 2: what is wrong"
@@ -161,6 +168,8 @@ std::string cause_in_words(const Json::exception& error) {
   return cause.size() <= kLongest ? cause : cause.substr(0, kLongest) + "...";
 }
 
+/// The values of a text and their lines; messages call the text `file`. Throws Error(kBadInput) as
+/// LineRecorder::run() does.
 JsonDocument JsonDocument::parse(const std::string& text, std::string file) {
   JsonDocument document;
   LineRecorder(text, document.lines_).run(file);
@@ -169,7 +178,8 @@ JsonDocument JsonDocument::parse(const std::string& text, std::string file) {
   return document;
 }
 
-/// The line of the value at the path, or of the nearest array or object above it. Throws nothing.
+/// The line of the value at the path, such as "terms[2].name", or of the nearest recorded array or
+/// object above it. Throws nothing.
 int JsonDocument::line_of(std::string path) const {
   for (;;) {
     if (const auto found = lines_.find(path); found != lines_.end()) return found->second;
@@ -178,6 +188,7 @@ int JsonDocument::line_of(std::string path) const {
   }
 }
 
+/// Calls `read` with the value in the file at `path`.
 void read_json(const std::filesystem::path& path, const std::function<void(const Json&)>& read) {
   const auto document = JsonDocument::parse(read_file(path), path.string());
   try {

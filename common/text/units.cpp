@@ -14,6 +14,7 @@
 
 namespace viscontact {
 
+/// Words such as "length m, time s, mass kg"; empty if the case does not say its units.
 std::string Units::words() const {
   return are_said() ? "length " + length + ", time " + time + ", mass " + mass : "";
 }
@@ -21,7 +22,8 @@ std::string Units::words() const {
 namespace {
 
 /// The product of the words with these powers, each from -9 to 9, and with `times` between two
-/// factors. The symbol "/" stands before the words with negative powers.
+/// factors. The symbol "/" stands before the words with negative powers. More powers only need more
+/// superscripts in kPowers.
 std::string quantity(const Units& words, std::string_view times, int mass_power, int length_power,
                      int time_power) {
   constexpr std::array<std::string_view, 10> kPowers = {"",  "",  "²", "³", "⁴",
@@ -44,20 +46,27 @@ std::string quantity(const Units& words, std::string_view times, int mass_power,
 
 }  // namespace
 
+/// The unit with these powers, such as "kg m/s²" for (1, 1, -2); empty if all powers are 0.
 std::string Units::unit_of(int mass_power, int length_power, int time_power) const {
   return are_said() ? quantity(*this, " ", mass_power, length_power, time_power) : "";
 }
 
+/// The text of unit_of() in brackets after a blank, such as " [m/s]", for the end of a label.
 std::string Units::in_brackets(int mass_power, int length_power, int time_power) const {
   return are_said() ? " [" + unit_of(mass_power, length_power, time_power) + "]" : "";
 }
 
+/// The text of unit_of(), or the dimension in words, such as "mass × length/time²", if the case
+/// does not say its units.
 std::string Units::unit_or_dimension(int mass_power, int length_power, int time_power) const {
   return are_said()
              ? unit_of(mass_power, length_power, time_power)
              : quantity({"length", "time", "mass"}, " × ", mass_power, length_power, time_power);
 }
 
+/// The text with the words of the units in place of M, L and T in each pair of brackets that
+/// contains a dimension, such as [M/(L T)]. Superscripts of HTML may be in the brackets; other
+/// brackets stay. Throws nothing.
 std::string Units::in_brackets_of(std::string text) const {
   if (!are_said()) return text;
   std::string result;
@@ -80,6 +89,9 @@ std::string Units::in_brackets_of(std::string text) const {
   return result;
 }
 
+/// The text with the words of the units in place of M, L and T where they stand between blanks,
+/// alone or before a superscript of HTML, such as L<sup>-1</sup>. Several blanks become one. Throws
+/// nothing.
 std::string Units::in_place_of_dimensions(const std::string& html) const {
   if (!are_said()) return html;
   std::istringstream in(html);

@@ -3,8 +3,8 @@
 // is one number for each node, and nodes of triangles are counted from 0. When a file is written,
 // lengths of lists are not checked and nothing is thrown. A file that cannot be read, is no such
 // file or is cut short is an Error(kBadInput) with its path; that numbers are finite is not
-// checked. A change must keep the names of the arrays, because the reader and users' pictures refer
-// to them.
+// checked. A change must keep the names of the arrays and the order of the nodes, because the
+// reader and users' pictures rely on them.
 #include "viscontact/common/vtk/flow_vtk.hpp"
 
 #include <algorithm>
@@ -41,6 +41,12 @@ std::vector<double> component(const std::vector<double>& vectors, std::size_t d)
 
 }  // namespace
 
+/// The text of a VTK file of quadratic triangles, whose nodes have the arrays "velocity",
+/// "pressure" and "speed" (the length of the velocity) in 64-bit numbers. If `more` is not empty,
+/// its numbers, one for each node in any unit, become the array `more_name`. With `on_axis`, y of
+/// `flow` is the axis z of VTK, and the file says so by the field "axisymmetric". A triangle has
+/// six nodes in the order of VTK: its corners 0, 1, 2, and the middles of the sides 0-1, 1-2 and
+/// 2-0.
 std::string write_flow(const FlowField& flow, bool on_axis, std::string_view more_name,
                        const std::vector<double>& more) {
   std::vector<double> speeds;
@@ -78,6 +84,9 @@ std::string write_flow(const FlowField& flow, bool on_axis, std::string_view mor
   return text + data.closing();
 }
 
+/// Reads a file of write_flow(). Throws Error(kBadInput) if it cannot be read, lacks an array, has
+/// arrays of different lengths, other cells than quadratic triangles, or a triangle with a node
+/// that does not exist.
 FlowField read_flow(const std::filesystem::path& path) {
   const std::string text = read_file(path);
   const AppendedReader reader(text, path.string(), "flow");

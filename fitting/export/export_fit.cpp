@@ -1,11 +1,12 @@
-// Writes a fit as code or numbers: the resistance R [M/T] of a sphere as a function of the gap q
-// > 0 [L], the sum of weight * term(q), and its primitive Gamma(q) = int_r^q R [M L/T], with the
+// Writes a fit as code or numbers: the resistance R [M/T] of a sphere as a function of the gap
+// q > 0 [L], the sum of weight * term(q), and its primitive Gamma(q) = int_r^q R [M L/T], with the
 // sphere's radius r (docs/physics.md (3.2), (3.3), (4.2)), in the units of the fit. Three faults
 // are an Error(kBadInput): an unknown target, a resistance that is not positive and finite, and a
-// fit without the coefficient k > 0 that a formula for small gaps needs. The target csv with gaps
-// outside the interval is an Error(kWrongUsage). Used by app/ and motions/fit/export_pair.cpp,
-// which repeats the names of the targets. A change must keep the names of functions and keys, which
-// programs of users call, and the order of the sums.
+// fit without the coefficient k > 0 that a formula for small gaps needs. A formula outside the
+// interval for the target csv is an Error(kWrongUsage). Used by app/ and
+// motions/fit/export_pair.cpp, which repeats the names of the targets. A change must keep the names
+// of functions and keys, which programs of users call, and the order of the sums. The comments in
+// exported texts may be changed.
 #include "viscontact/fitting/export/export_fit.hpp"
 
 #include <fmt/format.h>
@@ -35,8 +36,8 @@ struct Sum {
   double offset = 0;
 };
 
-/// The weights of a fit, in the order of all_terms(). LubricationForce adds the terms in the same
-/// order, so that the rounding errors agree.
+/// The weights of a fit, -coefficient/(reference velocity), in the order of all_terms().
+/// LubricationForce adds the terms in the same order, so that the rounding errors agree.
 Sum sum_of(const lubrication::Fit& fit) {
   Sum sum;
   for (const auto& term : lubrication::all_terms())
@@ -57,6 +58,8 @@ struct Outside {
   double impulse_below = 0, impulse_above = 0;   // Gamma(q1) and Gamma(q2) [M L/T]
 };
 
+/// The numbers of the formulas that the user chose in `limits`, such that R is continuous at q1 and
+/// q2. Throws Error(kBadInput) if the fit has no k > 0 for a formula that needs it.
 Outside outside_of(const lubrication::Fit& fit, const lubrication::OutsideInterval& limits) {
   const lubrication::LubricationForce force(fit, limits);
   const auto [smallest, largest] = fit.gap_interval;
@@ -84,6 +87,8 @@ struct Expressions {
   std::string inside, below, above;
 };
 
+/// The expressions for R. `number` writes a number as a literal of the language; `between`, which
+/// must contain a "+", stands between two summands, such as a line break and " + ".
 Expressions resistance_of(const Sum& sum, const Outside& o, Literal number,
                           std::string_view between) {
   Expressions e{terms_text(sum.terms, &lubrication::Term::value, number, between), "", ""};
@@ -94,6 +99,7 @@ Expressions resistance_of(const Sum& sum, const Outside& o, Literal number,
   return e;
 }
 
+/// The expressions for Gamma, with the same arguments.
 Expressions impulse_of(const Sum& sum, const Outside& o, Literal number, std::string_view between) {
   std::string minus(between);
   minus.replace(minus.rfind('+'), 1, "-");
@@ -112,6 +118,7 @@ Expressions impulse_of(const Sum& sum, const Outside& o, Literal number, std::st
 }
 
 /// What a user of the exported numbers must know (sign, interval, error, source), one line each.
+/// `source` is the name of the fit's file; if it is empty, no line names it.
 std::vector<std::string> facts(const lubrication::Fit& fit, std::string_view source,
                                const Outside& outside = {}) {
   const auto version = fit.versions.find("Viscontact");
@@ -141,6 +148,9 @@ std::vector<std::string> facts(const lubrication::Fit& fit, std::string_view sou
   return on_lines_of_comments(std::move(lines));
 }
 
+/// The target c-header: inline functions viscontact_resistance(gap), viscontact_impulse(gap)
+/// (Gamma) and viscontact_force(gap, velocity) [M L/T^2]. This function and those below have the
+/// arguments of export_fit(). In C, Fortran and MATLAB a gap without a formula gives NaN.
 std::string write_c_header(const lubrication::Fit& fit, std::string_view source,
                            const Limits& limits) {
   const Sum sum = sum_of(fit);
@@ -177,6 +187,7 @@ std::string write_c_header(const lubrication::Fit& fit, std::string_view source,
          "  return -viscontact_resistance(gap) * velocity;\n}\n\n#endif\n";
 }
 
+/// The target fortran: the same three functions in a module; each takes a number or an array.
 std::string write_fortran(const lubrication::Fit& fit, std::string_view source,
                           const Limits& limits) {
   const Sum sum = sum_of(fit);
@@ -224,6 +235,8 @@ std::string write_fortran(const lubrication::Fit& fit, std::string_view source,
          "end module\n";
 }
 
+/// The target python: functions resistance(gap), impulse(gap) and force(gap, velocity), which raise
+/// ValueError at a gap without a formula.
 std::string write_python(const lubrication::Fit& fit, std::string_view source,
                          const Limits& limits) {
   const Sum sum = sum_of(fit);
@@ -259,6 +272,8 @@ std::string write_python(const lubrication::Fit& fit, std::string_view source,
          "    return -resistance(gap) * velocity\n";
 }
 
+/// The target matlab: a function that returns a struct with the three functions and the ends of the
+/// interval.
 std::string write_matlab(const lubrication::Fit& fit, std::string_view source,
                          const Limits& limits) {
   const Sum sum = sum_of(fit);
@@ -295,6 +310,9 @@ std::string write_matlab(const lubrication::Fit& fit, std::string_view source,
          function("impulse", impulse_of(sum, outside, plain, kBetween));
 }
 
+/// The target json: the terms with their weights and formulas, the numbers of the formulas outside
+/// the interval, and lists of 201 gaps with resistance, impulse (Gamma) and force (at the reference
+/// velocity).
 std::string write_json(const lubrication::Fit& fit, std::string_view source, const Limits& limits) {
   const Sum sum = sum_of(fit);
   const Outside outside = outside_of(fit, limits);
@@ -333,8 +351,9 @@ std::string write_json(const lubrication::Fit& fit, std::string_view source, con
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-/// The target csv: samples within the interval. Throws Error(kWrongUsage) if `limits` has a
-/// formula.
+/// The target csv: 201 rows with the columns gap [L], resistance [M/T], impulse (Gamma) [M L/T] and
+/// force [M L/T^2] at the reference velocity, for gaps within the interval. Throws
+/// Error(kWrongUsage) if `limits` has a formula.
 std::string write_csv(const lubrication::Fit& fit, std::string_view source, const Limits& limits) {
   if (limits.below != lubrication::BelowInterval::kError ||
       limits.above != lubrication::AboveInterval::kError)
@@ -366,6 +385,8 @@ constexpr std::array kTargets = {
 
 std::span<const ExportTarget> export_targets() { return kTargets; }
 
+/// The text of `fit` for the target with the name `target`. `source` is the name of the fit's file
+/// and may be empty; `outside` chooses the formulas for gaps outside the interval.
 std::string export_fit(const lubrication::Fit& fit, std::string_view target,
                        std::string_view source, const Limits& outside) {
   (void)lubrication::LubricationForce(fit);  // throws if the resistance is not positive

@@ -32,6 +32,7 @@ namespace {
 constexpr std::string_view kFinished = "row";
 constexpr std::string_view kFailed = "failed";
 
+/// The first 16 hexadecimal digits of the SHA-256 of the text.
 std::string checksum(std::string_view text) {
   // 64 bits of SHA-256 are enough to detect damage. With another number all lines of earlier
   // journals count as damaged.
@@ -52,18 +53,21 @@ std::optional<std::vector<double>> read_numbers(std::istream& words, std::size_t
   return numbers;
 }
 
+/// The numbers in a text from which they are read back exactly, with a blank after each.
 std::string text_of(const std::vector<double>& numbers) {
   std::string text;
   for (const double number : numbers) text += format_number(number) + " ";
   return text;
 }
 
+/// The words of the line that were not read yet.
 std::string rest_of(std::istream& words) {
   std::string rest;
   std::getline(words >> std::ws, rest);
   return rest;
 }
 
+/// The part of a line between HASH and CHECKSUM; a line end in a version or reason becomes a blank.
 std::string text_of(const FinishedRow& finished) {
   return fmt::format("{} {}{}{}", kFinished, text_of(finished.point), text_of(finished.numbers),
                      on_one_line(finished.freefem_version));
@@ -83,18 +87,22 @@ std::optional<std::string> checked_text(std::string_view line) {
 
 }  // namespace
 
+/// The line of a row, with its line end. `hash` must be a word without blanks (not checked).
 std::string write_journal_line(const std::string& hash, const JournalEntry& entry) {
   const std::string text =
       hash + " " + std::visit([](const auto& row) { return text_of(row); }, entry);
   return fmt::format("{} {}\n", text, checksum(text));
 }
 
+/// The word HASH of a line without its line end; nothing if the line is damaged.
 std::optional<std::string> hash_of_journal_line(std::string_view line) {
   const auto text = checked_text(line);
   if (!text) return {};
   return text->substr(0, text->find(' '));
 }
 
+/// The row in a line without its line end. `shape` says how many numbers POINT and NUMBERS have.
+/// Nothing if the line is damaged or has fewer numbers; HASH is not compared.
 std::optional<JournalEntry> read_journal_line(std::string_view line, const RowShape& shape) {
   const auto text = checked_text(line);
   if (!text) return {};
@@ -113,6 +121,7 @@ std::optional<JournalEntry> read_journal_line(std::string_view line, const RowSh
 
 namespace {
 
+/// True if the open file is empty or ends with a line end.
 bool ends_with_line_end(int file) {
   const off_t size = ::lseek(file, 0, SEEK_END);
   char last = '\n';
@@ -121,21 +130,27 @@ bool ends_with_line_end(int file) {
 
 }  // namespace
 
+/// TABLE.rows, where TABLE is `table_path`, or TABLE.rows.WRITER if `writer` is not empty.
 std::filesystem::path journal_path(const std::filesystem::path& table_path,
                                    const std::string& writer) {
   return table_path.string() + (writer.empty() ? ".rows" : ".rows." + writer);
 }
 
+/// The name of this process as a writer: "NUMBER-of-COUNT.HOST.PROCESS", with the number of its
+/// part of the rows, from 0, the number of parts, and its process id.
 std::string writer_name(std::size_t number, std::size_t count) {
   std::array<char, 256> host{};  // names of hosts have at most 64 characters in Linux
   ::gethostname(host.data(), host.size() - 1);
   return fmt::format("{}-of-{}.{}.{}", number, count, host.data(), ::getpid());
 }
 
+/// True for names of the form that writer_name() makes.
 bool is_writer_name(const std::string& name) {
   return ::fnmatch("+([0-9])-of-+([0-9]).?*.+([0-9])", name.c_str(), FNM_EXTMATCH) == 0;
 }
 
+/// Opens and locks the journal at `path` for rows of the table `hash`; makes the file and its
+/// folder if they do not exist.
 RowJournal::RowJournal(std::filesystem::path path, std::string hash)
     : path_(std::move(path)), hash_(std::move(hash)) {
   if (path_.has_parent_path()) make_folder(path_.parent_path());
@@ -145,6 +160,8 @@ RowJournal::RowJournal(std::filesystem::path path, std::string hash)
   at_line_start_ = ends_with_line_end(file_.get());
 }
 
+/// Writes a row and flushes it to disk. If the last line of the file is incomplete, a line end is
+/// written first.
 void RowJournal::append(const JournalEntry& entry) {
   const std::string line = (at_line_start_ ? "" : "\n") + write_journal_line(hash_, entry);
   at_line_start_ = false;

@@ -60,6 +60,9 @@ void for_each_line(const fs::path& journal, const Use& use) {
 
 }  // namespace
 
+/// The finished and failed rows of the table that `plan` describes. Lines with another hash than
+/// plan.hash are skipped. Of several failures at a point the last one in the journals counts,
+/// before that of the table; a finished row takes the place of all failures.
 RowRecord read_row_record(const fs::path& table_path, const TablePlan& plan) {
   RowRecord record;
   for (const auto& journal : journals_of(table_path))
@@ -81,6 +84,8 @@ RowRecord read_row_record(const fs::path& table_path, const TablePlan& plan) {
   return record;
 }
 
+/// Those of `points` that have no finished row, in their order; failed rows are among them. Throws
+/// nothing.
 std::vector<RowPoint> missing_points(const RowRecord& record, const std::vector<RowPoint>& points) {
   std::vector<RowPoint> missing;
   std::ranges::copy_if(points, std::back_inserter(missing),
@@ -88,6 +93,7 @@ std::vector<RowPoint> missing_points(const RowRecord& record, const std::vector<
   return missing;
 }
 
+/// The reasons of the failed rows at `points`, in their order. Throws nothing.
 std::vector<std::string> failures_of(const RowRecord& record, const std::vector<RowPoint>& points) {
   std::vector<std::string> reasons;
   for (const auto& point : points)
@@ -96,7 +102,9 @@ std::vector<std::string> failures_of(const RowRecord& record, const std::vector<
   return reasons;
 }
 
-/// A journal that cannot be opened for writing, or that another process has locked, stays.
+/// Removes the lines of the table `hash` from its journals; the caller must have written the table
+/// before. Lines with another hash stay, and a journal without such lines is removed. A journal
+/// that cannot be opened for writing, or that another process has locked, stays.
 void remove_journals(const fs::path& table_path, const std::string& hash) {
   for (const auto& journal : journals_of(table_path)) {
     // The lock is held while the journal is read and removed. Another process that has opened the

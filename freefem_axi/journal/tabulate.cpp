@@ -36,7 +36,8 @@ std::string version_for(const RowWorker& worker, const std::vector<RowPoint>& po
   }
 }
 
-/// Solves one row. Returns the row, or what() of Error(kExternalProgram). Throws other errors.
+/// Solves the row at `point`. Returns the finished row or, if it throws Error(kExternalProgram), a
+/// failed row with the text of this error. Other errors are thrown.
 JournalEntry solve(const FreeFem& freefem, const std::string& version, const TablePlan& plan,
                    const RowPoint& point) {
   try {
@@ -49,7 +50,11 @@ JournalEntry solve(const FreeFem& freefem, const std::string& version, const Tab
 
 }  // namespace
 
-/// If no row at `points` is missing, neither FreeFEM nor `report` is called.
+/// Computes the rows at `points` that are not finished yet, those that failed before among them, on
+/// worker.jobs threads, and writes each to the journal beside `table_path`. `report` is called
+/// after each row with the number of rows that are done, the number of all rows, and the estimated
+/// time that is left [s]. If no row is missing, neither FreeFEM nor `report` is called. The table
+/// itself is not written.
 void compute_rows(const RowWorker& worker, const TablePlan& plan,
                   const std::vector<RowPoint>& points, const std::filesystem::path& table_path,
                   const TabulateReport& report) {
@@ -74,7 +79,8 @@ void compute_rows(const RowWorker& worker, const TablePlan& plan,
           journal.append(entry);
         }
       } catch (...) {
-        // The cause is not this row but Ctrl-C or a full disk, say, so the others would fail, too.
+        // The cause is not this row, but for example Ctrl-C or a full disk, so that the other rows
+        // would fail, too.
         const std::scoped_lock lock(mutex);
         if (!fatal) fatal = std::current_exception();
         next = missing.size();

@@ -47,8 +47,8 @@ double size_of(const particles::Domain& domain) {
   return std::min(box.to[0] - box.from[0], box.to[1] - box.from[1]);
 }
 
-/// Throws Error(kNotConverged) unless `edge` [L] is longer than 1e-7 times `length` [L], also for
-/// NaN.
+/// Throws Error(kNotConverged) if the length `edge` [L] is NaN or not more than 1e-7 times `length`
+/// [L], the length of the curve that is cut into edges.
 void check_edge_length(double edge, double length) {
   constexpr double kShortest = 1e-7;      // FreeFEM merges nearer points
   if (edge > kShortest * length) return;  // false for NaN
@@ -59,6 +59,14 @@ void check_edge_length(double edge, double length) {
               edge / length, kShortest);
 }
 
+/// Computes the images of the particles (the particles shifted by periods), for each particle the
+/// neighbours that are near enough to shorten its edges, and these numbers, which are multiplied by
+/// `coarsening` (narrow_ and kFastestWithInertia are not): longest_ [L], the edge on the smallest
+/// particle; cap_ [L], the longest edge on walls and in the fluid; per_radius_ [1], the edge on a
+/// particle over the radius of curvature; growth_ [1], the increase of an edge per distance; and
+/// of_gap_ [1] and further_ [1], with which across(gap) = of_gap_ gap + further_ max(0, gap -
+/// narrow_) is the longest edge [L] in a gap [L]. `bodies.particles` must not be null; there may be
+/// no particles.
 EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain& domain,
                          const particles::FluidParticles& bodies, double coarsening)
     : domain_(domain) {
@@ -70,7 +78,8 @@ EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain&
     smallest = std::min(smallest, fluid.is_ellipse(k) ? std::ranges::min(fluid.semi_axes[k])
                                                       : fluid.end_radius(k, p.radii[k]));
   }
-  // Least number of edges across the domain, so that the flow far from all particles is resolved.
+  // The least number of edges across the domain, so that the flow far from all particles is
+  // resolved. It is chosen as the constants above are.
   constexpr double kEdgesOfAWall = 6;
   cap_ = coarsening * size_of(domain) / kEdgesOfAWall;
   per_radius_ = coarsening * 2 * std::numbers::pi / fluid.edges_per_particle;
@@ -109,6 +118,8 @@ EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain&
   }
 }
 
+/// Distance [L] of the point x from the nearest wall, negative outside the domain. In a cylinder x
+/// has the coordinates r and z. Infinite if all sides of a box are periodic.
 double EdgeLengths::distance_to_wall(const Point& x) const {
   if (const auto* disc = std::get_if<particles::DiscDomain>(&domain_))
     return disc->radius - std::hypot(x[0] - disc->centre[0], x[1] - disc->centre[1]);
@@ -122,6 +133,8 @@ double EdgeLengths::distance_to_wall(const Point& x) const {
   return distance;
 }
 
+/// Distances [L] of the point x from the nearest and the second nearest particle or image, negative
+/// inside; infinite if there is none.
 std::array<double, 2> EdgeLengths::distances_to_particles(const Point& x) const {
   double nearest = kFar, second = kFar;
   for (const auto& image : images_) {
@@ -132,13 +145,18 @@ std::array<double, 2> EdgeLengths::distances_to_particles(const Point& x) const 
   return {nearest, second};
 }
 
+/// Length of an edge at the point x of the surface of particle k: that of an edge on the smallest
+/// particle, or across(gap) if this is shorter, the longest edge in the gap to the nearest other
+/// surface.
 double EdgeLengths::on_particle(std::size_t k, const Point& x) const {
   double distance = distance_to_wall(x);
   for (const auto& other : neighbours_[k]) distance = std::min(distance, distance_to(other, x));
   return std::min(longest_, across(distance));
 }
 
-/// At the point of particle k that has the parameter `t` [rad] on its outline.
+/// Length of an edge at the point of particle k that has the parameter `t` [rad] on its outline:
+/// that of on_particle(), but on an ellipse or plate at most per_radius_ times the radius of
+/// curvature at the point.
 double EdgeLengths::on_outline(std::size_t k, double t) const {
   const auto& outline = outlines_[k];
   const double length = on_particle(k, outline.at(t));
@@ -146,11 +164,15 @@ double EdgeLengths::on_outline(std::size_t k, double t) const {
   return std::min(length, per_radius_ * outline.curvature_radius_at(t));
 }
 
+/// Length of an edge at the point x of a wall; it increases with the distance from the nearest
+/// particle.
 double EdgeLengths::on_wall(const Point& x) const {
   const double distance = distances_to_particles(x)[0];
   return std::min({longest_ + growth_ * distance, across(distance), cap_});
 }
 
+/// Length of an edge at the point x of the fluid; the gap there is the sum of the distances from
+/// the two nearest surfaces, of which one may be a wall.
 double EdgeLengths::in_fluid(const Point& x) const {
   const auto [nearest, second] = distances_to_particles(x);
   const double wall = distance_to_wall(x);

@@ -1,10 +1,11 @@
 // Computes the edges where a mesh of a periodic box ends, for mesh_boundary.cpp. The cell of each
-// particle is a convex polygon. Corners that are very near to each other are joined, and the edges
-// are kept that lie on a wall or between a particle and an image, which is a particle shifted by
-// whole periods. Lengths [L] are in the unit of the arguments. There must be at least one particle,
-// with its centre in the box, and circles must not overlap; nothing is checked or thrown. A change
-// must keep that an edge and its partner differ by a period only, because a mesh is not periodic
-// otherwise, and the labels of walls in mesh_boundary.hpp (1 left, 2 right, 3 bottom, 4 top).
+// particle is a convex polygon. Corners that are very near to each other are joined. Edges that lie
+// on a wall, or between a particle and an image (a particle shifted by whole periods), are kept;
+// the other edges are inside the mesh. Lengths [L] are in the unit of the arguments. There must be
+// at least one particle, with its centre in the box, and circles must not overlap; nothing is
+// checked or thrown. A change must keep that an edge and its partner differ by a period only,
+// because a mesh is not periodic otherwise, and the labels of walls in mesh_boundary.hpp (1 left, 2
+// right, 3 bottom, 4 top).
 #include "viscontact/freefem_flow/boundary/periodic_cells.hpp"
 
 #include <algorithm>
@@ -32,8 +33,9 @@ struct Corner {
 
 using Polygon = std::vector<Corner>;
 
-/// Keeps the part of the convex polygon, given counter-clockwise, with normal.x <= offset. `behind`
-/// is what lies beyond the line normal.x = offset. `normal` need not have the length 1.
+/// Replaces the convex polygon, given counter-clockwise, by its part with normal.x <= offset, which
+/// may be empty. `behind` is what lies beyond the line normal.x = offset. `normal` need not have
+/// the length 1; `offset` has the unit of normal.x.
 void clip(Polygon& polygon, const Point& normal, double offset, const Neighbour& behind) {
   const auto excess = [&](const Corner& c) {
     return normal[0] * c.at[0] + normal[1] * c.at[1] - offset;
@@ -56,7 +58,7 @@ void clip(Polygon& polygon, const Point& normal, double offset, const Neighbour&
   polygon = std::move(kept);
 }
 
-/// Square [L^2] of the distance of the furthest corner from the point `from`.
+/// Square [L^2] of the distance of the furthest corner from the point `from`; 0 without corners.
 double square_of_reach(const Polygon& polygon, const Point& from) {
   double reach = 0;
   for (const auto& corner : polygon) {
@@ -110,15 +112,17 @@ Polygon cell_of(std::size_t k, const particles::BoxDomain& box,
   return cell;
 }
 
-/// Gives one place to corners that are close together, if need be after a shift by whole periods.
+/// Gives one place to corners that are close together, or that are so after a shift by whole
+/// periods.
 class Corners {
  public:
   Corners(const particles::BoxDomain& box, std::span<const particles::Outline> circles)
       : box_(box), circles_(circles) {}
 
-  /// The place of the corner x: that of an earlier corner, shifted by whole periods to be next to
-  /// x, if x is as near to it as a tenth of the distance of that corner from the particles; else x.
-  /// The tenth is a free choice: much smaller ones give edges that are short for the mesh there.
+  /// The place of the corner x. If an earlier corner, shifted by whole periods to be next to x, is
+  /// nearer to x than a tenth of its own distance from the particles, the place is that of the
+  /// earlier corner; otherwise it is x. The tenth is a free choice: much smaller fractions give
+  /// edges that are too short for the mesh there.
   Point joined(const Point& x) {
     const Point wrapped =
         moved_near(x, {(box_.from[0] + box_.to[0]) / 2, (box_.from[1] + box_.to[1]) / 2});
@@ -162,7 +166,10 @@ class Corners {
 
 }  // namespace
 
-/// `partner` of an edge is the place of its partner in the list; -1 on a wall.
+/// The edges of the union of all cells, in the order of the particles; each is seen from its
+/// particle, counter-clockwise. `circles` are the particles, or the circles around them. `partner`
+/// of an edge is the index in the list, from 0, of the edge that differs from it by whole periods;
+/// -1 on a wall. `box` must be periodic along x or y.
 std::vector<CellEdge> periodic_cells(const particles::BoxDomain& box,
                                      std::span<const particles::Outline> circles) {
   std::vector<CellEdge> edges;
