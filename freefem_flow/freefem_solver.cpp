@@ -1,12 +1,12 @@
 // The commands of fluid solvers, and the units in which FreeFEM computes, for app/ and python/.
-// Numbers are in the units of the case if nothing else is said: lengths [L] and the viscosity [M/(L
-// T)] are > 0, velocities in [L/T, 1/T], forces and torques in [M L/T^2, M L^2/T^2]; in the plane a
-// mass is that of a unit length of the third dimension. Time limits are 1 to 10 million seconds. A
-// solver that does not start is an Error(kExternalProgram), a particle too small for its mesh or a
-// wrong domain an Error(kBadInput), a gap too narrow for the mesh an Error(kNotConverged), a wrong
-// time limit in the environment an Error(kWrongUsage), and a requested stop an Error(kInterrupted).
-// A change must keep units that are powers of 2, because their scaling has no rounding error, and
-// the names of the scripts in scripts/.
+// Numbers are in the units of the case if no other units are named: lengths [L] and the viscosity
+// [M/(L T)] are > 0, velocities in [L/T, 1/T], forces and torques in [M L/T^2, M L^2/T^2]; in the
+// plane a mass is that of a unit length of the third dimension. Time limits are 1 to 10 million
+// seconds. A solver that does not start is an Error(kExternalProgram), a particle too small for its
+// mesh or a wrong domain an Error(kBadInput), a gap too narrow for the mesh an
+// Error(kNotConverged), a wrong time limit in the environment an Error(kWrongUsage), and a
+// requested stop an Error(kInterrupted). A change must keep units that are powers of 2, because
+// their scaling has no rounding error, and the names of the scripts in scripts/.
 #include "viscontact/freefem_flow/freefem_solver.hpp"
 
 #include <fmt/format.h>

@@ -63,9 +63,9 @@ std::string_view to_string(Misfit misfit) {
 
 Misfit parse_misfit(std::string_view word) { return require_named(kMisfits, word, "misfit").value; }
 
-/// A fit without terms that stands for the exact drag of a sphere near a plane. `viscosity` [M/(L
-/// T)] and `radius` [L] must be positive, which is not checked. The reference velocity -1 [L/T] is
-/// arbitrary.
+/// A fit without terms, which stands for the exact drag of a sphere near a plane. `viscosity`
+/// [M/(L T)] and `radius` [L] must be positive, which is not checked. The reference velocity -1
+/// [L/T] is arbitrary.
 Fit exact_plane_fit(double viscosity, double radius) {
   Fit fit;
   fit.basis = kExactPlane;

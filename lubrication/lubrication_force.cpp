@@ -247,9 +247,9 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
                   "and fit further, or let the drag follow the lubrication limit below it (below = "
                   "\"lubrication_limit\" in the section [fit] of the case)",
                   smallest, largest);
-    // Below the interval R = k/q + c. With s = ln q, Gamma(q) = impulse is the equation k (s - ln
-    // q1) + c (e^s - q1) = impulse - Gamma(q1). Without the term with c, s would be known; this
-    // term changes s by less than |c| q1/k.
+    // Below the interval R = k/q + c. With s = ln q, Gamma(q) = impulse is the equation
+    // k (s - ln q1) + c (e^s - q1) = impulse - Gamma(q1). Without the term with c, s would be
+    // known; this term changes s by less than |c| q1/k.
     const auto [k, constant] = limit();
     const double by_leading_term = low + (impulse_wanted - least) / k;
     const double by_constant = constant * smallest / k;

@@ -106,9 +106,9 @@ double largest_estimate(const MotionRow& row) {
 }
 
 /// The units of force and torque per velocity. A force is minus its unit times the velocity times
-/// the force factor; a torque is so with the torque factor. The units are in [M/T] and [M L/T] if
-/// the sphere moves, in [M L/T] and [M L^2/T] if it turns. Viscosity [M/(L T)] and radius [L] must
-/// be > 0, which is not checked.
+/// the force factor, and a torque is minus its unit times the velocity times the torque factor. The
+/// units are in [M/T] and [M L/T] if the sphere moves, in [M L/T] and [M L^2/T] if it turns.
+/// Viscosity [M/(L T)] and radius [L] must be > 0, which is not checked.
 ActionUnits action_units(MotionKind motion, double viscosity, double radius) {
   constexpr double kPi = std::numbers::pi;
   const double length = turns(motion) ? radius : 1;

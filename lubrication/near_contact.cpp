@@ -1,11 +1,12 @@
 // The solution of Reynolds' equation in the film between a sphere and its neighbour, which slide
 // past each other or turn (docs/physics.md (2.9), (2.10)). Lengths are in sphere radii, q is the
-// gap, mu the viscosity, r the radius. The neighbour's curvature is the sphere's radius over its
-// own (0: a plane). kappa is 1 plus this curvature; the film has the thickness q + kappa rho^2/2 at
-// the distance rho from the axis. The curvature must be > -1. velocity_ratio, the neighbour's
-// velocity over that of the sphere, must be 0 unless the curvature is > 0. Results are numbers of
-// any sign. Nothing is checked or thrown. This file is used by freefem_axi/motion_table_plan.cpp. A
-// change must keep the coefficients, which published tables contain.
+// gap, mu the viscosity, r the radius. The neighbour's curvature is the radius of the sphere over
+// that of the neighbour (0: a plane). kappa is 1 plus this curvature; the film has the thickness q
+// + kappa rho^2/2 at the distance rho from the axis. The curvature must be > -1. velocity_ratio,
+// the neighbour's velocity over that of the sphere, must be 0 unless the curvature is > 0. Results
+// are numbers of any sign. Nothing is checked or thrown. This file is used by
+// freefem_axi/motion_table_plan.cpp. A change must keep the coefficients, which published tables
+// contain.
 #include "viscontact/lubrication/near_contact.hpp"
 
 #include <numbers>
