@@ -103,7 +103,7 @@ class Places {
   }
 
   /// A random point of the region [L], uniformly distributed. The region must not be empty (not
-  /// checked): a disc without points would be tried for ever.
+  /// checked).
   Vector random(SplitMix64& random) const {
     for (;;) {
       Vector x{};

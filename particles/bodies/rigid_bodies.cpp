@@ -273,7 +273,8 @@ Periods periods_of_member(const RigidBody& body, std::size_t m, const Particles&
 }
 
 /// Sets positions [L], velocities [L/T], angular velocities [1/T] and angles or orientations of all
-/// members to those of their bodies.
+/// members to those of their bodies. If the cell is not sheared, moves the centres of bodies into
+/// the cell first.
 void place_members(Particles& p) {
   for (auto& body : p.bodies.bodies) {
     if (!p.cell.is_sheared()) wrap_centre(body, p.cell);
