@@ -31,9 +31,9 @@
 namespace viscontact::freefem_flow {
 namespace {
 
-/// The units in which FreeFEM computes. The members are powers of 2 with which the radius of the
-/// smallest particle or membrane and the viscosity are between 0.7 and 1.5. The unit of time is
-/// that of the case.
+/// The units in which FreeFEM computes. The members are the powers of 2 with which the radius of
+/// the smallest particle or membrane, and the viscosity, become numbers between 0.7 and 1.5. The
+/// unit of time is that of the case.
 struct SolverUnits {
   double length = 1;     ///< [L], > 0
   double viscosity = 1;  ///< [M/(L T)], > 0

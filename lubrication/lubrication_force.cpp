@@ -92,7 +92,8 @@ void LubricationForce::set_limits(const Fit& fit) {
   image_ = (resistance(largest) / stokes_resistance(viscosity_, radius_) - 1) * (largest + radius_);
 }
 
-/// The smallest and the largest gap [L] at which R is known. 0 and infinity stand for no limit.
+/// The smallest and the largest gap [L] at which R is known. If R is known at all smaller gaps > 0,
+/// the first number is 0; if R is known at all larger gaps, the second one is infinite.
 std::array<double, 2> LubricationForce::interval() const {
   return {outside_.below == BelowInterval::kError ? fitted_interval_[0] : 0.0,
           outside_.above == AboveInterval::kError ? fitted_interval_[1]
@@ -139,7 +140,8 @@ double LubricationForce::leading_coefficient() const {
   return leading_;
 }
 
-/// The constants of R = k/q + constant below q1.
+/// The constants k > 0 [M L/T] and constant [M/T] of R = k/q + constant below q1. Throws
+/// Error(kBadInput) if the fit has no k > 0.
 LubricationForce::LubricationLimit LubricationForce::limit() const {
   if (!(limit_.k > 0)) (void)leading_coefficient();  // throws if the fit has no k
   return limit_;

@@ -43,7 +43,8 @@ std::string motions_in_words(const std::vector<MotionKind>& motions) {
   return words;
 }
 
-/// The motions of such a text; none if it is empty. Throws Error(kBadInput) for an unknown name.
+/// The motions in a text that motions_in_words() made; none if it is empty. Throws Error(kBadInput)
+/// for an unknown name.
 std::vector<MotionKind> parse_motions_in_words(const std::string& words) {
   std::vector<MotionKind> motions;
   std::istringstream stream(words);
@@ -100,8 +101,8 @@ std::vector<double> radii_in(const std::string& text, const std::string& file) {
 
 /// The head that `text`, the content of `file`, begins with. `is_of_line` says that the table is of
 /// several spheres along an axis, so that the head has "# radii" in place of "# radius". Throws
-/// Error(kBadInput) if viscosity or radius is missing, if a value is not allowed, or if an
-/// important line stands twice with different values.
+/// Error(kBadInput) if viscosity or radius is missing, if a value is not allowed, or if the
+/// viscosity, a radius, the motion or a leading coefficient stands twice with different values.
 TableHead read_head(const std::string& text, const std::string& file, bool is_of_line) {
   std::set<std::string> contradictions;
   auto lines = read_csv_comments(text, &contradictions);

@@ -59,7 +59,7 @@ void add_term(Basis& basis, std::string_view name) {
   basis.terms.push_back(require_named(kTerms, name, "term"));
 }
 
-/// The basis called `name` of `terms`, names that are separated by commas.
+/// The basis with the name `name` and the terms whose names `terms` lists, separated by commas.
 Basis make_basis(std::string_view name, std::string_view terms) {
   Basis basis = parse_terms(terms);
   basis.name = name;

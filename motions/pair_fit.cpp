@@ -43,9 +43,10 @@ const std::vector<PairBasis>& bases_of_pairs() {
 
 }  // namespace
 
-/// Of each resistance: its name, its meaning, terms that it must not have by lubrication theory,
-/// its leading term near contact, and the shape that its fit must have. The velocity is u along x
-/// and u_z along z, the angular velocity w about y and w_z about z; F is a force and T a torque.
+/// The table of resistances. Each of them has a name, a meaning, the terms that it must not have by
+/// lubrication theory, its leading term near contact, and the shape that its fit must have. The
+/// velocity is u along x and u_z along z, the angular velocity w about y and w_z about z; F is a
+/// force and T a torque.
 std::span<const NamedEntry> pair_entries() {
   static const std::vector<NamedEntry> entries = {{"squeeze",
                                                    "F_z = -squeeze u_z: the sphere approaches",

@@ -26,9 +26,9 @@ namespace {
 // The least number of edges on a circle. It is the least number that a case may ask for.
 constexpr std::size_t kLeastOnCircle = 6;
 
-/// Makes the boundary for one placement of the particles. of(), which may be called once only,
-/// returns the curves for a disc, a box, a cylinder, or no domain (no curves). The arguments must
-/// outlive the object.
+/// Makes the boundary for one placement of the particles. The constructor throws
+/// std::bad_variant_access without a domain. of(), which may be called once only, returns the
+/// curves for a disc, a box or a cylinder. The arguments must outlive the object.
 class BoundaryMaker {
  public:
   BoundaryMaker(const particles::Fluid& fluid, const particles::Domain& domain,
@@ -74,7 +74,8 @@ class BoundaryMaker {
   double on_wall(const Point& x) const {
     return fitted_ ? lengths_.on_wall(x) : lengths_.uniform();
   }
-  /// The same at a point of the fluid, such as one on the axis or on a periodic side.
+  /// The wanted length [L] of an edge at a point of the fluid, such as one on the axis or on a
+  /// periodic side.
   double in_fluid(const Point& x) const {
     return fitted_ ? lengths_.in_fluid(x) : lengths_.uniform();
   }
@@ -99,8 +100,8 @@ class BoundaryMaker {
   /// it with few edges makes this part of the mesh coarse. The polygon is kOfRadius times as large
   /// as the outline, and its edges may be as long as kLongest radii. FreeFEM derives the size of
   /// triangles from the nearest edges, and a few triangles represent a rigid motion exactly.
-  /// kLongest is a free choice, kOfRadius one between 0.2 and 0.7: curved_mesh.idp looks for both
-  /// parts of a particle at these shares of its radius.
+  /// kLongest is a free choice. kOfRadius must be between 0.2 and 0.7, because curved_mesh.idp
+  /// looks for both parts of a particle at these two fractions of its radius.
   void add_particles() {
     if (!fitted_) return;
     for (std::size_t k = 0; k < lengths_.outlines().size(); ++k) {
@@ -251,9 +252,9 @@ void check_unions(const particles::Fluid& fluid, const particles::Particles& par
 
 }  // namespace
 
-/// The curves are those of the particles and of the domain; MeshBoundary has points [L] as (x, y),
-/// or as (distance from the axis, z) in a cylinder. bodies.particles must not be null (not
-/// checked).
+/// The boundary of the mesh around `bodies` in `domain`. Edges are about `coarsening` times as long
+/// as the fluid's edges_per_particle asks for. MeshBoundary has points [L] as (x, y), or as
+/// (distance from the axis, z) in a cylinder. bodies.particles must not be null (not checked).
 MeshBoundary mesh_boundary(const particles::Fluid& fluid, const particles::Domain& domain,
                            const particles::FluidParticles& bodies, double coarsening) {
   check_unions(fluid, *bodies.particles);

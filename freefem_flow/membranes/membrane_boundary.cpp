@@ -71,7 +71,7 @@ class WantedEdges {
   }
 
   /// The wanted length [L] of an edge at the point x [L] on the disc with the number `own`. It is
-  /// that of at(), but shorter near a wall. It is > 0 if x is inside the domain.
+  /// that of at(), but shorter near a wall. It is > 0.
   double on_disc(const particles::Domain& domain, std::size_t own, const Point& x) const {
     const double edge = particles::kTwoPi * curves_.discs[own].radius / curves_.edges_of_disc;
     return std::min(at(x, own), std::max(edge / 8, kOfGap * distance_to_walls(domain, x)));
@@ -120,7 +120,8 @@ double shift_between_membranes(const particles::Domain& domain, const InnerCurve
   const auto cell = particles::cell_of(domain);
   const double period = cell.lengths[0];
   if (!(period > 0) || (curves.membranes.empty() && curves.discs.empty())) return 0;
-  // Where membranes and discs begin and end along x; each begins inside the box.
+  // The coordinates x [L] at which membranes and discs begin and end. Each of them is shifted by
+  // whole periods so that it begins inside the box.
   std::vector<std::array<double, 2>> ranges;
   const auto add = [&](double from, double width) {
     const double start = from - period * particles::periods_beyond(cell, 0, from);
@@ -155,7 +156,8 @@ MeshBoundary membrane_boundary(const particles::Domain& domain, const InnerCurve
   const auto wanted_at = [&](const Point& x) { return edges.at(x); };
   MeshBoundary boundary;
   if (const auto* disc = std::get_if<DiscDomain>(&domain)) {
-    constexpr std::size_t kLeastOnWall = 24;  // edges; a free choice, nearly a circle
+    // The least number of edges on the wall, a free choice: the polygon is then nearly a circle.
+    constexpr std::size_t kLeastOnWall = 24;
     const particles::Outline wall{{disc->centre[0], disc->centre[1]}, disc->radius};
     boundary.add(cut_outline(wall, kLeastOnWall, [&](double t) { return wanted_at(wall.at(t)); }),
                  1);
@@ -176,7 +178,8 @@ MeshBoundary membrane_boundary(const particles::Domain& domain, const InnerCurve
     boundary.add(left, box.periodic[0] ? kPeriodicLabel : 1);
   }
   for (std::size_t k = 0; k < curves.discs.size(); ++k) {
-    constexpr std::size_t kLeastOnCircle = 6;  // edges; the least that a case may ask for
+    // The least number of edges on a disc. It is the least number that a case may ask for.
+    constexpr std::size_t kLeastOnCircle = 6;
     const auto& disc = curves.discs[k];
     auto points = cut_outline(disc, kLeastOnCircle,
                               [&](double t) { return edges.on_disc(domain, k, disc.at(t)); });

@@ -1,10 +1,11 @@
-// The dialogue with scripts/membranes.edp, which freefem_solver.cpp starts. Lengths, masses (per
-// length of the third dimension) and times are in the units of the arguments, so that forces are in
-// [M L/T^2] and entries of the mobility in [T/M]; radii and `unit` are > 0, and a box has no period
-// along y (neither is checked). A solver that fails is an Error(kExternalProgram), a place outside
-// the domain or a number that is not finite an Error(kNotConverged), more than kMostMembranes (80)
-// membranes or a wrong domain an Error(kBadInput), and a requested stop an Error(kInterrupted). A
-// change must agree with what the script reads and writes.
+// Asks FreeFEM with the script scripts/membranes.edp for Stokes flow around membranes and rigid
+// discs; freefem_solver.cpp uses this file. Lengths, masses (per length of the third dimension) and
+// times are in the units of the arguments, so that forces are in [M L/T^2] and entries of the
+// mobility in [T/M]; radii and `unit` are > 0, and a box has no period along y (neither is
+// checked). A solver that fails is an Error(kExternalProgram), a place outside the domain or a
+// number that is not finite an Error(kNotConverged), more than kMostMembranes (80) membranes or a
+// wrong domain an Error(kBadInput), and a requested stop an Error(kInterrupted). A change must
+// agree with what the script reads and writes.
 #include "viscontact/freefem_flow/membranes/membrane_process.hpp"
 
 #include <fmt/format.h>
@@ -240,8 +241,8 @@ void MembraneProcess::place(const particles::FluidParticles& bodies) {
       append(text, std::array{own(i, 0), own(i, 1)}, "a node");
       text += '\n';
     }
-  // After a large system the rounding errors of later ones differ; a new process does not have
-  // this memory.
+  // A process that has solved a large system gives other rounding errors afterwards. A new process
+  // does not.
   if (unknowns_ > command_.most_unknowns_reproduced) start();
   solver_->ask("place", text);
   solver_->expect("placed", command_.remarks_on_meshes);

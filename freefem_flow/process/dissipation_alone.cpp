@@ -1,9 +1,9 @@
 // Computes the dissipation of the fluid without particles, >= 0, in closed form, for linear flows
 // and plane Couette flow: in a disc or box per unit length of the third dimension [M L/T^3], in a
-// cylinder [M L^2/T^3]. process/flow_process.cpp and membranes/membrane_process.cpp use it. Numbers
-// are in the units of the arguments. The viscosity [M/(L T)] and the lengths must be positive,
-// which is not checked; nothing is thrown. A change must keep that the result is exactly 0 if no
-// closed form is known, because callers take 0 for "not known".
+// cylinder [M L^2/T^3]. process/flow_process.cpp and membranes/membrane_process.cpp use this file.
+// Numbers are in the units of the arguments. The viscosity [M/(L T)] and the lengths must be
+// positive, which is not checked; nothing is thrown. A change must keep that the result is exactly
+// 0 if no closed form is known, because callers take 0 for "not known".
 #include "viscontact/freefem_flow/process/dissipation_alone.hpp"
 
 namespace viscontact::freefem_flow {

@@ -157,8 +157,9 @@ void FlowProcess::place(const FluidParticles& bodies) {
   }
   boundary_ = wants_boundary_ ? words_of(make_boundary_(bodies, 1)) : "";
   coarser_boundary_.clear();
-  // A process that has solved a large system gives other rounding errors afterwards. With inertia
-  // it stays, because it remembers the flow and does not use the random numbers that are the cause.
+  // A process that has solved a large system gives other rounding errors afterwards. A process for
+  // a fluid with inertia is kept, because it remembers the flow. It does not use the random numbers
+  // that cause these other rounding errors.
   if (!fluid_.has_inertia() && largest_system_ > command_.most_unknowns_reproduced) start();
   unknowns_ = ask_to_place(boundary_);
   is_on_coarser_mesh_ = false;
@@ -256,7 +257,8 @@ particles::SecondMesh FlowProcess::vary_mesh() {
     is_on_coarser_mesh_ = true;
     return {0, kErrorOfDifference, kErrorOfDifference};
   }
-  largest_system_ = std::max(largest_system_, 4 * unknowns_);  // of the refined mesh
+  // The refined mesh has four times as many unknowns.
+  largest_system_ = std::max(largest_system_, 4 * unknowns_);
   solver_->ask("vary", "vary mesh\n");
   solver_->expect("varied");
   particles::SecondMesh second;

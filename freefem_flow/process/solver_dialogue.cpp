@@ -1,12 +1,12 @@
 // Asks a fluid solver and checks its answers, and writes numbers and boundaries for it;
-// flow_process.cpp and membranes/membrane_process.cpp use it. Numbers have the units of the caller
-// and are finite. Time limits are > 0 milliseconds and begin with the request. Each fault of the
-// solver (it ends, is late, answers wrongly, or its program cannot be run) is an
-// Error(kExternalProgram); afterwards only ask() may be called, and throws the same error. A number
-// for the solver that is not finite is an Error(kNotConverged), a requested stop an
-// Error(kInterrupted), and a system without free sockets a std::system_error. A change must keep
-// that a solver that does not answer is killed at its time limit, and the messages that
-// docs/troubleshooting.md quotes.
+// flow_process.cpp and membranes/membrane_process.cpp use this file. Numbers have the units of the
+// caller and are finite. Time limits are > 0 milliseconds and begin with the request. Each fault of
+// the solver (it ends, is late, answers wrongly, or its program cannot be run) is an
+// Error(kExternalProgram); afterwards only ask() may be called, which then always throws an
+// Error(kExternalProgram). A number for the solver that is not finite is an Error(kNotConverged), a
+// requested stop an Error(kInterrupted), and a system without free sockets a std::system_error. A
+// change must keep that a solver that does not answer is killed at its time limit, and the messages
+// that docs/troubleshooting.md quotes.
 #include "viscontact/freefem_flow/process/solver_dialogue.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +27,8 @@ using namespace std::chrono_literals;
 // How long a solver that has failed may take to write its last lines and to end; a free choice.
 constexpr auto kGraceOfFailed = 1000ms;
 
-// How long a solver may take to end after the request `end`; docs/fluid-solver.md promises it.
+// How long a solver may take to end after the request `end`; docs/fluid-solver.md promises this
+// time.
 constexpr auto kGraceAtEnd = 2000ms;
 
 /// The program and its arguments as a user would type them.
@@ -120,7 +121,7 @@ std::string_view SolverDialogue::next_word() {
 /// to 1000 other lines may come before.
 void SolverDialogue::expect(std::string_view word, bool skip_lines) {
   awaited_ = in_quotes(word);
-  constexpr int kMostLines = 1000;  // docs/fluid-solver.md promises it
+  constexpr int kMostLines = 1000;  // docs/fluid-solver.md promises this number
   for (int i = 0; i < kMostLines; ++i) {
     if (next_word() == word) return;
     if (!skip_lines) refuse(in_quotes(word));

@@ -27,9 +27,10 @@ namespace {
 namespace fs = std::filesystem;
 using lubrication::MotionKind;
 
-/// The line that is printed for a resistance (`entry`): its largest relative residual [1], the
-/// largest one of an inner row that was left out of the fit, if it is known, and the coefficient of
-/// the leading term beside that of theory, if theory knows it.
+/// The line that is printed for a resistance (`entry`): its largest relative residual [1]; if it is
+/// known, the largest relative residual of an inner row in a fit without this row (inner rows are
+/// not at the smallest or the largest gap); and the coefficient of the leading term beside that of
+/// theory, if theory knows it.
 std::string words_of(const NamedEntry& entry, const EntryFit& one) {
   std::string text = fmt::format("  {:<10}  residual {:.1e} at most (relative)", entry.name,
                                  one.fit.largest_relative_residual);

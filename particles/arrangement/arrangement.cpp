@@ -1,11 +1,11 @@
 // Places discs or spheres at random in a disc or box such that all gaps have at least a given
-// length. Lengths are in the unit of the case file: radii [L] are > 0, at least one, and the least
-// gap [L] is >= 0 (not checked); the result has 2 or 3 coordinates [L] for each particle. Throws
-// Error(kBadInput) if the particles do not fit, or if ten random beginnings fail, and
-// std::bad_variant_access if the domain is neither a disc nor a box. particles/case and
-// particles/sweep use it. A change must keep the arrangement of each seed bit for bit on every
-// machine. Therefore only + - * / and sqrt may be used, and the compiler must not fuse a product
-// and a sum into one operation (-ffp-contract=off in CMakeLists.txt).
+// length. Lengths are in the unit of the case file. Radii [L] are > 0, the least gap [L] is >= 0,
+// and there is at least one particle (not checked); the result has 2 or 3 coordinates [L] for each
+// particle. Throws Error(kBadInput) if the particles do not fit, or if ten arrangements from new
+// random places fail, and std::bad_variant_access if the domain is neither a disc nor a box.
+// particles/case and particles/sweep use this file. A change must keep the arrangement of each seed
+// bit for bit on every machine. Therefore only + - * / and sqrt may be used, and the compiler must
+// not fuse a product and a sum into one operation (-ffp-contract=off in CMakeLists.txt).
 #include "viscontact/particles/arrangement/arrangement.hpp"
 
 #include <fmt/format.h>

@@ -2,9 +2,9 @@
 // the units of the case file, the rate [1/T] of a source is > 0, times [T] are >= 0, its `end` is
 // later than its `begin`, `from` and `to` [L] are the lowest and the highest corner of its box, and
 // radii [L] and masses [M] are > 0; nothing is checked or thrown. A particle for which no place is
-// free waits. simulation.cpp and particles/run use it. A change must keep the due times and places
-// bit for bit, because users repeat runs by their seeds. Therefore the compiler must not fuse a
-// product and a sum into one operation (-ffp-contract=off in CMakeLists.txt).
+// free waits. simulation.cpp and particles/run use this file. A change must keep the due times and
+// places bit for bit, because users repeat runs by their seeds. Therefore the compiler must not
+// fuse a product and a sum into one operation (-ffp-contract=off in CMakeLists.txt).
 #include "viscontact/particles/arrangement/source.hpp"
 
 #include <algorithm>

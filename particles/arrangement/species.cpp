@@ -1,11 +1,12 @@
-// Draws particles one after the other: which species (kind of particles) each one has, its radius >
-// 0 [L] and its mass >= 0 [M]. Numbers are in the units of the case. Densities are in [M/L^2]
-// (discs) or [M/L^3] (spheres), shares are > 0, the standard deviation sigma of the logarithm of a
-// radius is at most 1, and there is at least one species; nothing is checked or thrown.
-// particles/case and source.cpp use it. A change must keep hash_of(), whose values restart files
-// store, and the radii of each seed bit for bit on every machine. Therefore the compiler must not
-// fuse a product and a sum into one operation (-ffp-contract=off in CMakeLists.txt), and only + - *
-// / sqrt, floor, frexp and ldexp may be used; exp and log of the C library differ between versions.
+// Draws particles one after the other: which species (kind of particles) each one has, its radius
+// [L], which is positive, and its mass [M], which is positive or 0. Numbers are in the units of the
+// case. Densities are in [M/L^2] (discs) or [M/L^3] (spheres), shares are > 0, the standard
+// deviation sigma of the logarithm of a radius is at most 1, and there is at least one species;
+// nothing is checked or thrown. particles/case and source.cpp use this file. A change must keep
+// hash_of(), whose values restart files store, and the radii of each seed bit for bit on every
+// machine. Therefore the compiler must not fuse a product and a sum into one operation
+// (-ffp-contract=off in CMakeLists.txt), and only + - * / sqrt, floor, frexp and ldexp may be used;
+// exp and log of the C library differ between versions.
 #include "viscontact/particles/arrangement/species.hpp"
 
 #include <algorithm>
@@ -142,8 +143,8 @@ std::vector<DrawnParticle> drawn_to_size(DrawnSpecies species, int dimension, do
   return particles;
 }
 
-/// A hash of all numbers of the species, in this order. Restart files store it, to see whether the
-/// species are the same.
+/// A hash of all numbers of the species, in this order. Restart files store it, so that a run that
+/// continues can see whether its species are the same.
 std::uint64_t hash_of(const std::vector<Species>& species) {
   std::uint64_t hash = species.size();
   const auto add = [&](double number) {

@@ -2,11 +2,11 @@
 // (5.11)). Lengths [L], masses [M] and times [T] are in any consistent units, turns in [rad]. The
 // length h [T] of a step must be > 0, and free_step() needs a mass [M] and an inertia [M L^2] > 0.
 // `dimension` is 2 for discs, of which only component 2 of turns counts, and 3 for spheres.
-// simulation.cpp, free_motion.cpp, case/, constraints/, fluid/, impacts/ and links/ use it. Nothing
-// is checked or thrown: wrong numbers give infinite results or NaN, and if the iteration for the
-// turn of a body does not converge, its last value is taken. A change must keep that a body that
-// crosses no side of a periodic cell has the same bits as without periods, and that the angular
-// momentum stays constant to rounding without a torque.
+// simulation.cpp, free_motion.cpp, case/, constraints/, fluid/, impacts/ and links/ use this file.
+// Nothing is checked or thrown: wrong numbers give infinite results or NaN, and if the iteration
+// for the turn of a body does not converge, its last value is taken. A change must keep that a body
+// that crosses no side of a periodic cell has the same bits as without periods, and that the
+// angular momentum stays constant to rounding without a torque.
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ Vector turn_of(const std::vector<double>& values, std::size_t k, int dimension) 
   return {0, 0, values[k]};
 }
 
-/// Sets vector `k` of such an array to `to`.
+/// Sets vector `k` of an array as in turn_of() to `to`.
 void set_turn(std::vector<double>& values, std::size_t k, int dimension, const Vector& to) {
   if (dimension != 3) {
     values[k] = to[2];
@@ -367,7 +367,7 @@ BodyStep free_step(const RigidBody& body, const BodyLoad& load, double h, double
 }
 
 /// Replaces the motion of `step` by the displacement [L] and the turn [rad] that contacts and links
-/// allow, and changes its angular momentum by the same amount.
+/// allow, and computes the angular momentum [M L^2/T] that belongs to the new turn.
 void constrain(BodyStep& step, const Vector& displacement, const Vector& turn, int dimension) {
   const Vector change = turn - step.turn;
   if (dimension == 3)

@@ -1,10 +1,10 @@
 // Reads the section [arrangement] of a case of many particles, which places particles at random,
 // and the species (kinds) of particles that arrangements and sources have. In the units of the
 // case, radii [L], masses [M], densities and shares are from 1e-100 to 1e100 (mass and density in a
-// fluid also 0), sigma is from 1e-6 to 1, a fraction in (0, 1), the gap [L] >= 0, a count 1 to 1
-// 000 000. A wrong value, and particles that do not fit, are an Error(kBadInput) with the line.
-// This file is used by particle_tables.cpp and source_section.cpp. A change must keep keys and
-// defaults, which users' cases rely on.
+// fluid also 0), sigma is from 1e-6 to 1, a fraction in (0, 1), the gap [L] >= 0, a count 1 to 1e6.
+// A wrong value, and particles that do not fit, are an Error(kBadInput) with the line. This file is
+// used by particle_tables.cpp and source_section.cpp. A change must keep keys and defaults, which
+// users' cases rely on.
 #include <algorithm>
 #include <limits>
 #include <string_view>
@@ -15,9 +15,9 @@ namespace viscontact::particles {
 namespace {
 
 // Each function whose name ends in _keys declares the keys of a table: name, range, meaning and
-// default. Reading a case, it stores the values in its argument and throws Error(kBadInput) with
-// the line for a key that is missing, unknown or out of range; keys.reads() is then true. It also
-// serves to print the tables of docs/case-file.md, and throws nothing then.
+// default. When a case is read (keys.reads() is true), such a function stores the values in its
+// second argument, and Error(kBadInput) with the line is thrown for a key that is missing, unknown
+// or out of range. The same functions make the tables of docs/case-file.md; then nothing is thrown.
 constexpr std::string_view kRadiusWords =
     "a number, a list of numbers, `{ uniform = [a, b] }` or `{ lognormal = { median, sigma } }`";
 

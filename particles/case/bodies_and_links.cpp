@@ -1,10 +1,10 @@
 // Reads and checks the tables [[body]], [[hinge]], [[spring]] and [[arm]] of a case of many
 // particles: rigid bodies, and links that hold particles and bodies. In the units of the case,
 // masses [M] and moments of inertia [M L^2] are from 1e-100 to 1e100 (in a fluid also 0), angles
-// [rad] at most 1e100 in magnitude, stiffnesses [M L^2/T^2] of hinges >= 0 and [M/T^2] of springs >
-// 0, lengths of arms [L] > 0, and times [T] of lengths increase from 0. A wrong value is an
-// Error(kBadInput) with its line. particles_case.cpp uses this file. A change must keep keys and
-// defaults, which users' cases rely on.
+// [rad] at most 1e100 in magnitude, stiffnesses of hinges [M L^2/T^2] at least 0, those of springs
+// [M/T^2] and lengths of arms [L] positive. The times [T] at which the length of an arm is given
+// increase from 0. A wrong value is an Error(kBadInput) with its line. particles_case.cpp uses this
+// file. A change must keep keys and defaults, which users' cases rely on.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -54,7 +54,7 @@ void check_members(const case_file::TomlSection& section, const std::vector<std:
 }
 
 /// Throws Error(kBadInput) if the last body of the case is so large that it could touch its own
-/// periodic image: if its diameter [L] is not smaller than each period.
+/// periodic image. Its diameter [L] must be smaller than each period.
 void check_fits(const case_file::TomlSection& section, const ParticlesCase& c) {
   const double diameter = particles::diameter(c.particles.bodies.bodies.back(), c.particles);
   for (const double period : c.particles.cell.lengths)
@@ -65,9 +65,10 @@ void check_fits(const case_file::TomlSection& section, const ParticlesCase& c) {
 }
 
 /// Each function whose name ends in _keys declares the keys of a table: name, range, meaning and
-/// default. Reading a case, it stores the values in its argument and throws Error(kBadInput) with
-/// the line for a key that is missing, unknown or out of range; keys.reads() is then true. It also
-/// serves to print the tables of docs/case-file.md, and throws nothing then.
+/// default. When a case is read (keys.reads() is true), such a function stores the values in its
+/// second argument, and Error(kBadInput) with the line is thrown for a key that is missing, unknown
+/// or out of range. The same functions make the tables of docs/case-file.md; then nothing is
+/// thrown.
 ///
 /// Keys of a table [[body]]. The particles of the case must have been read.
 void body_keys(case_file::Keys& keys, RigidBodyRequest& body, const ParticlesCase& c,
@@ -157,9 +158,9 @@ void hinge_keys(case_file::Keys& keys, HingeTable& hinge, const ParticlesCase& c
                hinge.highest.value_or(0));
 }
 
-/// Reads a table [[hinge]]. Also throws Error(kBadInput) if the place of the hinge is outside the
-/// particle or body that it holds, if the motion of this particle is given, or if the angle at the
-/// start is beyond a stop.
+/// Reads a table [[hinge]]. Throws Error(kBadInput) for a wrong key, and if the place of the hinge
+/// is outside the particle or body that it holds, if the motion of this particle is given, or if
+/// the angle at the start is beyond a stop.
 Hinge read_hinge(const case_file::TomlSection& section, const ParticlesCase& c,
                  const ParticleIds& ids) {
   const auto& p = c.particles;
@@ -422,8 +423,8 @@ void check_arms(std::span<const case_file::TomlSection> sections, const Particle
 
 }  // namespace
 
-/// Reads the tables [[body]] into c.particles.bodies, and moves their members as parts of rigid
-/// bodies. Throws Error(kBadInput) in a case of spheres on an axis, too.
+/// Reads the tables [[body]] into c.particles.bodies, and replaces the velocities of their members
+/// by those of the rigid motions. Throws Error(kBadInput) in a case of spheres on an axis, too.
 void read_bodies(const case_file::TomlSection& root, ParticlesCase& c) {
   if (!root.has("body")) return;
   if (c.particles.dimension == 1)

@@ -1,5 +1,5 @@
 // Reads the sections [domain], [fluid] and [[probe]] of a case of many particles. In the units of
-// the case, lengths [L] and the viscosity [M/(L T)] are from 1e-100 to 1e100, the density [M/L^3]
+// the case, lengths [L] and the viscosity [M/(L T)] are from 1e-100 to 1e100; the density [M/L^3]
 // and the threshold gap may also be 0; coordinates [L], velocities [L/T] and rates [1/T] are at
 // most 1e100 in magnitude; the penalty [1] is from 1e-12 to 1, and there are 6 to 400 edges. A
 // wrong value is an Error(kBadInput) with its line. particles_case.cpp uses this file. A change
@@ -17,9 +17,10 @@ namespace viscontact::particles {
 namespace {
 
 /// Each function whose name ends in _keys declares the keys of a table: name, range, meaning and
-/// default. Reading a case, it stores the values in its argument and throws Error(kBadInput) with
-/// the line for a key that is missing, unknown or out of range; keys.reads() is then true. It also
-/// serves to print the tables of docs/case-file.md, and throws nothing then.
+/// default. When a case is read (keys.reads() is true), such a function stores the values in its
+/// second argument, and Error(kBadInput) with the line is thrown for a key that is missing, unknown
+/// or out of range. The same functions make the tables of docs/case-file.md; then nothing is
+/// thrown.
 ///
 /// Keys of a domain that is the inside of a circle: centre and radius [L].
 void disc_keys(case_file::Keys& keys, DiscDomain& disc) {
@@ -228,8 +229,8 @@ void velocity_keys(case_file::Keys& keys, VelocityKeys& velocity) {
 }
 
 /// Throws Error(kBadInput) if a velocity of a side is given in a domain that is no box, or for a
-/// periodic side, and if the fluxes through all sides do not add up to 0 although no side is open.
-/// `section` is the table fluid.velocity.
+/// periodic side, and if no side is open although the fluxes through all sides do not add up to 0
+/// or depend on time. `section` is the table fluid.velocity.
 void check_sides(const case_file::TomlSection& fluid, const case_file::TomlSection& section,
                  const VelocityKeys& velocity, const Domain& domain) {
   const auto* box = std::get_if<BoxDomain>(&domain);
@@ -538,7 +539,7 @@ std::vector<case_file::KeyTable> domain_and_fluid_tables() {
 
 /// The words of a command, in which each name of a file in `folder` becomes an absolute path. Other
 /// words stay as they are, and so does a first word without a slash, which is the name of a
-/// program. Throws nothing of its own.
+/// program. A working folder that the system cannot look up is a std::filesystem::filesystem_error.
 std::vector<std::string> with_absolute_files(std::vector<std::string> command,
                                              const std::filesystem::path& folder) {
   for (auto& word : command) {

@@ -113,8 +113,8 @@ void check_bodies(const case_file::TomlSection& root, const ParticlesCase& c,
     const auto& body = p.bodies.bodies[b];
     const auto masses = member_masses(body, p);
     double least = 0;
-    std::vector<std::size_t> union_of(masses.size());  // a member's number, the same for all that
-                                                       // overlap
+    // For each member a number, which is the same for members that overlap, also by way of others.
+    std::vector<std::size_t> union_of(masses.size());
     std::iota(union_of.begin(), union_of.end(), 0U);
     for (std::size_t m = 0; m < masses.size(); ++m) {
       least += masses[m] * dot(body.offsets[m], body.offsets[m]);

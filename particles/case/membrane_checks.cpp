@@ -1,9 +1,10 @@
 // Checks the membranes of a case file, which are closed lines through particles called beads;
 // membrane_keys.cpp calls these functions. Lengths [L], areas [L^2] and the other numbers are in
-// the units of the case file. A membrane has at least 4 beads, in a fluid 12, a reduced area 4 pi
-// area/perimeter^2 of at least 1e-3, in a fluid 0.3 to 0.999, and there a viscosity ratio of 1e-4
-// to 1e3. Every fault throws Error(kBadInput) with its line. case/particles_sections.hpp declares
-// the functions. A change must not refuse what users' cases may contain now.
+// the units of the case file. A membrane has at least 4 beads, or 12 in a fluid. Its reduced area,
+// 4 pi area/perimeter^2, is at least 1e-3, or from 0.3 to 0.999 in a fluid. In a fluid the
+// viscosity inside over that outside is from 1e-4 to 1e3. Every fault throws Error(kBadInput) with
+// its line. case/particles_sections.hpp declares the functions. A change must not refuse what
+// users' cases may contain now.
 
 #include <algorithm>
 #include <cmath>

@@ -36,9 +36,10 @@ struct MembraneTable {
 /// beads, must have none of these keys. `in_fluid` says that the case has a fluid.
 ///
 /// Each function whose name ends in _keys declares the keys of a table: name, range, meaning and
-/// default. Reading a case, it stores the values in its argument and throws Error(kBadInput) with
-/// the line for a key that is missing, unknown or out of range; keys.reads() is then true. It also
-/// serves to print the tables of docs/case-file.md, and throws nothing then.
+/// default. When a case is read (keys.reads() is true), such a function stores the values in its
+/// second argument, and Error(kBadInput) with the line is thrown for a key that is missing, unknown
+/// or out of range. The same functions make the tables of docs/case-file.md; then nothing is
+/// thrown.
 void shape_keys(case_file::Keys& keys, MembraneTable& table, bool in_fluid) {
   auto& membrane = table.membrane;
   const bool is_made = !keys.has("particles");
@@ -79,7 +80,9 @@ void shape_keys(case_file::Keys& keys, MembraneTable& table, bool in_fluid) {
                 {"of all beads at the start, without a fluid only", "0"});
 }
 
-/// All keys of a section [[membrane]].
+/// All keys of a section [[membrane]]. The bending rigidity is in [M L^3/T^2], or in a fluid, where
+/// it is that of a unit length of the third dimension, in [M L^2/T^2]. The bending viscosity is in
+/// [M L^3/T], viscosities of fluids in [M/(L T)].
 void membrane_keys(case_file::Keys& keys, MembraneTable& table, const ParticlesCase& c,
                    const ParticleIds& ids) {
   const bool in_fluid = c.setting.fluid.has_value();

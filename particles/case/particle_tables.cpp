@@ -48,9 +48,10 @@ void check_keys(const case_file::TomlSection& section, int dimension, bool in_fl
 }
 
 /// Each function whose name ends in _keys declares the keys of a table: name, range, meaning and
-/// default. Reading a case, it stores the values in its argument and throws Error(kBadInput) with
-/// the line for a key that is missing, unknown or out of range; keys.reads() is then true. It also
-/// serves to print the tables of docs/case-file.md, and throws nothing then.
+/// default. When a case is read (keys.reads() is true), such a function stores the values in its
+/// second argument, and Error(kBadInput) with the line is thrown for a key that is missing, unknown
+/// or out of range. The same functions make the tables of docs/case-file.md; then nothing is
+/// thrown.
 ///
 /// Keys of the motion of a driven particle: velocity [L/T] and angular velocity [1/T] as functions
 /// of time, which must be given up to `end_time` [T].

@@ -24,9 +24,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // Each function whose name ends in _keys declares the keys of a table: name, range, meaning and
-// default. Reading a case, it stores the values in its argument and throws Error(kBadInput) with
-// the line for a key that is missing, unknown or out of range; keys.reads() is then true. It also
-// serves to print the tables of docs/case-file.md, and throws nothing then.
+// default. When a case is read (keys.reads() is true), such a function stores the values in its
+// second argument, and Error(kBadInput) with the line is thrown for a key that is missing, unknown
+// or out of range. The same functions make the tables of docs/case-file.md; then nothing is thrown.
 constexpr Allowed kNotPositive = {[](double v) { return v <= 0; }, "<= 0"};
 constexpr Allowed kTolerance = {[](double v) { return v >= 1e-12 && v <= 0.1; },
                                 "from 1e-12 to 0.1"};
@@ -54,10 +54,10 @@ void space_keys(case_file::Keys& keys, ParticlesCase& c) {
                 {"acceleration of all particles", "0"});
 }
 
-/// Keys of the film between particles: either gamma_min [M L/T], <= 0, the lowest value of the
-/// impulse that the film absorbs, or viscosity [M/(L T)] and roughness [L], from which gamma_min
-/// follows. In a fluid the film has the viscosity of the fluid, unless the key `viscosity` is
-/// given.
+/// Keys of the fluid film between particles: either gamma_min [M L/T], <= 0, the lowest value of
+/// gamma, which is minus the impulse that the film has absorbed, or viscosity [M/(L T)] and
+/// roughness [L], from which gamma_min follows. In a fluid the film has the viscosity of the fluid,
+/// unless the key `viscosity` is given.
 void film_keys(case_file::Keys& keys, FilmLaw& law, const std::optional<Fluid>& fluid) {
   keys.optional("gamma_min", case_file::number(law.gamma_min, kNotPositive),
                 {"for every pair, an impulse (of discs in a fluid an impulse per length); 0: no "
