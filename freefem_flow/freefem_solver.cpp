@@ -43,7 +43,8 @@ struct SolverUnits {
 SolverUnits solver_units(const particles::Fluid& fluid, const particles::Domain& domain,
                          std::span<const double> radii);
 
-/// The fluid, the domain and lengths [L] with their numbers in the units of the solver.
+/// The fluid, the domain and lengths [L] with their numbers divided by the units of the solver. The
+/// penalty, the viscosity ratios and all times stay, and so do angles and rates [1/T].
 particles::Fluid in_units(particles::Fluid fluid, const SolverUnits& units);
 particles::Domain in_units(particles::Domain domain, const SolverUnits& units);
 std::vector<double> in_units(std::span<const double> lengths, const SolverUnits& units);
@@ -159,6 +160,9 @@ ScaledSolver::ScaledSolver(const SolverUnits& units, int dimension,
   }
 }
 
+/// Gives the solver the particles with positions and radii [L], inertia [M/T, M L^2/T], driven
+/// velocities [L/T, 1/T] and masses [M, M L^2] in its units. Arrays have `components_` numbers for
+/// each particle; angles and time steps stay.
 void ScaledSolver::place(const particles::FluidParticles& bodies) {
   particles::Particles scaled;
   scaled.dimension = bodies.particles->dimension;
@@ -193,12 +197,15 @@ void ScaledSolver::unscale_velocities(std::vector<double>& velocities) const {
     velocities[i] *= velocity_units_[i % components_];
 }
 
+/// `forces` and the result have `components_` numbers for each particle, in the units of the case.
 std::vector<double> ScaledSolver::velocities(std::span<const double> forces, bool driving) {
   auto velocities = solver_->velocities(scaled_forces(forces), driving);
   unscale_velocities(velocities);
   return velocities;
 }
 
+/// `components` x `components` numbers [T/M, T/(M L), T/(M L^2)]: row i has the velocities under a
+/// unit force or torque on component i.
 std::vector<double> ScaledSolver::mobility(std::size_t components) {
   auto matrix = solver_->mobility(components);
   for (std::size_t i = 0; i < components; ++i)
@@ -208,6 +215,8 @@ std::vector<double> ScaledSolver::mobility(std::size_t components) {
   return matrix;
 }
 
+/// Powers [M L^2/T^3], energy [M L^2/T^2], flows [L^2/T], pressures [M/(L T^2)], forces and torques
+/// in the units of the case. The apparent viscosity and the Courant number have no unit.
 particles::FlowQuantities ScaledSolver::quantities() {
   auto quantities = solver_->quantities();
   quantities.dissipation *= power_unit_;
@@ -227,6 +236,7 @@ void ScaledSolver::keep_flow(bool at_rest, std::span<const double> motions) {
   solver_->keep_flow(at_rest, scaled);
 }
 
+/// Places [L], velocities [L/T] and pressures [M/(L T^2)] of the nodes in the units of the case.
 particles::FlowField ScaledSolver::flow() {
   auto field = solver_->flow();
   for (auto* lengths : {&field.x, &field.y, &field.velocity_x, &field.velocity_y})

@@ -166,6 +166,8 @@ void fields_of(JsonFields& json, Outlier& outlier) {
   json("relative_residual", outlier.relative_residual);
 }
 
+// Gaps are in [L], residuals are relative to the force of the table [1], the other numbers are
+// counts or have no dimension.
 void fields_of(JsonFields& json, FitDiagnostics& d) {
   json("rows", d.rows);
   json("failed_rows", d.failed_rows, kLeftOutIfEmpty);
@@ -189,6 +191,8 @@ void fields_of(JsonFields& json, FitDiagnostics& d) {
   json("warnings", d.warnings);
 }
 
+// Coefficient and standard error have the unit of force [M L/T^2] over that of the term. A name
+// that is not in the table of terms is refused.
 void fields_of(JsonFields& json, FitTerm& term) {
   json("name", term.name);
   json("coefficient", term.coefficient);
@@ -199,6 +203,8 @@ void fields_of(JsonFields& json, FitTerm& term) {
               names_of(all_terms()));
 }
 
+// The reference velocity is in [L/T], the viscosity in [M/(L T)], radius and gaps are in [L], the
+// leading coefficient in [M L/T]; residuals and the condition number have no dimension.
 void fields_of(JsonFields& json, Fit& fit) {
   json("basis", fit.basis);
   json("reference_velocity", fit.reference_velocity, kNotZero);

@@ -113,7 +113,7 @@ std::optional<Term> find_term(std::string_view name) {
 
 const std::vector<Basis>& all_bases() {
   static const std::vector<Basis> bases = {
-      // the first one is the default
+      // The first basis is the default. Another order would change the fits of users.
       make_basis("lecture", "1/q, 1, q, q^2, q^3"),
       make_basis("asymptotic", "1/q, ln q, 1, q ln q, q"),
       make_basis("asymptotic_extended", "1/q, ln q, 1, q ln q, q, q^2 ln q, q^2, q^3"),

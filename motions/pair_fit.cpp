@@ -168,6 +168,7 @@ void fields_of(JsonFields& json, EntryFit& entry) {
   json("theory", entry.theory, Absence::kLeftOutIfEmpty);
 }
 
+// A resistance that the fit lacks has no key.
 void fields_of(JsonFields& json, std::map<PairEntry, EntryFit>& entries) {
   for (std::size_t i = 0; i < pair_entries().size(); ++i) {
     const auto which = static_cast<PairEntry>(i);

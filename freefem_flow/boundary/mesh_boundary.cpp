@@ -56,6 +56,7 @@ class BoundaryMaker {
     return std::move(boundary_);
   }
 
+  /// The points are (distance from the axis, z), with the floor at z = 0.
   MeshBoundary of(const particles::CylinderDomain& cylinder) {
     const double radius = cylinder.radius, height = cylinder.height;
     const auto wall = [&](const Point& x) { return on_wall(x); };

@@ -77,6 +77,8 @@ class MembraneProcess : public particles::FluidSolver {
   void place(const particles::FluidParticles& bodies) override;
   std::vector<double> velocities(std::span<const double> forces, bool driving) override;
   std::vector<double> mobility(std::size_t components) override;
+  /// Dissipation, apparent viscosity [1] (0: not known) and forces of the fluid on the particles,
+  /// from the last velocities() with `driving`, which must have been called.
   particles::FlowQuantities quantities() override {
     particles::FlowQuantities quantities;
     quantities.dissipation = dissipation_;
@@ -124,6 +126,9 @@ class MembraneProcess : public particles::FluidSolver {
   long peak_memory_kb_ = 0;  // largest memory [kB] of the processes that were replaced
 };
 
+/// Writes the opening and starts the process. The opening has the lines of opening() for the discs
+/// and then, for each membrane, a line with its numbers of beads and edges and its viscosity ratio
+/// [1], and the rows of the matrix `smoothing`. `radii` [L] are those of all particles.
 MembraneProcess::MembraneProcess(const particles::Fluid& fluid, const particles::Domain& domain,
                                  std::span<const double> radii, double unit, SolverCommand command,
                                  const SolverLimits& limits)

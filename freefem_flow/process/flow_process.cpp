@@ -89,6 +89,8 @@ class TemporaryFolder {
 
 }  // namespace
 
+/// Starts the process and waits until it is ready. `radii` [L] are those of all particles, and
+/// `dimension` is 2 in the plane and 1 on an axis. `make_boundary` makes the boundary of a mesh.
 FlowProcess::FlowProcess(const particles::Fluid& fluid, const particles::Domain& domain,
                          std::span<const double> radii, int dimension, SolverCommand command,
                          MeshBoundaryMaker make_boundary, const SolverLimits& limits)
@@ -178,6 +180,8 @@ std::size_t FlowProcess::ask_to_place(const std::string& boundary) {
   return unknowns;
 }
 
+/// The velocities of all particles under `forces`. With `driving`, walls and driven particles move;
+/// otherwise they are at rest.
 std::vector<double> FlowProcess::velocities(std::span<const double> forces, bool driving) {
   assert(forces.size() == components_);
   if (driving) forces_.assign(forces.begin(), forces.end());
@@ -234,6 +238,7 @@ std::string FlowProcess::saved_flow() {
   return text;
 }
 
+/// `flow` is the text that saved_flow() of an earlier process returned. The solver goes on from it.
 void FlowProcess::load_flow(const std::string& flow) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "flow.msh";

@@ -97,6 +97,7 @@ WallCoefficients wall_coefficients(const particles::Fluid& fluid, int label,
   return side_coefficients(label, sides[static_cast<std::size_t>(label - 1)], step);
 }
 
+/// True if the wall with this label is an open side of a box.
 bool is_open(const particles::Fluid& fluid, int label) {
   const auto* sides = std::get_if<particles::SideVelocities>(&fluid.boundary);
   return sides != nullptr &&

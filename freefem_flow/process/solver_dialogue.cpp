@@ -59,6 +59,8 @@ double in_seconds(ChildProcess::Clock::duration time) {
 
 }  // namespace
 
+/// Starts the program. `first_limit` is the time limit of the first answer, and `time_limit` that
+/// of each later one.
 SolverDialogue::SolverDialogue(const SolverCommand& command, std::chrono::milliseconds time_limit,
                                std::chrono::milliseconds first_limit, const StopToken& stop)
     : name_(command_in_words(command.arguments)),
@@ -136,6 +138,7 @@ void SolverDialogue::expect(std::string_view word, bool skip_lines) {
 
 std::string SolverDialogue::word() { return std::string(next_word()); }
 
+/// The next word as a finite number; number_from_zero() requires a number >= 0.
 double SolverDialogue::number() {
   const auto value = parse_number(next_word());
   if (!value) refuse("a finite number");
