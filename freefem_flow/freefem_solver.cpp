@@ -1,7 +1,7 @@
 // The commands of fluid solvers, and the units in which FreeFEM computes, for app/ and python/.
-// Numbers are in the units of the case if nothing else is said: lengths [L] and the viscosity
-// [M/(L T)] are > 0, velocities in [L/T, 1/T], forces and torques in [M L/T^2, M L^2/T^2], in the
-// plane with masses per unit length of the third dimension. Time limits are 1 to 10 million
+// Numbers are in the units of the case if no other units are named: lengths [L] and the viscosity
+// [M/(L T)] are > 0, velocities in [L/T, 1/T], forces and torques in [M L/T^2, M L^2/T^2]; in the
+// plane a mass is that of a unit length of the third dimension. Time limits are 1 to 10 million
 // seconds. A solver that does not start is an Error(kExternalProgram), a particle too small for its
 // mesh or a wrong domain an Error(kBadInput), a gap too narrow for the mesh an
 // Error(kNotConverged), a wrong time limit in the environment an Error(kWrongUsage), and a
@@ -31,9 +31,9 @@
 namespace viscontact::freefem_flow {
 namespace {
 
-/// The units in which FreeFEM computes. The members are powers of 2 with which the radius of the
-/// smallest particle or membrane and the viscosity are between 0.7 and 1.5. The unit of time is
-/// that of the case.
+/// The units in which FreeFEM computes. The members are the powers of 2 with which the radius of
+/// the smallest particle or membrane, and the viscosity, become numbers between 0.7 and 1.5. The
+/// unit of time is that of the case.
 struct SolverUnits {
   double length = 1;     ///< [L], > 0
   double viscosity = 1;  ///< [M/(L T)], > 0
@@ -43,12 +43,14 @@ struct SolverUnits {
 SolverUnits solver_units(const particles::Fluid& fluid, const particles::Domain& domain,
                          std::span<const double> radii);
 
-/// The fluid, the domain and lengths [L] with their numbers in the units of the solver.
+/// The fluid, the domain and lengths [L] with their numbers divided by the units of the solver. The
+/// penalty, the viscosity ratios and all times stay, and so do angles and rates [1/T].
 particles::Fluid in_units(particles::Fluid fluid, const SolverUnits& units);
 particles::Domain in_units(particles::Domain domain, const SolverUnits& units);
 std::vector<double> in_units(std::span<const double> lengths, const SolverUnits& units);
 
-/// A fluid solver in the units of the case, which asks a solver that computes in other units.
+/// A fluid solver whose arguments and results are in the units of the case. It changes the
+/// arguments to SolverUnits, asks another solver, and changes the results back.
 class ScaledSolver : public particles::FluidSolver {
  public:
   /// `dimension`: 2 in the plane, 1 on the axis of a cylinder.
@@ -64,7 +66,8 @@ class ScaledSolver : public particles::FluidSolver {
   particles::SecondMesh vary_mesh() override { return solver_->vary_mesh(); }
   particles::FlowField flow() override;
   void keep_flow(bool at_rest, std::span<const double> motions) override;
-  // The saved flow stays in the solver's units, which a later run of the case computes again.
+  // The saved flow stays in the units of the solver, because a later run of the same case computes
+  // the same units.
   std::string saved_flow() override { return solver_->saved_flow(); }
   void load_flow(const std::string& flow) override { solver_->load_flow(flow); }
   std::size_t unknowns() const override { return solver_->unknowns(); }
@@ -77,14 +80,14 @@ class ScaledSolver : public particles::FluidSolver {
   void unscale_velocities(std::vector<double>& velocities) const;
 
   SolverUnits units_;
-  std::size_t components_;  ///< of the motion of a particle: 3 in the plane, 1 on an axis
+  std::size_t components_;  ///< of the motion of one particle: 3 in the plane, 1 on axis
   // The solver's units of these components, and of the forces and torques on a particle.
   std::array<double, 3> velocity_units_{}, force_units_{};
   double power_unit_ = 1;  ///< the solver's unit of a power, per unit length in the plane
   std::unique_ptr<particles::FluidSolver> solver_;
 };
 
-/// The power of 2 that is nearest to a number > 0.
+/// The power of 2 whose logarithm is nearest to that of `number`, which must be > 0 (not checked).
 double power_of_2(double number) { return std::exp2(std::round(std::log2(number))); }
 
 SolverUnits solver_units(const particles::Fluid& fluid, const particles::Domain& domain,
@@ -157,6 +160,9 @@ ScaledSolver::ScaledSolver(const SolverUnits& units, int dimension,
   }
 }
 
+/// Gives the solver the particles with positions and radii [L], inertia [M/T, M L^2/T], driven
+/// velocities [L/T, 1/T] and masses [M, M L^2] in its units. Arrays have `components_` numbers for
+/// each particle; angles and time steps stay.
 void ScaledSolver::place(const particles::FluidParticles& bodies) {
   particles::Particles scaled;
   scaled.dimension = bodies.particles->dimension;
@@ -191,12 +197,15 @@ void ScaledSolver::unscale_velocities(std::vector<double>& velocities) const {
     velocities[i] *= velocity_units_[i % components_];
 }
 
+/// `forces` and the result have `components_` numbers for each particle, in the units of the case.
 std::vector<double> ScaledSolver::velocities(std::span<const double> forces, bool driving) {
   auto velocities = solver_->velocities(scaled_forces(forces), driving);
   unscale_velocities(velocities);
   return velocities;
 }
 
+/// `components` x `components` numbers [T/M, T/(M L), T/(M L^2)]: row i has the velocities under a
+/// unit force or torque on component i.
 std::vector<double> ScaledSolver::mobility(std::size_t components) {
   auto matrix = solver_->mobility(components);
   for (std::size_t i = 0; i < components; ++i)
@@ -206,6 +215,8 @@ std::vector<double> ScaledSolver::mobility(std::size_t components) {
   return matrix;
 }
 
+/// Powers [M L^2/T^3], energy [M L^2/T^2], flows [L^2/T], pressures [M/(L T^2)], forces and torques
+/// in the units of the case. The apparent viscosity and the Courant number have no unit.
 particles::FlowQuantities ScaledSolver::quantities() {
   auto quantities = solver_->quantities();
   quantities.dissipation *= power_unit_;
@@ -225,6 +236,7 @@ void ScaledSolver::keep_flow(bool at_rest, std::span<const double> motions) {
   solver_->keep_flow(at_rest, scaled);
 }
 
+/// Places [L], velocities [L/T] and pressures [M/(L T^2)] of the nodes in the units of the case.
 particles::FlowField ScaledSolver::flow() {
   auto field = solver_->flow();
   for (auto* lengths : {&field.x, &field.y, &field.velocity_x, &field.velocity_y})
@@ -253,7 +265,7 @@ double extent_of(const particles::Domain& domain) {
     return std::max(box->to[0] - box->from[0], box->to[1] - box->from[1]);
   if (const auto* cylinder = std::get_if<particles::CylinderDomain>(&domain))
     return std::max(cylinder->radius, cylinder->height);
-  return 0;  // refused when the solver starts
+  return 0;  // no domain: the solver refuses it when it starts
 }
 
 /// Throws Error(kBadInput) if FreeFEM would refuse the edges on the smallest of the particles with
@@ -291,6 +303,7 @@ void refuse_short_edges(const MeshBoundary& boundary, double size, double unit) 
     }
 }
 
+/// The advice for a user whose solver did not answer in time: the end of a message.
 std::string if_silent() {
   return fmt::format("on a slow machine set {} to more seconds", freefem::kTimeLimit);
 }
@@ -304,6 +317,7 @@ SolverCommand freefem_command(const std::string& script) {
   // systems before, because all share one sequence of random numbers. After a system of at most
   // kMostReproduced unknowns, which is safely below 5000, later answers have the same bits.
   command.environment.emplace_back("SCOTCH_PTHREAD_NUMBER=1");
+  // A smaller value is allowed, but then FreeFEM is started again more often.
   constexpr std::size_t kMostReproduced = 4000;
   return {std::move(command.arguments), std::move(command.environment), std::move(command.folder),
           std::string(freefem::kHowToInstall),
@@ -315,8 +329,9 @@ SolverCommand freefem_command(const std::string& script) {
 
 }  // namespace
 
-/// `dimension`: 2 in the plane, 1 on the axis of a cylinder. Throws Error(kExternalProgram) if
-/// there is no such script; that the program exists is not checked.
+/// The command of the case's own solver, if the case names one, or else of FreeFEM with the script
+/// for the mesh. `dimension` is 2 in the plane and 1 on the axis of a cylinder. Throws
+/// Error(kExternalProgram) if the script does not exist; that the program exists is not checked.
 SolverCommand solver_command(const particles::Fluid& fluid, int dimension) {
   if (!fluid.solver.empty()) {
     SolverCommand own;
@@ -328,7 +343,8 @@ SolverCommand solver_command(const particles::Fluid& fluid, int dimension) {
   return freefem_command(script_of(fluid.mesh, dimension));
 }
 
-/// Throws Error(kWrongUsage) for a wrong time limit in the environment.
+/// Returns the default limits, or with a time limit in the user's environment this limit for each
+/// answer and for the start. Throws Error(kWrongUsage) if the time limit is not allowed.
 SolverLimits solver_limits(const StopToken& stop) {
   SolverLimits limits;
   limits.stop = stop;
@@ -336,8 +352,9 @@ SolverLimits solver_limits(const StopToken& stop) {
   return limits;
 }
 
-/// `radii` [L] are those of all particles, > 0; `dimension` is 2 in the plane and 1 on an axis.
-/// Never null.
+/// Starts the solver of the fluid and waits until it is ready. `radii` [L], > 0, are those of all
+/// particles; `dimension` is 2 in the plane and 1 on an axis. The result is never null. A program
+/// of the user's gets the units of the case, FreeFEM gets SolverUnits.
 std::unique_ptr<particles::FluidSolver> start_fluid_solver(const particles::Fluid& fluid,
                                                            const particles::Domain& domain,
                                                            std::span<const double> radii,

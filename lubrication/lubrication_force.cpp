@@ -1,6 +1,6 @@
 // The resistance R(q) > 0 [M/T] of a sphere at the gap q > 0 [L], its derivative, its primitive
-// Gamma [M L/T], and the inverse of Gamma: by a sum of fitted terms in the interval [q1, q2] of the
-// fit, and by simple formulas for other gaps. Lengths, masses and times are in any consistent
+// Gamma [M L/T], and the inverse of Gamma. In the interval [q1, q2] of a fit R is a sum of fitted
+// terms; at other gaps simple formulas replace it. Lengths, masses and times are in any consistent
 // units. A gap that is not allowed (outside [q1, q2] without such a formula, or NaN) and a fit
 // whose resistance is not positive are an Error(kBadInput), a result that a double cannot hold an
 // Error(kNotConverged). Used by reduced_model/, fitting/, rolling/, pipeline/, report/ and python/.
@@ -19,11 +19,13 @@
 namespace viscontact::lubrication {
 namespace {
 
-// Range of gap/radius in which the exact drag and its integral are doubles of full precision.
+// The range of gap/radius [1] in which the exact drag and its integral are computed, because both
+// are doubles of full precision there.
 constexpr std::array kExactRange = {1e-300, 1e300};
 
 }  // namespace
 
+/// The exact drag of a plane; `viscosity` [M/(L T)] and `radius` [L] must be > 0 (not checked).
 LubricationForce::LubricationForce(double viscosity, double radius)
     : exact_(true),
       radius_(radius),
@@ -41,6 +43,9 @@ OutsideInterval OutsideInterval::with_limits() const {
           AboveInterval::kStokesLimit};
 }
 
+/// The drag of a fit. `outside` says which formula or error applies at gaps outside [q1, q2].
+/// Throws Error(kBadInput) if R is not positive and finite at one of 201 gaps, if a term is not
+/// known, or if theory's coefficient is asked for and missing.
 LubricationForce::LubricationForce(const Fit& fit, const OutsideInterval& outside)
     : radius_(fit.radius),
       viscosity_(fit.viscosity),
@@ -68,6 +73,10 @@ LubricationForce::LubricationForce(const Fit& fit, const OutsideInterval& outsid
   impulses_at_ends_ = {impulse(fitted_interval_[0]), impulse(fitted_interval_[1])};
 }
 
+/// Sets the constants of the formulas outside [q1, q2], such that R is continuous: k [M L/T] and a
+/// constant [M/T] of R = k/q + constant below q1, and the length `image_` [L] of R = R_S (1 +
+/// image_/(q + r)) above q2, where R_S is Stokes' resistance 6 pi viscosity r [M/T] and r [L] the
+/// radius.
 void LubricationForce::set_limits(const Fit& fit) {
   const auto [smallest, largest] = fitted_interval_;
   if (outside_.below == BelowInterval::kLubricationLimit && leading_ > 0)
@@ -83,12 +92,16 @@ void LubricationForce::set_limits(const Fit& fit) {
   image_ = (resistance(largest) / stokes_resistance(viscosity_, radius_) - 1) * (largest + radius_);
 }
 
+/// The smallest and the largest gap [L] at which R is known. If R is known at all smaller gaps > 0,
+/// the first number is 0; if R is known at all larger gaps, the second one is infinite.
 std::array<double, 2> LubricationForce::interval() const {
   return {outside_.below == BelowInterval::kError ? fitted_interval_[0] : 0.0,
           outside_.above == AboveInterval::kError ? fitted_interval_[1]
                                                   : std::numeric_limits<double>::infinity()};
 }
 
+/// Throws Error(kBadInput) if R is not known at `gap` [L], and Error(kNotConverged) for the exact
+/// drag if the gap is too small for a double.
 void LubricationForce::check_gap(double gap) const {
   const auto [smallest, largest] = fitted_interval_;
   const bool allowed =
@@ -127,12 +140,15 @@ double LubricationForce::leading_coefficient() const {
   return leading_;
 }
 
+/// The constants k > 0 [M L/T] and constant [M/T] of R = k/q + constant below q1. Throws
+/// Error(kBadInput) if the fit has no k > 0.
 LubricationForce::LubricationLimit LubricationForce::limit() const {
   if (!(limit_.k > 0)) (void)leading_coefficient();  // throws if the fit has no k
   return limit_;
 }
 
-/// R(q) - k/q [M/T], also for q = 0; below the interval it is the value at q1.
+/// R(q) - k/q [M/T], of any sign, with the fitted coefficient k [M L/T] of 1/q. The gap may be 0.
+/// Below the interval the result is the value at q1.
 double LubricationForce::regular_resistance(double gap) const {
   if (exact_)
     return leading_ / radius_ * plane_drag_factor_regular(std::max(gap / radius_, kExactRange[0]));
@@ -142,7 +158,7 @@ double LubricationForce::regular_resistance(double gap) const {
   return sum_values(regular_weights_, from);
 }
 
-/// The integral of R - k/q from 0 to q [M L/T], for q >= 0.
+/// The integral of R - k/q over gaps from 0 to `gap` >= 0 [L], in [M L/T], of any sign.
 double LubricationForce::regular_impulse(double gap) const {
   if (exact_)
     return gap > 0 ? leading_ * plane_drag_regular_integral(std::max(gap / radius_, kExactRange[0]))
@@ -159,6 +175,8 @@ double LubricationForce::regular_impulse(double gap) const {
   return to_smallest + in_interval + above;
 }
 
+/// R [M/T], > 0. Throws the errors of check_gap(), and Error(kNotConverged) if R is too large for a
+/// double.
 double LubricationForce::resistance(double gap) const {
   check_gap(gap);
   if (exact_) return leading_ / radius_ * plane_drag_factor(gap / radius_);
@@ -185,6 +203,8 @@ double LubricationForce::resistance_log_slope(double gap) const {
   return sum_log_slopes(weights_, gap);
 }
 
+/// Gamma [M L/T]: the integral of R over gaps from the radius to `gap` [L]. It increases with the
+/// gap. Throws the errors of check_gap().
 double LubricationForce::impulse(double gap) const {
   check_gap(gap);
   if (exact_) return leading_ * plane_drag_integral(gap / radius_);
@@ -199,8 +219,9 @@ double LubricationForce::impulse(double gap) const {
   return sum_antiderivatives(weights_, gap) - impulse_at_radius_;
 }
 
-/// ln(q/r) of two gaps between which Gamma is `impulse_wanted` [M L/T]. Throws Error(kBadInput) if
-/// the gap is outside the allowed ones, and Error(kNotConverged) if it is too small for a double.
+/// ln(q/r) [1] of two gaps q, between which lies the gap with Gamma = `impulse_wanted` [M L/T]; r
+/// is the radius. Throws Error(kBadInput) if this gap is not allowed or the impulse is not finite,
+/// and Error(kNotConverged) if it is too small for a double.
 std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted) const {
   if (!std::isfinite(impulse_wanted))
     throw Error(ErrorKind::kBadInput,
@@ -229,8 +250,8 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
                   "\"lubrication_limit\" in the section [fit] of the case)",
                   smallest, largest);
     // Below the interval R = k/q + c. With s = ln q, Gamma(q) = impulse is the equation
-    // k (s - ln q1) + c (e^s - q1) = impulse - Gamma(q1). Without its second term s is known; the
-    // term changes s by less than |c| q1/k.
+    // k (s - ln q1) + c (e^s - q1) = impulse - Gamma(q1). Without the term with c, s would be
+    // known; this term changes s by less than |c| q1/k.
     const auto [k, constant] = limit();
     const double by_leading_term = low + (impulse_wanted - least) / k;
     const double by_constant = constant * smallest / k;
@@ -254,8 +275,9 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
   return {high, std::log((largest + beyond / std::min(stokes, resistance(largest))) / radius_)};
 }
 
-/// The gap [L] at which Gamma is `impulse_wanted` [M L/T]; the search begins at the gap `near` > 0
-/// [L], or, if it is infinite, in the middle. Throws the errors of bracket_of_impulse().
+/// The gap [L] at which Gamma is `impulse_wanted` [M L/T]. The search begins at the gap `near` > 0
+/// [L] or, if `near` is infinite, in the middle of the possible gaps. Throws the errors of
+/// bracket_of_impulse().
 double LubricationForce::gap_of_impulse(double impulse_wanted, double near) const {
   // Near contact Gamma is almost linear in s = ln(q/r), so Newton's method in s converges fast. ln
   // q instead of ln(q/r) would make rounding errors depend on the unit of length.

@@ -1,10 +1,11 @@
-// The table of terms, the functions of the gap q > 0 that a fit combines, and the named bases. q is
-// a number in the unit of length of the fit, and l = ln q; a term q^n or q^n ln q has the unit of
-// length to the power n. That q > 0, and that there is a weight for each term, is not checked. An
-// unknown name, an empty one or one that is named twice is an Error(kBadInput). Used by fitting/,
-// motions/, rolling/, case_file/, app/ and other files of lubrication/. A new term or basis needs
-// only a row here. A change must keep the names, the order of kTerms, in which sums are added, and
-// that log_slope is q times the derivative of value, and antiderivative a primitive of value.
+// The table of terms, which are the functions of the gap q > 0 that a fit combines, and the bases,
+// which are named lists of terms. q is a number in the unit of length of the fit, and l = ln q; a
+// term q^n or q^n ln q has the unit of length to the power n. That q > 0, and that there is a
+// weight for each term, is not checked. An unknown name, an empty name or a name that stands twice
+// in a list is an Error(kBadInput). This file is used by fitting/, motions/, rolling/, case_file/,
+// app/ and other files of lubrication/. A new term or basis needs only a row here. A change must
+// keep the names and the order of kTerms, in which sums are added. log_slope must be q times the
+// derivative of value, and antiderivative a primitive of value.
 #include "viscontact/lubrication/terms.hpp"
 
 #include <array>
@@ -44,6 +45,7 @@ constexpr std::array kTerms = {
 
 #undef FORMULA
 
+/// The text without blanks and tabs at both ends.
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
@@ -57,13 +59,16 @@ void add_term(Basis& basis, std::string_view name) {
   basis.terms.push_back(require_named(kTerms, name, "term"));
 }
 
+/// The basis with the name `name` and the terms whose names `terms` lists, separated by commas.
 Basis make_basis(std::string_view name, std::string_view terms) {
   Basis basis = parse_terms(terms);
   basis.name = name;
   return basis;
 }
 
-/// Sum of weight * formula over all terms. Each formula is known at compile time and inlined.
+/// Sum of weight * formula over all terms at `gap` > 0. `weights` has one number for each term, in
+/// the order of kTerms; a term of weight 0 is left out. The sum has the unit of a weight times that
+/// of its formula. Each formula is known at compile time and inlined.
 template <Formula Term::*formula>
 double sum_of(std::span<const double> weights, double gap) {
   const double log_gap = std::log(gap);
@@ -95,11 +100,12 @@ double sum_antiderivatives(std::span<const double> weights, double gap) {
   return sum_of<&Term::antiderivative>(weights, gap);
 }
 
+/// The place of the term in kTerms, from 0.
 std::size_t place_of(std::string_view term) {
   return static_cast<std::size_t>(&require_named(kTerms, term, "term") - kTerms.data());
 }
 
-/// Nothing, and no error, if there is no such term.
+/// The term with this name. If there is none, returns nothing and throws no error.
 std::optional<Term> find_term(std::string_view name) {
   const auto* term = find_named(kTerms, name);
   return term == nullptr ? std::nullopt : std::optional(*term);
@@ -107,7 +113,7 @@ std::optional<Term> find_term(std::string_view name) {
 
 const std::vector<Basis>& all_bases() {
   static const std::vector<Basis> bases = {
-      // the first one is the default
+      // The first basis is the default. Another order would change the fits of users.
       make_basis("lecture", "1/q, 1, q, q^2, q^3"),
       make_basis("asymptotic", "1/q, ln q, 1, q ln q, q"),
       make_basis("asymptotic_extended", "1/q, ln q, 1, q ln q, q, q^2 ln q, q^2, q^3"),
@@ -119,6 +125,7 @@ const Basis& default_basis() { return all_bases().front(); }
 
 const Basis& find_basis(std::string_view name) { return require_named(all_bases(), name, "basis"); }
 
+/// The basis of the terms in `names`, separated by commas, in this order.
 Basis parse_terms(std::string_view names) {
   Basis basis{kOwnTerms, {}};
   for (std::size_t begin = 0; begin <= names.size();) {

@@ -1,9 +1,9 @@
 // Computes the dissipation of the fluid without particles, >= 0, in closed form, for linear flows
 // and plane Couette flow: in a disc or box per unit length of the third dimension [M L/T^3], in a
-// cylinder [M L^2/T^3]. process/flow_process.cpp and membranes/membrane_process.cpp use it. Units
-// are those of the arguments. Ranges are not checked (the viscosity [M/(L T)] and the lengths are
-// positive); nothing is thrown. A change must keep that the result is exactly 0 if no closed form
-// is known, because callers take 0 for "not known".
+// cylinder [M L^2/T^3]. process/flow_process.cpp and membranes/membrane_process.cpp use this file.
+// Numbers are in the units of the arguments. The viscosity [M/(L T)] and the lengths must be
+// positive, which is not checked; nothing is thrown. A change must keep that the result is exactly
+// 0 if no closed form is known, because callers take 0 for "not known".
 #include "viscontact/freefem_flow/process/dissipation_alone.hpp"
 
 namespace viscontact::freefem_flow {
@@ -45,6 +45,10 @@ double shear_rate_squared(const WallVelocity& low, const WallVelocity& high, std
 
 }  // namespace
 
+/// Returns the viscosity times the area or volume of the domain times the square of a rate [1/T^2]:
+/// 2 D:D in a linear flow, and the squared shear rate between the two walls of a box that is
+/// periodic along these walls. Returns 0 if a pressure gradient drives the fluid, and in all other
+/// cases, for example with open or parabolic sides.
 double dissipation_alone(const particles::Fluid& fluid, const particles::Domain& domain) {
   const double scale = fluid.viscosity * particles::measure(domain);
   const auto* box = std::get_if<BoxDomain>(&domain);

@@ -1,8 +1,8 @@
-// Writes the requests to a fluid solver and reads the answers (docs/fluid-solver.md, with which a
-// change must agree), for freefem_solver.cpp and membranes/. In the units of the arguments
-// velocities are in [L/T, 1/T], forces and torques in [M L/T^2, M L^2/T^2], 3 numbers for each
-// particle in the plane and 1 on an axis; sizes of arrays are only asserted. A wrong answer is an
-// Error(kExternalProgram), a number for the solver that is not finite an Error(kNotConverged), a
+// Writes the requests to a fluid solver and reads its answers, for freefem_solver.cpp and
+// membranes/. A change must agree with docs/fluid-solver.md. In the units of the arguments
+// velocities are in [L/T, 1/T], forces and torques in [M L/T^2, M L^2/T^2]. Arrays have 3 numbers
+// for each particle in the plane and 1 on an axis; their sizes are only asserted. A wrong answer is
+// an Error(kExternalProgram), a number for the solver that is not finite an Error(kNotConverged), a
 // wrong domain or a file of the flow that cannot be read or written an Error(kBadInput), a missing
 // temporary folder an Error(kWrongUsage), and a requested stop an Error(kInterrupted). A change
 // must keep that numbers read back to the same double.
@@ -31,15 +31,15 @@ namespace {
 using particles::FluidParticles;
 
 // The error on a mesh that is too large to be refined is estimated from a coarser mesh, whose edges
-// are longer by this factor.
+// are longer by this factor. If it changes, so does kErrorOfDifference.
 constexpr double kCoarsening = 2;
 
-// Estimated error on the finer mesh over the difference of the results on both meshes, which is
-// 1/(2^p - 1) for errors that fall as the power p of the length of edges. In theory p is 4. The
-// coarser mesh is too coarse for this, so that p = 3 is taken, which gives a larger estimate.
+// Estimated error on the finer mesh, divided by the difference of the results on both meshes. If
+// errors fall as the power p of the length of edges, this ratio is 1/(2^p - 1). In theory p is 4.
+// The coarser mesh is too coarse for this, so that p = 3 is taken, which gives a larger estimate.
 constexpr double kErrorOfDifference = 1.0 / 7;
 
-/// Appends one line for each particle: its centre [L] and, in the plane, its angle.
+/// Appends one line for each particle: its centre [L] and, in the plane, its angle [rad].
 void append_places(std::string& text, const FluidParticles& bodies, int dimension) {
   const auto& positions = bodies.particles->positions;
   const auto width = static_cast<std::size_t>(dimension);
@@ -50,7 +50,8 @@ void append_places(std::string& text, const FluidParticles& bodies, int dimensio
   }
 }
 
-/// Appends the number of driven particles, and a line with the number and the motion of each.
+/// Appends how many particles are driven, and for each one a line with its number, from 0, and its
+/// motion [L/T, 1/T].
 void append_driven(std::string& text, const FluidParticles& bodies, int dimension) {
   text += fmt::format("driven {}\n", bodies.driven.size());
   for (const auto& [k, motion] : bodies.driven) {
@@ -88,6 +89,8 @@ class TemporaryFolder {
 
 }  // namespace
 
+/// Starts the process and waits until it is ready. `radii` [L] are those of all particles, and
+/// `dimension` is 2 in the plane and 1 on an axis. `make_boundary` makes the boundary of a mesh.
 FlowProcess::FlowProcess(const particles::Fluid& fluid, const particles::Domain& domain,
                          std::span<const double> radii, int dimension, SolverCommand command,
                          MeshBoundaryMaker make_boundary, const SolverLimits& limits)
@@ -106,6 +109,8 @@ FlowProcess::FlowProcess(const particles::Fluid& fluid, const particles::Domain&
   start();
 }
 
+/// Ends the process, if there is one, starts a new one, sends the opening and the probes, and notes
+/// whether the solver asks for boundaries or only for places.
 void FlowProcess::start() {
   if (solver_)
     peak_memory_of_earlier_ = std::max(peak_memory_of_earlier_, solver_->peak_memory_kb());
@@ -130,6 +135,8 @@ void FlowProcess::start() {
 
 FlowProcess::~FlowProcess() = default;
 
+/// Sends places, driven motions, inertia and, in a fluid with inertia, the time step; also the
+/// boundary of the mesh if the solver asks for it. Throws what make_boundary_ throws, too.
 void FlowProcess::place(const FluidParticles& bodies) {
   assert(bodies.particles->count() * particles::motion_components(dimension_) == components_);
   assert(dimension_ == 1 || bodies.angles.size() == bodies.particles->count());
@@ -152,8 +159,9 @@ void FlowProcess::place(const FluidParticles& bodies) {
   }
   boundary_ = wants_boundary_ ? words_of(make_boundary_(bodies, 1)) : "";
   coarser_boundary_.clear();
-  // A process that has solved a large system gives other rounding errors afterwards. With inertia
-  // it stays, because it remembers the flow and does not use the random numbers that are the cause.
+  // A process that has solved a large system gives other rounding errors afterwards. A process for
+  // a fluid with inertia is kept, because it remembers the flow. It does not use the random numbers
+  // that cause these other rounding errors.
   if (!fluid_.has_inertia() && largest_system_ > command_.most_unknowns_reproduced) start();
   unknowns_ = ask_to_place(boundary_);
   is_on_coarser_mesh_ = false;
@@ -161,6 +169,7 @@ void FlowProcess::place(const FluidParticles& bodies) {
     coarser_boundary_ = words_of(make_boundary_(bodies, kCoarsening));
 }
 
+/// Returns the number of unknowns, 0 to 2^53, that the solver answers.
 std::size_t FlowProcess::ask_to_place(const std::string& boundary) {
   solver_->ask("place", placement_ + boundary);
   solver_->expect("placed", command_.remarks_on_meshes);
@@ -171,6 +180,8 @@ std::size_t FlowProcess::ask_to_place(const std::string& boundary) {
   return unknowns;
 }
 
+/// The velocities of all particles under `forces`. With `driving`, walls and driven particles move;
+/// otherwise they are at rest.
 std::vector<double> FlowProcess::velocities(std::span<const double> forces, bool driving) {
   assert(forces.size() == components_);
   if (driving) forces_.assign(forces.begin(), forces.end());
@@ -181,6 +192,9 @@ std::vector<double> FlowProcess::velocities(std::span<const double> forces, bool
   return solver_->numbers(components_);
 }
 
+/// Reads in this order: the dissipation, the dissipation without particles (0: the solver does not
+/// know it), the forces of the fluid; with inertia the kinetic energy and the Courant number; for
+/// each probe the flow [L^2/T] and the pressure [M/(L T^2)].
 particles::FlowQuantities FlowProcess::quantities() {
   solver_->ask("quantities", "quantities\n");
   solver_->expect("quantities");
@@ -201,6 +215,8 @@ particles::FlowQuantities FlowProcess::quantities() {
   return quantities;
 }
 
+/// Asks the solver to keep its last flow, or a flow at rest, for the next time step. `motions` are
+/// the velocities of all particles.
 void FlowProcess::keep_flow(bool at_rest, std::span<const double> motions) {
   assert(motions.size() == components_);
   std::string text = at_rest ? "keep rest" : "keep flow";
@@ -209,6 +225,7 @@ void FlowProcess::keep_flow(bool at_rest, std::span<const double> motions) {
   solver_->expect("kept");
 }
 
+/// The text of the file that the solver writes, whose last line must be "complete".
 std::string FlowProcess::saved_flow() {
   const TemporaryFolder folder;
   const auto file = folder.path() / "flow.msh";
@@ -221,6 +238,7 @@ std::string FlowProcess::saved_flow() {
   return text;
 }
 
+/// `flow` is the text that saved_flow() of an earlier process returned. The solver goes on from it.
 void FlowProcess::load_flow(const std::string& flow) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "flow.msh";
@@ -229,19 +247,23 @@ void FlowProcess::load_flow(const std::string& flow) {
   solver_->expect("loaded");
 }
 
+/// Returns the factor >= 0 that the solver answers.
 double FlowProcess::vary_penalty() {
   solver_->ask("vary", "vary penalty\n");
   solver_->expect("varied");
   return solver_->number_from_zero();
 }
 
+/// Goes on to the coarser mesh, if place() made one, or else asks the solver to refine its mesh.
+/// Returns the three factors [1], >= 0, of SecondMesh.
 particles::SecondMesh FlowProcess::vary_mesh() {
   if (!coarser_boundary_.empty()) {
     ask_to_place(coarser_boundary_);
     is_on_coarser_mesh_ = true;
     return {0, kErrorOfDifference, kErrorOfDifference};
   }
-  largest_system_ = std::max(largest_system_, 4 * unknowns_);  // of the refined mesh
+  // The refined mesh has four times as many unknowns.
+  largest_system_ = std::max(largest_system_, 4 * unknowns_);
   solver_->ask("vary", "vary mesh\n");
   solver_->expect("varied");
   particles::SecondMesh second;
@@ -254,6 +276,7 @@ double FlowProcess::peak_memory_mebibytes() const {
   return static_cast<double>(std::max(peak_memory_of_earlier_, solver_->peak_memory_kb())) / 1024;
 }
 
+/// After vary_mesh() has gone on to the coarser mesh, first solves again on the finer one.
 particles::FlowField FlowProcess::flow() {
   if (is_on_coarser_mesh_) {
     ask_to_place(boundary_);
@@ -264,8 +287,8 @@ particles::FlowField FlowProcess::flow() {
   return read_flow(*solver_);
 }
 
-/// Reads places [L], velocities [L/T] and pressures [M/(L T^2)] of the nodes, and the nodes of the
-/// triangles, from 0.
+/// Asks for the flow and reads places [L], velocities [L/T] and pressures [M/(L T^2)] of the nodes,
+/// and the six nodes, counted from 0, of each triangle.
 particles::FlowField read_flow(SolverDialogue& solver) {
   solver.ask("flow", "flow\n");
   solver.expect("flow");

@@ -1,7 +1,7 @@
-// Writes the first text that a fluid solver gets, for flow_process.cpp and
+// Writes the opening, the first text that a fluid solver gets, for flow_process.cpp and
 // membranes/membrane_process.cpp. In the units of the arguments, radii and lengths [L] and the
-// viscosity [M/(L T)] are > 0, velocities in [L/T], gradients in [1/T], the density in [M/L^3];
-// that numbers are finite and in range is not checked. A domain that is missing, or does not fit
+// viscosity [M/(L T)] are > 0; velocities are in [L/T], gradients in [1/T], the density in [M/L^3].
+// That numbers are finite and in range is not checked. A domain that is missing, or does not fit
 // the dimension or the velocities of sides, is an Error(kBadInput). A change must agree with
 // docs/fluid-solver.md and with scripts/opening.idp; numbers must read back to the same double, and
 // the labels 1 to 4 of a box must be in the order of particles::SideVelocities.
@@ -29,6 +29,9 @@ std::string words_of(std::span<const double> values) {
   return text;
 }
 
+/// The kind and the lengths [L] of the domain: a disc with centre x, y and radius; a box with its
+/// lower left and upper right corners and 1 or 0 for each axis, periodic or not; a cylinder with
+/// radius and height.
 std::string domain_line(const particles::Domain& domain) {
   if (const auto* disc = std::get_if<DiscDomain>(&domain))
     return "domain disc" + words_of(std::array{disc->centre[0], disc->centre[1], disc->radius});
@@ -39,8 +42,9 @@ std::string domain_line(const particles::Domain& domain) {
   return "domain cylinder" + words_of(std::array{cylinder.radius, cylinder.height});
 }
 
-/// The labels of the walls: a box 1 left, 2 right, 3 bottom, 4 top; a disc 1; a cylinder 1 side,
-/// 2 floor, 3 lid. Periodic sides of a box are no walls.
+/// The labels of the walls. A box has the walls 1 left, 2 right, 3 bottom and 4 top; a disc has the
+/// wall 1; a cylinder has the walls 1 side, 2 floor and 3 lid. Periodic sides of a box are no
+/// walls.
 std::vector<int> walls_of(const particles::Domain& domain) {
   if (std::holds_alternative<DiscDomain>(domain)) return {1};
   if (std::holds_alternative<CylinderDomain>(domain)) return {1, 2, 3};
@@ -51,8 +55,9 @@ std::vector<int> walls_of(const particles::Domain& domain) {
   return labels;
 }
 
-/// The coefficients a0, ax, ay, b0, bx, by, p, q of the velocity (a0 + ax x + ay y, b0 + bx x +
-/// by y) + 4 s (1 - s) (p, q) of a wall, on which s goes from 0 to 1. On a cylinder, x is the
+/// The eight coefficients, in the order a0, ax, ay, b0, bx, by, p, q, of the velocity of a wall at
+/// the point (x, y): (a0 + ax x + ay y, b0 + bx x + by y) + 4 s (1 - s) (p, q), where s goes from 0
+/// to 1 along the wall. a0, b0, p and q are in [L/T], the others in [1/T]. On a cylinder, x is the
 /// distance from the axis and y is z.
 using WallCoefficients = std::array<double, 8>;
 
@@ -60,7 +65,8 @@ std::string wall_line(int label, const char* kind, const WallCoefficients& coeff
   return fmt::format("{} {}{}\n", label, kind, words_of(coefficients));
 }
 
-/// The coefficients of the side of a box with this label at the time of `step`; 0 if it is open.
+/// The coefficients of the side of a box with this label, 1 to 4, at the time of `step`. They are
+/// all 0 if the side is open, which means that fluid flows through it freely.
 WallCoefficients side_coefficients(int label, const WallVelocity& velocity,
                                    const particles::FlowStep& step) {
   const auto value = velocity.at(step.time, step.from, step.to);
@@ -79,7 +85,8 @@ WallCoefficients side_coefficients(int label, const WallVelocity& velocity,
   return coefficients;
 }
 
-/// The coefficients of the wall with this label at the time of `step`.
+/// The coefficients of the wall with this label at the time of `step`. In a linear flow they are
+/// those of the gradient, and do not depend on the wall.
 WallCoefficients wall_coefficients(const particles::Fluid& fluid, int label,
                                    const particles::FlowStep& step) {
   if (const auto* flow = std::get_if<particles::LinearFlow>(&fluid.boundary)) {
@@ -90,6 +97,7 @@ WallCoefficients wall_coefficients(const particles::Fluid& fluid, int label,
   return side_coefficients(label, sides[static_cast<std::size_t>(label - 1)], step);
 }
 
+/// True if the wall with this label is an open side of a box.
 bool is_open(const particles::Fluid& fluid, int label) {
   const auto* sides = std::get_if<particles::SideVelocities>(&fluid.boundary);
   return sides != nullptr &&
@@ -114,7 +122,9 @@ void check_domain(const particles::Fluid& fluid, const particles::Domain& domain
 
 }  // namespace
 
-/// `dimension`: 2 in the plane, 1 on the axis of a cylinder. `radii` may be empty.
+/// The lines of the opening in the order in which the solver reads them. `dimension` is 2 in the
+/// plane and 1 on the axis of a cylinder. `radii` [L] has one number for each particle, or none.
+/// The version in the first line is 3 for a fluid with inertia and 2 otherwise.
 std::string opening(const particles::Fluid& fluid, const particles::Domain& domain,
                     std::span<const double> radii, int dimension) {
   check_domain(fluid, domain, dimension);
@@ -161,7 +171,8 @@ std::string opening(const particles::Fluid& fluid, const particles::Domain& doma
   return text;
 }
 
-/// One line of eight numbers for each wall. Throws nothing if opening() accepted the arguments.
+/// One line for each wall, in the order of walls_of(), with its eight WallCoefficients at the time
+/// of `step`. Throws nothing if opening() accepted the arguments.
 std::string walls_at(const particles::Fluid& fluid, const particles::Domain& domain,
                      const particles::FlowStep& step) {
   std::string text;

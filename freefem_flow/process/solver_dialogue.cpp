@@ -1,11 +1,12 @@
 // Asks a fluid solver and checks its answers, and writes numbers and boundaries for it;
-// flow_process.cpp and membranes/membrane_process.cpp use it. Numbers have the units of the caller
-// and are finite; time limits are > 0 milliseconds, from the request on. Each fault of the solver
-// (it ends, is late, answers wrongly, or its program cannot be run) is an Error(kExternalProgram),
-// after which only ask() may be called, which throws the same; a number for it that is not finite
-// is an Error(kNotConverged), a requested stop an Error(kInterrupted), and a system without free
-// sockets a std::system_error. A change must keep that a solver that does not answer is killed at
-// its time limit, and the messages that docs/troubleshooting.md quotes.
+// flow_process.cpp and membranes/membrane_process.cpp use this file. Numbers have the units of the
+// caller and are finite. Time limits are > 0 milliseconds and begin with the request. Each fault of
+// the solver (it ends, is late, answers wrongly, or its program cannot be run) is an
+// Error(kExternalProgram); afterwards only ask() may be called, which then always throws an
+// Error(kExternalProgram). A number for the solver that is not finite is an Error(kNotConverged), a
+// requested stop an Error(kInterrupted), and a system without free sockets a std::system_error. A
+// change must keep that a solver that does not answer is killed at its time limit, and the messages
+// that docs/troubleshooting.md quotes.
 #include "viscontact/freefem_flow/process/solver_dialogue.hpp"
 
 #include <fmt/format.h>
@@ -26,9 +27,11 @@ using namespace std::chrono_literals;
 // How long a solver that has failed may take to write its last lines and to end; a free choice.
 constexpr auto kGraceOfFailed = 1000ms;
 
-// How long a solver may take to end after the request `end`; docs/fluid-solver.md promises it.
+// How long a solver may take to end after the request `end`; docs/fluid-solver.md promises this
+// time.
 constexpr auto kGraceAtEnd = 2000ms;
 
+/// The program and its arguments as a user would type them.
 std::string command_in_words(const std::vector<std::string>& arguments) {
   std::string text;
   for (const auto& argument : arguments) text += (text.empty() ? "" : " ") + shell_word(argument);
@@ -56,6 +59,8 @@ double in_seconds(ChildProcess::Clock::duration time) {
 
 }  // namespace
 
+/// Starts the program. `first_limit` is the time limit of the first answer, and `time_limit` that
+/// of each later one.
 SolverDialogue::SolverDialogue(const SolverCommand& command, std::chrono::milliseconds time_limit,
                                std::chrono::milliseconds first_limit, const StopToken& stop)
     : name_(command_in_words(command.arguments)),
@@ -71,12 +76,15 @@ SolverDialogue::SolverDialogue(const SolverCommand& command, std::chrono::millis
   }
 }
 
+/// Asks the solver to end, and kills it after kGraceAtEnd.
 SolverDialogue::~SolverDialogue() {
   if (!process_) return;
   process_->send("end\n");
   process_->finish(kGraceAtEnd);
 }
 
+/// Sends `text`. `name` is what messages call the request. Throws Error(kExternalProgram) if there
+/// is output of the solver that no answer needed.
 void SolverDialogue::ask(std::string_view name, std::string_view text) {
   if (!process_)
     throw Error(ErrorKind::kExternalProgram,
@@ -90,6 +98,7 @@ void SolverDialogue::ask(std::string_view name, std::string_view text) {
   process_->send(text);
 }
 
+/// Calls the function `what` of the process, which reads a word or a line, with the time limit.
 SolverDialogue::Reading SolverDialogue::read(
     Reading (ChildProcess::*what)(ChildProcess::Clock::time_point)) {
   try {
@@ -100,6 +109,7 @@ SolverDialogue::Reading SolverDialogue::read(
   }
 }
 
+/// The next word of the answer. It is valid until the next call that reads.
 std::string_view SolverDialogue::next_word() {
   const auto reading = read(&ChildProcess::read_word);
   if (reading.state == ChildProcess::State::kRead) {
@@ -109,9 +119,11 @@ std::string_view SolverDialogue::next_word() {
   fail_without_answer(reading.state);
 }
 
+/// Reads words until one is `word`. Without `skip_lines` the first word must be `word`; with it, up
+/// to 1000 other lines may come before.
 void SolverDialogue::expect(std::string_view word, bool skip_lines) {
   awaited_ = in_quotes(word);
-  constexpr int kMostLines = 1000;  // docs/fluid-solver.md promises it
+  constexpr int kMostLines = 1000;  // docs/fluid-solver.md promises this number
   for (int i = 0; i < kMostLines; ++i) {
     if (next_word() == word) return;
     if (!skip_lines) refuse(in_quotes(word));
@@ -126,6 +138,7 @@ void SolverDialogue::expect(std::string_view word, bool skip_lines) {
 
 std::string SolverDialogue::word() { return std::string(next_word()); }
 
+/// The next word as a finite number; number_from_zero() requires a number >= 0.
 double SolverDialogue::number() {
   const auto value = parse_number(next_word());
   if (!value) refuse("a finite number");
@@ -138,6 +151,7 @@ double SolverDialogue::number_from_zero() {
   return value;
 }
 
+/// Reads `count` finite numbers. The counters are for the message if the solver is late.
 std::vector<double> SolverDialogue::numbers(std::size_t count) {
   std::vector<double> values(count);
   numbers_asked_ = count;
@@ -146,6 +160,7 @@ std::vector<double> SolverDialogue::numbers(std::size_t count) {
   return values;
 }
 
+/// Reads a whole number from 0 to `largest`.
 std::int64_t SolverDialogue::whole_number(std::int64_t largest) {
   const auto word = next_word();
   std::int64_t value = 0;
@@ -155,6 +170,7 @@ std::int64_t SolverDialogue::whole_number(std::int64_t largest) {
   return value;
 }
 
+/// Throws the error that the last word was read in place of `needed`.
 void SolverDialogue::refuse(std::string_view needed) {
   process_->put_word_back();
   const std::string word(process_->read_word(ChildProcess::Clock::now()).text);
@@ -162,6 +178,7 @@ void SolverDialogue::refuse(std::string_view needed) {
   fail(fmt::format("it answered {} in place of {}", in_quotes(word), needed), kGraceOfFailed);
 }
 
+/// Throws the error whose text is the rest of the line, after the solver wrote `error`.
 void SolverDialogue::fail_as_solver_says() {
   const auto line = read(&ChildProcess::read_line);
   const auto start = line.text.find_first_not_of(" \t\r");
@@ -170,6 +187,7 @@ void SolverDialogue::fail_as_solver_says() {
        kGraceOfFailed);
 }
 
+/// Throws the error that no word was read; `state` says why.
 void SolverDialogue::fail_without_answer(ChildProcess::State state) {
   switch (state) {
     case ChildProcess::State::kTimedOut:
@@ -194,6 +212,8 @@ std::string SolverDialogue::asked_in_words() const {
                      in_seconds(ChildProcess::Clock::now() - asked_at_));
 }
 
+/// Ends the solver, which gets the time `grace` to end by itself, and throws
+/// Error(kExternalProgram) with `reason` and the last lines that the solver wrote.
 void SolverDialogue::fail(const std::string& reason, std::chrono::milliseconds grace) {
   const std::string asked = asked_in_words();
   const std::string end = process_->finish(grace);
@@ -207,6 +227,8 @@ void SolverDialogue::fail(const std::string& reason, std::chrono::milliseconds g
                             : fmt::format("its last lines: {}", fmt::join(lines, " | ")));
 }
 
+/// Appends a space and a number for each of `values`. `what` is what the message calls a number
+/// that is not finite.
 void append(std::string& text, std::span<const double> values, const char* what) {
   for (const double value : values) {
     if (!std::isfinite(value))
@@ -217,6 +239,8 @@ void append(std::string& text, std::span<const double> values, const char* what)
   }
 }
 
+/// A line with the numbers of points and curves, a line with the coordinates [L] of each point, and
+/// a line for each curve: its first point, from 0, its number of edges and its label.
 std::string words_of(const MeshBoundary& boundary) {
   std::string text =
       fmt::format("boundary {} {}\n", boundary.points.size(), boundary.curves.size());

@@ -4,9 +4,9 @@
 // Error(kBadInput) with the remedy, and so are a table that cannot be read or does not belong to
 // the others, and a fit that cannot be written; terms that cannot be told apart are an
 // Error(kNotConverged), a stop is an Error(kInterrupted). A path that the system cannot look up,
-// such as one in a folder without permission, is a std::filesystem::filesystem_error. Used by app/,
-// rolling/job/ and python/. A change must keep the names MOTION.csv and must not write a fit again
-// that did not change.
+// such as one in a folder without permission, is a std::filesystem::filesystem_error. This file is
+// used by app/, rolling/job/ and python/. A change must keep the names approach.csv, slide.csv,
+// roll.csv and spin.csv of tables, and must not write a fit again that did not change.
 #include "viscontact/motions/job/pair_fit_stage.hpp"
 
 #include <fmt/format.h>
@@ -27,6 +27,10 @@ namespace {
 namespace fs = std::filesystem;
 using lubrication::MotionKind;
 
+/// The line that is printed for a resistance (`entry`): its largest relative residual [1]; if it is
+/// known, the largest relative residual of an inner row in a fit without this row (inner rows are
+/// not at the smallest or the largest gap); and the coefficient of the leading term beside that of
+/// theory, if theory knows it.
 std::string words_of(const NamedEntry& entry, const EntryFit& one) {
   std::string text = fmt::format("  {:<10}  residual {:.1e} at most (relative)", entry.name,
                                  one.fit.largest_relative_residual);
@@ -40,6 +44,7 @@ std::string words_of(const NamedEntry& entry, const EntryFit& one) {
   return text;
 }
 
+/// The path of the table of this motion in a folder: MOTION.csv.
 fs::path table_of(const fs::path& folder, MotionKind motion) {
   return folder / fmt::format("{}.csv", to_string(motion));
 }
@@ -91,6 +96,9 @@ void check_complete(const fs::path& folder, const std::vector<fs::path>& files) 
 
 }  // namespace
 
+/// The paths of tables that `paths` means: a file stands for itself, a folder for its tables, in
+/// the order approach, slide, roll, spin. Throws Error(kBadInput) for a folder without a table, or
+/// in which one is missing.
 std::vector<fs::path> pair_table_files(const std::vector<std::string>& paths) {
   std::vector<fs::path> files;
   for (const auto& path : paths) {
@@ -111,6 +119,8 @@ std::vector<fs::path> pair_table_files(const std::vector<std::string>& paths) {
   return files;
 }
 
+/// True if the tables must be fitted as a pair: there are several, one of `paths` is a folder, or
+/// the only table is not that of the approach. False for a single table of the approach.
 bool are_of_pair(const std::vector<std::string>& paths, const std::vector<fs::path>& files) {
   return files.size() > 1 ||
          std::ranges::any_of(paths,
@@ -118,6 +128,7 @@ bool are_of_pair(const std::vector<std::string>& paths, const std::vector<fs::pa
          (files.size() == 1 && lubrication::is_motion_table(files.front()));
 }
 
+/// Reads the tables, one for each motion. Throws Error(kBadInput) if two are of the same motion.
 PairTables read_pair_tables(const std::vector<fs::path>& files) {
   PairTables tables;
   for (const auto& file : files) {
@@ -129,6 +140,8 @@ PairTables read_pair_tables(const std::vector<fs::path>& files) {
   return tables;
 }
 
+/// Fits the tables in `files`, writes the fit to `fit_path` unless this file has the same content
+/// already, and prints warnings and a line for each resistance.
 void fit_pair_stage(const std::vector<fs::path>& files, const fs::path& fit_path,
                     const PairFitSettings& settings, const StopToken& stop) {
   const auto provenance = results::provenance_of({files, {}});
@@ -152,6 +165,9 @@ void fit_pair_stage(const std::vector<fs::path>& files, const fs::path& fit_path
     terminal::say(words_of(pair_entries()[static_cast<std::size_t>(which)], one));
 }
 
+/// Fits the tables with each basis and prints the largest relative residuals [1]: as a table with a
+/// line for each basis and a column for each resistance, or with `json` as an object. The basis in
+/// `settings` is not used. An error of one fit ends the comparison.
 void compare_pair_bases_stage(const std::vector<fs::path>& files, PairFitSettings settings,
                               bool json, const StopToken& stop) {
   const auto tables = read_pair_tables(files);

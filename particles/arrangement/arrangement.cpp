@@ -1,11 +1,11 @@
 // Places discs or spheres at random in a disc or box such that all gaps have at least a given
-// length. Lengths are in the unit of the case file: radii [L] are > 0, at least one, and the least
-// gap [L] is >= 0 (not checked); results are 2 or 3 coordinates [L] for each particle. Throws
-// Error(kBadInput) if the particles do not fit, or if ten random beginnings fail, and
-// std::bad_variant_access if the domain is neither a disc nor a box. particles/case and
-// particles/sweep use it. A change must keep the arrangement of each seed bit for bit on every
-// machine. Therefore only + - * / and sqrt may be used, and the compiler must not fuse a product
-// and a sum into one operation (-ffp-contract=off in CMakeLists.txt).
+// length. Lengths are in the unit of the case file. Radii [L] are > 0, the least gap [L] is >= 0,
+// and there is at least one particle (not checked); the result has 2 or 3 coordinates [L] for each
+// particle. Throws Error(kBadInput) if the particles do not fit, or if ten arrangements from new
+// random places fail, and std::bad_variant_access if the domain is neither a disc nor a box.
+// particles/case and particles/sweep use this file. A change must keep the arrangement of each seed
+// bit for bit on every machine. Therefore only + - * / and sqrt may be used, and the compiler must
+// not fuse a product and a sum into one operation (-ffp-contract=off in CMakeLists.txt).
 #include "viscontact/particles/arrangement/arrangement.hpp"
 
 #include <fmt/format.h>
@@ -102,7 +102,8 @@ class Places {
     return {centre_[0] + factor * dx, centre_[1] + factor * dy};
   }
 
-  /// A random point of the region, uniformly distributed.
+  /// A random point of the region [L], uniformly distributed. The region must not be empty (not
+  /// checked).
   Vector random(SplitMix64& random) const {
     for (;;) {
       Vector x{};
@@ -123,6 +124,8 @@ class Places {
   }
 
  private:
+  // round_: the region is a disc with this radius [L] and centre [L]. from_, to_: lowest and
+  // highest coordinates of the region [L]; periods_ [L]: 0 along an axis without a period.
   bool round_ = false;
   std::size_t dimension_ = 2;
   double radius_ = 0;
@@ -131,8 +134,9 @@ class Places {
 
 double length_of(const Vector& x) { return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); }
 
-/// Square root (dimension 2) or cube root (3) of `size` > 0. The cube root is computed by Newton's
-/// method, because that of the C library differs between machines.
+/// The square root (dimension 2) or cube root (dimension 3) of `size`, which must be > 0 (not
+/// checked). The cube root is computed by Newton's method, because that of the C library differs
+/// between machines.
 double edge_of(double size, std::size_t dimension) {
   if (dimension == 2) return std::sqrt(size);
   double root = size < 1 ? 1 : size;  // at least the cube root, so that the iterates fall to it
@@ -142,7 +146,8 @@ double edge_of(double size, std::size_t dimension) {
   }
 }
 
-/// A particle that is in the domain before the new ones are placed, and stays where it is [L].
+/// A particle that is in the domain before the new ones are placed, and stays where it is. Both
+/// members are in [L].
 struct FixedParticle {
   Vector centre;
   double radius;
@@ -190,6 +195,7 @@ class PlacedParticles {
     centres_.push_back(x);
   }
 
+  /// Moves the centre of particle k to `x` [L].
   void move(std::size_t k, const Vector& x) {
     const std::size_t before = cell_of(centres_[k]), now = cell_of(x);
     centres_[k] = x;
@@ -236,9 +242,11 @@ class PlacedParticles {
   }
 
  private:
+  /// The number of a cell of the grid, from 0, by its place along the three axes.
   std::size_t number_of(const std::array<std::size_t, 3>& place) const {
     return (place[0] * cells_[1] + place[1]) * cells_[2] + place[2];
   }
+  /// The place, from 0 along each axis, of the cell with the point `x` [L].
   std::array<std::size_t, 3> place_of(const Vector& x) const {
     std::array<std::size_t, 3> place{};
     for (std::size_t d = 0; d < dimension(); ++d) {
@@ -265,16 +273,16 @@ class PlacedParticles {
   std::vector<double> radii_;
   double gap_;
   std::vector<FixedParticle> fixed_;
-  std::array<std::size_t, 3> cells_{1, 1, 1};
-  std::vector<std::vector<std::size_t>> numbers_;
-  std::vector<Vector> centres_;
+  std::array<std::size_t, 3> cells_{1, 1, 1};      // number of cells along each axis
+  std::vector<std::vector<std::size_t>> numbers_;  // of the particles in each cell
+  std::vector<Vector> centres_;                    // of the particles that are placed [L]
 };
 
 /// Moves particles that are too close apart, in up to `rounds` rounds over all of them. Returns
 /// true as soon as none is too close after a round, otherwise false.
 bool push_apart(PlacedParticles& placed, int rounds) {
   // The aim of a push is 1.001 times the distance that two particles must have, because pushes
-  // approach their aim without reaching it.
+  // approach their aim without reaching it. Another factor changes the arrangements of seeds.
   constexpr double kFurther = 1 + 1e-3;
   const auto is_free = [&](std::size_t k) { return placed.is_free(placed.centres()[k], k); };
   for (int round = 0; round < rounds; ++round) {
@@ -305,8 +313,9 @@ bool push_apart(PlacedParticles& placed, int rounds) {
   return false;
 }
 
-/// Moves particles at random and keeps the moves that leave all gaps large enough. `size` is the
-/// area or volume of the domain [L^2, L^3].
+/// Moves particles at random and keeps the moves that leave all gaps large enough. `size` > 0 is
+/// the area or volume of the domain [L^2, L^3]. The numbers of moves and the lengths of steps below
+/// are free choices, but other ones change the arrangements of seeds.
 void shuffle(PlacedParticles& placed, double size, SplitMix64& random) {
   const auto count = placed.count();
   const auto dimension = placed.dimension();

@@ -1,10 +1,10 @@
 // Decides when the particles that a source adds to a simulation are due, and where they appear. In
-// the units of the case file, `rate` [1/T] is > 0, times [T] are >= 0, `end` is later than `begin`,
-// the corners of the region [L] are in order, radii [L] and masses [M] are > 0; nothing is checked
-// or thrown. A particle that finds no place waits. simulation.cpp and particles/run use it. A
-// change must keep the due times and places bit for bit, because users repeat runs by their seeds.
-// Therefore the compiler must not fuse a product and a sum into one operation (-ffp-contract=off in
-// CMakeLists.txt).
+// the units of the case file, the rate [1/T] of a source is > 0, times [T] are >= 0, its `end` is
+// later than its `begin`, `from` and `to` [L] are the lowest and the highest corner of its box, and
+// radii [L] and masses [M] are > 0; nothing is checked or thrown. A particle for which no place is
+// free waits. simulation.cpp and particles/run use this file. A change must keep the due times and
+// places bit for bit, because users repeat runs by their seeds. Therefore the compiler must not
+// fuse a product and a sum into one operation (-ffp-contract=off in CMakeLists.txt).
 #include "viscontact/particles/arrangement/source.hpp"
 
 #include <algorithm>
@@ -31,7 +31,8 @@ std::size_t Source::due(double time) const {
 
 namespace {
 
-/// Numbers of the particles that a new one of this radius [L] in the box of the source may touch.
+/// The numbers, from 0, of those particles of `p` that a new particle of this radius [L] in the box
+/// of the source may touch.
 std::vector<std::size_t> near_region(const Source& source, double radius, const Particles& p) {
   const Vector middle = 0.5 * (source.from + source.to), half = source.to - middle;
   std::vector<std::size_t> near;
@@ -49,8 +50,9 @@ std::vector<std::size_t> near_region(const Source& source, double radius, const 
   return near;
 }
 
-/// A place where particle `number` (from 0) of a source, of this radius [L], touches nothing [L];
-/// std::nullopt if 1000 random places are not free, a number that bounds the time.
+/// A random place [L] in the box of the source where its particle `number` (from 0), which has this
+/// radius [L], touches nothing. If 1000 random places are not free, the result is std::nullopt. The
+/// number 1000 bounds the time; another one changes runs.
 std::optional<Vector> free_place(const Source& source, double radius, std::size_t number,
                                  const State& state, std::span<const PlanePosition> obstacles) {
   constexpr int kTries = 1000;
@@ -74,7 +76,8 @@ std::optional<Vector> free_place(const Source& source, double radius, std::size_
   return {};
 }
 
-/// Appends a particle to all arrays; `turns` says whether it needs a rotation.
+/// Appends a particle with its centre at `place` [L] and the velocity `velocity` [L/T] to all
+/// arrays of `p`. If `turns` is true, the arrays of angles and angular velocities grow, too.
 void add(const DrawnParticle& particle, const Vector& place, const Vector& velocity, bool turns,
          Particles& p) {
   for (std::size_t d = 0; d < static_cast<std::size_t>(p.dimension); ++d) {
@@ -98,6 +101,8 @@ DrawnSpecies species_after(std::int64_t poured, const Source& source, const Stat
 
 }  // namespace
 
+/// Adds the progress of each new source to `state`, sets Source::begin [T] of all sources to the
+/// times in `state`, and draws the particles again that were added before.
 Pouring::Pouring(std::vector<Source>& sources, State& state) : waiting_(sources.size()) {
   for (std::size_t s = 0; s < sources.size(); ++s) {
     auto& source = sources[s];
@@ -140,6 +145,8 @@ void Pouring::pour(const Setting& setting, State& state) {
   }
 }
 
+/// For each source with particles that are due but not added: its number, from 0, how many wait,
+/// and the radius [L] of the first of them.
 std::vector<WaitingParticles> waiting_particles(const std::vector<Source>& sources,
                                                 const State& state) {
   std::vector<WaitingParticles> waiting;

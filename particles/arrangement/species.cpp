@@ -1,10 +1,12 @@
-// Draws the species, radius > 0 [L] and mass >= 0 [M] of one particle after the other, in the units
-// of the case. Densities are in [M/L^2] (discs) or [M/L^3] (spheres), shares > 0, sigma is at most
-// 1, and there is at least one species; nothing is checked or thrown. particles/case and source.cpp
-// use it. A change must keep hash_of(), whose values restart files store, and the radii of each
-// seed bit for bit on every machine. Therefore the compiler must not fuse a product and a sum into
-// one operation (-ffp-contract=off in CMakeLists.txt), and only + - * / sqrt, floor, frexp and
-// ldexp may be used; exp and log of the C library differ between versions.
+// Draws particles one after the other: which species (kind of particles) each one has, its radius
+// [L], which is positive, and its mass [M], which is positive or 0. Numbers are in the units of the
+// case. Densities are in [M/L^2] (discs) or [M/L^3] (spheres), shares are > 0, the standard
+// deviation sigma of the logarithm of a radius is at most 1, and there is at least one species;
+// nothing is checked or thrown. particles/case and source.cpp use this file. A change must keep
+// hash_of(), whose values restart files store, and the radii of each seed bit for bit on every
+// machine. Therefore the compiler must not fuse a product and a sum into one operation
+// (-ffp-contract=off in CMakeLists.txt), and only + - * / sqrt, floor, frexp and ldexp may be used;
+// exp and log of the C library differ between versions.
 #include "viscontact/particles/arrangement/species.hpp"
 
 #include <algorithm>
@@ -80,6 +82,7 @@ DrawnSpecies::DrawnSpecies(std::vector<Species> species, int dimension, std::uin
       dimension_(dimension),
       random_(splitmix_hash(seed) ^ 0x7370656369657321ULL) {}
 
+/// The next particle of the sequence, which has no end.
 DrawnParticle DrawnSpecies::next() {
   // For m species, Tijdeman's rule ("The chairman assignment problem", Discrete Mathematics 32,
   // 1980) keeps the number of particles of each species within 1 - 1/(2m - 2) (`farthest`) of its
@@ -115,14 +118,16 @@ DrawnParticle DrawnSpecies::next() {
                                       : species.mass};
 }
 
+/// The next `count` particles of the sequence.
 std::vector<DrawnParticle> drawn(DrawnSpecies species, std::size_t count) {
   std::vector<DrawnParticle> particles;
   while (particles.size() < count) particles.push_back(species.next());
   return particles;
 }
 
-/// As many particles as bring the sum of their areas or volumes nearest to `size` [L^2] or [L^3],
-/// at least 1.
+/// The next particles of the sequence, as many as bring the sum of their areas (dimension 2) [L^2]
+/// or volumes (dimension 3) [L^3] nearest to `size` > 0, but at least 1 and at most
+/// `largest_count`.
 std::vector<DrawnParticle> drawn_to_size(DrawnSpecies species, int dimension, double size,
                                          std::size_t largest_count) {
   std::vector<DrawnParticle> particles;
@@ -138,6 +143,8 @@ std::vector<DrawnParticle> drawn_to_size(DrawnSpecies species, int dimension, do
   return particles;
 }
 
+/// A hash of all numbers of the species, in this order. Restart files store it, so that a run that
+/// continues can see whether its species are the same.
 std::uint64_t hash_of(const std::vector<Species>& species) {
   std::uint64_t hash = species.size();
   const auto add = [&](double number) {

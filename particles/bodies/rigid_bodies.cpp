@@ -1,11 +1,12 @@
 // Makes rigid bodies of several discs or spheres, and moves them in a time step (docs/physics.md
-// (5.11)). Lengths [L], masses [M] and times [T] are in any consistent units, turns in [rad]; steps
-// h [T] must be > 0, and free_step() needs a mass [M] and an inertia [M L^2] > 0. simulation.cpp,
-// free_motion.cpp, case/, constraints/, fluid/, impacts/ and links/ use it. Nothing is checked or
-// thrown: wrong numbers give infinite results or NaN, and if the iteration for the turn of a body
-// does not converge, its last value is taken. A change must keep that a body that crosses no side
-// of a periodic cell has the same bits as without periods, and that the angular momentum stays
-// constant to rounding without a torque.
+// (5.11)). Lengths [L], masses [M] and times [T] are in any consistent units, turns in [rad]. The
+// length h [T] of a step must be > 0, and free_step() needs a mass [M] and an inertia [M L^2] > 0.
+// `dimension` is 2 for discs, of which only component 2 of turns counts, and 3 for spheres.
+// simulation.cpp, free_motion.cpp, case/, constraints/, fluid/, impacts/ and links/ use this file.
+// Nothing is checked or thrown: wrong numbers give infinite results or NaN, and if the iteration
+// for the turn of a body does not converge, its last value is taken. A change must keep that a body
+// that crosses no side of a periodic cell has the same bits as without periods, and that the
+// angular momentum stays constant to rounding without a torque.
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
 
 #include <algorithm>
@@ -17,7 +18,8 @@
 namespace viscontact::particles {
 namespace {
 
-/// Adds the inertia of the point mass m at the vector r from the centre: m (|r|^2 - r r^T).
+/// Adds the inertia [M L^2] of the point mass m [M] at the vector r [L] from the centre, which is m
+/// times |r|^2 times the unit matrix, minus m r r^T.
 void add_point_mass(Matrix3& inertia, double mass, const Vector& r) {
   const double square = dot(r, r);
   for (std::size_t i = 0; i < 3; ++i)
@@ -25,12 +27,14 @@ void add_point_mass(Matrix3& inertia, double mass, const Vector& r) {
       inertia[3 * i + j] += mass * ((i == j ? square : 0) - r[i] * r[j]);
 }
 
-/// Vector `k` of an array with one number for each disc (component 2), three for each sphere.
+/// Vector `k` of an array that has one number for each disc, which is component 2 of its vector, or
+/// three numbers for each sphere.
 Vector turn_of(const std::vector<double>& values, std::size_t k, int dimension) {
   if (dimension == 3) return {values[3 * k], values[3 * k + 1], values[3 * k + 2]};
   return {0, 0, values[k]};
 }
 
+/// Sets vector `k` of an array as in turn_of() to `to`.
 void set_turn(std::vector<double>& values, std::size_t k, int dimension, const Vector& to) {
   if (dimension != 3) {
     values[k] = to[2];
@@ -41,14 +45,15 @@ void set_turn(std::vector<double>& values, std::size_t k, int dimension, const V
 
 /// Which images of its members make a body, along one axis of a periodic cell.
 struct Cut {
-  std::vector<double> periods;  ///< of each member: periods to it from its image in the body
+  std::vector<double> periods;  ///< number of periods from each member's image in the body to it
   double widest = 0;  ///< largest distance of two neighbours, which is outside the body [L]
   int count = 0;  ///< number of distances equal to `widest`; if it is 1, the images are determined
 };
 
-/// Along axis `axis` (0 to 2), which has a period, the members and their images lie on a circle.
-/// The circle is cut at the largest distance between neighbours. This makes the body as short as it
-/// can be, and depends neither on the order of the members nor on where the cell begins.
+/// Chooses the images of the members (numbers of particles) along axis `axis` (0 to 2), which must
+/// have a period. The members and their images lie on a circle along it. The circle is cut at the
+/// largest distance between neighbours. This makes the body as short as it can be, and depends
+/// neither on the order of the members nor on where the cell begins.
 Cut cut_of(const Particles& p, const std::vector<std::int32_t>& members, std::size_t axis) {
   const double period = p.cell.lengths[axis];
   const auto first = p.position(index_of(members[0]));
@@ -68,8 +73,9 @@ Cut cut_of(const Particles& p, const std::vector<std::int32_t>& members, std::si
                                               : sorted[0] + period - sorted[m]);
   const auto widest = std::ranges::max_element(distances);
   cut.widest = *widest;
-  // Distances that differ by less than a billionth of the period count as equal. A billionth is far
-  // more than the rounding errors of positions, and far less than a user would distinguish.
+  // Distances that differ by less than a billionth of the period count as equal. A billionth, a
+  // free choice, is far more than the rounding errors of positions, and far less than a user would
+  // distinguish.
   constexpr double kEqual = 1e-9;
   cut.count = static_cast<int>(std::ranges::count_if(
       distances, [&](double distance) { return distance >= cut.widest - kEqual * period; }));
@@ -134,7 +140,8 @@ void sum_members(const Particles& p, const RigidBodyRequest& request, RigidBody&
               own * turn_of(p.angular_velocities, k, p.dimension);
   }
   if (request.moment_of_inertia >= 0) {
-    // The angular momentum is scaled as the inertia is: the angular velocity stays.
+    // The angular momentum is scaled by the same factor as the inertia, so that the angular
+    // velocity stays.
     const double before = body.inertia[8];
     body.inertia[8] = request.moment_of_inertia;
     if (before > 0) turning = (body.inertia[8] / before) * turning;
@@ -153,6 +160,7 @@ void wrap_centre(RigidBody& body, const PeriodicCell& cell) {
 
 }  // namespace
 
+/// The inverse of a symmetric matrix. If the matrix is singular, the result is infinite or NaN.
 Matrix3 inverse_of(const Matrix3& a) {
   const auto minor = [&](std::size_t i, std::size_t j) {
     const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
@@ -165,6 +173,8 @@ Matrix3 inverse_of(const Matrix3& a) {
   return inverse;
 }
 
+/// The first periodic axis along which the largest distance between neighbouring members occurs
+/// more than once, with this distance [L]; nothing if there is none.
 std::optional<AmbiguousImages> ambiguous_images(const Particles& particles,
                                                 const std::vector<std::int32_t>& members) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -175,8 +185,9 @@ std::optional<AmbiguousImages> ambiguous_images(const Particles& particles,
   return std::nullopt;
 }
 
-/// The members must turn (add_rotation()) and belong to no other body, and the body must be smaller
-/// than the periods. A mass or a moment of inertia < 0 in `request` means: that of the members.
+/// Adds a body of the members that `request` names, and places them. The members must turn
+/// (add_rotation()) and belong to no other body, and the body must be smaller than the periods. If
+/// the mass or the moment of inertia in `request` is < 0, that of the members is taken.
 void add_rigid_body(Particles& particles, const RigidBodyRequest& request) {
   RigidBody body;
   body.members = request.members;
@@ -191,6 +202,8 @@ void add_rigid_body(Particles& particles, const RigidBodyRequest& request) {
   place_members(particles);
 }
 
+/// Diameter [L] of the smallest circle or sphere about the centre of the body that contains all
+/// members.
 double diameter(const RigidBody& body, const Particles& particles) {
   double radius = 0;
   for (std::size_t m = 0; m < body.members.size(); ++m)
@@ -198,6 +211,8 @@ double diameter(const RigidBody& body, const Particles& particles) {
   return 2 * radius;
 }
 
+/// The present value of a vector of any unit that turns with the body and was `at_start` at the
+/// start.
 Vector turned_with(const RigidBody& body, const Vector& at_start, int dimension) {
   if (dimension == 3) return rotated(body.orientation, at_start);
   if (body.angle[2] == 0) return at_start;
@@ -205,10 +220,12 @@ Vector turned_with(const RigidBody& body, const Vector& at_start, int dimension)
   return {c * at_start[0] - s * at_start[1], s * at_start[0] + c * at_start[1], 0};
 }
 
+/// The present vector [L] from the centre of the body to its member `m`, counted from 0.
 Vector present_offset(const RigidBody& body, std::size_t m, int dimension) {
   return turned_with(body, body.offsets[m], dimension);
 }
 
+/// The present inertia about the centre [M L^2]; for discs only the last entry counts.
 Matrix3 present_inertia(const RigidBody& body, int dimension) {
   if (dimension != 3) return body.inertia;
   // R I R^T, where column j of R is the present direction of axis j of the body.
@@ -227,7 +244,8 @@ Matrix3 present_inertia(const RigidBody& body, int dimension) {
   return inertia;
 }
 
-/// The angular velocity stays as it is if the last entry of the inertia is 0.
+/// Computes the angular velocity [1/T] from the angular momentum. It stays as it is if the last
+/// entry of the inertia is 0.
 void update_angular_velocity(RigidBody& body, int dimension) {
   if (!(body.inertia[8] > 0)) return;
   if (dimension == 3)
@@ -236,7 +254,8 @@ void update_angular_velocity(RigidBody& body, int dimension) {
     body.angular_velocity[2] = body.angular_momentum[2] / body.inertia[8];
 }
 
-/// Masses [M] whose sum is that of the body; equal ones if no member has a mass.
+/// The masses [M] of the members, scaled so that their sum is the mass of the body. They are equal
+/// if no member has a mass.
 std::vector<double> member_masses(const RigidBody& body, const Particles& particles) {
   double sum = 0;
   for (const auto member : body.members) sum += particles.masses[index_of(member)];
@@ -247,11 +266,15 @@ std::vector<double> member_masses(const RigidBody& body, const Particles& partic
   return masses;
 }
 
+/// The number of periods along each axis from the position of member `m` to its image in the body.
 Periods periods_of_member(const RigidBody& body, std::size_t m, const Particles& p) {
   return periods_towards(p.cell, body.centre + present_offset(body, m, p.dimension) -
                                      p.position(index_of(body.members[m])));
 }
 
+/// Sets positions [L], velocities [L/T], angular velocities [1/T] and angles or orientations of all
+/// members to those of their bodies. If the cell is not sheared, moves the centres of bodies into
+/// the cell first.
 void place_members(Particles& p) {
   for (auto& body : p.bodies.bodies) {
     if (!p.cell.is_sheared()) wrap_centre(body, p.cell);
@@ -278,11 +301,14 @@ void place_members(Particles& p) {
   }
 }
 
-/// The place of a particle among the members, from 0; the number of members if it is none.
+/// The place, from 0, of a particle among the members of the body. If the particle is no member,
+/// the result is the number of members.
 std::size_t member_number(const RigidBody& body, std::int32_t particle) {
   return static_cast<std::size_t>(std::ranges::find(body.members, particle) - body.members.begin());
 }
 
+/// The present vector [L] from the centre of its body to a particle; 0 for a particle without a
+/// body.
 Vector offset_in_body(const Particles& particles, std::int32_t particle) {
   const auto number = particles.bodies.body_of(particle);
   if (number < 0) return {};
@@ -301,9 +327,9 @@ namespace {
 /// point of turn = h I^-1 L, with the angular momentum L and the inertia I after half of the turn.
 Vector midpoint_turn(const RigidBody& body, const Vector& angular_momentum, double h) {
   Vector turn = h * (inverse_of(present_inertia(body, 3)) * angular_momentum);
-  // Each iteration multiplies the error by about the turn in radians, so that 50 iterations are
-  // enough for turns up to 0.5. A step in which a body turns by a radian does not resolve the
-  // motion, so that its iteration need not converge.
+  // Each iteration multiplies the error by about the turn in radians, so that 50 iterations, a free
+  // choice, are enough for turns up to 0.5. A step in which a body turns by a radian does not
+  // resolve the motion, so that its iteration need not converge.
   constexpr int kMost = 50;
   constexpr double kExact = 4 * std::numeric_limits<double>::epsilon();  // some rounding errors
   for (int n = 0; n < kMost; ++n) {
@@ -319,8 +345,8 @@ Vector midpoint_turn(const RigidBody& body, const Vector& angular_momentum, doub
 
 }  // namespace
 
-/// The motion of a body without contacts in a step of length h [T]; the load [M L/T^2, M L^2/T^2]
-/// acts for the time `kick` [T].
+/// The motion of a body without contacts in a step of length h [T]; the force [M L/T^2] and the
+/// torque [M L^2/T^2] of the load act for the time `kick` [T].
 BodyStep free_step(const RigidBody& body, const BodyLoad& load, double h, double kick,
                    int dimension) {
   BodyStep step;
@@ -340,6 +366,8 @@ BodyStep free_step(const RigidBody& body, const BodyLoad& load, double h, double
   return step;
 }
 
+/// Replaces the motion of `step` by the displacement [L] and the turn [rad] that contacts and links
+/// allow, and computes the angular momentum [M L^2/T] that belongs to the new turn.
 void constrain(BodyStep& step, const Vector& displacement, const Vector& turn, int dimension) {
   const Vector change = turn - step.turn;
   if (dimension == 3)
@@ -361,6 +389,7 @@ Vector displacement_at(const Vector& displacement, const Vector& turn, const Vec
           0};
 }
 
+/// Moves the body by `step`, whose length is h > 0 [T], and sets its velocities.
 void move_body(RigidBody& body, const BodyStep& step, double h, int dimension) {
   body.centre = body.centre + step.displacement;
   body.velocity = (1 / h) * step.displacement + step.late_velocity;

@@ -1,9 +1,10 @@
 // Reads the sections [domain], [fluid] and [[probe]] of a case of many particles. In the units of
-// the case, lengths [L] and the viscosity [M/(L T)] are from 1e-100 to 1e100, the density [M/L^3]
-// and the threshold gap also 0; coordinates [L], velocities [L/T] and rates [1/T] are at most 1e100
-// in magnitude; the penalty [1] is from 1e-12 to 1, and there are 6 to 400 edges. A wrong value is
-// an Error(kBadInput) with its line. A change must keep keys and defaults, which users' cases rely
-// on, and the order of kSides, which is that of SideVelocities. Used by particles_case.cpp.
+// the case, lengths [L] and the viscosity [M/(L T)] are from 1e-100 to 1e100; the density [M/L^3]
+// and the threshold gap may also be 0; coordinates [L], velocities [L/T] and rates [1/T] are at
+// most 1e100 in magnitude; the penalty [1] is from 1e-12 to 1, and there are 6 to 400 edges. A
+// wrong value is an Error(kBadInput) with its line. particles_case.cpp uses this file. A change
+// must keep keys and defaults, which users' cases rely on, and the order of kSides, which is that
+// of SideVelocities.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -15,12 +16,21 @@ namespace viscontact::particles {
 
 namespace {
 
+/// Each function whose name ends in _keys declares the keys of a table: name, range, meaning and
+/// default. When a case is read (keys.reads() is true), such a function stores the values in its
+/// second argument, and Error(kBadInput) with the line is thrown for a key that is missing, unknown
+/// or out of range. The same functions make the tables of docs/case-file.md; then nothing is
+/// thrown.
+///
+/// Keys of a domain that is the inside of a circle: centre and radius [L].
 void disc_keys(case_file::Keys& keys, DiscDomain& disc) {
   keys.optional("centre", vector(disc.centre, 2), {"centre of the circle", "`[0.0, 0.0]`"});
   keys.required("radius", case_file::number(disc.radius, kModeratelyPositive),
                 {"radius of the circle"});
 }
 
+/// Keys of a box: two corners [L] and, for each axis, whether it is periodic. `dimension` is 2 or
+/// 3.
 void box_keys(case_file::Keys& keys, BoxDomain& box, int dimension) {
   Vector from{}, to{};
   const auto axes = static_cast<std::size_t>(dimension);
@@ -42,6 +52,7 @@ void box_keys(case_file::Keys& keys, BoxDomain& box, int dimension) {
                  "false along each axis"});
 }
 
+/// Keys of a cylinder: radius and height [L].
 void cylinder_keys(case_file::Keys& keys, CylinderDomain& cylinder) {
   keys.required("radius", case_file::number(cylinder.radius, kModeratelyPositive),
                 {"radius of the cylinder"});
@@ -49,19 +60,22 @@ void cylinder_keys(case_file::Keys& keys, CylinderDomain& cylinder) {
                 {"height of the lid; the floor is at z = 0"});
 }
 
-/// Reads the table of a shape whose keys the function `declaration` declares.
+/// Reads the table of a shape into `domain`. The function `declaration` declares the keys of the
+/// shape.
 template <class Shape, void (*declaration)(case_file::Keys&, Shape&)>
 void read_shape(const case_file::TomlSection& section, std::string_view key, Domain& domain) {
   case_file::read_keys(section.section(key), declaration, domain.emplace<Shape>());
 }
 
-/// Reads a box of a case with this dimension: 3 coordinates for 3, otherwise 2.
+/// Reads a box of a case with this dimension. Its corners have 3 coordinates if the dimension is 3,
+/// otherwise 2.
 void read_box(const case_file::TomlSection& section, std::string_view key, Domain& domain,
               int dimension) {
   case_file::read_keys(section.section(key), box_keys, domain.emplace<BoxDomain>(),
                        dimension == 3 ? 3 : 2);
 }
 
+/// Keys of [domain], one for each shape.
 void domain_keys(case_file::Keys& keys, Domain& domain, int dimension) {
   keys.optional(
       "disc", case_file::custom("`{ centre, radius }`", read_shape<DiscDomain, disc_keys>, domain),
@@ -78,7 +92,8 @@ void domain_keys(case_file::Keys& keys, Domain& domain, int dimension) {
        "(floor) and -3 (lid)"});
 }
 
-/// Checks that the section has exactly one shape, and that the shape belongs to the dimension.
+/// Throws Error(kBadInput) unless [domain] has exactly one shape, and unless this shape belongs to
+/// the dimension of the case (1: spheres on an axis, 2 or 3).
 void check_shape(const case_file::TomlSection& section, int dimension) {
   // The shapes with the dimensions of their cases; a box may have 2 or 3.
   const std::array kShapes = {std::pair("disc", 2),
@@ -117,7 +132,8 @@ constexpr std::array kSides = {"left", "right", "bottom", "top"};
 /// Axis of the normal of a side: 0 for left and right, 1 for bottom and top.
 std::size_t axis_of(std::size_t side) { return side / 2; }
 
-/// Declares the keys of a table for one side, whose velocity is a parabola or may depend on time.
+/// Keys of a table for one side of a box, whose velocity [L/T] is constant along the side or a
+/// parabola, and may depend on time [T].
 void side_keys(case_file::Keys& keys, WallVelocity& wall) {
   // pieces() keeps references to these numbers, so that they are static. kNoEnd: the pieces of time
   // need not cover the run, because the last one is extended below.
@@ -167,7 +183,8 @@ void read_side(const case_file::TomlSection& section, std::string_view side, Wal
   }
 }
 
-/// Flux into the box through a side at time 0 [L^2/T]; 0 for an open side, whose flux is not given.
+/// The flux into the box through a side at time 0 [L^2/T], < 0 if fluid leaves the box. It is 0 for
+/// an open side, whose flux is not given. `side` counts in the order of kSides from 0.
 double influx(const BoxDomain& box, std::size_t side, const WallVelocity& of_side) {
   WallVelocity wall = of_side;
   wall.value = of_side.at(0);
@@ -195,6 +212,7 @@ struct VelocityKeys {
   std::array<bool, 4> has_side{};
 };
 
+/// Keys of the table fluid.velocity.
 void velocity_keys(case_file::Keys& keys, VelocityKeys& velocity) {
   keys.optional("shear_rate", case_file::number(velocity.shear_rate, kModerate),
                 {"s: the velocity of the walls is (s y, 0)"});
@@ -210,7 +228,9 @@ void velocity_keys(case_file::Keys& keys, VelocityKeys& velocity) {
          "at rest"});
 }
 
-/// Checks the velocities of single sides, of which at least one is given.
+/// Throws Error(kBadInput) if a velocity of a side is given in a domain that is no box, or for a
+/// periodic side, and if no side is open although the fluxes through all sides do not add up to 0
+/// or depend on time. `section` is the table fluid.velocity.
 void check_sides(const case_file::TomlSection& fluid, const case_file::TomlSection& section,
                  const VelocityKeys& velocity, const Domain& domain) {
   const auto* box = std::get_if<BoxDomain>(&domain);
@@ -243,10 +263,10 @@ void check_sides(const case_file::TomlSection& fluid, const case_file::TomlSecti
                 net);
 }
 
-/// Throws if the velocity that belongs to `key` is not the same on both sides of a period. In a
-/// domain that is periodic both ways any gradient is allowed, because there it is the mean
-/// gradient. With a period along x only, a shear is allowed, because its velocity (shear_rate y, 0)
-/// does not depend on x.
+/// Throws Error(kBadInput) if the velocity that belongs to `key` (a shear, if `is_shear`, or a
+/// strain) is not the same on both sides of a period. In a domain that is periodic both ways any
+/// gradient is allowed, because there it is the mean gradient. With a period along x only, a shear
+/// is allowed, because its velocity (shear_rate y, 0) does not depend on x.
 void check_periods(const case_file::TomlSection& section, const char* key, bool is_shear,
                    const Domain& domain) {
   const auto* box = std::get_if<BoxDomain>(&domain);
@@ -260,7 +280,8 @@ void check_periods(const case_file::TomlSection& section, const char* key, bool 
                         : "the box may be periodic both ways or not at all");
 }
 
-/// Reads the velocities of the walls. Throws Error(kBadInput) for a cylinder, and for keys that
+/// Reads the velocities of the walls into result.boundary: a linear flow, whose gradient is in
+/// [1/T], or velocities of single sides. Throws Error(kBadInput) for a cylinder, and for keys that
 /// exclude each other.
 void read_velocity(const case_file::TomlSection& fluid, std::string_view key, const Domain& domain,
                    Fluid& result) {
@@ -288,6 +309,8 @@ void read_velocity(const case_file::TomlSection& fluid, std::string_view key, co
   result.boundary = flow;
 }
 
+/// Keys of a pressure gradient that pulsates: its mean [M/(L^2 T^2)], the period [T] and the
+/// amplitude relative to the mean [1].
 void gradient_keys(case_file::Keys& keys, Fluid& fluid) {
   Vector value{};
   keys.required("value", vector(value, 2), {"the mean of the pressure gradient"});
@@ -298,6 +321,7 @@ void gradient_keys(case_file::Keys& keys, Fluid& fluid) {
                 {"see `period`"});
 }
 
+/// Reads a pressure gradient [M/(L^2 T^2)]: two numbers, or a table.
 void read_pressure_gradient(const case_file::TomlSection& section, std::string_view key,
                             Fluid& fluid) {
   if (section.is_table(key)) {
@@ -309,7 +333,7 @@ void read_pressure_gradient(const case_file::TomlSection& section, std::string_v
   fluid.pressure_gradient = {vector[0], vector[1]};
 }
 
-/// Declares the keys of a fluid with inertia.
+/// Keys of a fluid with inertia: the density and three keys that need a density > 0.
 void inertia_keys(case_file::Keys& keys, Fluid& fluid, const Domain& domain) {
   keys.optional("density", case_file::number(fluid.density, kModeratelyPositiveOr0),
                 {"rho_f of a fluid [with inertia](fluid.md#inertia-of-the-fluid); 0: Stokes flow"});
@@ -338,8 +362,9 @@ void inertia_keys(case_file::Keys& keys, Fluid& fluid, const Domain& domain) {
                "pressure_gradient", "belongs to a box; it must be left out in a cylinder");
 }
 
-/// Checks velocities that depend on time, which need inertia, and what a fluid with inertia cannot
-/// have.
+/// Throws Error(kBadInput) if velocities depend on time although the density is 0, and if a fluid
+/// with a density > 0 has a solver of the user's own, or a shear or strain of a box that is
+/// periodic along x and y.
 void check_inertia(case_file::Keys& keys, const Fluid& fluid, const Domain& domain) {
   const auto* sides = std::get_if<SideVelocities>(&fluid.boundary);
   const bool depends_on_time =
@@ -360,6 +385,7 @@ void check_inertia(case_file::Keys& keys, const Fluid& fluid, const Domain& doma
                "with fluid.density > 0 the box must have walls, or be at rest");
 }
 
+/// Keys of [fluid].
 void fluid_keys(case_file::Keys& keys, Fluid& fluid, const Domain& domain) {
   keys.required("viscosity", case_file::number(fluid.viscosity, kModeratelyPositive),
                 {"dynamic viscosity mu"});
@@ -408,6 +434,7 @@ void fluid_keys(case_file::Keys& keys, Fluid& fluid, const Domain& domain) {
 
 }  // namespace
 
+/// Reads [domain]. `dimension` is 1 (spheres on an axis), 2 or 3.
 Domain read_domain(const case_file::TomlSection& section, int dimension) {
   Domain domain;
   check_shape(section, dimension);
@@ -415,6 +442,8 @@ Domain read_domain(const case_file::TomlSection& section, int dimension) {
   return domain;
 }
 
+/// Reads [fluid] of a case with this domain. Without the key the threshold gap stays 0, and the
+/// caller sets its default.
 Fluid read_fluid(const case_file::TomlSection& section, const Domain& domain) {
   Fluid fluid;
   case_file::read_keys(section, fluid_keys, fluid, domain);
@@ -423,6 +452,8 @@ Fluid read_fluid(const case_file::TomlSection& section, const Domain& domain) {
 
 namespace {
 
+/// Keys of a table [[probe]], a line from one wall of a box to another one, across which flow and
+/// pressure are measured. When keys are read, `domain` must be a box.
 void probe_keys(case_file::Keys& keys, Probe& probe, const Domain& domain) {
   keys.required("name", case_file::text(probe.name),
                 {"in `probes.csv`: letters, digits, `_` and `-`; no two are equal"});
@@ -468,6 +499,9 @@ void probe_keys(case_file::Keys& keys, Probe& probe, const Domain& domain) {
 
 }  // namespace
 
+/// Reads the tables [[probe]] into fluid->probes. Throws Error(kBadInput) without a fluid, in
+/// another domain than a box, beside a solver of the user's own or membranes, and for two probes of
+/// the same name.
 void read_probes(const case_file::TomlSection& root, const Domain& domain,
                  std::optional<Fluid>& fluid) {
   if (!root.has("probe")) return;
@@ -490,6 +524,7 @@ void read_probes(const case_file::TomlSection& root, const Domain& domain,
   }
 }
 
+/// The tables of docs/case-file.md for these keys.
 std::vector<case_file::KeyTable> domain_and_fluid_tables() {
   return {case_file::describe_keys("[domain]", domain_keys, 2),
           case_file::describe_keys("domain.disc", disc_keys),
@@ -502,7 +537,9 @@ std::vector<case_file::KeyTable> domain_and_fluid_tables() {
           case_file::describe_keys("[[probe]]", probe_keys, Domain{})};
 }
 
-/// A word that names no file in `folder` stays as it is.
+/// The words of a command, in which each name of a file in `folder` becomes an absolute path. Other
+/// words stay as they are, and so does a first word without a slash, which is the name of a
+/// program. A working folder that the system cannot look up is a std::filesystem::filesystem_error.
 std::vector<std::string> with_absolute_files(std::vector<std::string> command,
                                              const std::filesystem::path& folder) {
   for (auto& word : command) {

@@ -1,10 +1,11 @@
 // Checks whether the flow around the particles at the start of a case can be computed, and chooses
 // the default of fluid.threshold_gap, the gap [L] at which contact is made. In the units of the
-// case, a gap [L] must be at least a thousandth of the smaller radius [L] on a fitted mesh, and
-// less than the threshold gap by at most solver.tolerance mean radii; the case must have a fluid,
-// and check_start() must have accepted it (not checked). Each fault is an Error(kBadInput) with the
-// line of the particle or of the key. A change must keep accepting users' cases, and the limits
-// that docs/fluid.md repeats. Used by particles_case.cpp.
+// case, a gap [L] must be at least a thousandth of the smaller radius [L] on a fitted mesh, which
+// follows the particles. It may be smaller than the threshold gap by at most solver.tolerance times
+// the mean radius. The case must have a fluid, and check_start() must have accepted it (not
+// checked). Each fault is an Error(kBadInput) with the line of the particle or of the key.
+// particles_case.cpp uses this file. A change must keep accepting users' cases, and the limits that
+// docs/fluid.md repeats.
 #include <algorithm>
 #include <numbers>
 #include <numeric>
@@ -23,7 +24,8 @@ namespace {
 /// value.
 constexpr double kLeastGapOfMesh = 1e-3;
 
-/// Gap at which the solids of rough particles touch [L]; 0 for smooth ones.
+/// The gap [L] at which the solids of rough particles touch, which is twice their roughness; 0 for
+/// smooth particles.
 double gap_of_solids(const ParticlesCase& c) {
   return 2 * c.setting.laws.film.roughness.value_or(0);
 }
@@ -42,20 +44,21 @@ bool has_only_open_sides(const ParticlesCase& c) {
   return any_open;
 }
 
-/// True if no impulse moves `body`: for an obstacle (< 0) and for a particle whose motion is given.
+/// True if no impulse changes the motion of `body`. `body` is the number of a particle, or < 0 for
+/// an obstacle. The result is true for an obstacle and for a particle whose motion is given.
 bool is_driven(const ParticlesCase& c, std::int32_t body) {
   return body < 0 || c.setting.given_motions.contains(body);
 }
 
-/// Whether the members k and `other` of a body may overlap: not with a penalty or a fixed mesh, and
-/// only if both are discs.
+/// True if the members k and `other` of a body may overlap. They may if both are discs and the
+/// constraint is kRigid, and not with a penalty or a fixed mesh.
 bool may_overlap(const ParticlesCase& c, std::size_t k, std::size_t other) {
   const auto& fluid = *c.setting.fluid;
   return fluid.constraint == RigidConstraint::kRigid && fluid.is_disc(k) && fluid.is_disc(other);
 }
 
-/// Checks that the mesh can follow disc k of a body where disc `other` of the body overlaps it.
-/// Returns whether their circles meet on the outline of the body.
+/// Throws Error(kBadInput) if the mesh cannot follow disc k of a body where disc `other` of the
+/// body overlaps disc k. Returns true if the circles of both discs meet on the outline of the body.
 bool check_overlap(const ParticlesCase& c, const ParticleNames& names, std::size_t k,
                    std::size_t other) {
   const auto fail = [&](std::string_view why) {
@@ -65,7 +68,8 @@ bool check_overlap(const ParticlesCase& c, const ParticleNames& names, std::size
   if (!chord_of(c.particles, k, other))
     fail("one of them is inside the other one, where it must be left out");
   const auto chords = chords_of(*c.setting.fluid, c.particles, k);
-  // docs/fluid.md repeats this limit and kLeastWedge below, and so do the messages.
+  // The least angle of an arc between two overlaps. docs/fluid.md and the messages repeat it and
+  // kLeastWedge, the least angle of fluid between two circles, below.
   constexpr double kDegree = std::numbers::pi / 180, kLeastArc = 1 * kDegree;
   for (std::size_t i = 0; i < chords.size(); ++i) {
     const auto &before = chords[i], &after = chords[(i + 1) % chords.size()];
@@ -93,8 +97,10 @@ bool check_overlap(const ParticlesCase& c, const ParticleNames& names, std::size
   return true;
 }
 
-/// Checks the gaps and overlaps of members of rigid bodies, the moments of inertia, and the lengths
-/// of arms.
+/// Throws Error(kBadInput) if members of a rigid body have too narrow a gap or overlap in a way
+/// that the mesh cannot follow, if a moment of inertia [M L^2] is smaller than that of the masses
+/// at the centres of the members, or if an arm becomes too short to leave a gap between its
+/// particles.
 void check_bodies(const case_file::TomlSection& root, const ParticlesCase& c,
                   const ParticleNames& names) {
   const auto& p = c.particles;
@@ -107,8 +113,8 @@ void check_bodies(const case_file::TomlSection& root, const ParticlesCase& c,
     const auto& body = p.bodies.bodies[b];
     const auto masses = member_masses(body, p);
     double least = 0;
-    std::vector<std::size_t> union_of(masses.size());  // a member's number, the same for all that
-                                                       // overlap
+    // For each member a number, which is the same for members that overlap, also by way of others.
+    std::vector<std::size_t> union_of(masses.size());
     std::iota(union_of.begin(), union_of.end(), 0U);
     for (std::size_t m = 0; m < masses.size(); ++m) {
       least += masses[m] * dot(body.offsets[m], body.offsets[m]);
@@ -192,8 +198,8 @@ void check_masses(const case_file::TomlSection& root, const ParticlesCase& c,
           names(k));
 }
 
-/// Throws if ellipses, plates or overlapping discs are in a case with a fluid solver of the user's
-/// own, or ellipses in a case with bodies or links.
+/// Throws Error(kBadInput) if ellipses, plates or overlapping discs are in a case with a fluid
+/// solver of the user's own, or ellipses in a case with bodies or links.
 void check_ellipses(const case_file::TomlSection& root, const ParticlesCase& c,
                     const ParticleNames& names) {
   const auto& fluid = *c.setting.fluid;
@@ -217,7 +223,8 @@ void check_ellipses(const case_file::TomlSection& root, const ParticlesCase& c,
   }
 }
 
-/// Checks masses, velocities and moments of inertia of particles in a fluid with inertia. With
+/// Throws Error(kBadInput) if a particle in a fluid with inertia has no mass, a velocity at the
+/// start that has no effect, or a moment of inertia that cannot be computed. With
 /// RigidConstraint::kPenalty a particle is computed as a fluid of uniform density, and its moment
 /// of inertia must be that of a uniform particle.
 void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c,
@@ -267,8 +274,8 @@ void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c,
   }
 }
 
-/// Throws if the fitted mesh cannot resolve the gap between a sphere on the axis and the side of
-/// its cylinder.
+/// Throws Error(kBadInput) if the fitted mesh cannot resolve the gap between a sphere on the axis
+/// and the side of its cylinder.
 void check_side_of_cylinder(const ParticlesCase& c, const ParticleNames& names) {
   const auto* cylinder = std::get_if<CylinderDomain>(&c.setting.domain);
   if (cylinder == nullptr || c.setting.fluid->mesh != FluidMesh::kFitted) return;
@@ -282,8 +289,9 @@ void check_side_of_cylinder(const ParticlesCase& c, const ParticleNames& names) 
   }
 }
 
-/// Throws for a mean velocity gradient in a run of more than one step. The gradient would deform
-/// the lattice of periodic images, but the mesh is that of a box that keeps its shape.
+/// Throws Error(kBadInput) for a mean velocity gradient in a box that is periodic along x and y, if
+/// the run has more than one step or the mesh is fixed. The gradient would deform the lattice of
+/// periodic images, but the mesh is that of a box that keeps its shape.
 void check_mean_flow(const case_file::TomlSection& root, const ParticlesCase& c) {
   const auto* box = std::get_if<BoxDomain>(&c.setting.domain);
   const auto* flow = std::get_if<LinearFlow>(&c.setting.fluid->boundary);
@@ -304,8 +312,9 @@ void check_mean_flow(const case_file::TomlSection& root, const ParticlesCase& c)
                c.end_time, c.setting.time_step);
 }
 
-/// Checks the smallest gap that [arrangement] demands. The actual gaps of its discs are not used,
-/// so that an arrangement is accepted or refused whatever its seed is.
+/// Throws Error(kBadInput) if the smallest gap [L] that [arrangement] demands is too narrow. The
+/// actual gaps of its discs are not used, so that an arrangement is accepted or refused whatever
+/// its seed is.
 void check_arrangement(const case_file::TomlSection& root, const ParticlesCase& c) {
   if (!c.arrangement) return;
   const auto& fluid = *c.setting.fluid;
@@ -326,8 +335,8 @@ void check_arrangement(const case_file::TomlSection& root, const ParticlesCase& 
       least);
 }
 
-/// Throws Error(kBadInput) if the gap is too narrow at the start, for the mesh or for the threshold
-/// gap.
+/// Throws Error(kBadInput) if the gap `at` is too narrow at the start: less than a thousandth of
+/// the smaller radius on a fitted mesh, or less than the threshold gap by more than the tolerance.
 void check_gap(const ParticlesCase& c, const ParticleNames& names, const StartGap& at) {
   const auto& fluid = *c.setting.fluid;
   const auto& p = c.particles;
@@ -353,7 +362,7 @@ void check_gap(const ParticlesCase& c, const ParticleNames& names, const StartGa
                                                            : "viscous_contact.roughness");
 }
 
-/// The largest limit up to `asked` [L] that gaps_at_start() accepts.
+/// The largest limit [L] of gaps that gaps_at_start() accepts, but at most `asked` [L].
 double limit_within_periods(const ParticlesCase& c, double asked) {
   const double diameter = 2 * std::ranges::max(c.particles.radii);
   // The limit must be less than the period minus the diameter; any factor slightly below 1 works.
@@ -363,11 +372,11 @@ double limit_within_periods(const ParticlesCase& c, double asked) {
   return asked;
 }
 
-/// Throws if the penalty is too small for a case with bodies or links. The forces that hold them
-/// are computed from velocities of the fluid, which have rounding errors of about 1e-15/penalty
-/// (particles/fluid/fluid_motion.hpp). The limit is measured: a body of seven touching discs was
-/// held with penalties down to 3e-11; with 1e-11 the step failed with constraints that seemed to
-/// contradict each other.
+/// Throws Error(kBadInput) if the penalty [1] is too small for a case with bodies or links. The
+/// forces that hold them are computed from velocities of the fluid, which have rounding errors of
+/// about 1e-15/penalty (particles/fluid/fluid_motion.hpp). The limit is measured: a body of seven
+/// touching discs was held with penalties down to 3e-11; with 1e-11 the step failed with
+/// constraints that seemed to contradict each other.
 void check_penalty(const case_file::TomlSection& root, const ParticlesCase& c) {
   constexpr double kLeast = 1e-10;
   const auto& fluid = *c.setting.fluid;
@@ -385,8 +394,9 @@ void check_penalty(const case_file::TomlSection& root, const ParticlesCase& c) {
 
 }  // namespace
 
-/// The default [L] is 0.05 times the smallest radius or semi-axis, or half of the smallest gap at
-/// the start if that is smaller, but at least the gap at which the solids touch.
+/// Sets fluid.threshold_gap [L] to its default. It is 0.05 times the smallest radius or semi-axis,
+/// or half of the smallest gap at the start if this half is smaller, but at least the gap at which
+/// the solids touch. Gaps of particles to their own periodic images count, too. Throws nothing.
 void set_default_threshold_gap(ParticlesCase& c) {
   constexpr double kOfRadius = 0.05;  // free; a change alters results of cases without the key
   double smallest = std::ranges::min(c.particles.radii);
@@ -402,6 +412,8 @@ void set_default_threshold_gap(ParticlesCase& c) {
   c.setting.fluid->threshold_gap = std::max(threshold, gap_of_solids(c));
 }
 
+/// Calls all checks of this file. `root` is the root table of the case file, and `lines` are the
+/// lines in which the particles are given.
 void check_fluid_start(const case_file::TomlSection& root, const ParticlesCase& c,
                        const ParticleLines& lines) {
   const ParticleNames names(c, lines);

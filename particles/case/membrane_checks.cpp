@@ -1,9 +1,10 @@
-// Checks of membranes (closed lines through particles, the beads) when a case file is read;
-// membrane_keys.cpp calls them. Lengths [L], areas [L^2] and the other numbers are in the units of
-// the case file. A membrane has at least 4 beads, in a fluid 12, a reduced area
-// 4 pi area/perimeter^2 of at least 1e-3, in a fluid 0.3 to 0.999, and there a viscosity ratio of
-// 1e-4 to 1e3. Every fault throws Error(kBadInput) with its line. case/particles_sections.hpp
-// declares and explains the functions. A change must not refuse what users' cases may contain now.
+// Checks the membranes of a case file, which are closed lines through particles called beads;
+// membrane_keys.cpp calls these functions. Lengths [L], areas [L^2] and the other numbers are in
+// the units of the case file. A membrane has at least 4 beads, or 12 in a fluid. Its reduced area,
+// 4 pi area/perimeter^2, is at least 1e-3, or from 0.3 to 0.999 in a fluid. In a fluid the
+// viscosity inside over that outside is from 1e-4 to 1e3. Every fault throws Error(kBadInput) with
+// its line. case/particles_sections.hpp declares the functions. A change must not refuse what
+// users' cases may contain now.
 
 #include <algorithm>
 #include <cmath>
@@ -18,14 +19,16 @@
 namespace viscontact::particles {
 namespace {
 
-/// Throws if a case without a fluid has restitution, which cannot be combined with membranes.
+/// Throws Error(kBadInput) if a case without a fluid has restitution, which cannot be combined with
+/// membranes.
 void check_case_without_fluid(const case_file::TomlSection& root, const ParticlesCase& c) {
   root.section("viscous_contact")
       .require(!c.setting.laws.restitution.is_on(), "restitution",
                "must be left out, because the case has membranes, through which a blow would pass");
 }
 
-/// Throws if a case with a fluid has what membranes exclude. `first` is the first [[membrane]].
+/// Throws Error(kBadInput) if a case with a fluid has something that cannot be combined with
+/// membranes. `first` is the section of the first membrane.
 void check_case_in_fluid(const case_file::TomlSection& root, const case_file::TomlSection& first,
                          const ParticlesCase& c) {
   const FilePosition at{c.path.string(), first.line()};
@@ -81,6 +84,9 @@ double rate_of_deformation(const ParticlesCase& c) {
 
 }  // namespace
 
+/// Throws Error(kBadInput) if the viscosity inside the last membrane of the case over that outside
+/// is not from 1e-4 to 1e3, or if the membrane is too stiff for its number of beads. The case must
+/// have a fluid (not checked).
 void check_in_fluid(const case_file::TomlSection& section, const ParticlesCase& c) {
   const auto& membrane = c.setting.fluid->membranes.back();
   // At smaller viscosity ratios the solution is lost in rounding errors (1e-6 ends in errors of
@@ -94,8 +100,9 @@ void check_in_fluid(const case_file::TomlSection& section, const ParticlesCase& 
                   "times as large",
                   membrane.viscosity_ratio);
   // The lengths are kept, and stiff bending keeps the curve smooth; a curve of few beads can then
-  // hardly run around the area inside, as it should in a shear flow. With 12 beads and 1000 times
-  // `scale` as the rigidity, the inclination is 0.43 rad, where 0.58 rad is right.
+  // hardly move along itself around the area inside, as it should in a shear flow. With 12 beads
+  // and 1000 times `scale` as the bending rigidity, the inclination is 0.43 rad, and 0.58 rad would
+  // be right. kStiff and kBeadsOfStiff are choices between such tests.
   constexpr double kStiff = 100;
   constexpr std::int32_t kBeadsOfStiff = 32;
   const double scale = c.setting.fluid->viscosity * rate_of_deformation(c) *
@@ -109,6 +116,8 @@ void check_in_fluid(const case_file::TomlSection& section, const ParticlesCase& 
                   membrane.count(), membrane.bending_rigidity / scale, kBeadsOfStiff);
 }
 
+/// Throws Error(kBadInput) if the dimension is not 2, or if the case has something that cannot be
+/// combined with membranes. `first` is the section of the first membrane.
 void check_case_of_membranes(const case_file::TomlSection& root,
                              const case_file::TomlSection& first, const ParticlesCase& c) {
   if (c.particles.dimension != 2)
@@ -120,11 +129,14 @@ void check_case_of_membranes(const case_file::TomlSection& root,
     check_case_without_fluid(root, c);
 }
 
+/// Throws Error(kBadInput) if the beads that the user gives for a new membrane are fewer than 4, in
+/// a fluid fewer than 12; if a bead is named twice, belongs to another membrane or has a given
+/// motion; or if, in a fluid, a bead has a mass or is no disc.
 void check_given_beads(const case_file::TomlSection& section, const ParticlesCase& c,
                        const Membrane& membrane) {
   const bool in_fluid = c.setting.fluid.has_value();
   const auto& p = c.particles;
-  // With three beads the kept distances would determine the shape.
+  // With three beads the distances, which are kept, would determine the shape.
   constexpr std::int32_t kLeastWithoutFluid = 4;
   const auto least = in_fluid ? kLeastBeads : kLeastWithoutFluid;
   section.require(membrane.count() >= least, "particles",
@@ -149,6 +161,9 @@ void check_given_beads(const case_file::TomlSection& section, const ParticlesCas
   }
 }
 
+/// Throws Error(kBadInput) if the last membrane of the case crosses itself or another membrane, is
+/// too flat or too round, or is as wide as a period; if two of its beads that are no neighbours
+/// overlap; or if, in a fluid, one of two membranes contains the other. Positions are in [L].
 void check_place(const case_file::TomlSection& section, const ParticlesCase& c) {
   const auto& p = c.particles;
   const auto& membranes = membranes_of(c.setting);
@@ -225,6 +240,8 @@ void check_place(const case_file::TomlSection& section, const ParticlesCase& c) 
   }
 }
 
+/// Throws Error(kBadInput) if, in a fluid, a particle that is no bead has a mass or a torque, is no
+/// disc, or crosses a membrane. `first` is the section of the first membrane.
 void check_others(const case_file::TomlSection& first, const ParticlesCase& c) {
   if (!c.setting.fluid) return;
   const auto& p = c.particles;

@@ -1,11 +1,11 @@
 // Reads the case file of many particles, and its sections [space], [viscous_contact], [friction],
-// [solver], [output], [[plane]] and [sweep]; the other sections have sources of their own. In the
+// [solver], [output], [[plane]] and [sweep]; other files of case/ read the other sections. In the
 // units of the case, times [T], viscosity [M/(L T)] and roughness [L] are from 1e-100 to 1e100,
 // gamma_min [M L/T] is <= 0, the coefficient of restitution 0 to 1 and that of friction >= 0;
 // tolerances [1] are from 1e-12 to 0.1, and vectors at most 1e100 in magnitude. A wrong value, and
-// a file that cannot be read, are an Error(kBadInput), with the line if there is one. A change must
-// keep keys and defaults, which users' cases rely on. Used by particles_study.cpp, run/, sweep/,
-// app/ and python/.
+// a file that cannot be read, are an Error(kBadInput), with the line if there is one. This file is
+// used by particles_study.cpp, run/, sweep/, app/ and python/. A change must keep keys and
+// defaults, which users' cases rely on.
 #include "viscontact/particles/case/particles_case.hpp"
 
 #include <algorithm>
@@ -23,6 +23,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Each function whose name ends in _keys declares the keys of a table: name, range, meaning and
+// default. When a case is read (keys.reads() is true), such a function stores the values in its
+// second argument, and Error(kBadInput) with the line is thrown for a key that is missing, unknown
+// or out of range. The same functions make the tables of docs/case-file.md; then nothing is thrown.
 constexpr Allowed kNotPositive = {[](double v) { return v <= 0; }, "<= 0"};
 constexpr Allowed kTolerance = {[](double v) { return v >= 1e-12 && v <= 0.1; },
                                 "from 1e-12 to 0.1"};
@@ -39,6 +43,7 @@ void read_dimension(const case_file::TomlSection& space, std::string_view key, i
   dimension = 1;
 }
 
+/// Keys of [space]: the dimension, and gravity [L/T^2].
 void space_keys(case_file::Keys& keys, ParticlesCase& c) {
   keys.required(
       "dimension",
@@ -49,8 +54,10 @@ void space_keys(case_file::Keys& keys, ParticlesCase& c) {
                 {"acceleration of all particles", "0"});
 }
 
-/// Declares the keys of the film law. In a fluid the film has the viscosity of the fluid, unless
-/// the key is given.
+/// Keys of the fluid film between particles: either gamma_min [M L/T], <= 0, the lowest value of
+/// gamma, which is minus the impulse that the film has absorbed, or viscosity [M/(L T)] and
+/// roughness [L], from which gamma_min follows. In a fluid the film has the viscosity of the fluid,
+/// unless the key `viscosity` is given.
 void film_keys(case_file::Keys& keys, FilmLaw& law, const std::optional<Fluid>& fluid) {
   keys.optional("gamma_min", case_file::number(law.gamma_min, kNotPositive),
                 {"for every pair, an impulse (of discs in a fluid an impulse per length); 0: no "
@@ -76,6 +83,7 @@ constexpr const char* kNoSolidContact =
     "has no effect, because smooth particles never touch; viscous_contact must have gamma_min (0: "
     "no film), or viscosity and roughness";
 
+/// Keys of [viscous_contact]: times [T], film, restitution and scheme.
 void contact_keys(case_file::Keys& keys, ParticlesCase& c) {
   auto& laws = c.setting.laws;
   auto& film = laws.film;
@@ -113,6 +121,7 @@ void contact_keys(case_file::Keys& keys, ParticlesCase& c) {
                "second order without it, and the key must be left out");
 }
 
+/// Keys of [friction]: the coefficient [1], >= 0, and the method.
 void friction_keys(case_file::Keys& keys, FrictionLaw& law) {
   keys.required("coefficient", case_file::number(law.coefficient, kModeratelyPositiveOr0),
                 {"mu_s of [solid contact](particles.md#friction)"});
@@ -124,7 +133,7 @@ void friction_keys(case_file::Keys& keys, FrictionLaw& law) {
 }
 
 /// Reads the section [friction]. Throws Error(kBadInput) for spheres on an axis in a fluid, if no
-/// solids can touch in this case, or if its method is not one for a fluid.
+/// solids can touch in this case, or if the case has a fluid and the method is "convex".
 void read_friction(const case_file::TomlSection& section, int dimension, Setting& setting) {
   section.require(!setting.fluid || dimension == 2, "coefficient",
                   "belongs to particles that turn; spheres on the axis of a fluid do not slide on "
@@ -138,7 +147,7 @@ void read_friction(const case_file::TomlSection& section, int dimension, Setting
                   "\"fixed_point\", or the key must be left out");
 }
 
-/// Throws if a case with friction in a fluid has restitution or membranes, too.
+/// Throws Error(kBadInput) if a case with friction in a fluid also has restitution or membranes.
 void check_friction_in_fluid(const case_file::TomlSection& section, const Setting& setting) {
   if (!setting.fluid) return;
   section.require(!setting.laws.restitution.is_on(), "coefficient",
@@ -159,6 +168,7 @@ void read_method(const case_file::TomlSection& solver, std::string_view key) {
       key, "is '{}'; it must be \"conjugate_gradients\", the only method", text);
 }
 
+/// Keys of [solver]: two tolerances [1] and the largest number of iterations.
 void solver_keys(case_file::Keys& keys, SolverSettings& settings) {
   keys.optional("tolerance", case_file::number(settings.tolerance, kTolerance),
                 {"tolerance of the gaps, divided by the mean radius"});
@@ -177,6 +187,7 @@ void solver_keys(case_file::Keys& keys, SolverSettings& settings) {
                  "`\"conjugate_gradients\"`"});
 }
 
+/// Keys of [output]: times [T], and the names of the tables that are written.
 void output_keys(case_file::Keys& keys, ParticlesCase& c) {
   keys.optional("every", case_file::number(c.frame_interval, kModeratelyPositive),
                 {"time between frames", "a hundredth of `end_time`"});
@@ -197,6 +208,8 @@ void output_keys(case_file::Keys& keys, ParticlesCase& c) {
   }
 }
 
+/// Keys of a table [[plane]]: a point [L] and a normal, which becomes a unit vector; velocity [L/T]
+/// and angular velocity [1/T], and the point [L] about which the plane turns.
 void plane_keys(case_file::Keys& keys, Plane& plane, const ParticlesCase& c) {
   const int dimension = c.particles.dimension;
   Vector normal{};
@@ -221,8 +234,8 @@ void plane_keys(case_file::Keys& keys, Plane& plane, const ParticlesCase& c) {
        "`point`"});
 }
 
-/// Throws for a plane that is not parallel to the periods of the domain, because it would bound the
-/// particles but not their periodic images.
+/// Throws Error(kBadInput) for a plane that is not parallel to the periods of the domain, because
+/// such a plane would bound the particles but not their periodic images.
 void check_periods_of_plane(const case_file::TomlSection& section, const Plane& plane,
                             const Domain& domain) {
   const auto periods = periods_of(domain);
@@ -235,6 +248,7 @@ void check_periods_of_plane(const case_file::TomlSection& section, const Plane& 
         kAxes[d]);
 }
 
+/// Keys of [sweep].
 void particles_sweep_keys(case_file::Keys& keys, case_file::SweepRequest& sweep) {
   keys.optional("vary", case_file::texts(sweep.vary), {"`KEY=RANGE` each, as on the command line"});
   keys.optional("draws", case_file::number(sweep.draws, case_file::kWholeNumber),
@@ -242,7 +256,8 @@ void particles_sweep_keys(case_file::Keys& keys, case_file::SweepRequest& sweep)
   case_file::points_and_plot_keys(keys, sweep);
 }
 
-/// Reads [domain] and [fluid]. Needs c.path and the dimension of the case.
+/// Reads [domain] and [fluid]. c.path and the dimension of the case must be set before. Throws
+/// Error(kBadInput) if the dimension does not fit, or if there is a fluid without a domain.
 void read_domain_and_fluid(const case_file::TomlSection& root, ParticlesCase& c) {
   const int dimension = c.particles.dimension;
   if (root.has("domain")) c.setting.domain = read_domain(root.section("domain"), dimension);
@@ -268,6 +283,8 @@ void read_domain_and_fluid(const case_file::TomlSection& root, ParticlesCase& c)
 
 }  // namespace
 
+/// Reads all sections of a case from its root table, in an order in which each section finds what
+/// it needs, and checks the start. c.path must have been set.
 void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
   case_file::read_title_and_units(root, c, true);
   case_file::read_keys(root.section("space"), space_keys, c);
@@ -326,10 +343,12 @@ void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
   }
 }
 
+/// Reads the case file at `path`.
 ParticlesCase read_particles_case(const fs::path& path) {
   return case_file::read_case_file<ParticlesCase>(path);
 }
 
+/// The tables of docs/case-file.md for all sections of such a case.
 std::vector<case_file::KeyTable> tables_of_particles_case() {
   const ParticlesCase c;
   std::vector<case_file::KeyTable> tables = {
@@ -346,7 +365,9 @@ std::vector<case_file::KeyTable> tables_of_particles_case() {
   return tables;
 }
 
-/// Throws Error(kBadInput) if fluid.solver is no list of texts.
+/// The text of the case as TOML, with absolute paths in place of the names of files in the case
+/// file at `path`, so that it may be in any folder. Throws Error(kBadInput) if fluid.solver is no
+/// list of texts.
 std::string text_for_any_folder(const case_file::TomlSection& root, const fs::path& path) {
   std::vector<std::pair<std::string, std::string>> paths;
   const auto folder = fs::absolute(path).parent_path();

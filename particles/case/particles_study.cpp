@@ -1,11 +1,13 @@
-// Makes the cases, rows and means of a sweep of particles. Results are in the units of the case
-// (docs/file-formats.md has the columns); numbers of rows count from 0, which is not checked, and
-// there are at most 1e12 rows. A wrong case, and a file that cannot be read or has other rows, are
-// an Error(kBadInput); a key that cannot be varied, or draws that are not possible, are an
-// Error(kWrongUsage). A change must keep that everything that determines the results of a row is in
-// identity(), because results with the same identity are not computed again, and that the draws of
-// a point follow each other in the file, because means are computed point by point. Used by sweep/
-// and app/.
+// Makes the cases, rows and means of a sweep over a case of particles. A point of the sweep is a
+// set of values of the varied keys. A draw is one run at a point with its own random arrangement of
+// the particles; each draw has a row of results. Results are in the units of the case
+// (docs/file-formats.md has the columns). Rows have numbers from 0 (not checked), and there are at
+// most 1e12 rows. A wrong case, and a file that cannot be read or has other rows, are an
+// Error(kBadInput); a key that cannot be varied, or draws that are not possible, are an
+// Error(kWrongUsage). This file is used by sweep/ and app/. A change must keep in identity()
+// everything that determines the results of a row, because results with the same identity are not
+// computed again. The draws of a point must follow each other in the file, because means are
+// computed point by point.
 #include "viscontact/particles/case/particles_study.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +26,8 @@
 namespace viscontact::particles {
 namespace {
 
-/// Throws Error(kWrongUsage) for keys that a sweep cannot vary.
+/// Throws Error(kWrongUsage) if a key is varied twice, is in [sweep] or [output], or is the seed of
+/// the arrangement although there are draws, which vary the seed.
 void check_varied_keys(const sweep::Points& points) {
   if (points.draws > 0 && points.is_varied(sweep::kDrawKey))
     throw Error(ErrorKind::kWrongUsage, "{} cannot be varied beside draws, which vary it",
@@ -37,7 +40,8 @@ void check_varied_keys(const sweep::Points& points) {
   });
 }
 
-/// Names of the columns with results of a case (docs/file-formats.md).
+/// The names of the columns with results of a case, in their order. docs/file-formats.md says their
+/// units.
 std::vector<std::string> columns_of(const ParticlesCase& c) {
   std::vector<std::string> columns = {"particles"};
   if (c.arrangement) columns.emplace_back(fraction_column(c));
@@ -53,8 +57,9 @@ std::vector<std::string> columns_of(const ParticlesCase& c) {
   return columns;
 }
 
-/// "MEAN,STANDARD_ERROR" of `values`. Both fields are empty without values and if a value is not
-/// finite; the second one is empty for one value.
+/// The text "MEAN,STANDARD_ERROR" of `values`. The standard error is the standard deviation of n
+/// values, with n - 1, over the root of n. Both fields are empty if there are no values or if a
+/// value is not finite; the second field is empty if there is one value.
 std::string mean_fields(const std::vector<double>& values) {
   if (values.empty()) return ",";
   const auto n = static_cast<double>(values.size());
@@ -70,11 +75,13 @@ std::string mean_fields(const std::vector<double>& values) {
 
 /// The results of the draws of one point.
 struct Draws {
-  std::string keys;  ///< the varied keys, each followed by a comma
-  std::uint64_t succeeded = 0, failed = 0;
-  std::vector<std::vector<double>> values;  ///< of each column
+  std::string keys;                         ///< the varied keys, each followed by a comma
+  std::uint64_t succeeded = 0, failed = 0;  ///< numbers of draws
+  std::vector<std::vector<double>> values;  ///< for each column those of the draws
 };
 
+/// A row of the table of means: varied keys, numbers of draws that succeeded and that failed, and
+/// for each column its mean and standard error over the draws that succeeded.
 std::string row_of(const Draws& draws) {
   std::string text = fmt::format("{}{},{}", draws.keys, draws.succeeded, draws.failed);
   for (const auto& values : draws.values) text += "," + mean_fields(values);
@@ -83,6 +90,8 @@ std::string row_of(const Draws& draws) {
 
 }  // namespace
 
+/// The points that the section [sweep] of the case asks for; without this section nothing is
+/// varied.
 sweep::Points planned_particles(const std::filesystem::path& case_path) {
   const auto c = read_particles_case(case_path);
   const auto request = c.sweep.value_or(case_file::SweepRequest{});
@@ -92,6 +101,8 @@ sweep::Points planned_particles(const std::filesystem::path& case_path) {
   return points;
 }
 
+/// Reads the case, and checks that its keys can be varied as `points` says and that the first and
+/// the last row give valid cases.
 ParticlesSweep::ParticlesSweep(const std::filesystem::path& case_path, sweep::Points points)
     : cases_(case_path), points_(std::move(points)) {
   if (points_.variations.empty() && points_.draws == 0)
@@ -122,19 +133,23 @@ ParticlesSweep::ParticlesSweep(const std::filesystem::path& case_path, sweep::Po
   sweep::check_ends(points_, [&](const auto& numbers) { (void)cases_.with(numbers); });
 }
 
+/// The text of a case file for row `index`, in which paths are absolute.
 std::string ParticlesSweep::case_text(std::uint64_t index) const {
   return text_for_any_folder(cases_.root_with(points_.numbers(index)), case_path());
 }
 
+/// The same for the case without varied keys.
 std::string ParticlesSweep::base_text() const {
   return text_for_any_folder(cases_.root_with({}), case_path());
 }
 
+/// Hash of the version of Viscontact, the case of row `index` and the CSV file of particles.
 std::string ParticlesSweep::identity(std::uint64_t index, const std::string& version) const {
   return sha256(fmt::format("{}\n{}\n{}", version, case_text(index),
                             particles_file_.empty() ? "" : sha256(read_file(particles_file_))));
 }
 
+/// The sweep with its points, columns, head of the file and `run`, which computes a row.
 sweep::Study ParticlesSweep::study(const std::string& version, ParticlesRunner run) const {
   // The identities of the first and the last row are enough, because other rows differ from them
   // only in the varied numbers, which are in the file.
@@ -144,6 +159,8 @@ sweep::Study ParticlesSweep::study(const std::string& version, ParticlesRunner r
           std::move(run)};
 }
 
+/// The table of means, as CSV with a row for each point, of the file of rows at `path`. Throws
+/// Error(kBadInput) if this file has other rows than the sweep or cannot be read.
 std::string table_of_means(const ParticlesSweep& sweep, const std::filesystem::path& path) {
   const auto& columns = sweep.result_columns();
   const auto& points = sweep.points();
@@ -186,6 +203,7 @@ std::string table_of_means(const ParticlesSweep& sweep, const std::filesystem::p
   return text;
 }
 
+/// The path of the table of means: "rows.csv" gives "rows_means.csv".
 std::filesystem::path path_of_means(const std::filesystem::path& rows) {
   auto name = rows.stem();
   name += "_means";
