@@ -1,15 +1,15 @@
 // Changes the velocities of a step in a fluid so that at its end bodies are rigid, and hinges and
 // arms hold, that is, have the places and lengths that the case prescribes. The functions belong to
 // FluidSimulation, and FluidSimulation::solve() calls them. The fluid solver keeps linear
-// conditions on velocities, the rows. These hold bodies and links to first order in the motion
-// only, because they turn by finite angles; here velocities are changed until the remaining error
-// is within the tolerance. Velocities are in [L/T, 1/T], 3 numbers for each particle, or 1 on an
-// axis; forces of rows, one for each row, in [M L/T^2, M L^2/T^2]; the length h of the step is > 0
-// [T]. hold_after_step() throws Error(kNotConverged) if a length or place would be off by more than
-// a mean radius (a free choice, which fluid_simulation.hpp states, too); hold_with_contacts()
-// throws what solve_contacts() throws. A smaller error above solver.tolerance times the mean radius
-// makes Motion::links_hold false. A change must keep that a continued run gives the same bits as
-// one without a break.
+// conditions on velocities, the rows. The rows hold bodies and links to first order in the motion
+// only, because bodies and links turn by finite angles; here velocities are changed until the
+// remaining error is within the tolerance. Velocities are in [L/T, 1/T], 3 numbers for each
+// particle, or 1 on an axis; forces of rows, one for each row, in [M L/T^2, M L^2/T^2]; the length
+// h of the step is > 0 [T]. hold_after_step() throws Error(kNotConverged) if a length or place
+// would be off by more than a mean radius (a free choice, which fluid_simulation.hpp states, too);
+// hold_with_contacts() throws what solve_contacts() throws. A smaller error above solver.tolerance
+// times the mean radius makes Motion::links_hold false. A change must keep that a continued run
+// gives the same bits as one without a break.
 
 #include <cmath>
 
@@ -37,9 +37,9 @@ constexpr int kMostChanges = 20;
 /// Changes `velocities` until, at the end of the step, hinges and arms hold, and the springs of
 /// particles that accelerate have the forces that belong to their lengths. `held` has the rows
 /// (held_rows.hpp), and `flow` are the velocities that the fluid solver gave. Sets `holds` to
-/// whether they hold within the tolerance. Returns the forces of the rows minus those with which
-/// the fluid solver found `flow`. Throws Error(kNotConverged) if a length or place would be off by
-/// more than a mean radius.
+/// whether the remaining error is within the tolerance. Returns the forces of the rows minus those
+/// with which the fluid solver found `flow`. Throws Error(kNotConverged) if a length or place would
+/// be off by more than a mean radius.
 std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equation,
                                                      const HeldMotion& held,
                                                      std::span<const double> flow,

@@ -31,6 +31,7 @@ Vector across(const Membrane& membrane, const Particles& p, std::int32_t k) {
   return apart(membrane, p, k - 1, k) + apart(membrane, p, k, k + 1);
 }
 
+/// The vector turned by 90 degrees to the left.
 Vector left_of(const Vector& v) { return {-v[1], v[0], 0}; }
 
 /// The angle from one vector to another, in (-pi, pi] [rad].
@@ -38,7 +39,7 @@ double angle_between(const Vector& from, const Vector& to) {
   return std::atan2(from[0] * to[1] - from[1] * to[0], dot(from, to));
 }
 
-/// The part of bead k in a row: the product of `direction` and its displacement.
+/// The part of bead k in a row: the inner product of `direction` and the displacement of the bead.
 LinkPart part(const Membrane& membrane, std::int32_t k, const Vector& direction) {
   LinkPart of_bead;
   of_bead.particle = membrane.bead(k);
@@ -46,6 +47,7 @@ LinkPart part(const Membrane& membrane, std::int32_t k, const Vector& direction)
   return of_bead;
 }
 
+/// The equations of one bead, or of the area, with this one row.
 LinkEquations equations(Kind kind, std::int32_t bead, LinkRow row) {
   LinkEquations one{kind};
   one.bead = bead;
@@ -119,6 +121,8 @@ LinkRow area_row(const Membrane& membrane, const Particles& p) {
 
 }  // namespace
 
+/// The equations of a membrane of N beads: N of distances, N of turns, N of bending springs if the
+/// membrane resists bending, and one of the area if it is kept.
 std::vector<LinkEquations> membrane_equations(const Membrane& membrane, const Particles& particles,
                                               const LinkTimes& times) {
   std::vector<LinkEquations> all;
@@ -132,6 +136,8 @@ std::vector<LinkEquations> membrane_equations(const Membrane& membrane, const Pa
   return all;
 }
 
+/// The value of the row of a distance [L], a turn [rad] or the area [L] after `motions`, one for
+/// each part of the row [L, rad]. The result is exact.
 double membrane_value_after(const LinkEquations& equations, const Membrane& membrane,
                             const Particles& particles, std::span<const UnitMotion> motions) {
   const auto k = equations.bead;

@@ -76,6 +76,7 @@ std::string both_sides(const PanelSettings& panel, const Frame& frame, std::size
          (off > 0.5 * panel.scene.playback.radii[first] ? line(to - w, to) : "");
 }
 
+/// The smaller radius of two particles [page units].
 double smaller_radius(const PanelSettings& panel, std::size_t first, std::size_t second) {
   return panel.view.scale *
          std::min(panel.scene.playback.radii[first], panel.scene.playback.radii[second]);
@@ -200,9 +201,9 @@ std::string body_discs(const PanelSettings& panel, const Frame& frame) {
   return text + "</g>\n";
 }
 
-/// The links: a hinge, which holds a particle at a place, as a ring; a spring between two particles
-/// as a zigzag line; an arm, which keeps two particles at a prescribed distance, as a bar. Empty if
-/// only some of the particles are drawn.
+/// Draws the links. A hinge, which holds a particle at a place, is a ring. A spring between two
+/// particles is a zigzag line. An arm, which keeps two particles at a prescribed distance, is a
+/// bar. Empty if only some of the particles are drawn.
 std::string link_marks(const PanelSettings& panel, const Frame& frame) {
   const auto& links = panel.scene.playback.links;
   if (links.empty() || panel.every > 1) return "";
@@ -262,8 +263,8 @@ std::string circle_line(const PanelSettings& d, const PlanePosition& place) {
   return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#333\" stroke-width=\"1.5\"/>\n", path);
 }
 
-/// Motions in the plane: the parts of the box that particles cannot enter, behind planes and
-/// outside circles, as grey areas.
+/// Draws, for motions in the plane, the parts of the box that particles cannot enter, behind planes
+/// and outside circles, as grey areas.
 std::string plane_2d_solids(const PanelSettings& d, const Frame& frame) {
   const auto& [low, high] = d.scene.box;
   const Polygon all = {
@@ -282,7 +283,7 @@ std::string plane_2d_solids(const PanelSettings& d, const Frame& frame) {
   return text;
 }
 
-/// Motions in the plane: the planes and circles themselves as dark lines.
+/// Draws, for motions in the plane, the planes and circles themselves as dark lines.
 std::string plane_2d_lines(const PanelSettings& d, const Frame& frame) {
   std::string text;
   for (std::size_t j = 0; j < frame.planes.size(); ++j) {
@@ -303,9 +304,10 @@ std::string plane_2d_lines(const PanelSettings& d, const Frame& frame) {
   return text;
 }
 
-/// Motions in space: the parts of planes in the box. The free side of a plane is the one on which
-/// the particles are. With `from_free_side`: the planes that are seen from there, filled.
-/// Otherwise: the other planes, of which only edges are drawn, as particles are behind them.
+/// Draws, for motions in space, the parts of planes in the box. The free side of a plane is the one
+/// on which the particles are. With `from_free_side`, the planes that are seen from their free side
+/// are drawn, and filled. Otherwise the other planes are drawn, only by their edges, because
+/// particles are behind them.
 std::string plane_3d_patches(const PanelSettings& d, const Frame& frame, bool from_free_side) {
   std::string text;
   for (std::size_t j = 0; j < frame.planes.size(); ++j) {
@@ -489,6 +491,8 @@ std::string spheres(const PanelSettings& d, const Frame& frame) {
 
 }  // namespace
 
+/// The direction of view, with the scale 1 and the corner at 0: from the front for `dimension` 2;
+/// otherwise turned by 30 degrees about the third axis, and from 20 degrees above.
 Projection view_of(int dimension) {
   Projection view;
   if (dimension == 2) return view;
@@ -501,6 +505,8 @@ Projection view_of(int dimension) {
   return view;
 }
 
+/// The SVG elements of a panel that shows `frame`. In the plane, the SVG text `behind` comes first;
+/// in space it is not used.
 std::string frame_picture(const PanelSettings& panel, const Frame& frame,
                           const std::string& behind) {
   return panel.scene.playback.dimension == 2 ? discs(panel, frame, behind) : spheres(panel, frame);
