@@ -1,12 +1,13 @@
-// These members of Simulation compute how particles would move in a step of length h > 0 [T]
-// without contacts and links. They also compute the velocities at the present time, because those
-// of the leapfrog scheme are half a step behind. The velocities u* and angular velocities w* of the
-// motion without contacts give displacements h u* [L], 2 or 3 numbers for each particle, and turns
-// h w* [rad], 1 (discs) or 3, docs/physics.md (5.3) and (5.10). `next` is the time at the end of
-// the step [T], and kick_length(h) [T] that for which forces act on the velocities of the step.
-// Masses [M] and moments of inertia [M L^2] must be > 0; numbers are in the units of the case.
-// Nothing is checked or thrown. simulation.cpp calls move_freely() at the beginning of each step; a
-// change must set displacements and turns of all particles, also of those in rigid bodies.
+// This file has the members of Simulation that compute how particles would move in a step of length
+// h > 0 [T] without contacts and links. Other members compute the velocities at the present time,
+// because those of the leapfrog scheme are half a step behind. The velocities u* and angular
+// velocities w* of the motion without contacts give displacements h u* [L], 2 or 3 numbers for each
+// particle, and turns h w* [rad], 1 (discs) or 3, docs/physics.md (5.3) and (5.10). `next` is the
+// time at the end of the step [T], and kick_length(h) [T] is the time for which forces act on the
+// velocities of the step. Masses [M] and moments of inertia [M L^2] must be > 0; numbers are in the
+// units of the case. Nothing is checked or thrown. simulation.cpp calls move_freely() at the
+// beginning of each step; a change must set displacements and turns of all particles, also of those
+// in rigid bodies.
 #include "viscontact/particles/particles.hpp"
 #include "viscontact/particles/simulation.hpp"
 
@@ -137,9 +138,10 @@ std::vector<char> Simulation::free_particles() const {
   return is_free;
 }
 
-/// Returns the particles with the velocities at the present time. With the leapfrog,
-/// free_particles() and their bodies get what forces and torques change in State::velocity_lag [T],
-/// the time by which velocities are behind. Other particles keep the velocities of the state.
+/// Returns the particles with the velocities at the present time. With the leapfrog, velocities are
+/// behind by the time State::velocity_lag [T]. The particles that free_particles() marks with 1,
+/// and their bodies, get the changes of velocities that forces and torques cause in this time.
+/// Other particles keep the velocities of the state.
 Particles Simulation::reported_particles() const {
   auto reported = state_.particles;
   const double lag = state_.velocity_lag;

@@ -180,9 +180,10 @@ SpinePoints SpineContacts::at(int place, const Outline& first, const Outline& se
                            [&](std::size_t other) { return contact_of_[other] == contact; })];
 }
 
-/// The point with the parameter t, which grows by 2 pi once around: the angle of a circle, a cos t
-/// and b sin t along the axes of an ellipse, and the length from the tip in the direction `angle`,
-/// as a share of 2 pi, of a plate.
+/// The point with the parameter t, which grows by 2 pi once around. On a circle t is the angle from
+/// the x axis. On an ellipse the point has the coordinates a cos t and b sin t along the semi-axes
+/// a and b. On a plate t is 2 pi times the share of the circumference that begins at the tip in the
+/// direction `angle`.
 Point Outline::at(double t) const {
   if (is_circle()) return {centre[0] + radius * std::cos(t), centre[1] + radius * std::sin(t)};
   if (is_plate) {
@@ -307,8 +308,8 @@ std::optional<Chord> chord_of(const Particles& particles, std::size_t k, std::si
 }
 
 /// The chords at which other discs of its rigid body cut disc k, in the order of the directions of
-/// their middles, without those whose arc is within that of another one. Empty if particle k is in
-/// no body or no disc, or if the constraint of the fluid is not kRigid.
+/// their middles, without those whose arc is within that of another one. The result is empty if
+/// particle k belongs to no body or is no disc, or if the constraint of the fluid is not kRigid.
 std::vector<Chord> chords_of(const Fluid& fluid, const Particles& particles, std::size_t k) {
   std::vector<Chord> chords;
   const auto body = particles.bodies.body_of(static_cast<std::int32_t>(k));

@@ -55,8 +55,8 @@ FluidSimulation::FluidSimulation(Setting setting, State state, std::unique_ptr<F
       pool_(1),
       obstacles_(obstacles_of(setting_)) {
   auto& p = state_.particles;
-  // A restart file of a run without a fluid has no velocities of the step before, and may have
-  // blows.
+  // A restart file of a run without a fluid has no velocities of the step before, and may contain
+  // collisions, which a step in a fluid does not use.
   if (state_.earlier_velocities.empty()) state_.earlier_step = 0;
   state_.blows = {};
   auto& film = setting_.laws.film;
@@ -186,8 +186,8 @@ ContactConditions FluidSimulation::contact_conditions(std::span<const double> fr
     // be 0, but consists of errors. least_w must lie between these errors and the least w of a gap
     // that can change. A particle resists a force with its mass over the step plus a drag of about
     // the viscosity, or some 1e5 times the viscosity in the narrowest gap that a mesh resolves.
-    // Both factors are free choices within these limits. There are no hinges on an axis, where the
-    // drag would have another dimension.
+    // kShare and kErrors are free choices within these limits. There are no hinges on an axis,
+    // where the drag would have another dimension.
     constexpr double kShare = 1e-9, kErrors = 10;
     double heaviest = 0;
     const auto& p = state_.particles;
@@ -200,9 +200,10 @@ ContactConditions FluidSimulation::contact_conditions(std::span<const double> fr
   return conditions;
 }
 
-/// The time [T] for which the forces of a step of length h act on its velocities. It is h, but in a
-/// fluid with inertia the length of the step before: forces change the velocities in the step that
-/// ends at the present places, and particles move with them in the step that begins there.
+/// The time [T] for which the forces of a step of length h act on the velocities of the step. This
+/// time is h, but in a fluid with inertia it is the length of the step before: forces change the
+/// velocities in the step that ends at the present places, and particles move with them in the step
+/// that begins there.
 double FluidSimulation::kick_length(double h) const {
   const auto& fluid = *setting_.fluid;
   const bool is_of_flow = fluid.has_inertia() && fluid.coupling != Coupling::kSplitting;
@@ -274,8 +275,8 @@ std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& 
   }
 }
 
-/// In a fluid with inertia: sets Motion::kept, the velocities at the beginning of the step, and
-/// Motion::at_end, the same extrapolated to its end.
+/// For a fluid with inertia, sets Motion::kept, the velocities at the beginning of the step, and
+/// Motion::at_end, these velocities extrapolated to the end of the step.
 void FluidSimulation::keep_and_extrapolate(const StepEquation& equation, Motion& motion) const {
   // With coupling = splitting, contacts change the velocities of the particles, but not the flow.
   motion.kept = motion.flow;
@@ -346,7 +347,7 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
   for (std::size_t i = 0; i < motion.moved.size(); ++i)
     motion.linear[i] += motion.moved[i] - motion.free[i];
   if (!motion.blow) motion.after = motion.linear;
-  // What accelerates a particle does not act on the fluid.
+  // The part of the forces that accelerates a particle does not act on the fluid.
   motion.drag = forces;
   for (std::size_t i = 0; i < forces.size(); ++i)
     motion.drag[i] -= equation.inertia()[i] * motion.flow[i];
@@ -441,8 +442,9 @@ void FluidSimulation::estimate(const StepEquation& equation, std::span<const dou
 }
 
 /// Throws Error(kNotConverged) if an ellipse is closer to a wall, a plane or another particle than
-/// the threshold gap, because contacts of ellipses are not computed. It is no error if the motions
-/// of both are prescribed.
+/// the threshold gap minus the tolerated error of gaps, because contacts of ellipses are not
+/// computed. Ellipses with a given motion may be closer to walls and planes, and to particles whose
+/// motion is given, too.
 void FluidSimulation::check_ellipses() const {
   const auto& fluid = *setting_.fluid;
   if (fluid.semi_axes.empty()) return;

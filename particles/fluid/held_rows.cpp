@@ -86,7 +86,7 @@ void HeldMotion::turn_rows() {
   }
 }
 
-/// Adds the rows of the rigid body with this number, three for each member but the first. They
+/// Adds the rows of the rigid body with this number, three for each member but the first. The rows
 /// demand that the member has the velocities [L/T, 1/T] of the rigid motion of the first member.
 void HeldMotion::add_body_rows(const RigidBody& body, std::size_t number,
                                std::vector<HeldRow>& rows) const {
@@ -101,7 +101,8 @@ void HeldMotion::add_body_rows(const RigidBody& body, std::size_t number,
       row.name = fmt::format("body {}", number);
       row.accelerates = link_time(first) >= 0;
       row.entries = {{layout_.at(member, d), 1}, {layout_.at(first, d), -1}};
-      // The rotation of the body adds its angular velocity times `apart`, turned by 90 degrees.
+      // The rotation of the body adds the angular velocity times the vector `apart`, turned by 90
+      // degrees, to the velocity of the member.
       if (d < 2) {
         row.entries.emplace_back(layout_.at(first, 2), d == 0 ? apart[1] : -apart[0]);
         row.image_rate = of_images[m][d] - of_images[0][d];
@@ -210,7 +211,7 @@ std::vector<UnitMotion> HeldMotion::motions_of(const LinkEquations& link,
 /// hold after a step with `velocities`. For a spring with an end that accelerates, it is the error
 /// of the law force = -stiffness (extension + theta growth), divided by -(theta h stiffness); the
 /// force is that in `row_forces`, theta [1] that in `thetas`, and growth is the exact change of the
-/// extension in the step. It is 0 for bodies and all other springs.
+/// extension in the step. The number is 0 for rows of bodies and of all other springs.
 std::vector<double> HeldMotion::missing(std::span<const double> velocities,
                                         std::span<const double> row_forces,
                                         std::span<const double> thetas) const {
@@ -252,8 +253,8 @@ std::vector<double> HeldMotion::hold_at_end(std::span<const double> velocities,
                                             std::span<const double> mobility,
                                             const std::vector<char>& is_stiff,
                                             std::span<double> at_end) const {
-  // The rate of an arm's length may jump at the end of the step. It is therefore taken slightly
-  // earlier, by more than the rounding error of the time.
+  // The rate of an arm's length may jump at the end of the step. The rate is therefore taken
+  // slightly earlier, by 1e-9 of the step, a free choice above the rounding error of the time.
   const double end = times_.end - 1e-9 * times_.h;
   std::vector<LinkEquations> turned;
   std::vector<double> rates(body_rows_, 0.0);
@@ -310,7 +311,7 @@ std::vector<double> HeldMotion::hold_at_end(std::span<const double> velocities,
   for (Eigen::Index c = 0; c < n; ++c) {
     const auto& row = rows[chosen[static_cast<std::size_t>(c)]];
     // Without a mass that accelerates, the change of velocities at the end of the step takes no
-    // impulse, so that its force is no part of the mean force of the step.
+    // impulse, so that the force that makes this change is no part of the mean force of the step.
     if (!row.accelerates) continue;
     double square = 0;
     for (const auto& [component, coefficient] : row.entries)
@@ -339,8 +340,8 @@ std::vector<double> HeldMotion::with_finite_turns(std::span<const double> veloci
   return result;
 }
 
-/// Replaces the velocities of the members of each body by those of motion_of_body() at their
-/// present places.
+/// Replaces the velocities of the members of each body by those that the motion of motion_of_body()
+/// has at the places of the members.
 void HeldMotion::make_rigid(std::span<double> velocities) const {
   const auto& bodies = particles_.bodies.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {

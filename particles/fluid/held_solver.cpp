@@ -97,8 +97,8 @@ double HeldSolver::theta(Index r) const {
   return std::isfinite(z) ? (1 + z) / (2 + z) : 1;
 }
 
-/// For each row, its prescribed rate minus its sum with these velocities. The prescribed rate of a
-/// spring is 0.
+/// Returns for each row its prescribed rate minus its sum with these velocities. The prescribed
+/// rate of a spring is 0.
 Eigen::VectorXd HeldSolver::missing(std::span<const double> velocities) const {
   Eigen::VectorXd missing = -sums(velocities);
   for (std::size_t r = 0; r < rows_.size(); ++r)
@@ -165,7 +165,8 @@ Eigen::VectorXd HeldSolver::solve(const Eigen::VectorXd& right, bool with_spring
       const double k = rows_[static_cast<std::size_t>(r)].stiffness;
       matrix.diagonal()[static_cast<Index>(i)] += scale_[r] * scale_[r] / (k * theta(r) * h_);
     }
-    // Scaled again to the diagonal 1, so that soft and stiff springs have entries of one size.
+    // The matrix is scaled again to the diagonal 1, so that soft and stiff springs have entries of
+    // one size.
     const Eigen::VectorXd own = matrix.diagonal().cwiseSqrt().cwiseInverse();
     matrix = own.asDiagonal() * matrix * own.asDiagonal();
     rest = own.cwiseProduct(rest);
@@ -188,7 +189,8 @@ void HeldSolver::check(const Eigen::VectorXd& right, const Eigen::VectorXd& forc
   const Eigen::VectorXd parts = scale_.cwiseProduct(matrix_.cwiseAbs() * forces.cwiseAbs());
   double largest = 0;
   for (const Index r : fixed_) largest = std::max(largest, std::abs(scaled[r]) + parts[r]);
-  // A free choice, far above the relative error of the velocities, which is usually 1e-9.
+  // kBroken is a free choice, far above the relative error of the velocities, which is usually
+  // 1e-9.
   constexpr double kBroken = 1e-4;
   std::string names;
   for (const Index r : fixed_) {

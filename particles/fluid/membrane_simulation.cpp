@@ -1,6 +1,6 @@
-// Time steps of membranes (closed curves through particles, their beads) and rigid discs without
-// mass in a fluid without inertia, docs/physics.md (8.1) to (8.8). Units are those of the case:
-// places [L, rad], velocities [L/T, 1/T], forces [M L/T^2, M L^2/T^2], where M is a mass per
+// Computes time steps of membranes (closed curves through particles, their beads) and rigid discs
+// without mass in a fluid without inertia, docs/physics.md (8.1) to (8.8). Units are those of the
+// case: places [L, rad], velocities [L/T, 1/T], forces [M L/T^2, M L^2/T^2], where M is a mass per
 // length. Arrays for the fluid solver have 3 numbers for each particle. Throws Error(kBadInput) if
 // a restart file has membranes of other lengths or areas, Error(kNotConverged) if a step is not
 // solved or leaves an overlap of more than the mean radius, and the errors of FluidSolver; the

@@ -1,11 +1,11 @@
 // Computes the terms of the equation of motion of a step in a fluid: forces [M L/T^2, M L^2/T^2],
-// inertia [M/T, M L^2/T], given motions [L/T, 1/T] and theta [1], 1/2 to 1, with which the
-// velocities in the step are theta times those at its end plus 1 - theta times those at its
-// beginning. A component is a direction or the rotation of a particle; arrays have 3 numbers for
-// each particle, or 1 on an axis. The length h of the step is > 0 [T]; units are any consistent
-// ones. Nothing is checked; given_in_step() throws std::out_of_range for a particle that is not
-// driven. fluid_simulation.cpp and fluid_links.cpp use it. A change must keep the second order in
-// time away from contact.
+// inertia, which is mass over theta h [M/T, M L^2/T], and given motions [L/T, 1/T]. The number
+// theta [1] is 1/2 to 1; the velocities in the step are theta times those at its end plus 1 - theta
+// times those at its beginning. A component is a direction or the rotation of a particle; arrays
+// have 3 numbers for each particle, or 1 on an axis. The length h of the step is > 0 [T]; units are
+// any consistent ones. Nothing is checked; given_in_step() throws std::out_of_range for a particle
+// that is not driven. fluid_simulation.cpp and fluid_links.cpp use it. A change must keep the
+// second order in time away from contact.
 #include "viscontact/particles/fluid/step_equation.hpp"
 
 #include <algorithm>
@@ -118,11 +118,11 @@ StepEquation::Window StepEquation::window(const Setting& setting, const State& s
   const double now = state.time;
   if (!setting.fluid->has_inertia() || state.steps == 0) return {now, now, next};
   const double from = now - state.earlier_step / 2;
-  // The velocity at t^1 is found from a difference of first order, later velocities from
-  // differences of second order. The sum of the differences over all steps contains the change of
-  // the velocity in the first step with the weight 3/2. The forces of the first step are therefore
-  // means over the first 3/2 steps, from t^0 on, so that the forces of all steps together have the
-  // whole impulse.
+  // t^n is the time after n steps. The velocity at t^1 is found from a difference of first order,
+  // later velocities from differences of second order. The sum of the differences over all steps
+  // contains the change of the velocity in the first step with the weight 3/2. The forces of the
+  // first step are therefore means over the first 3/2 steps, from t^0 on, so that the forces of all
+  // steps together have the whole impulse.
   return {state.steps == 1 ? now - state.earlier_step : from, from, now + h / 2};
 }
 

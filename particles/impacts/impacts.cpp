@@ -25,7 +25,7 @@ namespace {
 // is far above these errors and far below 1.
 constexpr double kSameTime = 1e-9;
 
-/// A root of a continuous function that is > 0 at `from` and <= 0 at `until`, by the Illinois
+/// Finds a root of a continuous function that is > 0 at `from` and <= 0 at `until`, by the Illinois
 /// method (a bracketing secant method). Returns the upper end of the last bracket, after 200 steps
 /// at most, a number that only guards against an endless loop.
 template <class Function>
@@ -151,10 +151,10 @@ RigidBody Impacts<D>::body_at(std::int32_t k, double t) const {
   return body;
 }
 
-/// The angular velocity of particle `k` at a blow at the time `t` [1/T]. That of a rigid body in
-/// space changes between blows, while spin(), with which its particles move, is constant. A blow
-/// needs the true velocity of the point at which it acts, because otherwise a blow with the
-/// coefficient of restitution 1 would not keep the energy.
+/// The angular velocity of particle `k` at a blow at the time `t` [1/T]. The angular velocity of a
+/// rigid body in space changes between blows, while spin(), with which its particles move, is
+/// constant. A blow needs the true velocity of the point at which it acts, because otherwise a blow
+/// with the coefficient of restitution 1 would not keep the energy.
 template <int D>
 Vector Impacts<D>::spin_at(std::int32_t k, double t) const {
   return precesses(k) ? body_at(k, t).angular_velocity : spin(k);
@@ -294,7 +294,8 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
   const double root = rate * rate - 4 * curvature * gap;
   // The curvature changes on the way, so that a gap that opens may close again.
   if (root < 0 || (rate >= 0 && curvature >= 0)) return search();
-  // The time at which the gap falls to 0; in neither form do the two terms cancel each other.
+  // The time at which the gap falls to 0. There is a formula for each sign of the rate, in which
+  // terms do not cancel each other.
   double t = from + (rate < 0 ? 2 * gap / (-rate + std::sqrt(root))
                               : (rate + std::sqrt(root)) / (-2 * curvature));
   if (obstacle != nullptr && !approach.turns()) return t <= until ? std::optional(t) : std::nullopt;
@@ -313,9 +314,9 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
   return t <= until ? std::optional(t) : search();
 }
 
-/// The contact of pair `k` if it is hit at `time`, that is, if its gap is closed and closes fast
-/// enough; otherwise std::nullopt. The factors 0.05, 1e-3 and 5 of its limits of velocities are
-/// free choices.
+/// The contact of pair `k` if it is hit at `time`, that is, if its gap is at most 2 touching and
+/// closes fast enough; otherwise std::nullopt. ImpactStep::touching > 0 [L] is the largest gap that
+/// counts as closed. The factors 0.05, 1e-3 and 5 of its limits of velocities are free choices.
 template <int D>
 std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double time) {
   const auto approach = approach_of(k);
@@ -344,8 +345,7 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
   // if the pair touched at the beginning of the step and neither approached nor opened faster than
   // `unseen`, or, if it bore a load, approached no faster than `pulled`. Such a pair is hit only if
   // it approaches faster than `pulled`, because slower hits would keep a packing shaking. A pair
-  // without load that opens is in the flight after a blow, also if its gap is still below
-  // `touching`.
+  // without load that opens still flies after a blow, also if its gap is below `touching`.
   const double pulled = 5 * step_.h *
                         std::max({std::abs(dot(normal, acceleration(of.second))),
                                   std::abs(dot(normal, acceleration(of.first))), std::abs(pull)});
@@ -426,8 +426,8 @@ void Impacts<D>::run() {
       hits_of_.resize(pair_count());
     }
     // Hits that share a particle or a rigid body are one blow. group_of maps each unit to the
-    // number of its group. The key of particle k without a body is k, that of rigid body b is -1 -
-    // b.
+    // number of its group. The key of a particle k without a body is k, and the key of the rigid
+    // body b is -1 - b.
     std::map<std::int32_t, std::size_t> group_of;
     std::vector<std::vector<Hit>> groups;
     const auto unit = [&](std::int32_t k) {

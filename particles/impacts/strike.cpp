@@ -42,8 +42,8 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
       if (body < 0) {
         const std::array<double, 3> still{};
         // If particles do not turn, the moments on them are 0 but for rounding errors, and yet the
-        // problem needs a mobility for turning. With moves/r^2, which has the right dimension, the
-        // turns that follow are small in every system of units.
+        // problem needs a mobility for turning. The value moves/r^2 has the right dimension, and
+        // the turns that follow from it are small in every system of units.
         const double r = p.radii[index_of(k)], moves = step_.mobilities[index_of(k)];
         const double turns =
             step_.turns.empty() ? moves / (r * r) : step_.turn_mobilities[index_of(k)];
@@ -77,7 +77,7 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
       auto& row = problem.rows.back();
       row.offset = step_.h * hit.approach;
       if (k > 0) {
-        // Velocity at which the surfaces slip before the blow.
+        // `slip` is the velocity at which the surfaces slip before the blow [L/T].
         const Vector slip = hit.relative +
                             cross(spin_at(of.second, time), -tangents.second_arm * hit.normal) -
                             cross(spin_at(contact.first, time), tangents.first_arm * hit.normal);
@@ -117,8 +117,9 @@ void Impacts<D>::move_unit(std::int32_t particle, const Motion<D>& change, doubl
   step.displacement = step.displacement + rest * velocity;
   step.late_velocity = step.late_velocity + (time / step_.h) * velocity;
   step.turn = step.turn + rest * turn;
-  // In space, constrain() adds to this angular momentum. In the plane it computes the angular
-  // momentum as I turn/h + late_momentum, and turn/h lacks the part time/h of the change.
+  // In space, constrain() (rigid_bodies.hpp) adds the effect of the remaining contacts to this
+  // angular momentum. In the plane, constrain() computes the angular momentum as I turn/h +
+  // late_momentum, and turn/h lacks the part time/h of the change.
   const Vector momentum = present_inertia(body_at(particle, time), D) * turn;
   step.angular_momentum = step.angular_momentum + momentum;
   step.late_momentum = step.late_momentum + (time / step_.h) * momentum;
@@ -212,8 +213,8 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     const bool rubs = laws.friction && phase.solid > 0;
     block.friction = rubs ? laws.friction->coefficient : 0;
     // Friction is bounded by the coefficient of friction times the impulse beyond `capacity`. With
-    // this capacity it is (1 + e) times the impulse of the solids in the compression, if the
-    // restitution adds its lower bound and this is >= 0.
+    // this capacity, the impulse beyond `capacity` is (1 + e) times the impulse of the solids in
+    // the compression, if the restitution adds its lower bound and this bound is >= 0.
     block.capacity = phase.compressed + std::max(phase.lowest, 0.0) - (1 + e) * phase.solid;
     problem.impulses[block.row] = block.lowest;
   }

@@ -1,10 +1,10 @@
 // Writes contacts and their forces as CSV tables, in the units of the case: gaps are in [L], gamma
-// and impulses in [M L/T], forces in [M L/T^2], and all three are per length for discs in a fluid.
-// The stress is in [M/(L T^2)] for spheres in space, spheres on an axis and discs in a fluid, and
-// in [M/T^2] for discs without a fluid. contact_file.hpp has all columns. i and j are the ids of
-// two particles; for a contact with an obstacle i is the id of the particle, and j is -1, -2, ...
-// for the first, second obstacle. Nothing is checked or thrown; without a domain the stress is
-// divided by 0. A change must keep the names and the order of the columns, which
+// and impulses in [M L/T], and forces in [M L/T^2]. Gamma, impulses and forces are per length for
+// discs in a fluid. The stress is in [M/(L T^2)] for spheres in space, spheres on an axis and discs
+// in a fluid, and in [M/T^2] for discs without a fluid. contact_file.hpp has all columns. i and j
+// are the ids of two particles; for a contact with an obstacle i is the id of the particle, and j
+// is -1, -2, ... for the first, second obstacle. Nothing is checked or thrown; without a domain the
+// stress is divided by 0. A change must keep the names and the order of the columns, which
 // docs/file-formats.md states and users' scripts read. Used by case/ and run/.
 #include "viscontact/particles/io/contact_file.hpp"
 

@@ -44,7 +44,8 @@ const Names kOnAxis = {"z", "radius", "mass", "vz", "x", "y", "vx", "vy", "id", 
 // clang-format on
 constexpr std::size_t kAngularVelocityX = 11;
 
-// Further columns in a fluid. Forces of an earlier run are not used.
+// The further columns in a fluid. read_particles() accepts the columns with forces of an earlier
+// run, but does not use them.
 constexpr std::array<std::string_view, 7> kOfDiscsInFluid = {"angle",
                                                              "angular_velocity",
                                                              "fluid_force_x",

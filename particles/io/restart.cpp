@@ -23,10 +23,10 @@
 namespace viscontact::particles {
 namespace {
 
-// The versions that can be read. A file has the lowest one that holds its state. Version 7 adds the
-// memories of contact laws that have no array in version 6; 8 the flow of a fluid with inertia; 9
-// the positions before the last step, for membranes; 10 Pair::place; 11 State::sources; and 12
-// State::blows.
+// The versions that can be read. A file has the lowest version that can hold its state. Version 7
+// adds the memories of contact laws that have no array in version 6, version 8 the flow of a fluid
+// with inertia, version 9 the positions before the last step, for membranes, version 10
+// Pair::place, version 11 State::sources, and version 12 State::blows.
 constexpr int kFirstVersion = 6, kLastVersion = 12;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
@@ -51,8 +51,8 @@ struct StoredArrays {
   /// each with a line break, `memories` for each name one number for each pair and wall.
   std::vector<char> names;
   std::vector<double> memories;
-  // The members of State::blows, an array for each, because BlowImpulse has bytes without a value,
-  // which would change the hash of the file.
+  // These arrays have the members of State::blows. There is an array for each member, because
+  // BlowImpulse has bytes without a value, which would change the hash of the file.
   std::vector<std::int32_t> blow_firsts;
   std::vector<Vector> blow_impulses, blow_branches;
 };

@@ -33,7 +33,7 @@ std::vector<Number> numbers_or_zeros(const AppendedReader& reader, const char* n
   return numbers;
 }
 
-/// Those numbers that contact laws remember of each of `count` contacts which files show
+/// For each of `count` contacts, the numbers that contact laws remember and files show
 /// (pair_memory.hpp). Numbers that the frame does not have are 0. Throws Error(kBadInput) if an
 /// array has another length.
 std::vector<ShownMemory> read_memories(const AppendedReader& reader, std::size_t count) {
@@ -89,7 +89,7 @@ std::vector<CurrentContact> read_contacts(const AppendedReader& reader, std::int
     return static_cast<ContactFriction>(number);
   };
   std::vector<CurrentContact> contacts;
-  // A frame has no errors of gamma, normals and branches, because no picture shows them.
+  // A frame has neither errors of gamma nor normals and branches, because no picture shows them.
   const auto add = [&](std::size_t i, std::int32_t first, std::int64_t second) {
     contacts.push_back({.first = first,
                         .second = particle(second),

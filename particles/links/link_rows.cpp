@@ -26,7 +26,7 @@ Vector unit_centre(const Particles& p, std::int32_t particle) {
   return body < 0 ? p.position(index_of(particle)) : p.bodies.bodies[index_of(body)].centre;
 }
 
-/// Vector from the centre of its unit to a linked point [L].
+/// Vector [L] from the centre of the unit of a linked point to the point.
 Vector arm_of_point(const Particles& p, const LinkedPoint& point) {
   const auto body = p.bodies.body_of(point.particle);
   if (body >= 0) return turned_with(p.bodies.bodies[index_of(body)], point.offset, p.dimension);
@@ -280,7 +280,7 @@ std::vector<double> values_after(const LinkEquations& equations, const Links& li
       values.push_back(equations.rows[d].value + by[d]);
     return values;
   }
-  // The row of a spring has its value for the motions to first order.
+  // The value of the row of a spring is computed to first order in the motions.
   for (const auto& row : equations.rows) {
     values.push_back(row.value);
     for (std::size_t i = 0; i < row.parts.size(); ++i)

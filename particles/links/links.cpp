@@ -1,10 +1,10 @@
-// Piecewise linear and sinusoidal lengths of arms, links that keep the distance of two particles at
-// a given function of time. Lengths [L] are > 0, times [T] >= 0, rates in [L/T], phases in [rad],
-// in any consistent units. A piecewise linear length has at least one point (time, length), and the
-// times of its points increase. Its period is larger than the time of the last point, or 0 if there
-// is none. Nothing is checked or thrown. case/, fluid/held_rows.cpp and link_rows.cpp use it. A
-// change must keep that rate_at() is the derivative of length_at(), at a point that of the next
-// piece.
+// Computes the lengths of arms as functions of time, which are piecewise linear or sinusoidal. Arms
+// are links that keep the distance of two particles at such a length. Lengths [L] are > 0, times
+// [T] >= 0, rates in [L/T], phases in [rad], in any consistent units. A piecewise linear length has
+// at least one point (time, length), and the times of its points increase. Its period is larger
+// than the time of the last point, or 0 if there is none. Nothing is checked or thrown. case/,
+// fluid/held_rows.cpp and link_rows.cpp use it. A change must keep that rate_at() is the derivative
+// of length_at(), and at the time of a point the derivative in the next piece.
 #include "viscontact/particles/links/links.hpp"
 
 #include <algorithm>

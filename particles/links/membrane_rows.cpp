@@ -1,12 +1,13 @@
 // Makes the equations of a membrane without a fluid in a time step: a closed polygon of at least 3
 // particles (beads), numbered from 0 counter-clockwise, whose distances and area are kept. A row is
-// one equation, value + sum of its parts + compliance * impulse = 0. Values are in [L], of turns in
-// [rad]. Membrane::lengths and the perimeter, > 0 [L], belong to the polygon; the times
-// LinkTimes::h and kick are > 0 [T]. Units are any consistent ones. Nothing is checked or thrown:
-// beads at one place give numbers that are not finite. link_rows.cpp uses this file. A change must
-// keep the order of the equations, which is that of State::link_forces, and that the parts of a
-// row, except of a bending spring, are the derivatives of membrane_value_after() with respect to
-// the motion.
+// one equation, value + sum of its parts + compliance * impulse = 0. The value of a row is in [L],
+// and in [rad] in a row for the turn of a bead; impulses are in [M L/T], and moments of impulses
+// for turns in [M L^2/T]. Membrane::lengths and the perimeter, > 0 [L], belong to the polygon; the
+// times LinkTimes::h and kick are > 0 [T]. Units are any consistent ones. Nothing is checked or
+// thrown: beads at one place give numbers that are not finite. link_rows.cpp uses this file. A
+// change must keep the order of the equations, which is that of State::link_forces, and that the
+// parts of a row, except of a bending spring, are the derivatives of membrane_value_after() with
+// respect to the motion.
 #include <cmath>
 #include <utility>
 
@@ -69,7 +70,8 @@ LinkRow distance_row(const Membrane& membrane, const Particles& p, std::int32_t 
 /// the polygon turns at the bead, times the mean length l of its two sides, so that its stiffness
 /// is bending rigidity/l^3 [M/T^2]. It is integrated by Newmark's method with the parameter
 /// LinkTimes::beta(), as other springs are. The bending viscosity opposes the change of the
-/// extension in the step. Rigidity or viscosity must be > 0, because their sum divides.
+/// extension in the step. The rigidity or the viscosity must be > 0, because the compliance is one
+/// over a sum of both.
 LinkRow bend_row(const Membrane& membrane, const Particles& p, std::int32_t k,
                  const LinkTimes& times) {
   const auto n = membrane.lengths.size(), i = static_cast<std::size_t>(k);

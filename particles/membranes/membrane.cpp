@@ -1,11 +1,11 @@
-// Measures and output of membranes (closed lines through particles, the beads), ellipses of a given
-// perimeter and area, and geometry of polygons. Lengths [L], areas [L^2], times [T] and velocities
-// [L/T] are in the units of the case, angles in radians. A polygon or array of places has two
-// numbers for each corner, x and y, and at least three corners; perimeters, areas and distances
-// are > 0. simulation.cpp, io/, run/ and the other sources of this folder use it. check_shapes()
-// throws Error(kBadInput); nothing else is checked or thrown, but ellipse_of() returns
-// std::nullopt, and shape_curve() infinity, if they find no places. A change must keep the places
-// of the beads of ellipse_of() bit for bit.
+// Computes measures and rows of output of membranes (closed lines through particles, the beads),
+// ellipses with a given perimeter and area, and the geometry of polygons. Lengths [L], areas [L^2],
+// times [T] and velocities [L/T] are in the units of the case, angles in radians. A polygon or
+// array of places has two numbers for each corner, x and y, and at least three corners; perimeters,
+// areas and distances are > 0. simulation.cpp, io/, run/ and the other sources of this folder use
+// it. check_shapes() throws Error(kBadInput); nothing else is checked or thrown, but ellipse_of()
+// returns std::nullopt, and shape_curve() infinity, if they find no places. A change must keep the
+// places of the beads of ellipse_of() bit for bit.
 #include "viscontact/particles/membranes/membrane.hpp"
 
 #include <fmt/format.h>
@@ -134,7 +134,8 @@ Corner corner(std::span<const double> polygon, std::size_t i) {
   return {polygon[k], polygon[k + 1]};
 }
 
-/// > 0 if c is on the left of the line from a to b.
+/// Returns a number [L^2] that is > 0 if c is on the left of the line from a to b, and < 0 if c is
+/// on the right.
 double side(const Corner& a, const Corner& b, const Corner& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }

@@ -189,8 +189,8 @@ Eigen::MatrixXd Membranes::step_matrix(double time, const FluidAnswer& answer,
 }
 
 /// Newton's method for step(), with the same `from` [L], `time` [T] and `answer`. `positions`, and
-/// the tensions and pressures of `motion`, are first guesses, and the solution afterwards. Returns
-/// false if it has not converged.
+/// the tensions and pressures of `motion`, are first guesses before, and the solution afterwards.
+/// Returns false if the method has not converged in kMostRounds rounds.
 bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
                            Eigen::VectorXd& positions, MembraneMotion& motion) const {
   const auto n = beads(), count = static_cast<Eigen::Index>(curves_.size());
@@ -238,10 +238,11 @@ bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const Fluid
   return false;
 }
 
-/// Solves (z - from)/time = velocities of the fluid at the beads for the positions z, under the
-/// bending forces and tensions at z and the further forces `loads`, where lengths and areas are
-/// kept. `positions` is a first guess of z before, and z afterwards. Throws Error(kNotConverged) if
-/// the step is not solved; `positions` are then undefined.
+/// Finds the positions z of the beads [L] for which (z - from)/time are the velocities of the fluid
+/// at the beads. The forces on the fluid are the bending forces and tensions at z and the further
+/// forces `loads` [M L/T^2]. Lengths and areas are kept. `positions` is a first guess of z before,
+/// and z afterwards. Throws Error(kNotConverged) if the step is not solved; `positions` are then
+/// undefined.
 MembraneMotion Membranes::step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
                                const Eigen::VectorXd& loads, Eigen::VectorXd& positions) const {
   const Eigen::VectorXd guess = positions;

@@ -1,9 +1,9 @@
-// Geometry of the polygon through the N >= 3 particles (beads) of a membrane. An array of positions
-// has x of all beads and then y of all, 2 N numbers [L]; distances [L] are > 0, areas [L^2] > 0 if
-// the beads go around counter-clockwise, turns in (-pi, pi] [rad]; units are any consistent ones.
-// Nothing is checked or thrown; restore_necklace() returns false where it does not converge, and
-// its positions are then undefined. membrane.cpp and links/membrane_rows.cpp use it. A change must
-// keep that area_gradient() is the derivative of area_of().
+// Computes the geometry of the polygon through the N >= 3 particles (beads) of a membrane. An array
+// of positions has x of all beads and then y of all, 2 N numbers [L]; distances [L] are > 0, areas
+// [L^2] > 0 if the beads go around counter-clockwise, turns in (-pi, pi] [rad]; units are any
+// consistent ones. Nothing is checked or thrown; restore_necklace() returns false where it does not
+// converge, and its positions are then undefined. membrane.cpp and links/membrane_rows.cpp use it.
+// A change must keep that area_gradient() is the derivative of area_of().
 #include "viscontact/particles/membranes/necklace.hpp"
 
 #include <cmath>

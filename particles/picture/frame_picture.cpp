@@ -23,9 +23,9 @@
 namespace viscontact::particles {
 namespace {
 
-/// Calls visit(k, centre) for each particle k that is drawn (every d.every-th): with its own centre
-/// [L] and, where the motion is periodic, with those of its images, the copies of it that are
-/// shifted by -1, 0 or 1 periods along each axis.
+/// Calls visit(k, centre) for each particle k that is drawn (0, d.every, 2 d.every, ...): with its
+/// own centre [L] and, where the motion is periodic, with those of its images, the copies of it
+/// that are shifted by -1, 0 or 1 periods along each axis.
 template <class Visit>
 void for_each_image(const PanelSettings& d, const Frame& frame, const Visit& visit) {
   const auto cell = cell_at(d.scene.playback, frame);
@@ -128,8 +128,8 @@ std::string disc(const PanelSettings& panel, const Frame& frame, std::size_t k, 
       scale * a, scale * b, x, y, -frame.angles[k] * 180 / std::numbers::pi);
 }
 
-/// Dots that show how far discs and ellipses have turned: each dot lies in the direction of the
-/// particle's angle. Very small particles have none. Empty if the frame has no angles.
+/// Draws dots that show how far discs and ellipses have turned. Each dot lies in the direction of
+/// the particle's angle. Very small particles have none. Empty if the frame has no angles.
 std::string angle_marks(const PanelSettings& panel, const Frame& frame) {
   constexpr double kSmallest = 0.5;  // least radius of a dot that is seen [page units]
   if (frame.angles.size() != panel.scene.playback.radii.size()) return "";
@@ -148,8 +148,9 @@ std::string angle_marks(const PanelSettings& panel, const Frame& frame) {
   return fmt::format("<g fill=\"{}\">\n{}</g>\n", kStyle.mark, text);
 }
 
-/// Dots on sphere k at the ends of the three axes that turn with it, as far as they are on the side
-/// that the reader sees. Empty if the frame has no orientations or if the sphere is too small.
+/// Draws dots on sphere k at the ends of the three axes that turn with it, as far as they are on
+/// the side that the reader sees. Empty if the frame has no orientations or if the sphere is too
+/// small.
 std::string orientation_marks(const PanelSettings& panel, const Frame& frame, std::size_t k) {
   constexpr double kSmallest = 0.5;  // least radius of a dot that is seen [page units]
   const double r = panel.scene.playback.radii[k];
@@ -174,8 +175,8 @@ std::string orientation_marks(const PanelSettings& panel, const Frame& frame, st
   return fmt::format("<g fill=\"{}\" stroke=\"none\">{}</g>\n", kStyle.mark, dots);
 }
 
-/// The discs of rigid bodies in colours that only they have, and lines from each disc of a body to
-/// the next disc of the same body.
+/// Draws the discs of rigid bodies in colours that only they have, and lines from each disc of a
+/// body to the next disc of the same body. The text is empty if there are no bodies.
 std::string body_discs(const PanelSettings& panel, const Frame& frame) {
   if (panel.scene.playback.bodies.empty()) return "";
   const auto [fill, edge] = kStyle.disc_of_body;
