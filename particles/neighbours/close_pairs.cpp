@@ -1,10 +1,10 @@
-// Finds pairs of close particles, whose distance is less than the sum of their extents [L], > 0: in
-// two and three dimensions by grids of cells, one for each factor of 2 in the extents; in one
-// dimension by a sweep along the line; and in a periodic cell with copies of the particles near its
-// sides. Positions are finite, with as many numbers for each particle as there are dimensions;
-// lengths are in any unit. In a periodic cell the sum of two extents must be less than each period.
-// neighbour_list.cpp, current_contacts.cpp, case/ and fluid/ use it. Nothing is checked or thrown.
-// A change must keep the order of the pairs, on which bits of results depend.
+// Finds pairs of close particles, whose distance is less than the sum of their extents > 0 [L]. In
+// two and three dimensions the search uses grids of cells, one for each factor of 2 in the extents.
+// In one dimension it is a sweep along the line. In a periodic cell, copies of the particles near
+// the sides take part. Positions are finite, with as many numbers for each particle as there are
+// dimensions; lengths are in any unit. In a periodic cell the sum of two extents must be less than
+// each period. neighbour_list.cpp, current_contacts.cpp, case/ and fluid/ use it. Nothing is
+// checked or thrown. A change must keep the order of the pairs, on which bits of results depend.
 #include "viscontact/particles/neighbours/close_pairs.hpp"
 
 #include <algorithm>

@@ -57,12 +57,14 @@ double half_shortest_period(const PeriodicCell& cell) {
 }
 
 /// The smaller of `skin` and the largest skin that particle k may have in a periodic cell [L]. With
-/// it, each pair of the list stays closer than a period while its particles move by their skins,
-/// r_i + 2 skin_i + r_j + 2 skin_j <= period, so that its image has a number (periods.hpp). Throws
-/// Error(kNotConverged) if the particle moves by `moved`, further than this largest skin.
+/// such skins, the radii r_i and r_j and the skins of a pair obey r_i + 2 skin_i + r_j + 2 skin_j
+/// <= period. The pair then stays closer than a period while its particles move by their skins, so
+/// that the image of the second particle has a number (periods.hpp). Throws Error(kNotConverged) if
+/// the particle moves by `moved`, further than this largest skin.
 double skin_within_period(const Particles& p, std::size_t k, double half_period, double skin,
                           double moved) {
-  // Slightly smaller than that, because rounding errors of positions add to the sum.
+  // The factor kLess makes the skin slightly smaller, because rounding errors of positions add to
+  // the sum.
   constexpr double kLess = 1 - 1e-9;
   const double longest = kLess * (half_period - p.radii[k]) / 2;
   if (!(moved <= longest))

@@ -351,8 +351,9 @@ std::string colour_of(const Scene& scene, const CurrentContact& contact) {
       rounded(mobilised_friction(scene.playback, contact), kFrictionColours));
 }
 
-/// Width of the line of a contact [page units]. `radius` is the smaller radius of the two
-/// particles, or the radius of the particle at an obstacle [page units].
+/// Width of the line of a contact [page units]. `radius` [page units] is the smaller radius of the
+/// two particles, with plates at most the smaller semi-axis of the second particle. At an obstacle
+/// it is the radius of the particle.
 double width_of(const PanelSettings& d, const CurrentContact& contact, double radius) {
   const auto width = [](const LineWidth& line, double r) {
     return std::clamp(line.share * r, line.least, line.most);
