@@ -226,6 +226,8 @@ std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& 
   const auto is_movable = [&](std::int32_t k) {
     return k >= 0 && !equation.is_driven(k) && !(is_split && inertia[layout_.at(k, 0)] == 0);
   };
+  // The velocities that the forces and torques `loads` on the particles cause. With splitting they
+  // come from the masses alone, otherwise from the fluid.
   const Mobility mobility = [&](std::span<const double> loads) {
     if (!is_split) return solver_->velocities(loads, false);
     std::vector<double> velocities(loads.size());

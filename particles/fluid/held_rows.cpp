@@ -200,6 +200,7 @@ UnitMotion HeldMotion::motion_of(const LinkPart& part, std::span<const double> v
   return {times_.h * motion.displacement, times_.h * motion.turn};
 }
 
+/// The motions of all units of a link in the step, in the order of the parts of its first row.
 std::vector<UnitMotion> HeldMotion::motions_of(const LinkEquations& link,
                                                std::span<const double> velocities) const {
   std::vector<UnitMotion> motions;

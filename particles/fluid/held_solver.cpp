@@ -29,6 +29,8 @@ constexpr double kAboveErrors = 10;
 
 }  // namespace
 
+/// Takes over the fluid solver, which must not be null. `has_inertia` says whether its fluid has
+/// inertia.
 HeldSolver::HeldSolver(std::unique_ptr<FluidSolver> solver, double relative_error, bool has_inertia)
     : solver_(std::move(solver)), relative_error_(relative_error), has_inertia_(has_inertia) {}
 

@@ -457,6 +457,8 @@ MembraneSimulation::MembraneSimulation(Setting setting, State state,
 
 MembraneSimulation::~MembraneSimulation() = default;
 
+/// Computes a step that ends at `end` [T] or before. Throws Error(kNotConverged) and the errors of
+/// FluidSolver; the state is then as before the step.
 StepReport MembraneSimulation::step(double end) { return implementation_->step(end); }
 
 const State& MembraneSimulation::state() const { return implementation_->state(); }
@@ -468,6 +470,7 @@ FlowField MembraneSimulation::flow() {
   return implementation_->flow_at(implementation_->before_step());
 }
 
+/// The flow with the particles at their present places. Throws the errors of FluidSolver.
 FlowField MembraneSimulation::flow_at_present() {
   return implementation_->flow_at(implementation_->state());
 }

@@ -58,6 +58,8 @@ double root_of_falling(const Function& f, double from, double until) {
 
 }  // namespace
 
+/// Keeps references to the state and to the arrays of the step, and a copy of the motions that the
+/// rigid bodies have without blows. A pair that the state does not list is never hit.
 template <int D>
 Impacts<D>::Impacts(State& state, const ImpactStep& step)
     : state_(state), step_(step), free_bodies_(step.bodies.begin(), step.bodies.end()) {}

@@ -49,6 +49,9 @@ struct ContactCells {
   }
 
  private:
+  /// Adds a cell, with an entry in each list. Cells have the numbers of particles; `firsts` and
+  /// `seconds` have the numbers of ids_of(), the ids of two particles, or of one particle and then
+  /// the number < 0 of the obstacle.
   void add(const Particles& particles, const CurrentContact& contact) {
     if (contact.first < 0)
       cells.add_vertex(contact.second);

@@ -75,6 +75,8 @@ void add_times(const PiecewiseLinearLength& length, double end, std::vector<doub
   }
 }
 
+/// Adds times between 0 and `end` at which a sinusoidal length has its extrema and points between
+/// them, kMostTimes times at most.
 void add_times(const SinusoidalLength& length, double end, std::vector<double>& times) {
   // The times are an eighth of a period apart and include all extrema. Between two of them the
   // length differs from its chord by at most 8 percent of the amplitude.

@@ -26,6 +26,7 @@ struct Density {
   Eigen::Matrix4d hessian;
 };
 
+/// The density for (x', y', x'', y'') = (ax, ay, bx, by) [L]; not finite if ax and ay are 0.
 Density density_at(double ax, double ay, double bx, double by) {
   const double c = ax * by - ay * bx, q = ax * ax + ay * ay;
   const double q5 = std::pow(q, -2.5), q7 = q5 / q, q9 = q7 / q;
