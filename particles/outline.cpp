@@ -85,6 +85,7 @@ Point nearest_on_line(const std::array<Point, 2>& line, const Point& x) {
   return {line[0][0] + t * dx, line[0][1] + t * dy};
 }
 
+/// The distance of two points.
 double distance(const Point& x, const Point& y) {
   const double dx = y[0] - x[0], dy = y[1] - x[1];
   return std::sqrt(dx * dx + dy * dy);
@@ -96,8 +97,8 @@ double side_of(const std::array<Point, 2>& line, const Point& x) {
          (line[1][1] - line[0][1]) * (x[0] - line[0][0]);
 }
 
-/// The four places of SpineContacts: each end of the first and then of the second spine, with the
-/// point of the other spine that is nearest to it.
+/// The four places of SpineContacts: first the two ends of the first spine, and then those of the
+/// second spine, each with the point of the other spine that is nearest to it.
 std::array<SpinePoints, 4> places_of_ends(const Outline& first, const Outline& second) {
   const auto one = first.spine(), other = second.spine();
   const bool cross = side_of(one, other[0]) * side_of(one, other[1]) < 0 &&
@@ -109,7 +110,7 @@ std::array<SpinePoints, 4> places_of_ends(const Outline& first, const Outline& s
 }
 
 /// Number of the place with the shortest distance among those for which `takes_part(number)` is
-/// true, the first one of several; places.size() if there is none.
+/// true. It is the first one if several have this distance, and places.size() if there is no place.
 template <class Predicate>
 std::size_t nearest_of(const std::array<SpinePoints, 4>& places, const Predicate& takes_part) {
   std::size_t nearest = places.size();
@@ -126,23 +127,31 @@ std::size_t nearest_of(const std::array<SpinePoints, 4>& places, const Predicate
 
 }  // namespace
 
+/// The ends of the spine, of which the first lies in the direction `angle`.
 std::array<Point, 2> Outline::spine() const {
   const double half = is_plate ? semi_axes[0] - semi_axes[1] : 0;
   const double x = half * std::cos(angle), y = half * std::sin(angle);
   return {Point{centre[0] + x, centre[1] + y}, Point{centre[0] - x, centre[1] - y}};
 }
 
+/// The circumference of a circle or plate; wrong for an ellipse.
 double Outline::length() const {
   return 2 * std::numbers::pi * end_radius() + (is_plate ? 4 * (semi_axes[0] - semi_axes[1]) : 0);
 }
 
+/// The points of two spines that are nearest to each other. At least one of them is an end of its
+/// spine, even if the spines cross.
 SpinePoints nearest_on_spines(const Outline& first, const Outline& second) {
   const auto places = places_of_ends(first, second);
   return places[nearest_of(places, [](std::size_t) { return true; })];
 }
 
+/// Finds the one or two contacts of two outlines, circles or plates. The first is the place with
+/// the shortest distance. The second is the place with the shortest distance among those of which
+/// both points are further than `apart` from the points of the first. Each other place belongs to
+/// the contact whose points are nearer.
 SpineContacts::SpineContacts(const Outline& first, const Outline& second) {
-  constexpr double kApart = 0.1;  // of the smaller end radius; free choice
+  constexpr double kApart = 0.1;  // share of the smaller end radius [1], a free choice
   const auto places = places_of_ends(first, second);
   const auto nearest = nearest_of(places, [](std::size_t) { return true; });
   places_ = {static_cast<int>(nearest)};
@@ -162,6 +171,8 @@ SpineContacts::SpineContacts(const Outline& first, const Outline& second) {
     if (between(place, other) < between(place, nearest)) contact_of_[place] = places_[1];
 }
 
+/// The points at which the contact of `place`, 0 to 3, acts after the outlines have moved: those
+/// with the shortest distance of all places that belong to this contact.
 SpinePoints SpineContacts::at(int place, const Outline& first, const Outline& second) const {
   const auto places = places_of_ends(first, second);
   const int contact = contact_of(place);
@@ -169,6 +180,10 @@ SpinePoints SpineContacts::at(int place, const Outline& first, const Outline& se
                            [&](std::size_t other) { return contact_of_[other] == contact; })];
 }
 
+/// The point with the parameter t, which grows by 2 pi once around. On a circle t is the angle from
+/// the x axis. On an ellipse the point has the coordinates a cos t and b sin t along the semi-axes
+/// a and b. On a plate t is 2 pi times the share of the circumference that begins at the tip in the
+/// direction `angle`.
 Point Outline::at(double t) const {
   if (is_circle()) return {centre[0] + radius * std::cos(t), centre[1] + radius * std::sin(t)};
   if (is_plate) {
@@ -190,12 +205,14 @@ Point Outline::at(double t) const {
   return {centre[0] + c * x - s * y, centre[1] + s * x + c * y};
 }
 
+/// Length of the derivative of at() by t [L].
 double Outline::speed_at(double t) const {
   if (is_circle()) return radius;
   if (is_plate) return length() / (2 * std::numbers::pi);
   return std::hypot(semi_axes[0] * std::sin(t), semi_axes[1] * std::cos(t));
 }
 
+/// Radius of curvature at at(t) [L].
 double Outline::curvature_radius_at(double t) const {
   if (is_circle()) return radius;
   if (is_plate) return semi_axes[1];  // that of the ends; straight sides have none
@@ -203,6 +220,7 @@ double Outline::curvature_radius_at(double t) const {
   return speed * (speed / semi_axes[0]) * (speed / semi_axes[1]);
 }
 
+/// Distance of the point x from an outline.
 double distance_to(const Outline& outline, const Point& x) {
   const double dx = x[0] - outline.centre[0], dy = x[1] - outline.centre[1];
   // std::hypot takes ten times as long, and is better only for lengths beyond 1e150.
@@ -216,6 +234,9 @@ double distance_to(const Outline& outline, const Point& x) {
                : distance_to_ellipse(b, a, across, along);
 }
 
+/// Distance of two outlines of which neither contains the other. If they overlap, it is minus the
+/// depth to which one reaches into the other; for plates whose spines cross, minus the sum of the
+/// end radii.
 double gap(const Outline& first, const Outline& second) {
   if (first.is_circle()) return distance_to(second, first.centre) - first.radius;
   if (second.is_circle()) return distance_to(first, second.centre) - second.radius;
@@ -228,6 +249,7 @@ double gap(const Outline& first, const Outline& second) {
   return least_on(first, [&](const Point& x) { return distance_to(second, x); });
 }
 
+/// Distance of an outline from an obstacle; < 0 if a part of the outline is behind its surface.
 double gap(const PlanePosition& obstacle, const Outline& outline) {
   if (outline.is_circle())
     return gap(obstacle, Vector{outline.centre[0], outline.centre[1], 0}, outline.radius);
@@ -241,6 +263,8 @@ double gap(const PlanePosition& obstacle, const Outline& outline) {
   return least_on(outline, [&](const Point& x) { return gap(obstacle, Vector{x[0], x[1], 0}, 0); });
 }
 
+/// The outline of particle k, whose centre is moved by `shift` [L]. On an axis the centre is (0,
+/// z). `angles` are those of all particles; only ellipses and plates need them.
 Outline outline_of(const Fluid& fluid, const Particles& particles, std::span<const double> angles,
                    std::size_t k, const Vector& shift) {
   const Vector x = particles.position(k) + shift;
@@ -254,7 +278,9 @@ Outline outline_of(const Fluid& fluid, const Particles& particles, std::span<con
   return outline;
 }
 
-/// Returns std::nullopt if the circles touch or do not meet.
+/// The chord at which disc `other` cuts disc k: its ends, the angles of the arc of disc k inside
+/// the other disc, the area of disc k beyond the chord [L^2], and the angle between the circles in
+/// the fluid. Returns std::nullopt if the circles touch or do not meet.
 std::optional<Chord> chord_of(const Particles& particles, std::size_t k, std::size_t other) {
   // The points are computed from the disc with the smaller number, so that they are the same to the
   // last bit if k and `other` are exchanged.
@@ -281,6 +307,9 @@ std::optional<Chord> chord_of(const Particles& particles, std::size_t k, std::si
   return chord;
 }
 
+/// The chords at which other discs of its rigid body cut disc k, in the order of the directions of
+/// their middles, without those whose arc is within that of another one. The result is empty if
+/// particle k belongs to no body or is no disc, or if the constraint of the fluid is not kRigid.
 std::vector<Chord> chords_of(const Fluid& fluid, const Particles& particles, std::size_t k) {
   std::vector<Chord> chords;
   const auto body = particles.bodies.body_of(static_cast<std::int32_t>(k));
@@ -300,6 +329,7 @@ std::vector<Chord> chords_of(const Fluid& fluid, const Particles& particles, std
   return chords;
 }
 
+/// For each particle the sum of the areas beyond its chords [L^2]; empty if all sums are 0.
 std::vector<double> cut_areas_of(const Fluid& fluid, const Particles& particles) {
   std::vector<double> areas(particles.count());
   for (std::size_t k = 0; k < areas.size(); ++k)

@@ -9,6 +9,7 @@
 
 namespace viscontact::particles {
 
+/// The orientation `from` after a turn by the angle |turn| about the direction of `turn`.
 Quaternion turned(const Quaternion& from, const Vector& turn) {
   const double angle = norm(turn);
   // sin(angle/2)/angle is 1/2 within rounding errors below this angle [rad].
@@ -24,12 +25,15 @@ Quaternion turned(const Quaternion& from, const Vector& turn) {
   return to;
 }
 
+/// The vector `a`, of any unit, rotated by the quaternion q.
 Vector rotated(const Quaternion& q, const Vector& a) {
   const Vector v = {q[1], q[2], q[3]};
   const Vector t = 2 * cross(v, a);
   return a + q[0] * t + cross(v, t);
 }
 
+/// Turns all particles by `turns` in a step of length `h`, and sets their angular velocities to the
+/// quotient of both.
 void turn_particles(Particles& particles, std::span<const double> turns, double h) {
   for (std::size_t k = 0; k < turns.size(); ++k) particles.angular_velocities[k] = turns[k] / h;
   if (particles.dimension != 3) {
@@ -44,6 +48,9 @@ void turn_particles(Particles& particles, std::span<const double> turns, double 
   }
 }
 
+/// Gives rotation to particles that have none yet: angle 0 (discs) or no rotation (spheres),
+/// angular velocity 0, and the moment of inertia [M L^2] of a homogeneous disc or sphere. Values
+/// that exist stay.
 void add_rotation(Particles& particles) {
   const auto count = particles.count();
   particles.angular_velocities.resize(count * turn_components(particles.dimension), 0.0);

@@ -3,11 +3,12 @@
 // conditions, the sums of the rows are A v, and forces l of the rows add A S A^T l to them.
 // Velocities have 3 numbers for each particle, or 1 on an axis. Sums are in [L/T, 1/T], forces in
 // [M L/T^2, M L^2/T^2], one for each row; the length h of the step is > 0 [T], the relative error
-// of velocities > 0 [1]. Conditions that contradict each other are an Error(kNotConverged) of
-// velocities() with `driving`; the errors of the fluid solver are thrown, too. Sizes and the order
-// hold(), place(), velocities() are not checked. fluid_simulation.cpp and fluid_links.cpp use it. A
-// change must keep that redundant rows get the smallest forces, and that the forces of soft springs
-// stay accurate beside stiff ones.
+// of velocities > 0 [1]. With `driving`, the motions of walls and the values that the rows
+// prescribe act; without it, they count as 0. velocities() with `driving` throws
+// Error(kNotConverged) if conditions contradict each other; the errors of the fluid solver are
+// thrown, too. Sizes and the order hold(), place(), velocities() are not checked.
+// fluid_simulation.cpp and fluid_links.cpp use it. A change must keep that redundant rows get the
+// smallest forces, and that the forces of soft springs stay accurate beside stiff ones.
 #include "viscontact/particles/fluid/held_solver.hpp"
 
 #include <algorithm>
@@ -28,9 +29,12 @@ constexpr double kAboveErrors = 10;
 
 }  // namespace
 
+/// Takes over the fluid solver, which must not be null. `has_inertia` says whether its fluid has
+/// inertia.
 HeldSolver::HeldSolver(std::unique_ptr<FluidSolver> solver, double relative_error, bool has_inertia)
     : solver_(std::move(solver)), relative_error_(relative_error), has_inertia_(has_inertia) {}
 
+/// Sets the rows and the length h of the step for the next place().
 void HeldSolver::hold(std::vector<HeldRow> rows, double h) {
   rows_ = std::move(rows);
   h_ = h;
@@ -45,18 +49,22 @@ Eigen::VectorXd HeldSolver::sums(std::span<const double> velocities) const {
   return sums;
 }
 
+/// Adds to the `forces` on particles those that rows with the forces `of_rows` exert.
 void HeldSolver::add_row_forces(std::span<double> forces, const Eigen::VectorXd& of_rows) const {
   for (std::size_t r = 0; r < rows_.size(); ++r)
     for (const auto& [component, coefficient] : rows_[r].entries)
       forces[component] += coefficient * of_rows[static_cast<Index>(r)];
 }
 
+/// Adds to `velocities` those that the `forces` of the rows cause.
 void HeldSolver::add_responses(std::span<double> velocities, const Eigen::VectorXd& forces) const {
   for (std::size_t r = 0; r < rows_.size(); ++r)
     for (std::size_t i = 0; i < velocities.size(); ++i)
       velocities[i] += forces[static_cast<Index>(r)] * responses_[r][i];
 }
 
+/// Gives the particles to the fluid solver, asks it once for each row for the velocities by a unit
+/// force of the row, and factorises the matrix of the rows.
 void HeldSolver::place(const FluidParticles& bodies) {
   solver_->place(bodies);
   is_varied_ = false;
@@ -75,6 +83,8 @@ void HeldSolver::place(const FluidParticles& bodies) {
   if (n > 0) factorise();
 }
 
+/// The number theta [1] of row `r`, which says how implicit the step is for a spring: 1/2 to 1, or
+/// with inertia of the fluid 1e-9 to 2. held_solver.hpp has the formulas and their reasons.
 double HeldSolver::theta(Index r) const {
   const auto& row = rows_[static_cast<std::size_t>(r)];
   const double of_row = h_ * row.stiffness * matrix_(r, r);
@@ -89,8 +99,8 @@ double HeldSolver::theta(Index r) const {
   return std::isfinite(z) ? (1 + z) / (2 + z) : 1;
 }
 
-/// For each row, its prescribed rate minus its sum with these velocities. The prescribed rate of a
-/// spring is 0.
+/// Returns for each row its prescribed rate minus its sum with these velocities. The prescribed
+/// rate of a spring is 0.
 Eigen::VectorXd HeldSolver::missing(std::span<const double> velocities) const {
   Eigen::VectorXd missing = -sums(velocities);
   for (std::size_t r = 0; r < rows_.size(); ++r)
@@ -157,7 +167,8 @@ Eigen::VectorXd HeldSolver::solve(const Eigen::VectorXd& right, bool with_spring
       const double k = rows_[static_cast<std::size_t>(r)].stiffness;
       matrix.diagonal()[static_cast<Index>(i)] += scale_[r] * scale_[r] / (k * theta(r) * h_);
     }
-    // Scaled again to the diagonal 1, so that soft and stiff springs have entries of one size.
+    // The matrix is scaled again to the diagonal 1, so that soft and stiff springs have entries of
+    // one size.
     const Eigen::VectorXd own = matrix.diagonal().cwiseSqrt().cwiseInverse();
     matrix = own.asDiagonal() * matrix * own.asDiagonal();
     rest = own.cwiseProduct(rest);
@@ -180,7 +191,8 @@ void HeldSolver::check(const Eigen::VectorXd& right, const Eigen::VectorXd& forc
   const Eigen::VectorXd parts = scale_.cwiseProduct(matrix_.cwiseAbs() * forces.cwiseAbs());
   double largest = 0;
   for (const Index r : fixed_) largest = std::max(largest, std::abs(scaled[r]) + parts[r]);
-  // A free choice, far above the relative error of the velocities, which is usually 1e-9.
+  // kBroken is a free choice, far above the relative error of the velocities, which is usually
+  // 1e-9.
   constexpr double kBroken = 1e-4;
   std::string names;
   for (const Index r : fixed_) {
@@ -197,13 +209,14 @@ void HeldSolver::check(const Eigen::VectorXd& right, const Eigen::VectorXd& forc
                 names);
 }
 
-/// With `driving`, throws Error(kNotConverged), which names the rows, if rows contradict each
-/// other.
+/// Returns the velocities of the particles under `forces` and the forces with which the rows hold.
+/// With `driving`, keeps these forces for row_forces(), and throws Error(kNotConverged), which
+/// names the rows, if rows contradict each other.
 std::vector<double> HeldSolver::velocities(std::span<const double> forces, bool driving) {
   auto velocities = solver_->velocities(forces, driving);
   if (rows_.empty()) return velocities;
-  // The values that the rows prescribe: of the sum; for a spring, of the sum plus the compliance
-  // times the force.
+  // The value that each row prescribes for its sum, or, if it is a spring, for its sum plus its
+  // compliance times its force.
   Eigen::VectorXd given = Eigen::VectorXd::Zero(static_cast<Index>(rows_.size()));
   if (driving)
     for (std::size_t r = 0; r < rows_.size(); ++r) {
@@ -229,12 +242,16 @@ std::vector<double> HeldSolver::velocities(std::span<const double> forces, bool 
   return held;
 }
 
+/// Returns the velocities under `forces` with which the rows without stiffness have the sum 0,
+/// without forces of springs.
 std::vector<double> HeldSolver::velocities_without_springs(std::span<const double> forces) {
   auto velocities = solver_->velocities(forces, false);
   if (!rows_.empty()) add_responses(velocities, solve(-sums(velocities), false));
   return velocities;
 }
 
+/// Changes `velocities` by forces of the rows, which it returns. They change the sum of each row by
+/// its number in `changes`; springs take part as in solve(). The result is empty without rows.
 std::vector<double> HeldSolver::change(std::span<double> velocities,
                                        std::span<const double> changes, bool with_springs) const {
   if (rows_.empty()) return {};
@@ -245,6 +262,8 @@ std::vector<double> HeldSolver::change(std::span<double> velocities,
   return {forces.begin(), forces.end()};
 }
 
+/// Returns the forces of the rows without stiffness that change their sums by as much as a change
+/// of the velocities by `changes` does. Springs have the force 0; the result is empty without rows.
 std::vector<double> HeldSolver::row_forces_for(std::span<const double> changes) const {
   if (rows_.empty()) return {};
   const Eigen::VectorXd forces = solve(sums(changes), false);
@@ -257,6 +276,8 @@ std::vector<double> HeldSolver::thetas() const {
   return thetas;
 }
 
+/// Returns the forces on the particles in the last velocities() with `driving` by springs and by
+/// the rows with a particle that accelerates; empty without rows.
 std::vector<double> HeldSolver::forces_of_step() const {
   std::vector<double> forces(responses_.empty() ? 0 : responses_.front().size());
   Eigen::VectorXd of_rows = Eigen::VectorXd::Zero(static_cast<Index>(rows_.size()));
@@ -267,6 +288,7 @@ std::vector<double> HeldSolver::forces_of_step() const {
   return forces;
 }
 
+/// Changes `velocities` by forces of the rows until the rows without stiffness hold.
 void HeldSolver::hold_velocities(std::span<double> velocities) const {
   if (!rows_.empty()) add_responses(velocities, solve(missing(velocities), false));
 }
@@ -284,8 +306,9 @@ SecondMesh HeldSolver::vary_mesh() {
 /// Corrects `of_rows`, forces of the rows that were computed with the mobility at place(), for the
 /// other mesh or penalty that the fluid solver has after vary_mesh() or vary_penalty(). Each
 /// correction multiplies the error of the sums by about the relative difference of both mobilities,
-/// which is small; the number of corrections is a free choice. `right` are the prescribed values:
-/// of the sums; for springs, of the sum plus the compliance times the force.
+/// which is small; the number of corrections is a free choice. `right` has for each row the value
+/// that it prescribes for its sum, or, if it is a spring, for its sum plus its compliance times its
+/// force.
 void HeldSolver::correct(const Eigen::VectorXd& right, std::span<const double> forces,
                          Eigen::VectorXd& of_rows) {
   constexpr int kCorrections = 2;

@@ -1,6 +1,6 @@
-// Time steps of membranes (closed curves through particles, their beads) and rigid discs without
-// mass in a fluid without inertia, docs/physics.md (8.1) to (8.8). Units are those of the case:
-// places [L, rad], velocities [L/T, 1/T], forces [M L/T^2, M L^2/T^2], where M is a mass per
+// Computes time steps of membranes (closed curves through particles, their beads) and rigid discs
+// without mass in a fluid without inertia, docs/physics.md (8.1) to (8.8). Units are those of the
+// case: places [L, rad], velocities [L/T, 1/T], forces [M L/T^2, M L^2/T^2], where M is a mass per
 // length. Arrays for the fluid solver have 3 numbers for each particle. Throws Error(kBadInput) if
 // a restart file has membranes of other lengths or areas, Error(kNotConverged) if a step is not
 // solved or leaves an overlap of more than the mean radius, and the errors of FluidSolver; the
@@ -76,6 +76,9 @@ class MembraneSimulation::Implementation {
   std::vector<double> impulse_errors_;  // residual impulse of each contact of the step [M L/T]
 };
 
+/// Prepares a run. At the start of a run the fluid solver computes the velocities and forces of the
+/// state, and its errors are thrown. For a restart file, throws Error(kBadInput) if the membranes
+/// have other lengths or areas than those of the case.
 MembraneSimulation::Implementation::Implementation(Setting setting, State state,
                                                    std::unique_ptr<FluidSolver> solver)
     : setting_(std::move(setting)),
@@ -118,8 +121,9 @@ MembraneSimulation::Implementation::Implementation(Setting setting, State state,
 }
 
 /// Places of all beads and discs from `positions` [L] of all particles, two numbers for each. If
-/// `near` is not null and the domain is periodic, the images that are nearest to the places in
-/// `near` are taken.
+/// `near` is not null and the domain is periodic, each disc and the first bead of each membrane are
+/// taken at the image nearest to their place in `near`. Every other bead is taken at its image
+/// nearest to the bead before it.
 Eigen::VectorXd MembraneSimulation::Implementation::places(std::span<const double> positions,
                                                            const Eigen::VectorXd* near) const {
   const auto& p = state_.particles;
@@ -154,6 +158,8 @@ Eigen::VectorXd MembraneSimulation::Implementation::from_particles(
   return all;
 }
 
+/// Writes a vector of all beads and discs into `numbers`, kComponents for each particle. The third
+/// number of a bead stays as it is.
 void MembraneSimulation::Implementation::to_particles(const Eigen::VectorXd& all,
                                                       std::vector<double>& numbers) const {
   membranes_.to_particles(all.head(bead_components()), kComponents, numbers);
@@ -163,6 +169,8 @@ void MembraneSimulation::Implementation::to_particles(const Eigen::VectorXd& all
       numbers[kComponents * index_of(disc) + d] = all(i++);
 }
 
+/// Writes x and y of a vector of all beads and discs into `of_centres`, two numbers for each
+/// particle, and the third component of discs into `of_turns`, one number for each particle.
 void MembraneSimulation::Implementation::to_particles(const Eigen::VectorXd& all,
                                                       std::vector<double>& of_centres,
                                                       std::vector<double>& of_turns) const {
@@ -206,7 +214,8 @@ void MembraneSimulation::Implementation::place(const Eigen::VectorXd& places, do
 
 /// Asks the fluid solver for two results at `places`. The first is the velocities of beads and
 /// discs without forces, if walls and driven discs move as between the times `from` and `to` [T].
-/// The second is the mobility, the velocities per force, if walls and driven discs are at rest.
+/// The second is the mobility, the velocities per force, if walls and driven discs are at rest:
+/// [T/M] for centres, and one [1/L] more for each turn or torque. Throws the errors of FluidSolver.
 FluidAnswer MembraneSimulation::Implementation::ask(const Eigen::VectorXd& places, double from,
                                                     double to) {
   place(places, from, to);
@@ -336,7 +345,9 @@ StepContacts MembraneSimulation::Implementation::solve_contacts_of(
   return contacts;
 }
 
-/// Stores the impulses of the contacts in the state, and updates what films and solids remember.
+/// Stores the pairs and the impulses of the contacts of a step of length `h` [T] in the state, and
+/// updates what films and solids remember. Enters in `report` the numbers of contacts and of pairs
+/// whose film has absorbed an impulse.
 void MembraneSimulation::Implementation::remember(StepContacts contacts, double h,
                                                   StepReport& report) {
   state_.pairs = std::move(contacts.pairs);
@@ -357,6 +368,8 @@ void MembraneSimulation::Implementation::remember(StepContacts contacts, double 
   state_.memories.keep_only(state_.pairs, state_.walls);
 }
 
+/// Computes a step that ends at `end` [T] or before; no step if the state has reached `end`. Throws
+/// Error(kNotConverged) and the errors of FluidSolver before it changes the state.
 StepReport MembraneSimulation::Implementation::step(double end) {
   const auto interval = StepGrid(setting_.time_step).next(state_, end);
   if (!interval) return {.time = state_.time, .parts = 1};
@@ -365,6 +378,10 @@ StepReport MembraneSimulation::Implementation::step(double end) {
   const auto now = places(state_.particles.positions);
   Eigen::VectorXd at = now, from = now;
   double time = h;
+  // The fluid solver is asked at the places `at`, which are extrapolated to the end of the step.
+  // The places at the end are `from` + `time` times the velocities there, the backward difference
+  // of second order; the first step is of first order. r is the ratio of this step to the one
+  // before.
   if (!state_.earlier_positions.empty()) {
     const auto before = places(state_.earlier_positions, &now);
     const double r = h / state_.earlier_step, weight = (1 + 2 * r) / (1 + r);
@@ -425,6 +442,8 @@ StepReport MembraneSimulation::Implementation::step(double end) {
   return report;
 }
 
+/// The flow around the particles of a state, under the forces of the step that led to it. Throws
+/// the errors of FluidSolver.
 FlowField MembraneSimulation::Implementation::flow_at(const State& state) {
   place(places(state.particles.positions), state.time, state.time);
   solver_->velocities(state.earlier_forces, true);
@@ -438,20 +457,25 @@ MembraneSimulation::MembraneSimulation(Setting setting, State state,
 
 MembraneSimulation::~MembraneSimulation() = default;
 
+/// Computes a step that ends at `end` [T] or before. Throws Error(kNotConverged) and the errors of
+/// FluidSolver; the state is then as before the step.
 StepReport MembraneSimulation::step(double end) { return implementation_->step(end); }
 
 const State& MembraneSimulation::state() const { return implementation_->state(); }
 
-/// Needs a step before (asserted). Throws the errors of FluidSolver.
+/// The flow with the particles at their places before the last step. There must have been a step
+/// (asserted). Throws the errors of FluidSolver.
 FlowField MembraneSimulation::flow() {
   assert(implementation_->before_step().particles.count() > 0);
   return implementation_->flow_at(implementation_->before_step());
 }
 
+/// The flow with the particles at their present places. Throws the errors of FluidSolver.
 FlowField MembraneSimulation::flow_at_present() {
   return implementation_->flow_at(implementation_->state());
 }
 
+/// Forces and torques of the fluid on all particles in the last step, 3 numbers for each particle.
 std::vector<double> MembraneSimulation::fluid_forces() const {
   auto forces = state().earlier_forces;
   for (auto& force : forces) force = -force;

@@ -1,11 +1,11 @@
 // Computes the terms of the equation of motion of a step in a fluid: forces [M L/T^2, M L^2/T^2],
-// inertia [M/T, M L^2/T], given motions [L/T, 1/T] and theta [1], 1/2 to 1, with which the
-// velocities in the step are theta times those at its end plus 1 - theta times those at its
-// beginning. A component is a direction or the rotation of a particle; arrays have 3 numbers for
-// each particle, or 1 on an axis. The length h of the step is > 0 [T]; units are any consistent
-// ones. Nothing is checked; given_in_step() throws std::out_of_range for a particle that is not
-// driven. fluid_simulation.cpp and fluid_links.cpp use it. A change must keep the second order in
-// time away from contact.
+// inertia, which is mass over theta h [M/T, M L^2/T], and given motions [L/T, 1/T]. The number
+// theta [1] is 1/2 to 1; the velocities in the step are theta times those at its end plus 1 - theta
+// times those at its beginning. A component is a direction or the rotation of a particle; arrays
+// have 3 numbers for each particle, or 1 on an axis. The length h of the step is > 0 [T]; units are
+// any consistent ones. Nothing is checked; given_in_step() throws std::out_of_range for a particle
+// that is not driven. fluid_simulation.cpp and fluid_links.cpp use it. A change must keep the
+// second order in time away from contact.
 #include "viscontact/particles/fluid/step_equation.hpp"
 
 #include <algorithm>
@@ -82,7 +82,7 @@ std::vector<double> mean_forces(const Setting& setting, const Particles& p,
   return forces;
 }
 
-/// Whether the rate of an arm's length jumps between the times `from` and `to` [T], not at `to`.
+/// True if the rate of an arm's length jumps at a time >= `from` and < `to` [T].
 bool has_kink(const Arm& arm, double from, double to) {
   const auto* length = std::get_if<PiecewiseLinearLength>(&arm.length);
   if (length == nullptr) return false;
@@ -111,19 +111,23 @@ bool has_kink(const Arm& arm, double from, double to) {
 
 }  // namespace
 
+/// The times [T] between which the forces of a step of length `h` that ends at `next` are averaged,
+/// and those between which given motions are averaged.
 StepEquation::Window StepEquation::window(const Setting& setting, const State& state, double h,
                                           double next) {
   const double now = state.time;
   if (!setting.fluid->has_inertia() || state.steps == 0) return {now, now, next};
   const double from = now - state.earlier_step / 2;
-  // The velocity at t^1 is found from a difference of first order, later velocities from
-  // differences of second order. The sum of the differences over all steps contains the change of
-  // the velocity in the first step with the weight 3/2. The forces of the first step are therefore
-  // means over the first 3/2 steps, from t^0 on, so that the forces of all steps together have the
-  // whole impulse.
+  // t^n is the time after n steps. The velocity at t^1 is found from a difference of first order,
+  // later velocities from differences of second order. The sum of the differences over all steps
+  // contains the change of the velocity in the first step with the weight 3/2. The forces of the
+  // first step are therefore means over the first 3/2 steps, from t^0 on, so that the forces of all
+  // steps together have the whole impulse.
   return {state.steps == 1 ? now - state.earlier_step : from, from, now + h / 2};
 }
 
+/// Makes the equation of a step of length `h` [T] that ends at the time `next` [T]. Particles are
+/// in contact if they had a contact in the step before, or an impulse that a film remembers.
 StepEquation::StepEquation(const Setting& setting, const State& state, double h, double next)
     : setting_(setting),
       state_(state),
@@ -143,7 +147,8 @@ StepEquation::StepEquation(const Setting& setting, const State& state, double h,
       in_contact_[index_of(pair.second)] = 1;
       if (pair.first >= 0) in_contact_[index_of(pair.first)] = 1;
     }
-  // A hinge that rests at a stop is in contact. Steps keep the stop as exactly as gaps.
+  // A hinge that rests at a stop is in contact. The tolerance is that of gaps, because steps keep
+  // stops as exactly as gaps.
   const double touching = setting.solver.tolerance * mean_radius(state.particles);
   for (const auto& stop : contacts_of_stops(setting.links, state.particles))
     if (stop.gap <= touching) in_contact_[index_of(stop.second)] = 1;
@@ -230,6 +235,9 @@ void StepEquation::spread_contact() {
       for (const auto k : particles) in_contact_[index_of(k)] = 1;
 }
 
+/// The drag of particle k in the step before, over its velocity: force over speed [M/T], or, for
+/// the rotation, torque over angular velocity [M L^2/T]. It is 0 if the particle did not move, and
+/// infinite if there was no step before.
 double StepEquation::earlier_drag(std::size_t k, std::size_t component) const {
   const auto &u = state_.earlier_velocities, &f = state_.earlier_forces;
   if (u.size() != masses_.size() || f.size() != masses_.size())
@@ -275,19 +283,25 @@ double StepEquation::stokes_drag(std::size_t k, std::size_t component) const {
   return component == 2 ? 4 * kPi * mu * r * r : 4 * kPi * mu;
 }
 
-/// The theta of a component of particle k with this mass or moment of inertia, without a body.
+/// The theta of a component of particle k without a body: (1 + z)/(2 + z), where z is the length of
+/// the step times the drag over `mass`, the mass [M] or moment of inertia [M L^2]. A particle in
+/// contact has 1.
 double StepEquation::theta(std::size_t k, std::size_t component, double mass) const {
   if (in_contact_[k] != 0) return 1;
   const double z = h_ * std::max(stokes_drag(k, component), earlier_drag(k, component)) / mass;
   return std::isfinite(z) ? (1 + z) / (2 + z) : 1;
 }
 
+/// The particles for FluidSolver::place(), with the given motions and the inertia; the result
+/// refers to this object and the state.
 FluidParticles StepEquation::bodies() const {
   FluidParticles bodies{&state_.particles, state_.particles.angles, driven_, {}, flow_step()};
   if (std::ranges::any_of(inertia_, [](double x) { return x > 0; })) bodies.inertia = inertia_;
   return bodies;
 }
 
+/// How a fluid with inertia approximates rates of change in this step: the order 1 or 2, the
+/// lengths of the steps [T], and the masses. All members are 0 or empty in a fluid without inertia.
 FlowStep StepEquation::flow_step() const {
   if (!setting_.fluid->has_inertia()) return {};
   // The first step computes the velocity at its end, where the second step computes it again.
@@ -303,17 +317,23 @@ FlowStep StepEquation::flow_step() const {
           window_.from, window_.to, masses_};
 }
 
+/// In a fluid with inertia, the share [1] of the last change of a velocity that is added to it to
+/// move a particle without contact. It is 0 after a step that was too short, and -1/2 in the first
+/// step.
 double StepEquation::share_of_change() const {
   const bool is_first = !(state_.earlier_step > 0);
   if (is_first) return -0.5;
   return h_ <= kLargestRatioOfSteps * state_.earlier_step ? h_ / (2 * state_.earlier_step) : 0;
 }
 
-/// Throws std::out_of_range if the particle is not driven.
+/// The mean given motion of a particle in the step: x, y [L/T] and angular velocity [1/T], or on an
+/// axis z, 0, 0. Throws std::out_of_range if the particle is not driven.
 std::array<double, 3> StepEquation::given_in_step(std::int32_t driven) const {
   return given_motion(setting_.given_motions.at(driven), state_.time, next_);
 }
 
+/// The inertia of each component [M/T, M L^2/T], in a fluid with inertia the mass or moment of
+/// inertia over the length of the step.
 std::vector<double> StepEquation::inertia_of_projection() const {
   if (!setting_.fluid->has_inertia()) return inertia_;
   auto inertia = masses_;
@@ -331,6 +351,7 @@ double StepEquation::velocity(std::size_t k, std::size_t component) const {
                                           : p.angular_velocities[k];
 }
 
+/// The velocities of all components before the step; for driven particles their given motions.
 std::vector<double> StepEquation::velocities() const {
   std::vector<double> velocities(masses_.size());
   for (std::size_t i = 0; i < velocities.size(); ++i)
@@ -340,6 +361,9 @@ std::vector<double> StepEquation::velocities() const {
   return velocities;
 }
 
+/// The right side of the equation [M L/T^2, M L^2/T^2]: the forces, plus the inertia times the
+/// velocities before the step. The forces on the members of a body that accelerates act at their
+/// places in the middle of the step, which changes the torque on the first member.
 std::vector<double> StepEquation::right_side() const {
   auto forces = forces_;
   for (std::size_t i = 0; i < forces.size(); ++i)
@@ -359,6 +383,8 @@ std::vector<double> StepEquation::right_side() const {
   return forces;
 }
 
+/// The velocities at the end of a step with the velocities `motions`. Components without inertia
+/// and driven particles have those in `flow`.
 std::vector<double> StepEquation::velocities_at_end(std::span<const double> motions,
                                                     std::span<const double> flow) const {
   std::vector<double> velocities(flow.begin(), flow.end());
@@ -371,6 +397,9 @@ std::vector<double> StepEquation::velocities_at_end(std::span<const double> moti
   return velocities;
 }
 
+/// The velocities by which forces are multiplied to give their power. The share of a force that
+/// accelerates a particle has the mean of the velocities before the step and `at_end`; the share
+/// that balances the `drag` of the particle on the fluid has `flow`.
 std::vector<double> StepEquation::velocities_of_work(std::span<const double> flow,
                                                      std::span<const double> at_end,
                                                      std::span<const double> drag) const {
@@ -392,6 +421,8 @@ std::vector<double> StepEquation::velocities_of_work(std::span<const double> flo
   return velocities;
 }
 
+/// The change of each velocity by a mean force in the step, per force [T/M, T/(M L^2)]: the step
+/// over the mass, without a mass one over the Stokes drag, and 0 for driven particles.
 std::vector<double> StepEquation::mobility_of_step() const {
   std::vector<double> mobility(masses_.size());
   for (std::size_t i = 0; i < mobility.size(); ++i) {
@@ -402,6 +433,8 @@ std::vector<double> StepEquation::mobility_of_step() const {
   return mobility;
 }
 
+/// Marks the particles of contacts with an impulse as in contact, except driven ones. Returns true
+/// if a theta, or the order in a fluid with inertia, changed; the step must then be solved again.
 bool StepEquation::put_in_contact(std::span<const Contact<2>> contacts) {
   const auto before = thetas_;
   const bool was_any = is_any_in_contact();
@@ -415,6 +448,8 @@ bool StepEquation::put_in_contact(std::span<const Contact<2>> contacts) {
   return thetas_ != before || (setting_.fluid->has_inertia() && !was_any && is_any_in_contact());
 }
 
+/// The mean of a given motion between two times [T]: x, y [L/T] and angular velocity [1/T]; on an
+/// axis z, 0, 0.
 std::array<double, 3> StepEquation::given_motion(const GivenMotion& motion, double from,
                                                  double to) const {
   const Vector velocity = motion.velocity.mean(from, to);
@@ -437,6 +472,8 @@ bool StepEquation::has_jump(std::int32_t driven) const {
   return false;
 }
 
+/// True if no given motion differs from that in the step before, and no rate of an arm's length
+/// jumps.
 bool StepEquation::drives_as_before() const {
   for (const auto& arm : setting_.links.arms)
     if (has_kink(arm, state_.time - state_.earlier_step, state_.time + h_)) return false;

@@ -1,11 +1,12 @@
-// Finds the blows of a time step, collisions of solids that rebound, in the order of their times.
-// The projection is the solution of the step without rebound, which follows. Displacements and gaps
-// are in [L], turns in [rad], velocities in [L/T, 1/T], in any consistent units; a time `t` [T] is
-// counted from the beginning of the step, 0 to its length h > 0. Particles and pairs are numbered
-// from 0; pairs of State::pairs come before those of State::walls, and an obstacle is a negative
-// number. u* and w* are velocities without contacts. Nothing is checked or thrown; converged() says
-// whether all blows are solved. simulation.cpp and projection/ use it. The order of the particles
-// must change results by rounding errors only.
+// Finds the blows of a time step, which are collisions of solids that rebound, in the order of
+// their times. The projection, which follows, solves the contacts of the step without rebound.
+// Displacements and gaps are in [L], turns in [rad], velocities in [L/T, 1/T], in any consistent
+// units; a time `t` [T] is counted from the beginning of the step, 0 to its length h > 0. Particles
+// and pairs are numbered from 0; pairs of State::pairs come before those of State::walls, and an
+// obstacle is a negative number. The structs Flight (what blows changed in a motion), Arm, Approach
+// and Hit are in impacts.hpp. Nothing is checked or thrown; converged() says whether all blows are
+// solved. simulation.cpp and projection/ use it. The order of the particles must change results by
+// rounding errors only.
 #include "viscontact/particles/impacts/impacts.hpp"
 
 #include <algorithm>
@@ -24,7 +25,7 @@ namespace {
 // is far above these errors and far below 1.
 constexpr double kSameTime = 1e-9;
 
-/// A root of a continuous function that is > 0 at `from` and <= 0 at `until`, by the Illinois
+/// Finds a root of a continuous function that is > 0 at `from` and <= 0 at `until`, by the Illinois
 /// method (a bracketing secant method). Returns the upper end of the last bracket, after 200 steps
 /// at most, a number that only guards against an endless loop.
 template <class Function>
@@ -57,10 +58,14 @@ double root_of_falling(const Function& f, double from, double until) {
 
 }  // namespace
 
+/// Keeps references to the state and to the arrays of the step, and a copy of the motions that the
+/// rigid bodies have without blows. A pair that the state does not list is never hit.
 template <int D>
 Impacts<D>::Impacts(State& state, const ImpactStep& step)
     : state_(state), step_(step), free_bodies_(step.bodies.begin(), step.bodies.end()) {}
 
+/// The record of what blows changed in the motion of particle `k`, >= 0, which is made at the first
+/// call.
 template <int D>
 typename Impacts<D>::Flight& Impacts<D>::flight(std::int32_t k) {
   if (flight_of_.empty()) flight_of_.assign(state_.particles.count(), -1);
@@ -73,6 +78,7 @@ typename Impacts<D>::Flight& Impacts<D>::flight(std::int32_t k) {
   return flights_[index_of(number)];
 }
 
+/// The same record, or one of zeros for an obstacle and for a particle without a blow.
 template <int D>
 const typename Impacts<D>::Flight& Impacts<D>::flight_or_none(std::int32_t k) const {
   static const Flight kNone{};
@@ -121,6 +127,8 @@ Vector Impacts<D>::centre_acceleration(std::int32_t k) const {
   return (1 / step_.kick) * (centre_velocity(k) - before);
 }
 
+/// The place of a particle in its rigid body [L], with the turning of the body [1/T, rad]. All
+/// members are 0 for an obstacle and for a particle without a body.
 template <int D>
 typename Impacts<D>::Arm Impacts<D>::arm_of(std::int32_t k) const {
   const auto body = k < 0 ? -1 : state_.particles.bodies.body_of(k);
@@ -145,15 +153,17 @@ RigidBody Impacts<D>::body_at(std::int32_t k, double t) const {
   return body;
 }
 
-/// The angular velocity of particle `k` at a blow at the time `t` [1/T]. That of a rigid body in
-/// space changes between blows, while spin(), with which its particles move, is constant. A blow
-/// needs the true velocity of the point at which it acts, because otherwise e_d = 1 would not keep
-/// the energy.
+/// The angular velocity of particle `k` at a blow at the time `t` [1/T]. The angular velocity of a
+/// rigid body in space changes between blows, while spin(), with which its particles move, is
+/// constant. A blow needs the true velocity of the point at which it acts, because otherwise a blow
+/// with the coefficient of restitution 1 would not keep the energy.
 template <int D>
 Vector Impacts<D>::spin_at(std::int32_t k, double t) const {
   return precesses(k) ? body_at(k, t).angular_velocity : spin(k);
 }
 
+/// The motion of the second particle of pair `k` in the step, with the blows so far: relative to
+/// the first particle, or, at an obstacle, in space.
 template <int D>
 typename Impacts<D>::Approach Impacts<D>::approach_of(std::size_t k) {
   const auto& p = state_.particles;
@@ -196,6 +206,7 @@ Vector Impacts<D>::normal_of(const Approach& approach, double t) const {
   return distance > 0 ? (1 / distance) * x : Vector{1, 0, 0};
 }
 
+/// The gap of a pair at the time `t` [L], < 0 if the two overlap.
 template <int D>
 double Impacts<D>::gap_of(const Approach& approach, double t) const {
   const Vector x = approach.place(t);
@@ -285,7 +296,8 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
   const double root = rate * rate - 4 * curvature * gap;
   // The curvature changes on the way, so that a gap that opens may close again.
   if (root < 0 || (rate >= 0 && curvature >= 0)) return search();
-  // The time at which the gap falls to 0; in neither form do the two terms cancel each other.
+  // The time at which the gap falls to 0. There is a formula for each sign of the rate, in which
+  // terms do not cancel each other.
   double t = from + (rate < 0 ? 2 * gap / (-rate + std::sqrt(root))
                               : (rate + std::sqrt(root)) / (-2 * curvature));
   if (obstacle != nullptr && !approach.turns()) return t <= until ? std::optional(t) : std::nullopt;
@@ -304,7 +316,9 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
   return t <= until ? std::optional(t) : search();
 }
 
-/// The contact of pair `k` if it is hit at `time`: its gap is closed and closes fast enough.
+/// The contact of pair `k` if it is hit at `time`, that is, if its gap is at most 2 touching and
+/// closes fast enough; otherwise std::nullopt. ImpactStep::touching > 0 [L] is the largest gap that
+/// counts as closed. The factors 0.05, 1e-3 and 5 of its limits of velocities are free choices.
 template <int D>
 std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double time) {
   const auto approach = approach_of(k);
@@ -315,26 +329,25 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
   at_start.c = at_start.c + flight_or_none(of.second).late;
   if (of.first >= 0) at_start.c = at_start.c - flight_or_none(of.first).late;
   at_start.first.late = at_start.second.late = {};
-  // An approach slower than `ended` would cause a bounce that lasts less than this fraction of the
-  // step. The contact then counts as at rest, and the projection decides it. Both limits of rest,
-  // this one and `pulled`, tend to 0 with h (docs/physics.md (5.16)).
+  // An approach slower than `ended` [L/T] would cause a bounce that lasts less than this fraction
+  // of the step. The contact then counts as at rest, and the projection decides it. Both limits of
+  // rest, this one and `pulled`, tend to 0 with h (docs/physics.md (5.16)).
   constexpr double kShortestFlight = 0.05;
   const double pull = acceleration_of_gap(approach, time);
   const double ended =
       std::max(kShortestFlight * -step_.h * pull / (2 * step_.laws.restitution.coefficient), 0.0);
-  // An approach slower than `unseen` moves the particles by less than a thousandth of `touching` in
-  // the step, or is a rounding error.
+  // An approach slower than `unseen` [L/T] moves the particles by less than a thousandth of
+  // `touching` in the step, or is a rounding error.
   constexpr double kUnseen = 1e-3, kRounding = 1e-12;
   const double speeds = norm(free_velocity(of.first)) + norm(free_velocity(of.second)) +
                         norm(flight_or_none(of.first).change) +
                         norm(flight_or_none(of.second).change);
   const double unseen = std::max(kUnseen * step_.touching / step_.h, kRounding * speeds);
-  // `pulled` is five times the velocity that its load gives the pair in a step. `rests` is true if
-  // the pair touched at the beginning of the step and neither approached nor opened faster than
+  // `pulled` [L/T] is five times the velocity that forces give the pair in a step. `rests` is true
+  // if the pair touched at the beginning of the step and neither approached nor opened faster than
   // `unseen`, or, if it bore a load, approached no faster than `pulled`. Such a pair is hit only if
   // it approaches faster than `pulled`, because slower hits would keep a packing shaking. A pair
-  // without load that opens is in the flight after a blow, also if its gap is still below
-  // `touching`.
+  // without load that opens still flies after a blow, also if its gap is below `touching`.
   const double pulled = 5 * step_.h *
                         std::max({std::abs(dot(normal, acceleration(of.second))),
                                   std::abs(dot(normal, acceleration(of.first))), std::abs(pull)});
@@ -366,8 +379,10 @@ void Impacts<D>::expect(std::size_t k, double from) {
   const auto& of = pair(k);
   const std::array versions = {version(of.first), version(of.second)};
   if (!hits_of_.empty()) {
-    // A pair that has been hit so often in a step is not hit again; the projection decides it. Both
-    // numbers bound the computing time, because blows under load can follow each other without end.
+    // A pair that has been hit kMostHits times in a step, or kMostUnderLoad times if it bore a
+    // load, is not hit again; the projection then decides how it moves. Both numbers are free
+    // choices, which bound the computing time, because blows under load can follow each other
+    // without end.
     constexpr int kMostHits = 1000, kMostUnderLoad = 30;
     if (hits_of_[k] >= (of.impulse == 0 ? kMostHits : kMostUnderLoad)) return;
   }
@@ -389,6 +404,9 @@ void Impacts<D>::expect(std::size_t k, double from) {
   }
 }
 
+/// Finds and solves all blows, adds their changes to the displacements, turns and bodies of the
+/// step, and changes gamma of the pairs (minus the impulse that the film of a pair has absorbed). A
+/// blow that is not solved makes converged() false.
 template <int D>
 void Impacts<D>::run() {
   const auto& p = state_.particles;
@@ -409,8 +427,9 @@ void Impacts<D>::run() {
       pairs_of_.emplace(state_, true);
       hits_of_.resize(pair_count());
     }
-    // Hits that share a particle or a rigid body are one blow. group_of has the number of its group
-    // for each unit: particle k by the key k, rigid body b by the key -1 - b.
+    // Hits that share a particle or a rigid body are one blow. group_of maps each unit to the
+    // number of its group. The key of a particle k without a body is k, and the key of the rigid
+    // body b is -1 - b.
     std::map<std::int32_t, std::size_t> group_of;
     std::vector<std::vector<Hit>> groups;
     const auto unit = [&](std::int32_t k) {
@@ -459,6 +478,7 @@ void Impacts<D>::finish() {
   }
 }
 
+/// Gives all pairs gamma and the memory that they had before run(); motions stay as they are.
 template <int D>
 void Impacts<D>::undo() {
   for (auto before = before_.rbegin(); before != before_.rend(); ++before) {
@@ -469,11 +489,15 @@ void Impacts<D>::undo() {
   before_.clear();
 }
 
+/// Displacement of a particle in the step with its blows [L]; 0 if no blow changed the particle.
 template <int D>
 Vector Impacts<D>::displacement(std::int32_t k) const {
   return flight_or_none(k).displacement;
 }
 
+/// Corrects velocities that were computed as displacements over h. A blow at the time t that
+/// changes a velocity by d adds only (h - t) d to the displacement, so that t d/h is missing.
+/// Angular velocities are corrected in the same way.
 template <int D>
 void Impacts<D>::add_late_changes(Particles& particles) const {
   constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);

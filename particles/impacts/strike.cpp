@@ -1,10 +1,11 @@
 // Solves a blow: the collision of solids with all contacts of connected particles that are hit at
 // one time, in the phases compression and restitution, docs/physics.md (5.15). The film of a
-// contact has absorbed the impulse -gamma >= 0. Velocities are in [L/T, 1/T], impulses and gamma in
-// [M L/T], displacements in [L, rad], in any consistent units; times within the step are counted
-// from its beginning, 0 to its length h > 0 [T]. Nothing is checked or thrown: a blow that is not
-// solved makes Impacts::converged() false, and its last impulses count. impacts.cpp uses it. A
-// change must keep the momentum to rounding errors, and must not let the energy grow.
+// contact has absorbed the impulse -gamma >= 0; its solids touch if gamma has reached its lower
+// bound gamma_min <= 0. Velocities are in [L/T, 1/T], impulses and gamma in [M L/T], displacements
+// in [L, rad], in any consistent units; times within the step are counted from its beginning, 0 to
+// its length h > 0 [T]. Nothing is checked or thrown: a blow that is not solved makes
+// Impacts::converged() false, and its last impulses count. impacts.cpp uses it. A change must keep
+// the momentum to rounding errors, and must not let the energy grow.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,6 +30,8 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
   const auto& p = state_.particles;
   ConstraintProblem<D> problem;
   std::map<std::int32_t, std::int32_t> numbers;
+  // The unit of a particle in the problem, and the vector [L] from the centre of the unit to the
+  // particle.
   const auto side_of = [&](std::int32_t k) -> ContactSide {
     if (k < 0) return {};
     const auto body = p.bodies.body_of(k);
@@ -39,8 +42,8 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
       if (body < 0) {
         const std::array<double, 3> still{};
         // If particles do not turn, the moments on them are 0 but for rounding errors, and yet the
-        // problem needs a mobility for turning. With moves/r^2, which has the right dimension, the
-        // turns that follow are small in every system of units.
+        // problem needs a mobility for turning. The value moves/r^2 has the right dimension, and
+        // the turns that follow from it are small in every system of units.
         const double r = p.radii[index_of(k)], moves = step_.mobilities[index_of(k)];
         const double turns =
             step_.turns.empty() ? moves / (r * r) : step_.turn_mobilities[index_of(k)];
@@ -74,7 +77,7 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
       auto& row = problem.rows.back();
       row.offset = step_.h * hit.approach;
       if (k > 0) {
-        // Velocity at which the surfaces slip before the blow.
+        // `slip` is the velocity at which the surfaces slip before the blow [L/T].
         const Vector slip = hit.relative +
                             cross(spin_at(of.second, time), -tangents.second_arm * hit.normal) -
                             cross(spin_at(contact.first, time), tangents.first_arm * hit.normal);
@@ -114,19 +117,23 @@ void Impacts<D>::move_unit(std::int32_t particle, const Motion<D>& change, doubl
   step.displacement = step.displacement + rest * velocity;
   step.late_velocity = step.late_velocity + (time / step_.h) * velocity;
   step.turn = step.turn + rest * turn;
-  // In space, constrain() adds to this angular momentum. In the plane it computes the angular
-  // momentum as I turn/h + late_momentum, and turn/h lacks the part time/h of the change.
+  // In space, constrain() (rigid_bodies.hpp) adds the effect of the remaining contacts to this
+  // angular momentum. In the plane, constrain() computes the angular momentum as I turn/h +
+  // late_momentum, and turn/h lacks the part time/h of the change.
   const Vector momentum = present_inertia(body_at(particle, time), D) * turn;
   step.angular_momentum = step.angular_momentum + momentum;
   step.late_momentum = step.late_momentum + (time / step_.h) * momentum;
 }
 
-/// Solves the blow with the contacts `hits` at `time`, changes the motions of its particles and
-/// gamma of its pairs, and finds their next hits.
+/// Solves the blow with the contacts `hits` at `time` [T], changes the motions of its particles and
+/// gamma of its pairs, and finds their next hits. Adds a record to impulses_ for each contact, and
+/// to rebounds_ for each contact whose solids touched. Does nothing if the films absorb the whole
+/// blow.
 template <int D>
 void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
-  // Bounds of residuals over the speed of the approach. The solver tries to reach kExact, which is
-  // near the rounding errors of a double. A blow counts as solved up to kSolved, a free choice.
+  // The bounds are ratios of residuals to the fastest approach [1]. The solver tries to reach
+  // kExact, which is near the rounding errors of a double. A blow counts as solved up to kSolved, a
+  // free choice.
   constexpr double kExact = 1e-13, kSolved = 1e-8;
   const auto& laws = step_.laws;
   std::vector<std::int32_t> unit_of;
@@ -154,15 +161,17 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
   keep_normal_rows(compression);
   // If several contacts share a body, only sums of their impulses are determined. The impulse of
   // each contact, and with it what its solids give back, must not depend on the order of the
-  // contacts; with kLeastImpulses it does not. With friction between spheres, the method of
-  // kLeastImpulses may not converge. The blow is then solved again with kSweeps, whose impulses may
-  // depend on the order. The limits are free choices: 200 iterations are as many as one of its
-  // proximal steps may take, so that a failure costs little; 10000 is far above the 3000 iterations
-  // without progress after which solve_constraints() gives up (both in constraint_solver.cpp).
+  // contacts. With kLeastImpulses they are independent of it. With friction between spheres, the
+  // method of kLeastImpulses may not converge. The blow is then solved again with kSweeps, whose
+  // impulses may depend on the order. The limits are free choices: 200 iterations are as many as
+  // one proximal step of kLeastImpulses may take, so that a failure costs little; 10000 is far
+  // above the 3000 iterations without progress after which solve_constraints() gives up (both in
+  // constraint_solver.cpp).
   const auto solve = [&](ConstraintProblem<D>& of) {
     const auto guess = of.impulses;
     const auto is_solved = [&](ConstraintStart start, int most_iterations) {
       const auto result = solve_constraints(of, most_iterations, start).result;
+      // result.residual is the largest residual divided by the allowed one [1].
       iterations_ += result.iterations;
       return result.residual * kExact <= kSolved;
     };
@@ -204,8 +213,8 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     const bool rubs = laws.friction && phase.solid > 0;
     block.friction = rubs ? laws.friction->coefficient : 0;
     // Friction is bounded by the coefficient of friction times the impulse beyond `capacity`. With
-    // this capacity it is (1 + e) times the impulse of the solids in the compression, if the
-    // restitution adds its lower bound and this is >= 0.
+    // this capacity, the impulse beyond `capacity` is (1 + e) times the impulse of the solids in
+    // the compression, if the restitution adds its lower bound and this bound is >= 0.
     block.capacity = phase.compressed + std::max(phase.lowest, 0.0) - (1 + e) * phase.solid;
     problem.impulses[block.row] = block.lowest;
   }

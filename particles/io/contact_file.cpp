@@ -1,9 +1,11 @@
 // Writes contacts and their forces as CSV tables, in the units of the case: gaps are in [L], gamma
-// and impulses in [M L/T], forces in [M L/T^2], all of discs in a fluid per length. The stress is
-// in [M/(L T^2)], of discs without a fluid in [M/T^2]. contact_file.hpp has the columns. i and j
-// are ids of particles, or -1, -2, ... for obstacles. Nothing is checked or thrown; without a
-// domain the stress is divided by 0. A change must keep the names and the order of the columns,
-// which docs/file-formats.md states and users' scripts read. Used by case/ and run/.
+// and impulses in [M L/T], and forces in [M L/T^2]. Gamma, impulses and forces are per length for
+// discs in a fluid. The stress is in [M/(L T^2)] for spheres in space, spheres on an axis and discs
+// in a fluid, and in [M/T^2] for discs without a fluid. contact_file.hpp has all columns. i and j
+// are the ids of two particles; for a contact with an obstacle i is the id of the particle, and j
+// is -1, -2, ... for the first, second obstacle. Nothing is checked or thrown; without a domain the
+// stress is divided by 0. A change must keep the names and the order of the columns, which
+// docs/file-formats.md states and users' scripts read. Used by case/ and run/.
 #include "viscontact/particles/io/contact_file.hpp"
 
 #include <fmt/format.h>
@@ -25,7 +27,8 @@ std::string_view axes_of(int dimension) {
                         : std::string_view("xyz").substr(0, static_cast<std::size_t>(dimension));
 }
 
-/// Names of columns of a vector: `begin` and an axis, after a comma each, as ",force_x,force_y".
+/// Names of the columns of a vector. Each is a comma, `begin` and an axis, as in
+/// ",force_x,force_y".
 std::string components(std::string_view begin, int dimension) {
   std::string text;
   for (const char axis : axes_of(dimension)) text += fmt::format(",{}{}", begin, axis);
@@ -48,6 +51,8 @@ std::string force_columns(int dimension) {
   return text;
 }
 
+/// Adds the fields of the columns of force_columns() and a line break: the normal force, > 0 if it
+/// pushes, the friction on j (or, at an obstacle, on i) [M L/T^2], and the history variables.
 void add_forces(std::string& text, const CurrentContact& contact, int dimension) {
   (text += ',') += format_number(contact.normal_force);
   if (dimension > 1) add(text, contact.tangential_force, dimension);
@@ -55,7 +60,8 @@ void add_forces(std::string& text, const CurrentContact& contact, int dimension)
   text += '\n';
 }
 
-/// The rows of contacts.csv.
+/// The rows of contacts.csv, one for each contact: time,i,j,gap,gamma and the columns of
+/// force_columns().
 std::string contact_rows(const Setting& setting, const State& state, std::span<const double>) {
   std::string text;
   for (const auto& contact : contacts_of(setting, state)) {
@@ -72,8 +78,11 @@ Vector force_of(const CurrentContact& contact) {
   return contact.normal_force * contact.normal + contact.tangential_force;
 }
 
-/// Calls `visit` for each contact in the last step, and for each one of a blow in it, with the
-/// first particle or obstacle, the mean force on the second particle [M L/T^2], and the branch [L].
+/// Calls `visit` for each contact of the last step, and for each contact of the collisions in it
+/// (State::blows), whose impulse is divided by the length of the step. The arguments are the number
+/// of the first particle, or -1 - k for obstacle k; the mean force on the second particle [M
+/// L/T^2]; and the branch [L], the vector to the centre of the second particle from that of the
+/// first or from the nearest point of the obstacle.
 template <class Visit>
 void for_forces(const Setting& setting, const State& state, const Visit& visit) {
   for (const auto& contact : contacts_of(setting, state))
@@ -82,7 +91,8 @@ void for_forces(const Setting& setting, const State& state, const Visit& visit) 
     visit(blow.first, (1 / state.earlier_step) * blow.impulse, blow.branch);
 }
 
-/// The rows of walls.csv.
+/// The rows of walls.csv: time, the number of the obstacle (-1, -2, ...), and the components of the
+/// mean force of all contacts on it in the last step [M L/T^2].
 std::string wall_rows(const Setting& setting, const State& state, std::span<const double>) {
   std::vector<Vector> forces(obstacles_of(setting).size());
   for_forces(setting, state, [&](std::int32_t first, const Vector& force, const Vector&) {
@@ -99,7 +109,9 @@ std::string wall_rows(const Setting& setting, const State& state, std::span<cons
   return text;
 }
 
-/// The row of stress.csv, docs/physics.md (5.19).
+/// The row of stress.csv: time and the components of the stress, xx, xy, ..., row by row. Component
+/// ij is minus the sum of force i times branch j over all contacts, divided by the area or volume
+/// of the domain, docs/physics.md (5.19).
 std::string stress_row(const Setting& setting, const State& state, std::span<const double>) {
   const auto n = static_cast<std::size_t>(state.particles.dimension);
   std::array<double, 9> sums{};
@@ -113,12 +125,15 @@ std::string stress_row(const Setting& setting, const State& state, std::span<con
   return text + "\n";
 }
 
+/// The rows of motion.csv (particle_file.hpp).
 std::string motion_table_rows(const Setting&, const State& state, std::span<const double>) {
   return motion_rows(state.time, state.particles);
 }
 
 }  // namespace
 
+/// A table with a row for each contact: i,j,gap,gamma,gamma_error and the columns of
+/// force_columns(). gamma_error [M L/T], >= 0, is an estimate of the error of gamma.
 std::string write_contacts(const Particles& particles, std::span<const CurrentContact> contacts) {
   auto text = fmt::format("# rows: {}\ni,j,gap,gamma,gamma_error{}\n", contacts.size(),
                           force_columns(particles.dimension));
@@ -131,6 +146,8 @@ std::string write_contacts(const Particles& particles, std::span<const CurrentCo
   return text;
 }
 
+/// The rows of rebounds.csv: time [T], i and j, velocity of the approach [L/T], impulse of the
+/// solids in the compression [M L/T], and the velocity after the collision [L/T].
 std::string rebound_rows(const Particles& particles, std::span<const Rebound> rebounds) {
   std::string text;
   for (const auto& rebound : rebounds) {
@@ -145,6 +162,8 @@ std::string rebound_rows(const Particles& particles, std::span<const Rebound> re
   return text;
 }
 
+/// The tables whose names are in `names`; in a fluid motion.csv and contacts.csv always. `tables`
+/// must have the order of kAskedTables. Names that are not known are ignored.
 std::vector<TimeTable> asked_tables(const Setting& setting, const Particles& particles,
                                     std::span<const std::string> names) {
   const int dimension = particles.dimension;

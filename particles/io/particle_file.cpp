@@ -2,10 +2,10 @@
 // particle_file.hpp has the columns. Numbers are in the units of the case: lengths [L], masses [M],
 // velocities [L/T, 1/T], angles [rad]. Radii and masses are 1e-100 to 1e100 (in a fluid a mass may
 // be 0), other numbers at most 1e100 in magnitude, ids whole numbers from 0 to 2^31 - 1. The
-// dimension is 1 (spheres on an axis), 2 (discs) or 3 (spheres). A fault of a file is an
-// Error(kBadInput), with the line if it is in one; writing throws nothing. A change must keep the
-// names of the columns, which docs/file-formats.md states and users' files contain. Used by case/,
-// io/ and run/.
+// dimension is 1 (spheres on an axis), 2 (discs) or 3 (spheres). If a file has a fault,
+// Error(kBadInput) is thrown, which names the line if the fault is in one; writing throws nothing.
+// A change must keep the names of the columns, which docs/file-formats.md states and users' files
+// contain. Used by case/, io/ and run/.
 #include "viscontact/particles/io/particle_file.hpp"
 
 #include <fmt/format.h>
@@ -44,7 +44,8 @@ const Names kOnAxis = {"z", "radius", "mass", "vz", "x", "y", "vx", "vy", "id", 
 // clang-format on
 constexpr std::size_t kAngularVelocityX = 11;
 
-// Further columns in a fluid. Forces of an earlier run are not used.
+// The further columns in a fluid. read_particles() accepts the columns with forces of an earlier
+// run, but does not use them.
 constexpr std::array<std::string_view, 7> kOfDiscsInFluid = {"angle",
                                                              "angular_velocity",
                                                              "fluid_force_x",
@@ -60,12 +61,14 @@ constexpr std::array<std::string_view, 2> kOfDiscsThatTurn = {"angle", "angular_
 constexpr std::array<std::string_view, 3> kOfSpheresThatTurn = {
     "angular_velocity_x", "angular_velocity_y", "angular_velocity_z"};
 
+/// The further columns of particles that turn without a fluid.
 std::span<const std::string_view> turning_columns(int dimension) {
   if (dimension == 1) return {};
   if (dimension == 2) return kOfDiscsThatTurn;
   return kOfSpheresThatTurn;
 }
 
+/// The further columns in a fluid; none in three dimensions, where there is no fluid.
 std::span<const std::string_view> fluid_columns(int dimension) {
   if (dimension == 1) return kOnAxisInFluid;
   if (dimension == 2) return kOfDiscsInFluid;
@@ -159,7 +162,9 @@ std::vector<std::int32_t> read_ids(const std::vector<Row>& rows, const std::stri
 
 }  // namespace
 
-/// Throws Error(kBadInput) if the file cannot be read or has an unknown column or a wrong number.
+/// Reads the particles of a file and the line of each one. Particles::inertias are not set. Throws
+/// Error(kBadInput) if the file cannot be read, has an unknown column, lacks a required one, or has
+/// a wrong number.
 ParticleFile read_particles(const std::filesystem::path& path, int dimension, bool in_fluid) {
   const auto& names = dimension == 1 ? kOnAxis : dimension == 2 ? kDiscs : kSpheres;
   const auto d = static_cast<std::size_t>(dimension);
@@ -215,6 +220,10 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension, bo
   return result;
 }
 
+/// A table with the line "# rows: N", the names of the columns, and a row for each particle: id,
+/// position, velocity, radius and mass. With `forces`, columns of fluid_columns() follow, and
+/// semi-axes [L] of ellipses and plates; fields without a value are empty. Without `forces`, the
+/// columns of turning_columns() follow if the particles turn.
 std::string write_particles(const Particles& particles, const std::optional<FluidForces>& forces) {
   const auto d = static_cast<std::size_t>(particles.dimension);
   std::string text = fmt::format("# rows: {}\n", particles.count());
@@ -259,6 +268,7 @@ std::string write_particles(const Particles& particles, const std::optional<Flui
   return text;
 }
 
+/// The line with the names of the columns of motion.csv; `turn` says whether particles turn.
 std::string motion_header(int dimension, bool turn) {
   switch (dimension) {
     case 1:
@@ -271,6 +281,7 @@ std::string motion_header(int dimension, bool turn) {
   }
 }
 
+/// The rows of motion.csv at `time` [T], one for each particle, in the order of motion_header().
 std::string motion_rows(double time, const Particles& particles) {
   const auto d = static_cast<std::size_t>(particles.dimension);
   const bool is_disc = d == 2 && particles.turn(), is_sphere = d == 3 && particles.turn();

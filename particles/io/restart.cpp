@@ -1,10 +1,10 @@
 // Writes and reads the binary restart file, a State bit for bit. Numbers are in the units of the
-// case: lengths [L], times [T], masses [M], gamma and impulses [M L/T]. A file that cannot be read,
-// is damaged (its hash or the sizes and signs of its arrays do not fit), or has another version or
-// byte order is an Error(kBadInput) with its path; whether it fits the case is not checked, and
-// writing throws nothing. The texts kWhat and kHash must not change. Files of versions 6 to 12 must
-// stay readable; a change of the fields of State or Pair (state.hpp) needs a new version. Used by
-// run/.
+// case: lengths [L], times [T], masses [M], gamma and impulses [M L/T]. Reading throws
+// Error(kBadInput), which names the file, if the file cannot be read, is damaged (its hash or the
+// sizes and signs of its arrays do not fit), or has another version or byte order. Whether the file
+// fits the case is not checked, and writing throws nothing. The texts kWhat and kHash must not
+// change. Files of versions 6 to 12 must stay readable; a change of the fields of State or Pair
+// (state.hpp) needs a new version. Used by run/.
 #include "viscontact/particles/io/restart.hpp"
 
 #include <algorithm>
@@ -23,10 +23,10 @@
 namespace viscontact::particles {
 namespace {
 
-// The versions that can be read. A file has the lowest one that holds its state. Version 7 adds the
-// memories of contact laws that have no array in version 6; 8 the flow of a fluid with inertia; 9
-// the positions before the last step, for membranes; 10 Pair::place; 11 State::sources; and 12
-// State::blows.
+// The versions that can be read. A file has the lowest version that can hold its state. Version 7
+// adds the memories of contact laws that have no array in version 6, version 8 the flow of a fluid
+// with inertia, version 9 the positions before the last step, for membranes, version 10
+// Pair::place, version 11 State::sources, and version 12 State::blows.
 constexpr int kFirstVersion = 6, kLastVersion = 12;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
@@ -51,14 +51,15 @@ struct StoredArrays {
   /// each with a line break, `memories` for each name one number for each pair and wall.
   std::vector<char> names;
   std::vector<double> memories;
-  // The members of State::blows, an array for each, because BlowImpulse has bytes without a value,
-  // which would change the hash of the file.
+  // These arrays have the members of State::blows. There is an array for each member, because
+  // BlowImpulse has bytes without a value, which would change the hash of the file.
   std::vector<std::int32_t> blow_firsts;
   std::vector<Vector> blow_impulses, blow_branches;
 };
 
-/// Calls `field` for each stored field, in the order of a file of this version, to write and to
-/// read.
+/// Calls `field` for each stored field, in the order of a file of this version. Both writing and
+/// reading use the function, so that the orders agree. The order must be kept; new fields are added
+/// at the end.
 template <class State, class Arrays, class Field>
 void for_fields(State& state, Arrays& arrays, int version, Field&& field) {
   auto& p = state.particles;
@@ -182,6 +183,8 @@ bool take_blows(const StoredArrays& arrays, State& state) {
   return true;
 }
 
+/// Appends values to `bytes` as they are in memory. A list begins with the number of its elements,
+/// in 64 bits.
 class Writer {
  public:
   template <class T>
@@ -204,6 +207,8 @@ class Writer {
   std::string& bytes;
 };
 
+/// Reads what Writer has written. Throws Error(kBadInput), which names the file, if too few bytes
+/// are left.
 class Reader {
  public:
   Reader(std::string_view bytes, std::string file) : bytes_(bytes), file_(std::move(file)) {}
@@ -273,6 +278,9 @@ int read_version(std::string_view& rest, const std::string& file) {
   return version;
 }
 
+/// True if the sizes of the arrays fit the number of particles, the dimension is 1 to 3, the times
+/// velocity_lag, earlier_step and step_before are finite and >= 0, and there are at least as many
+/// particles as sources have poured. Positions, radii, masses and velocities may have any value.
 bool is_consistent(const State& state) {
   const auto& p = state.particles;
   const auto numbers = p.count() * static_cast<std::size_t>(p.dimension);
@@ -300,6 +308,9 @@ bool is_consistent(const State& state) {
          std::isfinite(state.step_before) && state.step_before >= 0;
 }
 
+/// True if the numbers of the two particles (for a pair `at_obstacle` the first one is < 0) and of
+/// the image and the place of the contact are in their ranges, gamma is finite and <= 0, the
+/// impulse is finite, and gamma_error is >= 0.
 bool is_consistent(const Pair& pair, bool at_obstacle, std::size_t particles) {
   const bool first_in_range =
       at_obstacle ? pair.first < 0 : pair.first >= 0 && pair.first < pair.second;
@@ -311,6 +322,9 @@ bool is_consistent(const Pair& pair, bool at_obstacle, std::size_t particles) {
 
 }  // namespace
 
+/// The content of a file: a line with the version and the byte order, a line with the SHA-256 of
+/// the rest, and the fields in binary. Images, places, frictions and carried impulses are each
+/// stored as an empty array if all of them are 0.
 std::string write_restart(const State& state) {
   StoredArrays arrays;
   for (const auto& pair : state.pairs) arrays.images.push_back(pair.image);
@@ -347,7 +361,9 @@ std::string write_restart(const State& state) {
   return text + bytes;
 }
 
-/// Throws Error(kBadInput), which names the file, if it cannot be read or is no valid restart file.
+/// Reads a file, which may begin with lines of provenance and record. Of rigid bodies only the
+/// motion is set, because the case has their members. Throws Error(kBadInput), which names the
+/// file, if it cannot be read or is no valid restart file.
 State read_restart(const std::filesystem::path& path) {
   const std::string file = path.string();
   const std::string text = read_file(path);

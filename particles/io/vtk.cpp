@@ -1,7 +1,8 @@
 // Writes the frames of a simulation as VTK files: particles are points, contacts are cells. Vectors
 // have three numbers, with z = 0 for discs and x = y = 0 on an axis. Numbers are in the units of
 // the case: radius and gap [L], velocity [L/T], angle [rad], angular velocity [1/T], mass [M],
-// gamma [M L/T], forces [M L/T^2], of discs in a fluid per length. Nothing is checked or thrown. A
+// gamma (minus the impulse that the film of a contact has absorbed) [M L/T], forces [M L/T^2];
+// masses, gamma and forces are per length for discs in a fluid. Nothing is checked or thrown. A
 // change must be made in vtk_reader.cpp and run/hdf5_file.cpp, too, which read these files, and
 // must keep the names of the arrays, by which users find them in ParaView. Used by run/.
 #include "viscontact/particles/io/vtk.hpp"
@@ -48,6 +49,9 @@ struct ContactCells {
   }
 
  private:
+  /// Adds a cell, with an entry in each list. Cells have the numbers of particles; `firsts` and
+  /// `seconds` have the numbers of ids_of(), the ids of two particles, or of one particle and then
+  /// the number < 0 of the obstacle.
   void add(const Particles& particles, const CurrentContact& contact) {
     if (contact.first < 0)
       cells.add_vertex(contact.second);
@@ -66,7 +70,9 @@ struct ContactCells {
   }
 };
 
-/// The arrays of the points, one for each particle.
+/// The arrays of the points, with an entry for each particle: radius, velocity and id; mass if one
+/// is > 0; angle or orientation (a unit quaternion w, x, y, z) and angular velocity of particles
+/// that turn; and the number of the rigid body, or -1, if there are bodies.
 std::string point_data(AppendedData& data, const Particles& particles) {
   std::vector<double> velocities;
   std::vector<std::int32_t> ids;
@@ -95,6 +101,9 @@ std::string point_data(AppendedData& data, const Particles& particles) {
 
 }  // namespace
 
+/// The content of the file of a frame. The arrays of the cells are gap, gamma, i and j (ids, j of a
+/// contact with an obstacle < 0), and normal_force, > 0 if it pushes; image in a periodic domain;
+/// and with `has_friction` friction (0: none, 1: sticks, 2: slides) and tangential_force.
 std::string write_vtp(const Particles& particles, std::span<const CurrentContact> contacts,
                       bool has_friction) {
   std::vector<double> points;
@@ -121,6 +130,7 @@ std::string write_vtp(const Particles& particles, std::span<const CurrentContact
   return text + data.closing();
 }
 
+/// The line of a PVD file, ParaView's list of frames, for the frame at `time` [T] in `file`.
 std::string pvd_line(double time, const std::string& file) {
   return fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n",
                      format_number(time), file);

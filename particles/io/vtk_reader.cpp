@@ -1,10 +1,10 @@
 // Reads the VTK files that vtk.cpp writes, so that pages can be made from them. Numbers are in the
 // units of the case: positions, radii and gaps [L], velocities [L/T, 1/T], angles [rad], masses
 // [M], gamma [M L/T], forces [M L/T^2]; `dimension` is 1 (spheres on an axis), 2 or 3. The reader
-// understands only the layout that vtk.cpp writes, not VTK's formats in general; a file that is
-// missing, cut short or of another layout is an Error(kBadInput) with its path. Ranges of
-// positions, radii and forces are not checked. Frames of earlier versions, which lack some arrays,
-// must stay readable. Used by run/.
+// understands only the layout that vtk.cpp writes, not VTK's formats in general; it throws
+// Error(kBadInput), which names the file, if the file is missing, cut short or of another layout.
+// Ranges of positions, radii and forces are not checked. Frames of earlier versions, which lack
+// some arrays, must stay readable. Used by run/.
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -23,6 +23,7 @@ namespace viscontact::particles {
 namespace {
 
 /// The array `name` of the contacts with `count` numbers, or zeros if the frame has no such array.
+/// Throws Error(kBadInput) if the array has another length.
 template <class Number>
 std::vector<Number> numbers_or_zeros(const AppendedReader& reader, const char* name,
                                      std::size_t count) {
@@ -32,8 +33,9 @@ std::vector<Number> numbers_or_zeros(const AppendedReader& reader, const char* n
   return numbers;
 }
 
-/// The numbers that contact laws remember of each contact and files show (pair_memory.hpp). Those
-/// that the frame does not have are zeros.
+/// For each of `count` contacts, the numbers that contact laws remember and files show
+/// (pair_memory.hpp). Numbers that the frame does not have are 0. Throws Error(kBadInput) if an
+/// array has another length.
 std::vector<ShownMemory> read_memories(const AppendedReader& reader, std::size_t count) {
   std::vector<ShownMemory> memories(count);
   std::size_t place = 0;
@@ -52,8 +54,10 @@ std::vector<ShownMemory> read_memories(const AppendedReader& reader, std::size_t
   return memories;
 }
 
-/// The contacts of a frame with `particles` particles. Throws Error(kBadInput) if arrays have other
-/// lengths, or if a number of a particle, image or kind of friction does not exist.
+/// The contacts of a frame with `particles` particles, first those of two particles and then those
+/// with obstacles. Arrays that frames of earlier versions lack count as zeros. Throws
+/// Error(kBadInput) if arrays have other lengths, or if a number of a particle, image or kind of
+/// friction does not exist.
 std::vector<CurrentContact> read_contacts(const AppendedReader& reader, std::int64_t particles) {
   const auto gaps = reader.array<double>("CellData", "gap");
   const auto gammas = reader.array<double>("CellData", "gamma");
@@ -85,7 +89,7 @@ std::vector<CurrentContact> read_contacts(const AppendedReader& reader, std::int
     return static_cast<ContactFriction>(number);
   };
   std::vector<CurrentContact> contacts;
-  // A frame has no errors of gamma, normals and branches, because no picture shows them.
+  // A frame has neither errors of gamma nor normals and branches, because no picture shows them.
   const auto add = [&](std::size_t i, std::int32_t first, std::int64_t second) {
     contacts.push_back({.first = first,
                         .second = particle(second),
@@ -108,7 +112,9 @@ std::vector<CurrentContact> read_contacts(const AppendedReader& reader, std::int
 
 }  // namespace
 
-/// Throws Error(kBadInput), which names the file, if it cannot be read or is not such a file.
+/// Reads a frame. Speeds are the lengths of the velocities [L/T]; masses, ids, angles and
+/// orientations are empty if the frame has none. Throws Error(kBadInput), which names the file, if
+/// it cannot be read or is not such a file.
 VtpContent read_vtp(const std::filesystem::path& path, int dimension) {
   const std::string text = read_file(path);
   const AppendedReader reader(text, path.string(), "frame");
@@ -147,8 +153,8 @@ VtpContent read_vtp(const std::filesystem::path& path, int dimension) {
   return content;
 }
 
-/// Times [T] and names of files. Throws Error(kBadInput) if the file cannot be read or is no such
-/// list.
+/// Times [T] and names of the files of all frames in a PVD file, in its order. Whether these files
+/// exist is not checked. Throws Error(kBadInput) if the PVD file cannot be read or is no such list.
 std::vector<std::pair<double, std::string>> read_pvd(const std::filesystem::path& path) {
   const std::string text = read_file(path);
   if (text.find("</Collection>") == std::string::npos)

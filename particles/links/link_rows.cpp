@@ -1,10 +1,12 @@
-// Makes the equations of hinges, springs, arms and stops for one time step. Values of displacements
-// are in [L], with impulses in [M L/T]; those of turns in [rad], with moments of impulses in [M
-// L^2/T]; stiffnesses in [M/T^2] or [M L^2/T^2]. The times LinkTimes::h and kick are > 0 [T];
-// motions of units are in [L, rad]; units are any consistent ones. Links, particles and places of
-// forces count from 0. Nothing is checked or thrown. constraints/, fluid/, run/ and simulation.cpp
-// use it. A change must keep the order of forces in State::link_forces, which restart files store,
-// and that the parts of a row are the derivatives of values_after() with respect to the motion.
+// Makes the equations of hinges, springs, arms and stops for one time step. A row is one equation,
+// value + sum of its parts + compliance * impulse = 0. A part belongs to a unit, which is a rigid
+// body or a particle without a body. Rows of displacements have values in [L], impulses in [M L/T]
+// and stiffnesses in [M/T^2]; rows of turns have values in [rad], moments of impulses in [M L^2/T]
+// and stiffnesses in [M L^2/T^2]. The times LinkTimes::h and kick are > 0 [T]; motions of units are
+// in [L, rad]; units are any consistent ones. Links, particles and places of forces count from 0.
+// Nothing is checked or thrown. constraints/, fluid/, run/ and simulation.cpp use it. A change must
+// keep the order of forces in State::link_forces, which restart files store, and that the parts of
+// a row are the derivatives of values_after() with respect to the motion.
 #include "viscontact/particles/links/link_rows.hpp"
 
 #include <fmt/format.h>
@@ -18,13 +20,13 @@
 namespace viscontact::particles {
 namespace {
 
-/// Centre of the unit of a particle, its rigid body or itself [L].
+/// Centre of the unit of a particle [L].
 Vector unit_centre(const Particles& p, std::int32_t particle) {
   const auto body = p.bodies.body_of(particle);
   return body < 0 ? p.position(index_of(particle)) : p.bodies.bodies[index_of(body)].centre;
 }
 
-/// Vector from the centre of its unit to a linked point [L].
+/// Vector [L] from the centre of the unit of a linked point to the point.
 Vector arm_of_point(const Particles& p, const LinkedPoint& point) {
   const auto body = p.bodies.body_of(point.particle);
   if (body >= 0) return turned_with(p.bodies.bodies[index_of(body)], point.offset, p.dimension);
@@ -77,8 +79,9 @@ LinkRow row_between(const Particles& p, std::int32_t first, std::int32_t second,
   return row;
 }
 
-/// Sets the row of a spring by Newmark's method. With the extension e before the step and its rate,
-/// the impulse is -kick stiffness (e + beta (change of e in this step - h rate)).
+/// Sets the row of a spring of the `stiffness` > 0 by Newmark's method with the parameter beta [1].
+/// With the `extension` e before the step [L, rad] and its `rate` [L/T, 1/T], the impulse is -kick
+/// stiffness (e + beta (change of e in this step - h rate)).
 void make_spring(LinkRow& row, double extension, double rate, double stiffness,
                  const LinkTimes& times) {
   const double beta = times.beta();
@@ -88,6 +91,8 @@ void make_spring(LinkRow& row, double extension, double rate, double stiffness,
   row.compliance = 1 / (times.kick * stiffness * beta);
 }
 
+/// The rows of a hinge, one for each component of the vector from the fixed place to the point that
+/// the hinge holds [L].
 LinkEquations hinge_equations(const Hinge& hinge, const Particles& p) {
   LinkEquations equations{LinkEquations::Kind::kHinge};
   const auto particle = hinge.point.particle;
@@ -104,6 +109,8 @@ LinkEquations hinge_equations(const Hinge& hinge, const Particles& p) {
   return equations;
 }
 
+/// The row of the torsion spring of a hinge, whose extension is the angle of the unit minus the
+/// angle at rest [rad].
 LinkEquations torsion_equations(const Hinge& hinge, const Particles& p, const LinkTimes& times) {
   LinkEquations equations{LinkEquations::Kind::kTorsion};
   LinkRow row;
@@ -114,6 +121,7 @@ LinkEquations torsion_equations(const Hinge& hinge, const Particles& p, const Li
   return equations;
 }
 
+/// The row of a spring, whose extension is the distance of its ends minus its length [L].
 LinkEquations spring_equations(const Spring& spring, const Particles& p, const LinkTimes& times) {
   LinkEquations equations{LinkEquations::Kind::kSpring};
   const auto nearest = between(p, spring.first, spring.second);
@@ -126,6 +134,8 @@ LinkEquations spring_equations(const Spring& spring, const Particles& p, const L
   return equations;
 }
 
+/// The row of an arm: its value is the distance of the ends before the step minus the length at the
+/// end of the step [L].
 LinkEquations arm_equations(const Arm& arm, const Particles& p, const LinkTimes& times) {
   LinkEquations equations{LinkEquations::Kind::kArm};
   const auto nearest = between(p, arm.first, arm.second);
@@ -153,6 +163,8 @@ Vector apart_after(const LinkEquations& equations, const Links& links, const Par
 
 }  // namespace
 
+/// Numbers of periods from a particle to the periodic image of it that belongs to its rigid body; 0
+/// without a body.
 Periods periods_in_unit(const Particles& particles, std::int32_t particle) {
   const auto body = particles.bodies.body_of(particle);
   if (body < 0) return {};
@@ -160,6 +172,8 @@ Periods periods_in_unit(const Particles& particles, std::int32_t particle) {
   return periods_of_member(of, member_number(of, particle), particles);
 }
 
+/// Rate [L/T] at which the sum of the parts changes because periodic images move relative to their
+/// particles; 0 unless the cell is sheared.
 double image_rate(const LinkRow& row, const PeriodicCell& cell) {
   double rate = 0;
   for (const auto& part : row.parts)
@@ -167,11 +181,14 @@ double image_rate(const LinkRow& row, const PeriodicCell& cell) {
   return rate;
 }
 
+/// Value of a part for the motion of its unit, to first order in the turn [L, rad].
 double value_of(const LinkPart& part, const UnitMotion& motion) {
   return part.is_turn ? part.direction[2] * motion.turn[2]
                       : dot(part.direction, motion.displacement + cross(motion.turn, part.arm));
 }
 
+/// The equations of all hinges, each with its torsion spring, and then of springs, arms and
+/// membranes. `first_force` is the place of the force of the first row in State::link_forces.
 std::vector<LinkEquations> link_equations(const Links& links, const Particles& particles,
                                           const LinkTimes& times) {
   std::vector<LinkEquations> all;
@@ -201,6 +218,8 @@ std::vector<LinkEquations> link_equations(const Links& links, const Particles& p
   return all;
 }
 
+/// The stops of all hinges; none unless the particles are discs. The value of a row is the angle
+/// that is left to the stop [rad], which must be >= 0 after a step.
 std::vector<LinkEquations> stop_equations(const Links& links, const Particles& particles) {
   std::vector<LinkEquations> all;
   for (std::size_t k = 0; k < links.hinges.size(); ++k) {
@@ -223,6 +242,9 @@ std::vector<LinkEquations> stop_equations(const Links& links, const Particles& p
   return all;
 }
 
+/// A copy of `equations` for the places after `motions`, one for each unit. Directions of arms and
+/// springs, and the vectors from units to their points, are those after the motions; values stay as
+/// they are.
 LinkEquations turned_equations(const LinkEquations& equations, const Links& links,
                                const Particles& particles, std::span<const UnitMotion> motions) {
   auto turned = equations;
@@ -241,6 +263,8 @@ LinkEquations turned_equations(const LinkEquations& equations, const Links& link
   return turned;
 }
 
+/// For each row its value plus the sum of its parts after `motions` [L, rad]. The result is exact,
+/// except for springs, where it is of first order.
 std::vector<double> values_after(const LinkEquations& equations, const Links& links,
                                  const Particles& particles, const LinkTimes& times,
                                  std::span<const UnitMotion> motions) {
@@ -256,7 +280,7 @@ std::vector<double> values_after(const LinkEquations& equations, const Links& li
       values.push_back(equations.rows[d].value + by[d]);
     return values;
   }
-  // The row of a spring has its value for the motions to first order.
+  // The value of the row of a spring is computed to first order in the motions.
   for (const auto& row : equations.rows) {
     values.push_back(row.value);
     for (std::size_t i = 0; i < row.parts.size(); ++i)
@@ -270,12 +294,16 @@ double extension_after(const LinkEquations& spring, const Links& links, const Pa
   return norm(apart_after(spring, links, particles, motions)) - links.springs[spring.number].length;
 }
 
+/// Rate [L/T] at which an arm grows at the present places; `first` and `second` are the velocities
+/// of the units of its ends [L/T, 1/T].
 double rate_of_arm(const Arm& arm, const Particles& particles, const UnitMotion& first,
                    const UnitMotion& second) {
   const auto equations = arm_equations(arm, particles, {});
   return value_of(equations.parts()[0], first) + value_of(equations.parts()[1], second);
 }
 
+/// Name of a link in messages, with its number from 0 and the ids of its particles, such as "arm 2
+/// (particles 3 and 4)".
 std::string name_of(const LinkEquations& equations, const Links& links,
                     const Particles& particles) {
   const auto k = equations.number;

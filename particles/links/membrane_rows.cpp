@@ -1,12 +1,13 @@
 // Makes the equations of a membrane without a fluid in a time step: a closed polygon of at least 3
 // particles (beads), numbered from 0 counter-clockwise, whose distances and area are kept. A row is
-// one equation, value + sum of its parts + compliance * impulse = 0. Values are in [L], of turns in
-// [rad]. Membrane::lengths and the perimeter, > 0 [L], belong to the polygon; the times
-// LinkTimes::h and kick are > 0 [T]. Units are any consistent ones. Nothing is checked or thrown:
-// beads at one place give numbers that are not finite. link_rows.cpp uses this file. A change must
-// keep the order of the equations, which is that of State::link_forces, and that the parts of a
-// row, except of a bending spring, are the derivatives of membrane_value_after() with respect to
-// the motion.
+// one equation, value + sum of its parts + compliance * impulse = 0. The value of a row is in [L],
+// and in [rad] in a row for the turn of a bead; impulses are in [M L/T], and moments of impulses
+// for turns in [M L^2/T]. Membrane::lengths and the perimeter, > 0 [L], belong to the polygon; the
+// times LinkTimes::h and kick are > 0 [T]. Units are any consistent ones. Nothing is checked or
+// thrown: beads at one place give numbers that are not finite. link_rows.cpp uses this file. A
+// change must keep the order of the equations, which is that of State::link_forces, and that the
+// parts of a row, except of a bending spring, are the derivatives of membrane_value_after() with
+// respect to the motion.
 #include <cmath>
 #include <utility>
 
@@ -31,6 +32,7 @@ Vector across(const Membrane& membrane, const Particles& p, std::int32_t k) {
   return apart(membrane, p, k - 1, k) + apart(membrane, p, k, k + 1);
 }
 
+/// The vector turned by 90 degrees to the left.
 Vector left_of(const Vector& v) { return {-v[1], v[0], 0}; }
 
 /// The angle from one vector to another, in (-pi, pi] [rad].
@@ -38,7 +40,7 @@ double angle_between(const Vector& from, const Vector& to) {
   return std::atan2(from[0] * to[1] - from[1] * to[0], dot(from, to));
 }
 
-/// The part of bead k in a row: the product of `direction` and its displacement.
+/// The part of bead k in a row: the inner product of `direction` and the displacement of the bead.
 LinkPart part(const Membrane& membrane, std::int32_t k, const Vector& direction) {
   LinkPart of_bead;
   of_bead.particle = membrane.bead(k);
@@ -46,6 +48,7 @@ LinkPart part(const Membrane& membrane, std::int32_t k, const Vector& direction)
   return of_bead;
 }
 
+/// The equations of one bead, or of the area, with this one row.
 LinkEquations equations(Kind kind, std::int32_t bead, LinkRow row) {
   LinkEquations one{kind};
   one.bead = bead;
@@ -67,7 +70,8 @@ LinkRow distance_row(const Membrane& membrane, const Particles& p, std::int32_t 
 /// the polygon turns at the bead, times the mean length l of its two sides, so that its stiffness
 /// is bending rigidity/l^3 [M/T^2]. It is integrated by Newmark's method with the parameter
 /// LinkTimes::beta(), as other springs are. The bending viscosity opposes the change of the
-/// extension in the step. Rigidity or viscosity must be > 0, because their sum divides.
+/// extension in the step. The rigidity or the viscosity must be > 0, because the compliance is one
+/// over a sum of both.
 LinkRow bend_row(const Membrane& membrane, const Particles& p, std::int32_t k,
                  const LinkTimes& times) {
   const auto n = membrane.lengths.size(), i = static_cast<std::size_t>(k);
@@ -119,6 +123,8 @@ LinkRow area_row(const Membrane& membrane, const Particles& p) {
 
 }  // namespace
 
+/// The equations of a membrane of N beads: N of distances, N of turns, N of bending springs if the
+/// membrane resists bending, and one of the area if it is kept.
 std::vector<LinkEquations> membrane_equations(const Membrane& membrane, const Particles& particles,
                                               const LinkTimes& times) {
   std::vector<LinkEquations> all;
@@ -132,6 +138,8 @@ std::vector<LinkEquations> membrane_equations(const Membrane& membrane, const Pa
   return all;
 }
 
+/// The value of the row of a distance [L], a turn [rad] or the area [L] after `motions`, one for
+/// each part of the row [L, rad]. The result is exact.
 double membrane_value_after(const LinkEquations& equations, const Membrane& membrane,
                             const Particles& particles, std::span<const UnitMotion> motions) {
   const auto k = equations.bead;

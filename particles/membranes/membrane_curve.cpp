@@ -1,11 +1,11 @@
-// The closed curve through the N >= 3 particles (beads) of a membrane by trigonometric
-// interpolation, its lengths [L], area [L^2], moments [L^4] and bending energy over the bending
-// rigidity [1/L]. Lengths are in any unit. An array of positions [L] or velocities [L/T] has x of
-// all beads and then y of all, 2 N numbers; bead k is at the parameter 2 pi k/N [1] of the curve.
-// Nothing is checked or thrown: restore_lengths_and_area() returns false where it does not
-// converge, and where the curve has the speed 0 derivatives are NaN or infinite. The sources of
-// this folder and freefem_flow/membranes/ use it. A change must keep that all derivatives are
-// exact.
+// Computes the closed curve through the N >= 3 particles (beads) of a membrane by trigonometric
+// interpolation. Also computes the lengths [L] and area [L^2] of the curve, the moments of this
+// area [L^4], and the bending energy divided by the bending rigidity [1/L]. Lengths are in any
+// unit. An array of positions [L] or velocities [L/T] has x of all beads and then y of all, 2 N
+// numbers; bead k is at the parameter 2 pi k/N [1] of the curve. Nothing is checked or thrown:
+// restore_lengths_and_area() returns false where it does not converge, and where the curve has the
+// speed 0 derivatives are NaN or infinite. The sources of this folder and freefem_flow/membranes/
+// use it. A change must keep that all derivatives are exact.
 #include "viscontact/particles/membranes/membrane_curve.hpp"
 
 #include <array>
@@ -18,13 +18,15 @@ namespace {
 
 /// The energy density e = c^2 q^(-5/2) (squared curvature times |dx/ds|) at one bead, where c = x'
 /// y'' - y' x'' and q = x'^2 + y'^2, and its derivatives with respect to (x', y', x'', y''). Primes
-/// are derivatives with respect to the parameter s of the curve, a number; the value is in [1/L].
+/// are derivatives with respect to the parameter s of the curve [1]; x', y', x'' and y'' are in
+/// [L], and the value is in [1/L].
 struct Density {
   double value = 0;
   Eigen::Vector4d gradient;
   Eigen::Matrix4d hessian;
 };
 
+/// The density for (x', y', x'', y'') = (ax, ay, bx, by) [L]; not finite if ax and ay are 0.
 Density density_at(double ax, double ay, double bx, double by) {
   const double c = ax * by - ay * bx, q = ax * ax + ay * ay;
   const double q5 = std::pow(q, -2.5), q7 = q5 / q, q9 = q7 / q;
@@ -44,6 +46,8 @@ Density density_at(double ax, double ay, double bx, double by) {
 
 }  // namespace
 
+/// The trigonometric polynomial of least degree that is 1 at the angle 0 and 0 at the other angles
+/// 2 pi k/beads, or its derivative of the order `derivative`, 0 to 2, at the angle `theta` [rad].
 double cardinal(int beads, double theta, int derivative) {
   const double n = beads;
   double sum = derivative == 0 ? 1 : 0;
@@ -57,6 +61,8 @@ double cardinal(int beads, double theta, int derivative) {
   return sum / n;
 }
 
+/// Makes the N x N matrices that give, from the values at the beads, the first and second
+/// derivatives by s at the beads, and the first ones halfway between beads. `beads` is N.
 MembraneCurve::MembraneCurve(int beads)
     : n_(beads), first_(beads, beads), second_(beads, beads), first_halfway_(beads, beads) {
   for (int i = 0; i < n_; ++i)
@@ -68,12 +74,15 @@ MembraneCurve::MembraneCurve(int beads)
     }
 }
 
+/// The speeds |dx/ds| >= 0 halfway between beads, N numbers [L]: number k belongs to beads k and k
+/// + 1.
 Eigen::VectorXd MembraneCurve::speeds(const Eigen::VectorXd& positions) const {
   const Eigen::ArrayXd dx = first_halfway_ * positions.head(n_),
                        dy = first_halfway_ * positions.tail(n_);
   return (dx.square() + dy.square()).sqrt();
 }
 
+/// Derivatives of the speeds by the positions [1], N rows and 2 N columns.
 Eigen::MatrixXd MembraneCurve::speed_rows(const Eigen::VectorXd& positions) const {
   const Eigen::VectorXd dx = first_halfway_ * positions.head(n_),
                         dy = first_halfway_ * positions.tail(n_);
@@ -84,6 +93,8 @@ Eigen::MatrixXd MembraneCurve::speed_rows(const Eigen::VectorXd& positions) cons
   return rows;
 }
 
+/// Second derivatives of the sum of factor k times speed k by the positions, 2 N rows and columns
+/// [1/L, times the unit of `factors`]; `factors` has N numbers.
 Eigen::MatrixXd MembraneCurve::speeds_hessian(const Eigen::VectorXd& positions,
                                               const Eigen::VectorXd& factors) const {
   const Eigen::ArrayXd dx = first_halfway_ * positions.head(n_),
@@ -109,6 +120,8 @@ double MembraneCurve::area(const Eigen::VectorXd& positions) const {
   return 0.5 * positions.dot(area_row(positions));
 }
 
+/// Derivatives of the area by the positions, 2 N numbers [L]. The area is > 0 if the beads go
+/// around counter-clockwise.
 Eigen::VectorXd MembraneCurve::area_row(const Eigen::VectorXd& positions) const {
   Eigen::VectorXd row(2 * n_);
   row.head(n_) = kTwoPi / n_ * (first_ * positions.tail(n_));
@@ -116,6 +129,7 @@ Eigen::VectorXd MembraneCurve::area_row(const Eigen::VectorXd& positions) const 
   return row;
 }
 
+/// Second derivatives of the area by the positions [1].
 Eigen::MatrixXd MembraneCurve::area_hessian() const {
   Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(2 * n_, 2 * n_);
   hessian.topRightCorner(n_, n_) = kTwoPi / n_ * first_;
@@ -123,6 +137,7 @@ Eigen::MatrixXd MembraneCurve::area_hessian() const {
   return hessian;
 }
 
+/// First derivatives of x and y by s at the beads [L]: N rows, 2 columns.
 Eigen::MatrixXd MembraneCurve::tangents(const Eigen::VectorXd& positions) const {
   Eigen::MatrixXd tangents(n_, 2);
   tangents.col(0) = first_ * positions.head(n_);
@@ -130,6 +145,7 @@ Eigen::MatrixXd MembraneCurve::tangents(const Eigen::VectorXd& positions) const 
   return tangents;
 }
 
+/// The integral of curvature^2/2 along the curve, >= 0 [1/L].
 double MembraneCurve::bending_energy(const Eigen::VectorXd& positions) const {
   const Eigen::MatrixXd a = tangents(positions);
   const Eigen::VectorXd bx = second_ * positions.head(n_), by = second_ * positions.tail(n_);
@@ -138,6 +154,7 @@ double MembraneCurve::bending_energy(const Eigen::VectorXd& positions) const {
   return 0.5 * kTwoPi / n_ * sum;
 }
 
+/// Derivatives of bending_energy() by the positions, 2 N numbers [1/L^2].
 Eigen::VectorXd MembraneCurve::bending_gradient(const Eigen::VectorXd& positions) const {
   const Eigen::MatrixXd a = tangents(positions);
   const Eigen::VectorXd bx = second_ * positions.head(n_), by = second_ * positions.tail(n_);
@@ -150,6 +167,7 @@ Eigen::VectorXd MembraneCurve::bending_gradient(const Eigen::VectorXd& positions
   return 0.5 * kTwoPi / n_ * gradient;
 }
 
+/// Second derivatives of bending_energy() by the positions [1/L^3].
 Eigen::MatrixXd MembraneCurve::bending_hessian(const Eigen::VectorXd& positions) const {
   const Eigen::MatrixXd a = tangents(positions);
   const Eigen::VectorXd bx = second_ * positions.head(n_), by = second_ * positions.tail(n_);
@@ -173,7 +191,8 @@ Eigen::MatrixXd MembraneCurve::bending_hessian(const Eigen::VectorXd& positions)
   return 0.5 * kTwoPi / n_ * hessian;
 }
 
-/// Returns false, with undefined positions, if it does not converge in 50 rounds.
+/// Moves the beads as little as possible until all speeds are `perimeter`/(2 pi) [L] and the area
+/// is `area` [L^2]. Returns false, with undefined positions, if it does not converge in 50 rounds.
 bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, double area,
                               Eigen::VectorXd& positions) {
   const int n = curve.beads();
@@ -202,6 +221,7 @@ bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, doub
 
 namespace {
 
+/// Centre [L] of the area inside the curve, and the second moments about it [L^4].
 AreaMoments moments_of(const MembraneCurve& curve, const Eigen::VectorXd& positions) {
   const int n = curve.beads();
   const Eigen::MatrixXd tangents = curve.tangents(positions);
@@ -224,8 +244,11 @@ AreaMoments moments_of(const MembraneCurve& curve, const Eigen::VectorXd& positi
 
 }  // namespace
 
+/// The angle from the direction of x to the long axis of the area, in (-pi/2, pi/2] [rad].
 double AreaMoments::inclination() const { return 0.5 * std::atan2(2 * xy, xx - yy); }
 
+/// Changes moments about the point (x, y) to those about the centre of the area, which becomes (x,
+/// y). `mx` and `my` are the first moments about the old point [L^3]; the area must not be 0.
 void AreaMoments::move_to_centre(double area, double mx, double my) {
   const double cx = mx / area, cy = my / area;
   x += cx;
@@ -235,6 +258,7 @@ void AreaMoments::move_to_centre(double area, double mx, double my) {
   xy -= area * cx * cy;
 }
 
+/// Measures a membrane in a fluid by its curve and the `velocities` of its beads.
 MembraneMeasures measure(const MembraneCurve& curve, const Eigen::VectorXd& positions,
                          const Eigen::VectorXd& velocities) {
   const Eigen::MatrixXd tangents = curve.tangents(positions);
@@ -251,6 +275,8 @@ MembraneMeasures measure(const MembraneCurve& curve, const Eigen::VectorXd& posi
       positions, velocities);
 }
 
+/// Measures a membrane by a closed line, the curve above or a polygon. The speed and the
+/// tank-treading frequency [1/T] are 0 if `velocities` is empty or uniform.
 MembraneMeasures measure(const MeasuredLine& line, const Eigen::VectorXd& positions,
                          const Eigen::VectorXd& velocities) {
   const auto n = positions.size() / 2;

@@ -17,6 +17,7 @@
 
 namespace viscontact::particles {
 
+/// Keeps a view of `membranes`, which must outlive the object, and makes their curves.
 Membranes::Membranes(std::span<const Membrane> membranes) : membranes_(membranes), first_{0} {
   for (const auto& membrane : membranes) {
     curves_.emplace_back(membrane.count());
@@ -24,6 +25,9 @@ Membranes::Membranes(std::span<const Membrane> membranes) : membranes_(membranes
   }
 }
 
+/// The positions of all beads from `positions`, two numbers for each particle. In a periodic cell
+/// each bead is taken at its image nearest to the bead before it, and the first bead of a membrane
+/// at its image nearest to its place in `near`, unless `near` is null.
 Eigen::VectorXd Membranes::places(std::span<const double> positions, const PeriodicCell& cell,
                                   const Eigen::VectorXd* near) const {
   auto all = from_particles(positions, 2);
@@ -40,6 +44,8 @@ Eigen::VectorXd Membranes::places(std::span<const double> positions, const Perio
   return all;
 }
 
+/// An array of all beads from `numbers`, which has `components` >= 2 numbers of any unit for each
+/// particle, of which the first two are taken.
 Eigen::VectorXd Membranes::from_particles(std::span<const double> numbers,
                                           std::size_t components) const {
   Eigen::VectorXd all(2 * beads());
@@ -52,6 +58,8 @@ Eigen::VectorXd Membranes::from_particles(std::span<const double> numbers,
   return all;
 }
 
+/// Writes an array of all beads into the first two of the `components` numbers of each bead in
+/// `numbers`; other numbers stay as they are.
 void Membranes::to_particles(const Eigen::VectorXd& all, std::size_t components,
                              std::vector<double>& numbers) const {
   for (std::size_t m = 0; m < membranes_.size(); ++m)
@@ -62,6 +70,8 @@ void Membranes::to_particles(const Eigen::VectorXd& all, std::size_t components,
     }
 }
 
+/// The part of an array of all beads that belongs to membrane `m`, from 0: x of its beads, and then
+/// y.
 Eigen::VectorXd Membranes::of(std::size_t m, const Eigen::VectorXd& all) const {
   const auto n = first_[m + 1] - first_[m];
   Eigen::VectorXd own(2 * n);
@@ -69,12 +79,15 @@ Eigen::VectorXd Membranes::of(std::size_t m, const Eigen::VectorXd& all) const {
   return own;
 }
 
+/// Writes the numbers `own` of membrane `m` into the array `all`; the inverse of of().
 void Membranes::put(std::size_t m, const Eigen::VectorXd& own, Eigen::VectorXd& all) const {
   const auto n = first_[m + 1] - first_[m];
   all.segment(first_[m], n) = own.head(n);
   all.segment(beads() + first_[m], n) = own.tail(n);
 }
 
+/// Derivatives of the speeds of all curves (MembraneCurve::speeds) by the positions [1]: beads()
+/// rows, 2 beads() columns.
 Eigen::MatrixXd Membranes::speed_rows(const Eigen::VectorXd& positions) const {
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(beads(), 2 * beads());
   for (std::size_t m = 0; m < curves_.size(); ++m) {
@@ -86,6 +99,7 @@ Eigen::MatrixXd Membranes::speed_rows(const Eigen::VectorXd& positions) const {
   return rows;
 }
 
+/// The bending forces on all beads [M L/T^2].
 Eigen::VectorXd Membranes::bending_forces(const Eigen::VectorXd& positions) const {
   Eigen::VectorXd forces(2 * beads());
   for (std::size_t m = 0; m < curves_.size(); ++m)
@@ -112,6 +126,8 @@ Eigen::MatrixXd Membranes::stiffness(const Eigen::VectorXd& positions,
   return stiffness;
 }
 
+/// The forces on the fluid and the velocities of the beads at `positions`. Tensions keep all
+/// lengths from changing. The result has no tension, pressure and flow_forces.
 MembraneMotion Membranes::motion_at(const Eigen::VectorXd& positions,
                                     const FluidAnswer& answer) const {
   const Eigen::MatrixXd rows = speed_rows(positions);
@@ -142,9 +158,9 @@ Eigen::MatrixXd Membranes::area_columns(const Eigen::VectorXd& positions) const 
 }
 
 /// The matrix of Newton's method for step(). Its unknowns are scaled to lengths, so that its
-/// entries have similar sizes. They are the positions [L]; the tensions over `unit`, a force per
-/// length [M/T^2]; and the pressures times the norm of their column of area_columns(), over `unit`.
-/// MembraneMotion::flow_forces must not contain the loads of step().
+/// entries have similar sizes. The unknowns are the positions [L]; the tensions over `unit`, a
+/// force per length [M/T^2]; and the pressures times the norm of their column of area_columns(),
+/// over `unit`. MembraneMotion::flow_forces must not contain the loads of step().
 Eigen::MatrixXd Membranes::step_matrix(double time, const FluidAnswer& answer,
                                        const Eigen::VectorXd& positions,
                                        const MembraneMotion& motion, double unit) const {
@@ -172,8 +188,9 @@ Eigen::MatrixXd Membranes::step_matrix(double time, const FluidAnswer& answer,
   return matrix;
 }
 
-/// Newton's method for step(). `positions`, and the tensions and pressures of `motion`, are first
-/// guesses, and the solution afterwards. Returns false if it has not converged.
+/// Newton's method for step(), with the same `from` [L], `time` [T] and `answer`. `positions`, and
+/// the tensions and pressures of `motion`, are first guesses before, and the solution afterwards.
+/// Returns false if the method has not converged in kMostRounds rounds.
 bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
                            Eigen::VectorXd& positions, MembraneMotion& motion) const {
   const auto n = beads(), count = static_cast<Eigen::Index>(curves_.size());
@@ -221,7 +238,11 @@ bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const Fluid
   return false;
 }
 
-/// Throws Error(kNotConverged) if the step is not solved; `positions` are then undefined.
+/// Finds the positions z of the beads [L] for which (z - from)/time are the velocities of the fluid
+/// at the beads. The forces on the fluid are the bending forces and tensions at z and the further
+/// forces `loads` [M L/T^2]. Lengths and areas are kept. `positions` is a first guess of z before,
+/// and z afterwards. Throws Error(kNotConverged) if the step is not solved; `positions` are then
+/// undefined.
 MembraneMotion Membranes::step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
                                const Eigen::VectorXd& loads, Eigen::VectorXd& positions) const {
   const Eigen::VectorXd guess = positions;
@@ -260,6 +281,9 @@ MembraneMotion Membranes::step(const Eigen::VectorXd& from, double time, const F
   return motion;
 }
 
+/// How the positions and forces of a step change, to first order, if further loads would move the
+/// beads without membranes by the columns of `moves` [L]. The other arguments are those of step(),
+/// its result and the positions after it.
 LoadResponse Membranes::response(double time, const FluidAnswer& answer,
                                  const Eigen::VectorXd& loads, const MembraneMotion& motion,
                                  const Eigen::VectorXd& positions,

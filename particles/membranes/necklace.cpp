@@ -1,9 +1,9 @@
-// Geometry of the polygon through the N >= 3 particles (beads) of a membrane. An array of positions
-// has x of all beads and then y of all, 2 N numbers [L]; distances [L] are > 0, areas [L^2] > 0 if
-// the beads go around counter-clockwise, turns in (-pi, pi] [rad]; units are any consistent ones.
-// Nothing is checked or thrown; restore_necklace() returns false where it does not converge, and
-// its positions are then undefined. membrane.cpp and links/membrane_rows.cpp use it. A change must
-// keep that area_gradient() is the derivative of area_of().
+// Computes the geometry of the polygon through the N >= 3 particles (beads) of a membrane. An array
+// of positions has x of all beads and then y of all, 2 N numbers [L]; distances [L] are > 0, areas
+// [L^2] > 0 if the beads go around counter-clockwise, turns in (-pi, pi] [rad]; units are any
+// consistent ones. Nothing is checked or thrown; restore_necklace() returns false where it does not
+// converge, and its positions are then undefined. membrane.cpp and links/membrane_rows.cpp use it.
+// A change must keep that area_gradient() is the derivative of area_of().
 #include "viscontact/particles/membranes/necklace.hpp"
 
 #include <cmath>
@@ -15,7 +15,8 @@
 namespace viscontact::particles {
 namespace {
 
-/// Position of bead k, counted around the polygon, k >= -n for n beads.
+/// Position of bead k, which is counted around the polygon of n beads: k = n is bead 0, and k = -1
+/// the last one. k must be >= -n.
 Eigen::Vector2d bead(const Eigen::VectorXd& necklace, Eigen::Index k) {
   const auto n = necklace.size() / 2;
   const auto i = (k + n) % n;
@@ -26,7 +27,7 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Centre and second moments of the area inside a polygon.
+/// Centre [L] of the area inside a polygon, and the second moments about it [L^4].
 AreaMoments moments_of_polygon(const Eigen::VectorXd& necklace) {
   const auto n = necklace.size() / 2;
   const Eigen::Vector2d mean(necklace.head(n).mean(), necklace.tail(n).mean());
@@ -50,6 +51,8 @@ AreaMoments moments_of_polygon(const Eigen::VectorXd& necklace) {
 
 }  // namespace
 
+/// The array of positions of a membrane. In a periodic domain each bead is taken at its image
+/// nearest to the bead before it.
 Eigen::VectorXd necklace_of(const Membrane& membrane, const Particles& particles) {
   const Eigen::Index n = membrane.count();
   Eigen::VectorXd necklace(2 * n);
@@ -63,6 +66,7 @@ Eigen::VectorXd necklace_of(const Membrane& membrane, const Particles& particles
   return necklace;
 }
 
+/// The distances of neighbours, N numbers: number k is that of beads k and k + 1.
 Eigen::VectorXd distances_of(const Eigen::VectorXd& necklace) {
   Eigen::VectorXd distances(necklace.size() / 2);
   for (Eigen::Index k = 0; k < distances.size(); ++k)
@@ -70,6 +74,7 @@ Eigen::VectorXd distances_of(const Eigen::VectorXd& necklace) {
   return distances;
 }
 
+/// The area inside the polygon.
 double area_of(const Eigen::VectorXd& necklace) {
   // Relative to the first bead, rounding errors do not grow with the distance from the origin.
   const Eigen::Vector2d first = bead(necklace, 0);
@@ -79,6 +84,7 @@ double area_of(const Eigen::VectorXd& necklace) {
   return twice / 2;
 }
 
+/// Derivatives of area_of() by the positions, 2 N numbers [L].
 Eigen::VectorXd area_gradient(const Eigen::VectorXd& necklace) {
   const auto n = necklace.size() / 2;
   Eigen::VectorXd gradient(2 * n);
@@ -90,6 +96,7 @@ Eigen::VectorXd area_gradient(const Eigen::VectorXd& necklace) {
   return gradient;
 }
 
+/// The angles by which the polygon turns at the N beads, > 0 to the left.
 Eigen::VectorXd turns_of(const Eigen::VectorXd& necklace) {
   Eigen::VectorXd turns(necklace.size() / 2);
   for (Eigen::Index k = 0; k < turns.size(); ++k) {
@@ -100,6 +107,8 @@ Eigen::VectorXd turns_of(const Eigen::VectorXd& necklace) {
   return turns;
 }
 
+/// The bending energy divided by the bending rigidity [1/L]: the sum over beads of turn^2/(2
+/// length), where the length of a bead is the mean of its two distances in `lengths`, N numbers.
 double bending_energy(const Eigen::VectorXd& necklace, const Eigen::VectorXd& lengths) {
   const auto turns = turns_of(necklace);
   const auto n = turns.size();
@@ -109,7 +118,8 @@ double bending_energy(const Eigen::VectorXd& necklace, const Eigen::VectorXd& le
   return energy;
 }
 
-/// Returns false, with undefined positions, if it does not converge in 50 rounds.
+/// Moves the beads as little as possible until the distances are `lengths`, N numbers, and the area
+/// is `area`. Returns false, with undefined positions, if it does not converge in 50 rounds.
 bool restore_necklace(const Eigen::VectorXd& lengths, double area, Eigen::VectorXd& necklace) {
   const auto n = lengths.size();
   const double size = lengths.mean();
@@ -144,6 +154,7 @@ bool restore_necklace(const Eigen::VectorXd& lengths, double area, Eigen::Vector
   return false;
 }
 
+/// Measures a membrane without a fluid by the positions and velocities [L/T] of its beads.
 MembraneMeasures measure_necklace(const Membrane& membrane, const Particles& particles) {
   const auto necklace = necklace_of(membrane, particles);
   const auto n = necklace.size() / 2;

@@ -1,10 +1,10 @@
-// Finds pairs of close particles, whose distance is less than the sum of their extents [L], > 0: in
-// two and three dimensions by grids of cells, one for each factor of 2 in the extents; in one
-// dimension by a sweep along the line; and in a periodic cell with copies of the particles near its
-// sides. Positions are finite, with as many numbers for each particle as there are dimensions;
-// lengths are in any unit. In a periodic cell the sum of two extents must be less than each period.
-// neighbour_list.cpp, current_contacts.cpp, case/ and fluid/ use it. Nothing is checked or thrown.
-// A change must keep the order of the pairs, on which bits of results depend.
+// Finds pairs of close particles, whose distance is less than the sum of their extents > 0 [L]. In
+// two and three dimensions the search uses grids of cells, one for each factor of 2 in the extents.
+// In one dimension it is a sweep along the line. In a periodic cell, copies of the particles near
+// the sides take part. Positions are finite, with as many numbers for each particle as there are
+// dimensions; lengths are in any unit. In a periodic cell the sum of two extents must be less than
+// each period. neighbour_list.cpp, current_contacts.cpp, case/ and fluid/ use it. Nothing is
+// checked or thrown. A change must keep the order of the pairs, on which bits of results depend.
 #include "viscontact/particles/neighbours/close_pairs.hpp"
 
 #include <algorithm>
@@ -24,8 +24,9 @@ struct Entry {
   std::int32_t particle;
 };
 
-/// Sorts entries by cell and keeps the order of entries with equal cells. `most` is the largest
-/// cell number. A radix sort with 11 bits in a pass (a table of 16 kB).
+/// Sorts entries by cell and keeps the order of entries with equal cells. `most` is a bound of all
+/// cell numbers. This is a radix sort with 11 bits in a pass, a free choice with which its table
+/// has 16 kB.
 void sort_by_cell(std::vector<Entry>& entries, std::uint64_t most) {
   constexpr int kBits = 11;
   std::vector<Entry> sorted(entries.size());
@@ -122,6 +123,8 @@ class Search {
   Search(std::span<const double> positions, std::span<const double> extents, ThreadPool& pool)
       : positions_(positions), extents_(extents), pool_(pool) {}
 
+  /// The close pairs, in order of first, then second. Particles whose extents lie between the same
+  /// two powers of 2 share a grid.
   std::vector<ClosePair> pairs() {
     std::vector<int> levels(extents_.size());
     for (std::size_t k = 0; k < extents_.size(); ++k) levels[k] = std::ilogb(extents_[k]);
@@ -154,6 +157,7 @@ class Search {
     return entries;
   }
 
+  /// True if the distance of two particles is less than the sum of their extents.
   bool close(std::int32_t i, std::int32_t j) const {
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
     double square = 0;
@@ -252,6 +256,8 @@ std::vector<ClosePair> close_pairs_on_line(std::span<const double> positions,
 
 }  // namespace
 
+/// The close pairs of particles first < second in 1, 2 or 3 dimensions, in order of first, then
+/// second; `extents` has one number for each particle.
 std::vector<ClosePair> close_pairs(int dimension, std::span<const double> positions,
                                    std::span<const double> extents, ThreadPool& pool) {
   if (extents.empty()) return {};
@@ -270,7 +276,8 @@ struct Copies {
   std::vector<std::array<int, 3>> into_cell{};  // of each particle: periods that were subtracted
 };
 
-/// The points for a periodic cell. A copy is near enough if it can be close to a particle inside.
+/// The points for a periodic cell. A copy is added if it is near enough to be close to a particle
+/// inside the cell.
 Copies copies_near_sides(std::size_t dimension, const PeriodicCell& cell,
                          std::span<const double> positions, std::span<const double> extents) {
   const double largest = extents.empty() ? 0 : *std::ranges::max_element(extents);
@@ -311,6 +318,8 @@ Copies copies_near_sides(std::size_t dimension, const PeriodicCell& cell,
 
 }  // namespace
 
+/// The close pairs of particles first < second in a periodic cell, in order of first, second,
+/// image. `image` is the number of the periodic image of `second` that is close, -13 to 13.
 std::vector<ClosePair> close_pairs_in_period(const PeriodicCell& cell,
                                              std::span<const double> positions,
                                              std::span<const double> extents, ThreadPool& pool) {

@@ -1,9 +1,11 @@
 // Checks whether the list of close pairs of a simulation is still valid, and makes it again.
 // Lengths [L] are in the unit of the case file; displacements have as many numbers for each
-// particle as there are dimensions, radii are > 0, skins and margins >= 0. simulation.cpp and
-// fluid/ use it. rebuild_neighbour_list() throws Error(kNotConverged) if a particle moves too far
-// for a periodic cell, and the list is then the same as before. Nothing else is checked. A change
-// must keep the order of the pairs, because the bits of a simulation depend on it.
+// particle as there are dimensions, and radii are > 0. The skin of a particle, >= 0, is the length
+// by which it may move before the list must be made again. gamma <= 0 is minus the impulse that the
+// film of a pair has absorbed. simulation.cpp and fluid/ use it. rebuild_neighbour_list() throws
+// Error(kNotConverged) if a particle moves too far for a periodic cell, and the list is then the
+// same as before. Nothing else is checked. A change must keep the order of the pairs, because the
+// bits of a simulation depend on it.
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 
 #include <algorithm>
@@ -19,7 +21,8 @@
 namespace viscontact::particles {
 namespace {
 
-/// The numbers by which the list of pairs is ordered.
+/// The numbers by which the list of pairs is ordered: both particles, and the periodic image of the
+/// second one.
 template <class AnyPair>
 auto place_of(const AnyPair& pair) {
   return std::tuple(pair.first, pair.second, pair.image);
@@ -54,12 +57,14 @@ double half_shortest_period(const PeriodicCell& cell) {
 }
 
 /// The smaller of `skin` and the largest skin that particle k may have in a periodic cell [L]. With
-/// it, each pair of the list stays closer than a period while its particles move by their skins,
-/// r_i + 2 skin_i + r_j + 2 skin_j <= period, so that its image has a number (periods.hpp). Throws
-/// Error(kNotConverged) if the particle moves by `moved`, further than this largest skin.
+/// such skins, the radii r_i and r_j and the skins of a pair obey r_i + 2 skin_i + r_j + 2 skin_j
+/// <= period. The pair then stays closer than a period while its particles move by their skins, so
+/// that the image of the second particle has a number (periods.hpp). Throws Error(kNotConverged) if
+/// the particle moves by `moved`, further than this largest skin.
 double skin_within_period(const Particles& p, std::size_t k, double half_period, double skin,
                           double moved) {
-  // Slightly smaller than that, because rounding errors of positions add to the sum.
+  // The factor kLess makes the skin slightly smaller, because rounding errors of positions add to
+  // the sum.
   constexpr double kLess = 1 - 1e-9;
   const double longest = kLess * (half_period - p.radii[k]) / 2;
   if (!(moved <= longest))
@@ -72,6 +77,9 @@ double skin_within_period(const Particles& p, std::size_t k, double half_period,
 
 }  // namespace
 
+/// True if no particle, after it has moved by `displacements`, is further than its skin from its
+/// place when the list was made, apart from the mean displacement of all particles since then.
+/// False if no list was made, unless there are no particles.
 bool neighbour_list_is_valid(const State& state, std::span<const double> displacements,
                              ThreadPool& pool) {
   const auto& p = state.particles;
@@ -90,12 +98,16 @@ bool neighbour_list_is_valid(const State& state, std::span<const double> displac
   return pool.sum_of_blocks<MaximumOfBlocks>(p.count(), beyond_skin).value <= 0;
 }
 
-/// Throws Error(kNotConverged) if a particle moves further than a periodic cell allows.
+/// Makes State::pairs again: all pairs with a gap less than the sum of both skins, and all pairs
+/// with gamma < 0, but no pairs of one rigid body or of neighbours on a membrane. Pairs keep what
+/// contact laws remember. Also sets the skins. Throws Error(kNotConverged) if a particle moves
+/// further than a periodic cell allows.
 void rebuild_neighbour_list(State& state, std::span<const double> displacements, ThreadPool& pool) {
   const auto& p = state.particles;
   // A skin is at least kOfRadius times the radius of the particle, and kSteps times its
-  // displacement in a step. On bench/box2d.cpp, smaller values cost time because the list is made
-  // more often, and larger ones because it has more pairs.
+  // displacement in a step. Both are free choices, which only change the time: in bench/box2d.cpp,
+  // smaller values cost time because the list is made more often, and larger values because the
+  // list has more pairs.
   constexpr double kOfRadius = 0.25, kSteps = 3;
   const auto displacement = [&](std::size_t k) {
     return point_of(displacements.data(), k, p.dimension);
@@ -127,6 +139,7 @@ void rebuild_neighbour_list(State& state, std::span<const double> displacements,
   auto& pairs = state.pairs;
   pairs.reserve(close.size());
   auto old = before.begin();
+  // Keeps the old pairs before this place whose film still holds them together.
   const auto keep_until = [&](const std::tuple<std::int32_t, std::int32_t, std::int32_t>& place) {
     for (; old != before.end() && place_of(*old) < place; ++old)
       if (old->gamma < 0) pairs.push_back(*old);
@@ -142,6 +155,8 @@ void rebuild_neighbour_list(State& state, std::span<const double> displacements,
   keep_until({std::numeric_limits<std::int32_t>::max(), 0, 0});
 }
 
+/// Makes State::walls again: the pairs of an obstacle, number -1, -2, ..., and a particle with a
+/// gap less than `margin` >= 0 [L], or with gamma < 0. `planes` are the places of the obstacles.
 void rebuild_wall_list(State& state, std::span<const PlanePosition> planes, double margin,
                        ThreadPool& pool) {
   const auto& p = state.particles;
@@ -168,6 +183,8 @@ void rebuild_wall_list(State& state, std::span<const PlanePosition> planes, doub
   state.walls = std::move(walls.values);
 }
 
+/// Moves all positions by whole periods into a periodic cell, and changes the images of the pairs
+/// with them. Does nothing without a period, or if the cell is sheared.
 void wrap_into_cell(State& state) {
   auto& p = state.particles;
   if (!p.cell.is_periodic() || p.cell.is_sheared()) return;

@@ -23,9 +23,9 @@
 namespace viscontact::particles {
 namespace {
 
-/// Calls visit(k, centre) for each particle k that is drawn (every d.every-th): with its own centre
-/// [L] and, where the motion is periodic, with those of its images, the copies of it that are
-/// shifted by -1, 0 or 1 periods along each axis.
+/// Calls visit(k, centre) for each particle k that is drawn (0, d.every, 2 d.every, ...): with its
+/// own centre [L] and, where the motion is periodic, with those of its images, the copies of it
+/// that are shifted by -1, 0 or 1 periods along each axis.
 template <class Visit>
 void for_each_image(const PanelSettings& d, const Frame& frame, const Visit& visit) {
   const auto cell = cell_at(d.scene.playback, frame);
@@ -76,6 +76,7 @@ std::string both_sides(const PanelSettings& panel, const Frame& frame, std::size
          (off > 0.5 * panel.scene.playback.radii[first] ? line(to - w, to) : "");
 }
 
+/// The smaller radius of two particles [page units].
 double smaller_radius(const PanelSettings& panel, std::size_t first, std::size_t second) {
   return panel.view.scale *
          std::min(panel.scene.playback.radii[first], panel.scene.playback.radii[second]);
@@ -127,8 +128,8 @@ std::string disc(const PanelSettings& panel, const Frame& frame, std::size_t k, 
       scale * a, scale * b, x, y, -frame.angles[k] * 180 / std::numbers::pi);
 }
 
-/// Dots that show how far discs and ellipses have turned: each dot lies in the direction of the
-/// particle's angle. Very small particles have none. Empty if the frame has no angles.
+/// Draws dots that show how far discs and ellipses have turned. Each dot lies in the direction of
+/// the particle's angle. Very small particles have none. Empty if the frame has no angles.
 std::string angle_marks(const PanelSettings& panel, const Frame& frame) {
   constexpr double kSmallest = 0.5;  // least radius of a dot that is seen [page units]
   if (frame.angles.size() != panel.scene.playback.radii.size()) return "";
@@ -147,8 +148,9 @@ std::string angle_marks(const PanelSettings& panel, const Frame& frame) {
   return fmt::format("<g fill=\"{}\">\n{}</g>\n", kStyle.mark, text);
 }
 
-/// Dots on sphere k at the ends of the three axes that turn with it, as far as they are on the side
-/// that the reader sees. Empty if the frame has no orientations or if the sphere is too small.
+/// Draws dots on sphere k at the ends of the three axes that turn with it, as far as they are on
+/// the side that the reader sees. Empty if the frame has no orientations or if the sphere is too
+/// small.
 std::string orientation_marks(const PanelSettings& panel, const Frame& frame, std::size_t k) {
   constexpr double kSmallest = 0.5;  // least radius of a dot that is seen [page units]
   const double r = panel.scene.playback.radii[k];
@@ -173,8 +175,8 @@ std::string orientation_marks(const PanelSettings& panel, const Frame& frame, st
   return fmt::format("<g fill=\"{}\" stroke=\"none\">{}</g>\n", kStyle.mark, dots);
 }
 
-/// The discs of rigid bodies in colours that only they have, and lines from each disc of a body to
-/// the next disc of the same body.
+/// Draws the discs of rigid bodies in colours that only they have, and lines from each disc of a
+/// body to the next disc of the same body. The text is empty if there are no bodies.
 std::string body_discs(const PanelSettings& panel, const Frame& frame) {
   if (panel.scene.playback.bodies.empty()) return "";
   const auto [fill, edge] = kStyle.disc_of_body;
@@ -200,9 +202,9 @@ std::string body_discs(const PanelSettings& panel, const Frame& frame) {
   return text + "</g>\n";
 }
 
-/// The links: a hinge, which holds a particle at a place, as a ring; a spring between two particles
-/// as a zigzag line; an arm, which keeps two particles at a prescribed distance, as a bar. Empty if
-/// only some of the particles are drawn.
+/// Draws the links. A hinge, which holds a particle at a place, is a ring. A spring between two
+/// particles is a zigzag line. An arm, which keeps two particles at a prescribed distance, is a
+/// bar. Empty if only some of the particles are drawn.
 std::string link_marks(const PanelSettings& panel, const Frame& frame) {
   const auto& links = panel.scene.playback.links;
   if (links.empty() || panel.every > 1) return "";
@@ -262,8 +264,8 @@ std::string circle_line(const PanelSettings& d, const PlanePosition& place) {
   return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#333\" stroke-width=\"1.5\"/>\n", path);
 }
 
-/// Motions in the plane: the parts of the box that particles cannot enter, behind planes and
-/// outside circles, as grey areas.
+/// Draws, for motions in the plane, the parts of the box that particles cannot enter, behind planes
+/// and outside circles, as grey areas.
 std::string plane_2d_solids(const PanelSettings& d, const Frame& frame) {
   const auto& [low, high] = d.scene.box;
   const Polygon all = {
@@ -282,7 +284,7 @@ std::string plane_2d_solids(const PanelSettings& d, const Frame& frame) {
   return text;
 }
 
-/// Motions in the plane: the planes and circles themselves as dark lines.
+/// Draws, for motions in the plane, the planes and circles themselves as dark lines.
 std::string plane_2d_lines(const PanelSettings& d, const Frame& frame) {
   std::string text;
   for (std::size_t j = 0; j < frame.planes.size(); ++j) {
@@ -303,9 +305,10 @@ std::string plane_2d_lines(const PanelSettings& d, const Frame& frame) {
   return text;
 }
 
-/// Motions in space: the parts of planes in the box. The free side of a plane is the one on which
-/// the particles are. With `from_free_side`: the planes that are seen from there, filled.
-/// Otherwise: the other planes, of which only edges are drawn, as particles are behind them.
+/// Draws, for motions in space, the parts of planes in the box. The free side of a plane is the one
+/// on which the particles are. With `from_free_side`, the planes that are seen from their free side
+/// are drawn, and filled. Otherwise the other planes are drawn, only by their edges, because
+/// particles are behind them.
 std::string plane_3d_patches(const PanelSettings& d, const Frame& frame, bool from_free_side) {
   std::string text;
   for (std::size_t j = 0; j < frame.planes.size(); ++j) {
@@ -348,8 +351,9 @@ std::string colour_of(const Scene& scene, const CurrentContact& contact) {
       rounded(mobilised_friction(scene.playback, contact), kFrictionColours));
 }
 
-/// Width of the line of a contact [page units]. `radius` is the smaller radius of the two
-/// particles, or the radius of the particle at an obstacle [page units].
+/// Width of the line of a contact [page units]. `radius` [page units] is the smaller radius of the
+/// two particles, with plates at most the smaller semi-axis of the second particle. At an obstacle
+/// it is the radius of the particle.
 double width_of(const PanelSettings& d, const CurrentContact& contact, double radius) {
   const auto width = [](const LineWidth& line, double r) {
     return std::clamp(line.share * r, line.least, line.most);
@@ -489,6 +493,8 @@ std::string spheres(const PanelSettings& d, const Frame& frame) {
 
 }  // namespace
 
+/// The direction of view, with the scale 1 and the corner at 0: from the front for `dimension` 2;
+/// otherwise turned by 30 degrees about the third axis, and from 20 degrees above.
 Projection view_of(int dimension) {
   Projection view;
   if (dimension == 2) return view;
@@ -501,6 +507,8 @@ Projection view_of(int dimension) {
   return view;
 }
 
+/// The SVG elements of a panel that shows `frame`. In the plane, the SVG text `behind` comes first;
+/// in space it is not used.
 std::string frame_picture(const PanelSettings& panel, const Frame& frame,
                           const std::string& behind) {
   return panel.scene.playback.dimension == 2 ? discs(panel, frame, behind) : spheres(panel, frame);
