@@ -168,7 +168,8 @@ void Simulation::move(double h) {
 
 /// Solves the projection of a part: the displacements without contacts become those with contacts.
 /// Rebuilds the lists of pairs where needed. Throws Error(kNotConverged) if a displacement or a
-/// position is too large or not a number.
+/// position is too large or not a number, or if a displacement is longer than a periodic domain
+/// allows.
 template <int D>
 ProjectionResult Simulation::project(double h, double next) {
   const auto planes_before = positions_of(obstacles_, state_.time);

@@ -73,8 +73,9 @@ std::uint64_t write_rows(const sweep::Study& study, const SweepStageRequest& req
   return computed;
 }
 
-/// Does the same with messages on the terminal. Throws Error(kNotConverged), after the file is
-/// written, if every part failed in every row.
+/// Computes the missing rows and writes the file of rows, with messages on the terminal. Throws the
+/// errors of write_rows() and, after the file is written, Error(kNotConverged) if every part failed
+/// in every row.
 void run_sweep(const sweep::Study& study, const SweepStageRequest& request,
                const results::Inputs& inputs, const std::string& part) {
   const auto& output = request.output;

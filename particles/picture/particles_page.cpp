@@ -41,8 +41,9 @@ struct FlowOfPage {
   std::string controls, legend;  ///< HTML; empty if there is no flow
 };
 
-/// HTML of a scale of colours: its words (plain text), a bar of its colours from the left to the
-/// right, and its numbers below, each at its share of the width of the bar.
+/// HTML of a scale of colours: its words, a bar of its colours from the left to the right, and its
+/// numbers below, each at its share of the width of the bar. Words and numbers are plain text
+/// without the characters <, > and &, because they are not escaped.
 std::string scale_html(const report::ColourScale& scale) {
   std::string places;
   for (const auto& [share, text] : scale.ticks)

@@ -136,8 +136,8 @@ void append_path(std::string& path, const report::Polyline& line, const Projecti
   }
 }
 
-/// SVG path of an arrowhead at point number `at` >= 1 of a line [L], in its direction; empty if
-/// this point and the one before have the same place.
+/// SVG path of an arrowhead with its tip at point number `at` >= 1 of a line [L], in the direction
+/// of the line; empty if this point and the point before it have the same place.
 std::string arrow_head(const report::Polyline& line, std::size_t at, const Projection& view) {
   constexpr double kLength = 5, kHalfWidth = 2.2;  // [page units]
   const Vector tip = {line[at].first, line[at].second, 0};

@@ -20,8 +20,9 @@
 namespace viscontact::particles {
 namespace {
 
-/// The interval that the particles of a frame cover along an axis (0 to 2) [L], without the `cut`
-/// outermost particles at either end; empty if no particle is left.
+/// The interval that the particles of a frame cover along the axis number `axis` (0 to 2) [L]. The
+/// `cut` outermost particles at either end are left out, and particles with the position NaN, which
+/// do not exist yet. Empty if no particle is left.
 Interval reach_of(const Playback& playback, const Frame& frame, std::size_t axis, std::size_t cut) {
   std::vector<double> lows, highs;
   for (std::size_t k = 0; k < playback.radii.size(); ++k) {
@@ -232,9 +233,10 @@ Playback in_plane(const Playback& playback) {
   return plane;
 }
 
-/// The rectangle that the flow fills [L], of the first frame that has a flow. If there is an axis,
-/// the rectangle includes the mirror image of the flow; along a direction with a period it is as
-/// long as the cell. Returns nothing if no frame has a flow.
+/// The rectangle that the flow fills [L], in the first frame that has a flow. If there is an axis,
+/// the rectangle includes the mirror image of the flow. Along a direction with a period the
+/// rectangle is as long as the periodic cell. Returns nothing if no frame has a flow. Throws
+/// Error(kBadInput) if the flow cannot be read.
 std::optional<report::Window> flow_extent(const Playback& in_plane, bool has_axis) {
   for (const auto& frame : in_plane.frames) {
     if (frame.flow.empty()) continue;

@@ -37,6 +37,8 @@ std::vector<std::size_t> interleaved(const std::vector<std::size_t>& pairs) {
 
 }  // namespace
 
+/// All arguments must outlive this object. `planes_before` and `planes` are all obstacles at the
+/// beginning and at the end of the step. `displacements` are h u* before solve(), and h v after it.
 template <int D>
 StepProjection<D>::StepProjection(State& state, double h,
                                   std::span<const PlanePosition> planes_before,

@@ -61,9 +61,9 @@ std::string difference(const SourceProgress& before, const Source& now) {
 }
 
 /// Throws Error(kBadInput), which names `restart`, if the state has other particles or sources than
-/// the case, or contacts with obstacles that the case does not have. The same particles are as many
-/// as in the case plus those that sources have added, with the radii and masses of the case; places
-/// and velocities may differ.
+/// the case, or contacts with obstacles that the case does not have. The state must have the
+/// particles of the case, with the same radii and masses, and then those that sources have added;
+/// their places and velocities may be any.
 void check_same_particles(const State& state, const ParticlesCase& c, const fs::path& restart) {
   const auto& p = state.particles;
   const auto differs = [&](const std::string& what) {

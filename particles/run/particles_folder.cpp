@@ -84,10 +84,11 @@ void StepTotals::add(const StepReport& report, double average_from) {
 
 /// The names of the columns: numbers of steps, contacts, glued contacts (gamma < 0), iterations,
 /// parts and unresolved contacts; time [T]; residual and largest_overlap [mean radii]; converged (0
-/// or 1); impulse_residual [1]. With a fluid also dissipation [M L^2/T^3], in two dimensions
-/// [M L/T^3], apparent_viscosity [1] and fluid_seconds [s]; with inertia also kinetic_energy_fluid
-/// [M L^2/T^2], in two dimensions [M L/T^2], both numbers [1] and the force [M L/T^2], in two
-/// dimensions [M/T^2].
+/// or 1); impulse_residual [1]. With a fluid there are also dissipation [M L^2/T^3],
+/// apparent_viscosity [1] and fluid_seconds [s]; with inertia of the fluid also
+/// kinetic_energy_fluid [M L^2/T^2], reynolds_number and courant_number [1], and given_force_x and
+/// given_force_y [M L/T^2]. Dissipation, energy and forces in two dimensions are per length. gamma
+/// is minus the impulse that a film has absorbed.
 std::string steps_header(const std::optional<Fluid>& fluid) {
   std::string header =
       "step,time,contacts,glued,iterations,residual,largest_overlap,converged,impulse_residual,"

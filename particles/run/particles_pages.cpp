@@ -143,9 +143,9 @@ void write_pages(const ParticlesCase& c, const fs::path& folder,
                         particles_picture(playback, c.title, kPanels, &flows), provenance);
 }
 
-/// Does the same for a run that has ended or was interrupted. particles.pvd in `folder` names the
-/// case. Also throws Error(kBadInput) if the case is wrong or has changed, or if Viscontact did not
-/// write a file that would be replaced.
+/// Writes the page and the picture again for a run that has ended or was interrupted. particles.pvd
+/// in `folder` names the case. Throws Error(kBadInput) as write_pages() does, and if the case is
+/// wrong or has changed, or if Viscontact did not write a file that would be replaced.
 void report_particles(const fs::path& folder) {
   for (const auto* name : {"particles.html", "particles.svg"})
     results::refuse_other_kind(folder / name, "", "result");

@@ -65,7 +65,8 @@ class Run {
   /// Computes steps until the end time, until a stop is requested, or until a step cannot be
   /// computed. In the last case the function returns the error of this step, and the state stays
   /// that before the step; otherwise it returns null. Throws Error(kBadInput) if a file cannot be
-  /// written.
+  /// written, and the errors of the fluid solver if it fails between two steps, while it computes a
+  /// flow or saves its state.
   std::exception_ptr simulate() {
     if (log_.record().frames == 0) add_frame();
     save(with_costs(log_.record()));
@@ -199,6 +200,7 @@ class Run {
     last_saved_ = Clock::now();
   }
 
+  /// Shows the progress on the terminal, not after each step but when it is due.
   void tell(const StepReport& report) {
     if (!progress_.is_due()) return;
     terminal::show_progress(fmt::format(
@@ -318,7 +320,8 @@ void run_particles(const ParticlesRequest& request) {
   ParticleSimulation simulation(c.setting, std::move(state), request.threads, request.start_solver,
                                 request.stop);
   Run run(c, simulation, folder, provenance, log, request.stop);
-  // If a file cannot be written, simulate() throws; the same command continues from restart.bin.
+  // If a file cannot be written, or the fluid solver fails between two steps, simulate() throws;
+  // the same command continues from restart.bin.
   const auto failure = run.simulate();
   std::string json;
   try {

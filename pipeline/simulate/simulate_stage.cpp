@@ -74,8 +74,9 @@ std::string estimate_of_gaps(const reduced_model::ModelChoice& choice,
   return text;
 }
 
-/// The record of a model for which reduced_model::simulate() threw `error`. For an error of kind
-/// kBadInput, which a gap outside the interval of the fit causes, estimate_of_gaps() is added.
+/// The record of a model for which reduced_model::simulate() threw `error`. To an error of kind
+/// kBadInput the text of estimate_of_gaps() is added, because a gap outside the interval of the fit
+/// may be its cause.
 results::FailedModel failure_of(const reduced_model::ModelChoice& choice, const Error& error,
                                 const reduced_model::Motion& motion, const lubrication::Fit& fit,
                                 const lubrication::OutsideInterval& outside) {

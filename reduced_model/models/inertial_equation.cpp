@@ -124,8 +124,9 @@ double InertialEquation::balanced_state(double t, double gap) const {
   return state_of(force_.gap_of_impulse(momentum(t) - inertia));
 }
 
-/// True if a fall from the state `now` ends, and its damping time m/R is, within a time that is too
-/// short to be resolved. Then `film` is set to the gap [L] at which the fall ends.
+/// True if the rest of the fall from the state `now`, and the damping time m/R at the end of the
+/// fall, are shorter than kTimeResolution t, which no step can resolve. Then `film` is set to the
+/// gap [L] at which the fall ends.
 bool InertialEquation::lands_at_once(double t, const InertialInstant& now, double& film) const {
   if (!(-now.velocity * kTimeResolution * t > now.gap)) return false;
   film = force_.gap_of_impulse(momentum(t));

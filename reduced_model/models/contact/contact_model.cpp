@@ -40,7 +40,7 @@ class DragAtDistance {
     return from == to ? 0 : drag_.impulse(contact_gap_ + to) - drag_.impulse(contact_gap_ + from);
   }
 
-  /// The velocity [L/T] at the end of a step that begins at `distance` > 0 with the momentum
+  /// The velocity [L/T] at the end of a step that begins at `distance` >= 0 with the momentum
   /// `momentum` [M L/T], which includes the impulse of the external force; the drag acts in the
   /// step. The distance at the end is >= 0.
   double velocity(const ContactSetting& setting, double distance, double momentum) const {
