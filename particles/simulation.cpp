@@ -225,8 +225,9 @@ ProjectionResult Simulation::project(double h, double next) {
     // margin and the skins (distances up to which pairs are listed) only grow. The new impulses are
     // the first guess of the repeated projection. With restitution, the pairs keep the impulses of
     // the step before instead, because the computation of blows needs to know which pairs bore a
-    // load. With the convex relaxation of friction, the pairs keep these impulses, too: it needs no
-    // first guess, and where there are films its friction depends on these impulses.
+    // load. With the convex relaxation of friction, the pairs keep these impulses, too, because
+    // this relaxation needs no first guess, and because its friction depends on these impulses
+    // where there are films.
     const auto& friction = setting_.laws.friction;
     const bool is_convex = friction && friction->method == FrictionMethod::kConvex;
     if (!setting_.laws.restitution.is_on() && !is_convex) {
@@ -298,13 +299,13 @@ void Simulation::undo_impacts() {
   impacts_in_space_.reset();
 }
 
-/// Makes the state that at the end of a part: impulses, gamma, positions, velocities and time. Adds
-/// the part to the report and to the sums over the parts of the step.
+/// Changes the state to the state at the end of a part: impulses, gamma, positions, velocities and
+/// time. Adds the part to the report and to the sums over the parts of the step.
 template <int D>
 void Simulation::accept(const ProjectionResult& projected, double h, double next,
                         StepReport& report) {
-  // Pairs that bore friction without a normal impulse in the step before may not be in this
-  // projection; their friction is then 0.
+  // A pair that bore friction without a normal impulse in the step before can be missing in this
+  // projection. The friction of such a pair is then 0.
   for_pairs([&](Pair& pair) {
     if (pair.impulse == 0 && pair.memory != PairMemories::kNone)
       state_.memories.make(pair.memory).set_friction({});
@@ -343,7 +344,8 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
 
 /// Throws Error(kNotConverged) if a part of a step that ends at `next` cannot be accepted: if it
 /// has not converged, and leaves an overlap of more than the mean radius, or if links contradict
-/// each other so that a residual or an overlap is more than kBroken mean radii.
+/// each other so that a residual or an overlap is more than kBroken (step_projection.hpp) mean
+/// radii.
 void Simulation::examine(const ProjectionResult& projected, double next) const {
   const auto& residuals = projected.residuals;
   refuse_deep_overlap(residuals, state_.particles, setting_, mean_radius_, next, [&] {

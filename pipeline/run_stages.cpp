@@ -1,7 +1,7 @@
 // Decides which stages of `viscontact run` must run: those whose outputs are missing or were made
 // from other inputs. Numbers are in the units of the case; `jobs` is at least 1 (not checked). A
-// wrong case, and a file of the user that would be replaced, are an Error(kBadInput) before
-// anything is written. Failures of rows and models are thrown last, when all other results are
+// wrong case, and a file of the user that would be replaced, are an Error(kBadInput) before the
+// tabulation starts. Failures of rows and models are thrown last, when all other results are
 // written. A FreeFEM or gnuplot that fails is an Error(kExternalProgram), a fit that does not
 // converge an Error(kNotConverged), a stop an Error(kInterrupted). app/ (command `run`) uses this
 // file. A change must keep the texts that refuse_other_kind() searches for, because the files

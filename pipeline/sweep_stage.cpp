@@ -1,11 +1,11 @@
 // Computes the rows of a sweep, shows its progress, and says at its end how many rows failed. A
 // sweep is a study (sweep/study.hpp): a case that is computed again and again with other values,
 // each time for one row. Times are in seconds of wall time; `jobs` >= 1 is not checked; the maker
-// of the study states the units of its rows. If all rows failed, an Error(kNotConverged) is thrown.
-// A file that cannot be read or written is an Error(kBadInput), a SOURCE_DATE_EPOCH that is no time
-// an Error(kWrongUsage), a stop an Error(kInterrupted); errors of Study::run are passed on. app/
-// and particles/sweep use this file. A change must keep that finished rows are never computed
-// again.
+// of the study states the units of its rows. If no part of any row could be computed, an
+// Error(kNotConverged) is thrown. A file that cannot be read or written is an Error(kBadInput), a
+// SOURCE_DATE_EPOCH that is no time an Error(kWrongUsage), a stop an Error(kInterrupted); errors of
+// Study::run are passed on. app/ and particles/sweep use this file. A change must keep that
+// finished rows are never computed again.
 #include "viscontact/pipeline/sweep_stage.hpp"
 
 #include <fmt/format.h>

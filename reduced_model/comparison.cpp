@@ -150,9 +150,9 @@ Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
 }
 
 // The functions fields_of() state the keys of the file in their order, both for reading and for
-// writing. Times are [T], velocities [L/T], impulses [M L/T], works
-// [M L^2/T^2]. A key with Absence::kAllowed may be missing in a file, as in files of earlier
-// versions. The key "books" has the budget of impulses and works.
+// writing. Times are [T], gaps [L], velocities [L/T], impulses [M L/T], works [M L^2/T^2] and
+// computing times [s]. A key with Absence::kAllowed may be missing in a file, as in files of
+// earlier versions. The key "books" has the budget of impulses and works.
 void fields_of(JsonFields& json, SolidTouch& touch) {
   json("time", touch.time);
   json("velocity", touch.velocity);

@@ -57,7 +57,7 @@ std::array<double, 2> middle_of(std::vector<double>& values) {
 /// The times at which gaps are computed [T]. The first of them is the time of the smallest gap, at
 /// which the impulse of the external force is least. This time is 0, a time at which the force
 /// jumps or changes its sign, or the end. Then follow `times` equidistant times from 0 to the end;
-/// one such time is 0.
+/// if `times` is 1, only the time 0 follows.
 std::vector<double> instants_of(const Motion& motion, std::size_t times) {
   auto ends = motion.external_force.jumps();
   std::erase_if(ends, [&](double t) { return t > motion.end_time; });
@@ -78,9 +78,10 @@ std::vector<double> instants_of(const Motion& motion, std::size_t times) {
 
 }  // namespace
 
-/// Computes the gap at `times` + 1 times with the fit, with its drag multiplied by 1 - misfit and 1
-/// + misfit, and with `draws` random draws of its coefficients. Outside the interval of gaps of the
-/// fit, the drag follows the formulas of outside.with_limits().
+/// Computes the gap at `times` + 1 times with the fit, with the impulse of the external force
+/// multiplied by 1 - misfit and by 1 + misfit (which bounds the effect of a relative error `misfit`
+/// of the drag), and with `draws` random draws of its coefficients. Outside the interval of gaps of
+/// the fit, the drag follows the formulas of outside.with_limits().
 FitUncertainty propagate_fit(const Motion& motion, const lubrication::Fit& fit, std::size_t times,
                              const lubrication::OutsideInterval& outside, std::size_t draws) {
   const auto limits = outside.with_limits();

@@ -1,11 +1,11 @@
 // Measures the residuals of the contacts and links of a time step after a solution of its problem
 // for impulses, and finds links that contradict each other. A residual [L] is the distance of a gap
-// or length from the value that its condition demands, for an angle [rad] times the mean radius. It
-// must be at most ResidualScale::allowed_gap() [L]. Lengths [L], mobilities [T/M], > 0, and
-// impulses [M L/T] are in any consistent units; the mean radius is > 0 [L]. Pairs, contacts, links
-// and particles are numbered from 0. Nothing is thrown: a residual that is too large or NaN makes
-// StepResiduals::converged false. step_projection.cpp uses this file. A change must keep that every
-// pair whose gap the solution closes is found.
+// or length from the value that its condition demands; residuals of angles [rad] are multiplied by
+// the mean radius. A residual must be at most ResidualScale::allowed_gap() [L]. Lengths [L],
+// mobilities [T/M], > 0, and impulses [M L/T] are in any consistent units; the mean radius is > 0
+// [L]. Pairs, contacts, links and particles are numbered from 0. Nothing is thrown: a residual that
+// is too large or NaN makes StepResiduals::converged false. step_projection.cpp uses this file. A
+// change must keep that every pair whose gap the solution closes is found.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -70,12 +70,12 @@ void StepProjection<D>::examine_links(const SolverSettings& settings, double mea
 }
 
 /// Writes the names of links (not springs) that contradict each other to `result`, if a residual of
-/// a link or an overlap is more than kBroken mean radii; otherwise does nothing. The function looks
-/// at the motion that violates the linear equations of links and contacts least (least squares).
-/// The links that are named are those whose equations this motion violates. If it satisfies all
-/// equations up to kBroken mean radii, the contradiction comes from finite turns of bodies. Then
-/// all links are named that share a particle or rigid body with one of the links with the numbers
-/// `beyond`, whose residuals are not allowed.
+/// a link or an overlap is more than kBroken mean radii (step_projection.hpp); otherwise does
+/// nothing. The function looks at the motion that violates the linear equations of links and
+/// contacts least (least squares). The links that are named are those whose equations this motion
+/// violates. If it satisfies all equations up to kBroken mean radii, the contradiction comes from
+/// finite turns of bodies. Then all links are named that share a particle or rigid body with one of
+/// the links with the numbers `beyond`, whose residuals are not allowed.
 template <int D>
 void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyond,
                                             double mean_radius, ProjectionResult& result) {

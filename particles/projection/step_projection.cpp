@@ -81,9 +81,10 @@ void StepProjection<D>::add_constraints(const ConstraintStep& step) {
 }
 
 /// The contact of pair k, of two particles, in a step with blows, which are collisions of solids
-/// (impacts/). The normal of the contact is that at the end of the step, at the places where the
-/// blows have left both particles. The gap [L] is the distance of the centres at the beginning of
-/// the step along this normal, minus both radii.
+/// (impacts/). Pairs are numbered from 0: first those of state.pairs, then those of state.walls.
+/// The normal of the contact is that at the end of the step, at the places where the blows have
+/// left both particles. The gap [L] is the distance of the centres at the beginning of the step
+/// along this normal, minus both radii.
 template <int D>
 Contact<D> StepProjection<D>::contact_at_end(std::size_t k) {
   const auto& p = state_.particles;
@@ -127,8 +128,9 @@ bool StepProjection<D>::gap_would_close(std::size_t k, double margin) {
          paths_meet(p, here, displacements_);
 }
 
-/// Numbers of the pairs that have a film (gamma < 0), had an impulse in the last step, or whose
-/// gaps the present displacements, without contacts, would close; in increasing order.
+/// Numbers of the pairs that have a film (gamma < 0, where gamma [M L/T] is minus the impulse that
+/// the film has absorbed), had an impulse in the last step, or whose gaps the present
+/// displacements, without contacts, would close; in increasing order.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::closed_by_free_motion() {
   const auto in_block = [&](std::size_t begin, std::size_t end) {

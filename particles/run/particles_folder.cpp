@@ -42,6 +42,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StepTotals, steps, unconverged, failed, itera
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunRecord, totals, frames, flows, last_frame, rebounds, files)
 
 namespace {
+// The beginning of the line with the record in restart.bin, which restart files contain.
 constexpr const char* kRecordOf = "# record after step ";
 }  // namespace
 

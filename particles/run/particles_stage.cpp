@@ -223,7 +223,7 @@ class Run {
 
 /// Says on the terminal how the run ended, after its files are written. Throws Error(kInterrupted)
 /// if the run was interrupted, Error(kNotConverged) if a step missed the tolerances by more than
-/// the factor kStillAResult.
+/// the factor kStillAResult (particles_folder.hpp).
 void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State& state,
                   const fs::path& folder, const StopToken& stop) {
   terminal::say(

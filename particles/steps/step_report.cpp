@@ -3,10 +3,10 @@
 // and the mean radius (> 0, not checked) are lengths [L], impulses and their residuals are [M L/T],
 // in the units of the case file. In the report, residuals of gaps are divided by the mean radius,
 // and those of impulses by the impulse at work, which is the largest impulse that acts on the less
-// loaded particle; all are numbers >= 0. A residual that is not a number makes `excess` infinite
-// and `converged` false. Only refuse_deep_overlap() throws: Error(kNotConverged). simulation.cpp,
-// projection/ and fluid/ use this file. A change must keep that particles with masses and particles
-// in a fluid are measured in the same way.
+// loaded particle of a contact; all are numbers >= 0. A residual that is not a number makes
+// `excess` infinite and `converged` false. Only refuse_deep_overlap() throws: Error(kNotConverged).
+// simulation.cpp, projection/ and fluid/ use this file. A change must keep that particles with
+// masses and particles in a fluid are measured in the same way.
 #include "viscontact/particles/steps/step_report.hpp"
 
 #include <fmt/format.h>
@@ -19,8 +19,8 @@
 
 namespace viscontact::particles {
 
-/// Takes a residual >= 0 [L] into account, of which `allowed` > 0 [L] is allowed. Returns true if
-/// the residual is larger or not a number.
+/// Takes a residual >= 0 [L] into account. The largest allowed residual is `allowed` > 0 [L].
+/// Returns true if the residual is larger or not a number.
 bool StepResiduals::take(double residual, double allowed) {
   largest = std::max(largest, residual);
   excess = std::isnan(residual) ? std::numeric_limits<double>::infinity()

@@ -135,7 +135,7 @@ void refuse_second_job(const ArrayJob& job, const ArrayRequest& request) {
 }
 
 /// Writes the script and the copies of the cases, submits the job, and prints its number to
-/// standard output. Does nothing but say so if no task has rows to compute.
+/// standard output. If no task has rows to compute, only a message says so.
 void submit(const ArrayJob& job, const ArrayRequest& request) {
   const auto options = split_words(request.options);
   const std::string gather = gather_command(job, request);

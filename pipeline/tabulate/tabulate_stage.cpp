@@ -155,7 +155,8 @@ RowFailure gather_one(const CaseTable& one, const fs::path& slurm_folder) {
 /// the end one error states all these errors. If `work` returned all of them, every table is
 /// written, and this function returns the one error. If `work` threw one of them, this function
 /// throws the one error. An error of any other kind is passed on at once. A single table is not
-/// treated in this way: what `work` returns or throws is passed on.
+/// treated in this way: what `work` returns or throws is passed on. Throws Error(kInterrupted)
+/// between two tables at a stop.
 template <class Work>
 RowFailure for_each_table(const std::vector<CaseTable>& tables, const StopToken& stop,
                           const Work& work) {

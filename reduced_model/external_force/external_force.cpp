@@ -53,8 +53,8 @@ double sine_mean(const ExternalForce::Sinusoid& s, double a, double b) {
 
 }  // namespace
 
-/// Throws Error(kBadInput) if there are no pieces, or if the ends of the pieces are not > 0 and do
-/// not increase. The last piece never ends.
+/// Throws Error(kBadInput) if there are no pieces, and unless the ends of the pieces are > 0 and
+/// increase. The last piece never ends.
 ExternalForce::ExternalForce(const std::vector<Piece>& pieces) {
   if (pieces.empty())
     throw Error(ErrorKind::kBadInput, "external_force has no piece; it needs at least one");

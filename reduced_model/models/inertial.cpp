@@ -142,7 +142,7 @@ class InertialRun {
   }
 
   /// True if the external force pulls the sphere off the solids. The force has one sign until the
-  /// next stop. If it is true, the sphere rests no longer (rests_).
+  /// next stop. If the result is true, rests_ becomes false.
   bool leaves_solids() {
     if (!(motion_.external_force.mean(now_, stop_) > 0)) return false;
     rests_ = false;
@@ -282,8 +282,8 @@ void check_start_outside_roughness(const Motion& motion) {
         motion.initial_gap, solid_gap);
 }
 
-/// The motion with solids that touch at the gap of both heights of roughness together, and rebound
-/// there; without roughness that of simulate_inertial().
+/// The motion with solids that touch and rebound at the gap that equals both heights of roughness
+/// together. Without roughness the result is that of simulate_inertial().
 Trajectory simulate_inertial_rough(const Motion& motion,
                                    const lubrication::LubricationForce& force) {
   check_start_outside_roughness(motion);

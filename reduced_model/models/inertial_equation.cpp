@@ -92,8 +92,8 @@ InertialInstant InertialEquation::instant(double t, double gap, double force_tim
   if (m * std::abs(by_momentum) > kMuchInertia * resistance * q &&
       std::abs(by_momentum) > 1e3 * momentum_error)
     return {q, by_momentum, momentum_error, resistance};
-  // With little inertia the velocity follows from the balance of drag and force. This balance does
-  // not know what is left of an earlier velocity, which the velocity from the momentum contains.
+  // With little inertia the velocity follows from the balance of drag and force. The rest of an
+  // earlier velocity is missing in this balance, but not in the velocity from the momentum.
   // Therefore both values are compared.
   const double balance = motion_.external_force.value(force_time) / resistance;
   const double rate = (motion_.external_force.slope(force_time) -

@@ -34,8 +34,8 @@ class DragAtDistance {
   DragAtDistance(const ResolvedDrag& drag, double contact_gap)
       : drag_(drag), contact_gap_(contact_gap) {}
 
-  /// The impulse of the drag [M L/T] if the distance changes from `from` to `to` [L], of their
-  /// sign.
+  /// Minus the impulse of the drag on the sphere [M L/T] while the distance changes from `from` to
+  /// `to` [L]; > 0 if the distance grows.
   double impulse(double from, double to) const {
     return from == to ? 0 : drag_.impulse(contact_gap_ + to) - drag_.impulse(contact_gap_ + from);
   }
@@ -190,7 +190,8 @@ ContactStep as_contact_step(const ReboundStep& step) {
 /// external force, and `add(times, setting, state before, push, step, state at the end)` after each
 /// step. `turns` are the times [T] at which the force changes its sign, increasing. In a staggered
 /// model the impulses before and after such a time act one after the other. The reason is that the
-/// solids carry the impulse before it, and must not give this impulse back to the sphere after it.
+/// solids carry the impulse before such a time, and must not give this impulse back to the sphere
+/// afterwards.
 template <class Drag, class Rebounding, class Kick, class Add>
 void run_steps(const Motion& motion, const ContactModel& model, const Drag& drag,
                std::span<const double> turns, const Rebounding& rebound, const Kick& kick,

@@ -15,7 +15,8 @@
 namespace viscontact::reduced_model {
 
 /// The film has the thickness q0 exp(gamma/k) [L]. The solids touch at gamma_min [M L/T], where the
-/// film is as thick as both heights of roughness together; without roughness they never touch.
+/// film is as thick as both heights of roughness together; gamma_min is 0 if these heights exceed
+/// q0. Without roughness the solids never touch.
 ContactModel viscous_contact(const Motion& motion, const lubrication::LubricationForce& force) {
   const double k = force.leading_coefficient();
   const double q0 = motion.initial_gap;

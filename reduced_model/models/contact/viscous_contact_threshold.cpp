@@ -15,8 +15,8 @@
 namespace viscontact::reduced_model {
 
 /// The film has the thickness [L] at which Gamma is Gamma(q_c) + gamma. The solids touch at
-/// gamma_min [M L/T], where this thickness is both heights of roughness together; without roughness
-/// they never touch. `force` must outlive the result, which refers to it.
+/// gamma_min [M L/T], where this thickness equals both heights of roughness together; without
+/// roughness they never touch. `force` must outlive the result, which refers to it.
 ContactModel viscous_contact_threshold(const Motion& motion,
                                        const lubrication::LubricationForce& force) {
   const double q_c = motion.parameter(kThresholdGap);
