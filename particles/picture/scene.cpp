@@ -78,7 +78,7 @@ ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& fr
   // flown away. Any factor that is clearly larger than 1 works.
   constexpr double kFlownAway = 1.5;
   const auto dimension = static_cast<std::size_t>(playback.dimension);
-  // Both ends of all axes together leave out 2 % of the particles.
+  // The particles that are left out at both ends of all axes are together 2 %, a free choice.
   const auto cut = playback.radii.size() / (100 * dimension);
   ViewBox box;
   double size = 0;

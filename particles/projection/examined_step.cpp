@@ -28,9 +28,10 @@ bool take(double residual, const ResidualScale& scale, const SolverSettings& set
 
 /// The scale of the residual of a link. It is the scale of a contact whose change of the gap per
 /// impulse, w [T/M], is the sum of the mobilities of the particles of the link. The impulse at work
-/// (ResidualScale::impulse) is at least d/w, where d [L] is the largest displacement that the
-/// impulse at work on a particle of the link causes. The reason is that a particle that a link
-/// holds may be at rest without any other force.
+/// (ResidualScale::impulse), the magnitude of the impulses that move or press the particles in the
+/// step, is at least d/w, where d [L] is the largest displacement that the impulse at work on a
+/// particle of the link causes. The reason is that a particle that a link holds may be at rest
+/// without any other force.
 template <int D>
 ResidualScale StepProjection<D>::scale_of_link(const LinkEquations& link,
                                                ResidualScales<D>& scales) const {

@@ -280,8 +280,8 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   constexpr double kMargin = 5e-3;
   const bool has_friction = step_ != nullptr && step_->laws.friction;
   const bool is_convex = has_friction && step_->laws.friction->method == FrictionMethod::kConvex;
-  // The motion with links and without contacts decides which contacts are chosen: a free particle
-  // would meet walls that its hinge or arm takes it past.
+  // The motion with links and without contacts decides which contacts are chosen. Without its hinge
+  // or arm, a particle would meet walls from which the hinge or arm keeps it away.
   if (constraints_ && !constraints_->links().empty()) {
     allow(settings.tolerance / 2 * mean_radius, settings.impulse_tolerance,
           fraction_of_slips(settings));
@@ -317,16 +317,18 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     auto more = examine(settings, mean_radius, !is_rough || is_last, result);
     if (result.residuals.converged) break;
     if (is_last || (constraints_ && constraints_->has_given_up() && !is_convex)) {
-      // An island is not solved, or its friction is bounded by given loads in place of Coulomb's
-      // law. Pairs that solutions close are still added, also to other islands, in at most
-      // kMostRounds rounds, a free choice that bounds the time of such a step.
+      // An island is not solved, or its friction is bounded by given loads (normal impulses that
+      // are fixed beforehand) in place of Coulomb's law. Pairs that solutions close are still
+      // added, also to other islands, in at most kMostRounds rounds, a free choice that bounds the
+      // time of such a step.
       constexpr int kMostRounds = 20;
       if (!constraints_ || ++rounds_unsolved > kMostRounds) break;
       // The gaps of a rough solution are not accurate, so that another solution must follow it.
       if (more.empty() && !is_rough) break;
       is_rough = false;
     }
-    // After kPatience rounds (a free choice) without gain or new pair, rounding errors are left.
+    // After kPatience rounds (a free choice) in which no pair is added and the residuals do not
+    // fall, only rounding errors are left.
     constexpr int kPatience = 10;
     waited = more.empty() && !is_rough && result.residuals.excess >= least_excess ? waited + 1 : 0;
     if (waited == kPatience) break;
@@ -389,7 +391,8 @@ ResidualScales<D>::ResidualScales(const State& state, double h,
     body_scales_.push_back(of_particle(bodies[b], system.free_displacement(b)));
   for (const auto& contact : system.contacts) {
     const double gap = system.gap(contact);
-    // The film of a pair with gamma < 0 also pulls, so that an open gap needs an impulse, too.
+    // The film of a pair with gamma < 0 also pulls. Therefore an impulse would be needed to close
+    // an open gap, too.
     const double impulse = std::max(std::abs(contact.impulse),
                                     (contact.lowest < 0 ? std::abs(gap) : -gap) / contact.w);
     for (const auto particle : {contact.first, contact.second})

@@ -309,7 +309,7 @@ void run_particles(const ParticlesRequest& request) {
       return;
     }
     log.resume(earlier->record);
-    remove_file(folder / "particles.h5");  // it would lack the frames that are added now
+    remove_file(folder / "particles.h5");  // this file would lack the new frames
     terminal::say("particles: the run in {} continues from t = {:.6g}, after step {}",
                   folder.string(), earlier->state.time, earlier->state.steps);
     state = earlier->state;

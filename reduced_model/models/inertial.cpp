@@ -124,7 +124,8 @@ class InertialRun {
     solid_impulse_ += m * (after - before);
     solid_work_ += m / 2 * (after - before) * (after + before);
     if (before < 0) {
-      // The velocity that the sphere loses by the drag between the initial gap and the solids.
+      // `film` is the velocity that the sphere loses by the drag between the initial gap and the
+      // solids.
       const double film = (force_.impulse(motion_.initial_gap) - force_.impulse(solid_gap_)) / m;
       const double approach = before - film, leaving = std::max(0.0, after - film);
       trajectory_.rebounds.push_back({now_, approach, -m * before, leaving, leaving / -approach});

@@ -44,11 +44,12 @@ class DragAtDistance {
   /// `momentum` [M L/T], which includes the impulse of the external force; the drag acts in the
   /// step. The distance at the end is >= 0.
   double velocity(const ContactSetting& setting, double distance, double momentum) const {
-    // With the primitive Gamma_res of the resistance, m v + Gamma_res(D + h v) - Gamma_res(D)
-    // increases with v, so the root is between 0 and the velocity without drag. Where the
-    // resistance falls with the gap, the function is concave, and Newton's method from v = 0
-    // converges to the root from below. The bracket makes the method safe for fits whose resistance
-    // does not fall.
+    // With the mass m, the length h of the step, the distance D at its beginning and a primitive
+    // Gamma_res of the resistance, the velocity v solves m v + Gamma_res(D + h v) - Gamma_res(D) =
+    // momentum. The left side increases with v, so that the root is between 0 and the velocity
+    // without drag. Where the resistance falls with the gap, the function is concave, and Newton's
+    // method from v = 0 converges to the root from below. The bracket makes the method safe for
+    // fits whose resistance does not fall.
     const double free = momentum * setting.per_mass;
     const double low = std::max(-distance * setting.per_step, std::min(0.0, free));
     const double high = std::max(0.0, free);
