@@ -383,13 +383,14 @@ Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
   return scene;
 }
 
-/// The magnitude of the normal force over Scene::top_force, at most 1; 0 if top_force is 0.
+/// Returns the magnitude of the normal force divided by Scene::top_force, but at most 1; 0 if
+/// top_force is 0.
 double force_share(const Scene& scene, const CurrentContact& contact) {
   return scene.top_force > 0 ? std::min(1.0, std::abs(contact.normal_force) / scene.top_force) : 0;
 }
 
-/// Tangential force over the product of friction coefficient and normal force, at most 1; 1 if the
-/// contact slides; 0 without friction or load.
+/// Returns the tangential force divided by the product of friction coefficient and normal force,
+/// but at most 1. The result is 1 if the contact slides, and 0 without friction or load.
 double mobilised_friction(const Playback& playback, const CurrentContact& contact) {
   if (contact.friction == ContactFriction::kSlides) return 1;
   const double bound = playback.friction_coefficient.value_or(0) * contact.normal_force;

@@ -128,8 +128,8 @@ bool StepProjection<D>::gap_would_close(std::size_t k, double margin) {
          paths_meet(p, here, displacements_);
 }
 
-/// Numbers of the pairs that have a film (gamma < 0, where gamma [M L/T] is minus the impulse that
-/// the film has absorbed), had an impulse in the last step, or whose gaps the present
+/// Returns the numbers of the pairs that have a film (gamma < 0, where gamma [M L/T] is minus the
+/// impulse that the film has absorbed), had an impulse in the last step, or whose gaps the present
 /// displacements, without contacts, would close; in increasing order.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::closed_by_free_motion() {
@@ -143,15 +143,16 @@ std::vector<std::size_t> StepProjection<D>::closed_by_free_motion() {
   return pool_.sum_of_blocks<ConcatenatedBlocks<std::size_t>>(pair_count(), in_block).values;
 }
 
-/// True if pair k has a film that can absorb an impulse; only after add_constraints().
+/// True if pair k has a film that can absorb an impulse. add_constraints() must have been called
+/// (not checked).
 template <int D>
 bool StepProjection<D>::has_film(std::size_t k) {
   return step_->laws.lowest_gamma(pair(k), state_.memories.of(pair(k).memory),
                                   radii_of(pair(k), state_.particles, step_->obstacles)) < 0;
 }
 
-/// Numbers of the pairs that are not chosen and whose gaps the displacements make smaller than
-/// margin_: all such pairs, or only those with a film.
+/// Returns the numbers of the pairs that are not chosen and whose gaps the displacements make
+/// smaller than margin_ [L]. If `are_films_only` is true, these are only the pairs with a film.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::nearly_closed(bool are_films_only) {
   std::vector<std::size_t> pairs;
@@ -434,7 +435,8 @@ typename ResidualScales<D>::ParticleScale ResidualScales<D>::of_particle(
                   : body_scales_[index_of(body)];
 }
 
-/// Largest mobility times impulse at work of these particles [L]; 0 without particles.
+/// Returns the largest product of mobility and impulse at work of these particles [L], which is the
+/// largest displacement that an impulse at work causes; 0 without particles.
 template <int D>
 double ResidualScales<D>::largest_change(std::span<const std::int32_t> particles) const {
   double largest = 0;

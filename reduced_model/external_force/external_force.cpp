@@ -107,7 +107,8 @@ ExternalForce& ExternalForce::operator+=(const ExternalForce& other) {
   return *this;
 }
 
-/// The force at the time t is that of this object at t/factor; `factor` is > 0 [1].
+/// Returns a force that has at the time t the value that this force has at t/factor; `factor` is >
+/// 0 [1] (not checked).
 ExternalForce ExternalForce::stretched(double factor) const {
   ExternalForce force = *this;
   for (auto& piece : force.pieces_) {

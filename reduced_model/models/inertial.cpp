@@ -267,7 +267,7 @@ class InertialRun {
 
 }  // namespace
 
-/// The motion without contact of the solids.
+/// Computes the motion of a sphere and a wall whose solids never touch.
 Trajectory simulate_inertial(const Motion& motion, const lubrication::LubricationForce& force) {
   return InertialRun(motion, force, 0).run();
 }
@@ -283,8 +283,8 @@ void check_start_outside_roughness(const Motion& motion) {
         motion.initial_gap, solid_gap);
 }
 
-/// The motion with solids that touch and rebound at the gap that equals both heights of roughness
-/// together. Without roughness the result is that of simulate_inertial().
+/// Computes the motion with solids that touch and rebound at the gap that equals both heights of
+/// roughness together. Without roughness the result is that of simulate_inertial().
 Trajectory simulate_inertial_rough(const Motion& motion,
                                    const lubrication::LubricationForce& force) {
   check_start_outside_roughness(motion);

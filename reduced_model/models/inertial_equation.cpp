@@ -15,7 +15,8 @@
 
 namespace viscontact::reduced_model {
 
-/// `relative_tolerance` > 0 is that of the gap [1]. `motion` and `force` must outlive the object.
+/// `relative_tolerance` > 0 is the relative tolerance of the gap [1]. `motion` and `force` must
+/// outlive the object.
 InertialEquation::InertialEquation(const Motion& motion, const lubrication::LubricationForce& force,
                                    double relative_tolerance)
     : motion_(motion),
@@ -28,12 +29,12 @@ double InertialEquation::gap_of(double s) const { return force_.radius() * std::
 
 double InertialEquation::state_of(double gap) const { return std::log(gap / force_.radius()); }
 
-/// P(t) [M L/T].
+/// Returns P(t) [M L/T].
 double InertialEquation::momentum(double t) const {
   return momentum_at_start_ + motion_.external_force.impulse(t);
 }
 
-/// ds/dt [1/T] at the time t and the gap `gap`.
+/// Returns ds/dt [1/T] at the time t [T] and the gap `gap` [L].
 double InertialEquation::slope(double t, double gap) const {
   return (momentum(t) - force_.impulse(gap)) / (motion_.mass * gap);
 }
@@ -74,8 +75,8 @@ StiffSystem InertialEquation::system(const double& step_begin) const {
   return system;
 }
 
-/// Gap, velocity, error bound of the velocity [L/T] and resistance at the time t. `force_time` [T]
-/// is t, or just before t if the external force jumps at t.
+/// Returns the gap [L], the velocity [L/T] with its error bound [L/T], and the resistance [M/T] at
+/// the time t [T]. `force_time` [T] is t, or just before t if the external force jumps at t.
 InertialInstant InertialEquation::instant(double t, double gap, double force_time) const {
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
   const double m = motion_.mass, q = gap;
@@ -110,15 +111,16 @@ InertialInstant InertialEquation::instant(double t, double gap, double force_tim
   return {q, by_momentum, momentum_error, resistance};
 }
 
-/// The first step [T] that CVODE should try after a restart at the time t; 0: CVODE chooses it. It
-/// is > 0 if the damping time m/R is too short to be resolved.
+/// Returns the first step [T] that CVODE should try after a restart at the time t, or 0 if CVODE
+/// should choose this step. The result is > 0 if the damping time m/R is less than kTimeResolution
+/// t, which is too short to be resolved.
 double InertialEquation::first_step(double t, double gap) const {
   const double step = kTimeResolution * t;
   return motion_.mass < step * force_.resistance(gap) ? step : 0;
 }
 
-/// The state s [1] with the momentum P(t), near the state of `gap`, in which drag and force are
-/// balanced.
+/// Returns the state s [1] near that of `gap` [L] in which the drag balances the external force,
+/// and which has the momentum P(t).
 double InertialEquation::balanced_state(double t, double gap) const {
   const double inertia = motion_.mass * instant(t, gap, t).velocity;
   return state_of(force_.gap_of_impulse(momentum(t) - inertia));

@@ -33,7 +33,7 @@ ContactModel viscous_contact(const Motion& motion, const lubrication::Lubricatio
   return model;
 }
 
-/// The same model with steps that compute velocity and gamma in the middle of each step.
+/// Makes the same model, but with steps that compute velocity and gamma in their middle.
 ContactModel viscous_contact_leapfrog(const Motion& motion,
                                       const lubrication::LubricationForce& force) {
   auto model = viscous_contact(motion, force);
@@ -41,7 +41,8 @@ ContactModel viscous_contact_leapfrog(const Motion& motion,
   return model;
 }
 
-/// The same model with the drag R(q) - k/q. `force` must outlive the result, which refers to it.
+/// Makes the same model, but with the drag R(q) - k/q at gaps q > 0. `force` must outlive the
+/// result, which refers to it.
 ContactModel viscous_contact_regular_drag(const Motion& motion,
                                           const lubrication::LubricationForce& force) {
   ContactModel model = viscous_contact(motion, force);
@@ -50,7 +51,7 @@ ContactModel viscous_contact_regular_drag(const Motion& motion,
   return model;
 }
 
-/// Contact without a film: gamma is always 0. The arguments are not used.
+/// Makes a model of contact without a film, in which gamma is always 0. The arguments are not used.
 ContactModel inelastic_contact(const Motion&, const lubrication::LubricationForce&) { return {}; }
 
 }  // namespace viscontact::reduced_model

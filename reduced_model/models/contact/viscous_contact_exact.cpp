@@ -59,7 +59,7 @@ class EventDriven {
   /// Impulse of f_ext [M L/T] from the last event to the time t.
   double push_until(double t) const { return f_.impulse(t) - f_.impulse(from_); }
 
-  /// advance() for a sphere in flight: the next event is a landing.
+  /// Does what advance() does for a sphere in flight, whose next event is a landing.
   double fly(double to) {
     const auto falls = [&](double t) { return velocity(t) < 0; };
     // The velocity is monotone, because f_ext keeps its sign. Therefore the velocity changes its
@@ -88,8 +88,8 @@ class EventDriven {
     velocity_ = velocity;
   }
 
-  /// The impact at the time t, after which the sphere is in contact, or in flight again if the
-  /// solids give back more than the film takes. Returns t.
+  /// Computes the impact at the time t [T], after which the sphere is in contact, or in flight
+  /// again if the solids give back more than the film takes. Returns t.
   double land(double t) {
     move_to(t, 0, velocity(t));
     const double least = std::max(0.0, -f_.value(t)) * shortest_flight_ / 2;
@@ -107,8 +107,8 @@ class EventDriven {
     return t;
   }
 
-  /// advance() for a sphere in contact: the next event is the release, at which gamma reaches 0, or
-  /// the instant at which the solids touch, at which gamma reaches gamma_min.
+  /// Does what advance() does for a sphere in contact. The next event is the release, at which
+  /// gamma reaches 0, or the instant at which the solids touch, at which gamma reaches gamma_min.
   double carry(double to, double sign) {
     const double end = gamma_ + push_until(to);
     double t = to;
