@@ -1,12 +1,14 @@
-// Computes the obstacles and the periodic cell of a setting (setting.hpp). Lengths [L], radii > 0
-// among them, velocities of planes [L/T] and the velocity gradient of the cell [1/T] are in the
+// Computes the obstacles and the periodic cell of a setting (setting.hpp). Lengths [L], among them
+// radii > 0, velocities of planes [L/T] and the mean velocity gradient of the cell [1/T] are in the
 // units of the case. There may be no obstacle; a cell without periods has the lengths 0. Nothing is
 // checked or thrown. A change must keep the order of the obstacles, because files number them in
-// this order. Used by the simulations and the files in io/ and run/.
+// this order. The simulations and the files in io/ and run/ use this file.
 #include "viscontact/particles/setting.hpp"
 
 namespace viscontact::particles {
 
+/// The periodic cell of the domain, with the velocity gradient of the linear flow at the boundary
+/// of the fluid, if there is such a flow.
 PeriodicCell cell_of(const Setting& setting) {
   auto cell = cell_of(setting.domain);
   if (!setting.fluid) return cell;
@@ -15,6 +17,7 @@ PeriodicCell cell_of(const Setting& setting) {
   return cell;
 }
 
+/// All obstacles: first the walls of the domain, then the planes of the setting.
 std::vector<Plane> obstacles_of(const Setting& setting) {
   auto obstacles = obstacles_of(setting.domain);
   obstacles.insert(obstacles.end(), setting.planes.begin(), setting.planes.end());

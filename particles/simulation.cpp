@@ -1,12 +1,12 @@
 // Computes the steps of many particles (simulation.hpp), docs/physics.md (5.3): motion without
-// contacts (free_motion.cpp), projection, new gamma, new positions; and divides steps with fast
-// particles. Numbers are in the units of the case; h [T] is the length of a step or of a part of
-// it. Positions [L], displacements [L] and velocities [L/T] have 2 numbers for each disc, 3 for
-// each sphere, turns [rad] 1 or 3. The constructor throws Error(kBadInput) if a state that has done
-// steps has other membranes; that masses and h are > 0 and that there is at least 1 thread is not
-// checked. step() throws Error(kNotConverged) if a step cannot be accepted: examine(),
-// checked_length(). A change must keep that, if a step throws, the state is that before the step.
-// Used by run/, sweep/ and python/.
+// contacts (free_motion.cpp), projection, new gamma, new positions. Divides steps with fast
+// particles into parts. Numbers are in the units of the case. In all functions h > 0 [T] is the
+// length of a step or part, and `next` the time at its end [T]. Positions [L], displacements [L]
+// and velocities [L/T] have 2 numbers for each disc, 3 for each sphere, turns [rad] 1 or 3. gamma
+// [M L/T] is minus the impulse that a film has absorbed. The constructor throws Error(kBadInput) if
+// a state that has done steps has other membranes. Masses > 0 and a number of threads >= 1 are not
+// checked. step() throws Error(kNotConverged) if a step cannot be accepted. A change must keep that
+// the state after such an error is that before the step. run/, sweep/ and python/ use this file.
 #include "viscontact/particles/simulation.hpp"
 
 #include <fmt/format.h>
@@ -48,11 +48,13 @@ double checked_length(const Particles& p, const std::vector<double>& displacemen
   return norm(w);
 }
 
+/// Identifies a pair: its first and second particle (first < 0: an obstacle), and its image.
 std::array<std::int32_t, 3> key_of(const Pair& pair) {
   return {pair.first, pair.second, pair.image};
 }
 
-/// Calls `change` with each number of `memory` that is an impulse, and that of `other`.
+/// Calls `change` for each number of `memory` that is an impulse [M L/T]. The second argument is
+/// the number of `other` at the same place.
 template <class Change>
 void for_impulses(PairMemory& memory, const PairMemory& other, const Change& change) {
   for (std::size_t f = 0; f < kMemoryFields.size(); ++f)
@@ -61,6 +63,8 @@ void for_impulses(PairMemory& memory, const PairMemory& other, const Change& cha
 
 }  // namespace
 
+/// `setting` must have no fluid (not checked). `state` is a state of which only the particles are
+/// set, or the state of an earlier run. `threads` is >= 1.
 Simulation::Simulation(Setting setting, State state, int threads)
     : setting_(std::move(setting)),
       state_(std::move(state)),
@@ -100,7 +104,8 @@ void Simulation::pour() {
   if (!setting_.added_torques.empty()) added_torques();
 }
 
-/// Multiplies the impulses of all pairs, which are first guesses for a part of another length.
+/// Multiplies the impulses of all pairs by `factor` [1]. They are first guesses for a part whose
+/// length is `factor` times the length of the part before.
 void Simulation::scale_impulses(double factor) {
   for_pairs([&](Pair& pair) {
     pair.impulse *= factor;
@@ -119,7 +124,8 @@ void Simulation::save_impulses() {
   });
 }
 
-/// Gives the pairs the impulses of a projection, and what they remember of friction.
+/// Gives the pairs the impulses [M L/T] of a projection, and the memories of their friction, if the
+/// projection has memories.
 void Simulation::take_impulses(const ProjectionResult& projected) {
   for (std::size_t f = 0; f < projected.pairs.size(); ++f) {
     auto& pair = *projected.pairs[f];
@@ -128,7 +134,8 @@ void Simulation::take_impulses(const ProjectionResult& projected) {
   }
 }
 
-/// Updates gamma and memories of each pair of the projection. Returns how many have gamma < 0.
+/// Updates gamma and the memory of each pair of the projection after a part of length h. Returns
+/// the number of pairs with gamma < 0.
 std::size_t Simulation::remember(const ProjectionResult& projected, double h) {
   std::size_t glued = 0;
   for (std::size_t f = 0; f < projected.pairs.size(); ++f) {
@@ -143,6 +150,8 @@ std::size_t Simulation::remember(const ProjectionResult& projected, double h) {
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 
+/// Moves the particles and bodies by the displacements and turns of a part, and sets their
+/// velocities to displacement/h.
 void Simulation::move(double h) {
   auto& p = state_.particles;
   pool_->for_blocks(p.positions.size(), [&](std::size_t begin, std::size_t end) {
@@ -157,6 +166,10 @@ void Simulation::move(double h) {
   if (!body_steps_.empty()) place_members(p);
 }
 
+/// Solves the projection of a part: the displacements without contacts become those with contacts.
+/// Rebuilds the lists of pairs where needed. Throws Error(kNotConverged) if a displacement or a
+/// position is too large or not a number, or if a displacement is longer than a periodic domain
+/// allows.
 template <int D>
 ProjectionResult Simulation::project(double h, double next) {
   const auto planes_before = positions_of(obstacles_, state_.time);
@@ -170,8 +183,9 @@ ProjectionResult Simulation::project(double h, double next) {
     for (std::size_t k = begin; k < end; ++k) longest.value = std::max(longest.value, length_of(k));
     return longest;
   };
-  // Only particles closer to an obstacle than the margin are listed. Both of its terms are free
-  // choices: the loop below repeats the step with a longer one if a particle moves further.
+  // Only particles closer to an obstacle than `margin` [L] are listed. Both terms of the margin are
+  // free choices, because the loop below repeats the projection with a longer margin if a particle
+  // moves further.
   const double longest =
       pool_->sum_of_blocks<MaximumOfBlocks>(state_.particles.count(), longest_of).value;
   double margin = std::max(2 * longest, mean_radius_ / 4);
@@ -206,12 +220,14 @@ ProjectionResult Simulation::project(double h, double next) {
       for (const auto body : impacts<D>()->touched())
         gone = std::max(gone, length_of(index_of(body)));
     if (gone <= margin && neighbour_list_is_valid(state_, displacements_, *pool_)) return projected;
-    // The impulses moved particles further than the lists allow for, so that pairs may be missing:
-    // the projection is repeated with longer lists. The loop ends because skins and margin only
-    // grow. The new impulses are its first guess. With restitution the impulses of the step before
-    // are kept instead, because they say which pairs bore a load, which the blows need to know. The
-    // convex relaxation keeps them, too: it needs no guess, and where there are films its friction
-    // depends on these impulses.
+    // The impulses moved particles further than the lists of pairs allow for, so that pairs may be
+    // missing. Therefore the projection is repeated with longer lists. The loop ends because the
+    // margin and the skins (distances up to which pairs are listed) only grow. The new impulses are
+    // the first guess of the repeated projection. With restitution, the pairs keep the impulses of
+    // the step before instead, because the computation of blows needs to know which pairs bore a
+    // load. With the convex relaxation of friction, the pairs keep these impulses, too, because
+    // this relaxation needs no first guess, and because its friction depends on these impulses
+    // where there are films.
     const auto& friction = setting_.laws.friction;
     const bool is_convex = friction && friction->method == FrictionMethod::kConvex;
     if (!setting_.laws.restitution.is_on() && !is_convex) {
@@ -225,8 +241,9 @@ ProjectionResult Simulation::project(double h, double next) {
   }
 }
 
-/// Adds the works of the arms in a part of length h, whose displacements are known. The work of an
-/// impulse is the impulse times the mean of the rates at which the arm grows before and after it.
+/// Adds to arm_works_ the works of the arms [M L^2/T^2] in a part of length h, whose displacements
+/// are known. The work of an impulse is the impulse times the mean of two rates [L/T]: those at
+/// which the arm grows before and after the impulse.
 void Simulation::add_works_of_arms(double h) {
   const auto& p = state_.particles;
   const auto before = [&](std::int32_t particle) -> UnitMotion {
@@ -252,8 +269,8 @@ void Simulation::add_works_of_arms(double h) {
   }
 }
 
-/// Finds the blows (impacts of solids with restitution) of a part. The displacements must be those
-/// without contacts.
+/// Finds the blows (impacts of solids with restitution) of a part; without restitution there are
+/// none. The displacements must be those without contacts (not checked).
 template <int D>
 void Simulation::find_impacts(double h, double next) {
   impacts<D>().reset();
@@ -274,7 +291,7 @@ void Simulation::find_impacts(double h, double next) {
   impacts<D>()->run();
 }
 
-/// Takes back what the blows changed in the state, before a part of a step is computed again.
+/// Undoes what the blows changed in the state, so that a part of a step can be computed again.
 void Simulation::undo_impacts() {
   if (impacts_in_plane_) impacts_in_plane_->undo();
   if (impacts_in_space_) impacts_in_space_->undo();
@@ -282,10 +299,13 @@ void Simulation::undo_impacts() {
   impacts_in_space_.reset();
 }
 
+/// Changes the state to the state at the end of a part: impulses, gamma, positions, velocities and
+/// time. Adds the part to the report and to the sums over the parts of the step.
 template <int D>
 void Simulation::accept(const ProjectionResult& projected, double h, double next,
                         StepReport& report) {
-  // Pairs that bore friction without an impulse in the step before may be left out of this one.
+  // A pair that bore friction without a normal impulse in the step before can be missing in this
+  // projection. The friction of such a pair is then 0.
   for_pairs([&](Pair& pair) {
     if (pair.impulse == 0 && pair.memory != PairMemories::kNone)
       state_.memories.make(pair.memory).set_friction({});
@@ -322,7 +342,10 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
   report_residuals(projected.residuals, mean_radius_, report);
 }
 
-/// Throws Error(kNotConverged) if a part of a step that ends at `next` cannot be accepted.
+/// Throws Error(kNotConverged) if a part of a step that ends at `next` cannot be accepted: if it
+/// has not converged, and leaves an overlap of more than the mean radius, or if links contradict
+/// each other so that a residual or an overlap is more than kBroken (step_projection.hpp) mean
+/// radii.
 void Simulation::examine(const ProjectionResult& projected, double next) const {
   const auto& residuals = projected.residuals;
   refuse_deep_overlap(residuals, state_.particles, setting_, mean_radius_, next, [&] {
@@ -365,6 +388,9 @@ void Simulation::examine(const ProjectionResult& projected, double next) const {
                                 "bending_rigidity, or inner_area = \"free\""));
 }
 
+/// Computes a part of a step, or both halves of this part if particles pass each other too far in
+/// it and it results from fewer than kMostHalvings halvings. `halvings` is 0 for a whole step.
+/// Throws the errors of project() and examine().
 template <int D>
 void Simulation::advance(double h, double next, int halvings, StepReport& report) {
   move_freely<D>(h, next);
@@ -379,7 +405,7 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
     scale_impulses(0.5);
     advance<D>(h / 2, middle, halvings + 1, report);
     advance<D>(h / 2, next, halvings + 1, report);
-    // The next part may have twice the length. Its first guess is twice these impulses.
+    // The next part may have twice the length. Its first guess is then twice these impulses.
     if (halvings > 0) scale_impulses(2);
     return;
   }
@@ -394,7 +420,8 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
     });
 }
 
-/// Computes a step, perhaps in parts. If a part throws, the state becomes that before the step.
+/// Computes a step, perhaps in parts. If a part throws, the state becomes that before the step, and
+/// the error is passed on.
 template <int D>
 void Simulation::advance_whole(double h, double next, StepReport& report) {
   try {
@@ -422,6 +449,8 @@ void Simulation::advance_whole(double h, double next, StepReport& report) {
   saved_impulses_.clear();
 }
 
+/// Computes a step that ends at the time `end` [T] at the latest. If no time is left, makes no step
+/// and returns a report of the present time with one part.
 StepReport Simulation::step(double end) {
   const auto interval = grid_.next(state_, end);
   if (!interval) return {.time = state_.time, .parts = 1};

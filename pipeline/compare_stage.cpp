@@ -1,11 +1,11 @@
 // Finds the trajectory files of a folder (CSV, one for each model of motion: the gap over time),
 // compares them, and writes the comparison. Gaps [L], >= 0, velocities [L/T] and times [T] are in
 // the units of the trajectories. A folder without trajectories, a trajectory that cannot be read or
-// compared, and a reference that has none are an Error(kBadInput), a folder that cannot be listed a
-// std::filesystem::filesystem_error, a stop an Error(kInterrupted). A change must keep the order of
-// the files, because the comparison lists models in this order, and because the first file becomes
-// the reference if the model that is the reference by default has failed. Used by run_stages.cpp
-// and app/ (`run`, `compare`).
+// compared, and a reference model without a trajectory are an Error(kBadInput), a folder that
+// cannot be listed a std::filesystem::filesystem_error, a stop an Error(kInterrupted). A change
+// must keep the order of the files, for two reasons: the comparison lists models in this order, and
+// the first file becomes the reference if the model that is the reference by default has failed.
+// run_stages.cpp and app/ (commands `run` and `compare`) use this file.
 #include "viscontact/pipeline/compare_stage.hpp"
 
 #include <fmt/format.h>
@@ -26,9 +26,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Warns if the trajectories were made from different cases or fits, because the distances between
-/// them then have two causes: the models and the inputs. A trajectory that the user wrote does not
-/// state its case and fit, and is skipped.
+/// Warns if trajectories were made from different cases or fits. Distances between such
+/// trajectories have two causes: the models and the inputs. Trajectories that do not state their
+/// case and fit, because the user wrote them, are skipped.
 void warn_of_different_inputs(const std::vector<reduced_model::Trajectory>& trajectories) {
   for (const auto* key : {"case", "fit"}) {
     const reduced_model::Trajectory* first = nullptr;
@@ -43,8 +43,8 @@ void warn_of_different_inputs(const std::vector<reduced_model::Trajectory>& traj
   }
 }
 
-/// The index in reduced_model::all_models() of the model after which a file is named, or the number
-/// of all models if it is not named after a model.
+/// The index in reduced_model::all_models() of the model after which a file is named. If the file
+/// is not named after a model, the result is the number of all models.
 std::ptrdiff_t rank_of(const fs::path& file) {
   const auto choice = reduced_model::known_model(file.stem().string());
   return choice ? choice->model - reduced_model::all_models().data()
@@ -70,6 +70,8 @@ std::vector<fs::path> trajectory_files(const fs::path& folder) {
 
 }  // namespace
 
+/// The CSV files of a folder that are named after models, in no particular order; none if the
+/// folder does not exist.
 std::vector<fs::path> files_of_models(const fs::path& folder) {
   std::vector<fs::path> files;
   if (!fs::is_directory(folder)) return files;
@@ -80,11 +82,16 @@ std::vector<fs::path> files_of_models(const fs::path& folder) {
   return files;
 }
 
+/// Prints a comparison to standard output, as JSON if `json` is true, else as a table.
 void print_comparison(const reduced_model::Comparison& comparison, bool json) {
   fmt::print("{}", json ? reduced_model::write_comparison(comparison)
                         : report::comparison_table(comparison));
 }
 
+/// Compares the trajectories of `folder` and of the files `others`, writes the comparison to
+/// `comparison_path` (JSON) and prints it. `given` are the files from which the same command made
+/// the trajectories; it is empty if the user gave the trajectories. If `reference_model` is empty,
+/// results::reference_among() chooses the reference.
 void compare_stage(const fs::path& folder, const std::vector<fs::path>& others,
                    const std::string& reference_model, const fs::path& comparison_path,
                    const std::vector<fs::path>& given, bool json, const StopToken& stop) {

@@ -1,12 +1,13 @@
 // Decides which stages of `viscontact run` must run: those whose outputs are missing or were made
-// from other inputs. Numbers are in the units of the case; `jobs` is at least 1. Failures of rows
-// and models are thrown last, when all other results are written; a wrong case and a file of the
-// user in the way are an Error(kBadInput) before; a FreeFEM or gnuplot that fails is an
-// Error(kExternalProgram), a fit that does not converge an Error(kNotConverged), a stop an
-// Error(kInterrupted). Used by app/ (command `run`). A change must keep the texts that
-// refuse_other_kind() searches for, which are in the files, and that the outputs made from old
-// trajectories are removed before new trajectories are written, so that a run that is killed never
-// leaves outputs that do not belong together.
+// from other inputs. Numbers are in the units of the case; `jobs` is at least 1 (not checked). A
+// wrong case, and a file of the user that would be replaced, are an Error(kBadInput) before the
+// tabulation starts. Failures of rows and models are thrown last, when all other results are
+// written. A FreeFEM or gnuplot that fails is an Error(kExternalProgram), a fit that does not
+// converge an Error(kNotConverged), a stop an Error(kInterrupted). app/ (command `run`) uses this
+// file. A change must keep the texts that refuse_other_kind() searches for, because the files
+// contain them. It must also keep that outputs made from old trajectories are removed before new
+// trajectories are written, so that a run that is killed never leaves outputs that do not belong
+// together.
 #include "viscontact/pipeline/run_stages.hpp"
 
 #include <algorithm>
@@ -45,7 +46,8 @@ bool is_fit(const fs::path& path) {
   }
 }
 
-/// True if `path` is a comparison whose reference is this model.
+/// True if the file at `path` is a comparison whose reference is `model`; false if it is missing or
+/// damaged.
 bool has_reference(const fs::path& path, const std::string& model) {
   try {
     return fs::is_regular_file(path) &&
@@ -73,20 +75,21 @@ bool uncertainty_is_lost(const results::RunFolder& run) {
 /// Must be called before any work is done, because the tabulation can take hours.
 void check_outputs_of_run(const results::RunFolder& run, bool writes_fit) {
   // An earlier run may have copied a fit that the user wrote by hand. This copy may be replaced,
-  // although it has no record that Viscontact wrote it.
+  // although the copy has no record that Viscontact wrote it.
   const bool is_copy = holds_a_run(run) && is_fit(run.fit());
   if (writes_fit && !is_copy) results::refuse_other_kind(run.fit(), "\"gap_interval\"", "fit");
   results::refuse_other_kind(run.comparison(), "\"reference_model\"", "comparison");
   results::refuse_other_kind(run.uncertainty(), "", "uncertainty.json");
   results::refuse_other_kind(run.failed_models(), "", "failed_models.json");
-  (void)report::Report(run.path, report::kPlotNames);  // throws if a file is in its way
+  (void)report::Report(run.path, report::kPlotNames);  // throws if it would replace a user's file
   for (const auto& file : files_of_models(run.trajectories()))
     results::refuse_other_kind(file, "", "trajectory");
 }
 
-/// Makes or finds the fit that the case asks for, and returns its path. `given` are the case and
-/// the files of forces that it names. `failure` is set to the error that names the rows of the
-/// table that failed, if any did.
+/// Makes or finds the fit that the case asks for, and returns its path: a file that the case names,
+/// the exact drag near a plane, or a fit of a table, which is tabulated first. `given` are the case
+/// and the files of forces that the case names. If rows of the table failed, `failure` is set to
+/// the error that names them. Throws the errors of the stages tabulate and fit.
 fs::path provide_fit(const case_file::Case& c, const results::RunFolder& run,
                      const std::vector<fs::path>& given, int jobs, RowFailure& failure,
                      const StopToken& stop) {
@@ -113,6 +116,8 @@ fs::path provide_fit(const case_file::Case& c, const results::RunFolder& run,
 
 }  // namespace
 
+/// Runs the stages of the case `c` into `folder`. The comparison is printed, as JSON if `json` is
+/// true, else as a table.
 void run_stages(const case_file::Case& c, const fs::path& folder, int jobs, bool json,
                 const StopToken& stop) {
   const results::RunFolder run{folder};

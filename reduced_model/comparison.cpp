@@ -1,10 +1,11 @@
-// Distances between trajectories that are linear between their rows, by exact integrals, and the
-// comparison file (comparison.hpp, docs/file-formats.md). Gaps [L], >= 0, velocities [L/T], times
-// [T] and gamma [M L/T], minus the impulse that the film has absorbed, <= 0, are in the units of
-// the trajectories, each of which has a row (not checked); distances are >= 0. Names that are
-// missing or stand twice, trajectories without a common time, and files of another form are an
-// Error(kBadInput), a stop an Error(kInterrupted). Used by pipeline/, sweep/, results/ and report/.
-// A change must keep old comparison files readable.
+// Computes distances between trajectories that are linear between their rows, by exact integrals,
+// and reads and writes the comparison file (comparison.hpp, docs/file-formats.md). Gaps [L], >= 0,
+// velocities [L/T] and times [T] are in the units of the trajectories; so is gamma [M L/T], <= 0,
+// which is minus the impulse that the film has absorbed. Each trajectory has at least one row, in
+// the order of time (not checked); distances are >= 0. Names that are missing or occur twice,
+// trajectories without a common time, and files of another form are an Error(kBadInput), a stop an
+// Error(kInterrupted). pipeline/, sweep/, results/ and report/ use this file. A change must keep
+// that comparison files of earlier versions can be read.
 #include "viscontact/reduced_model/comparison.hpp"
 
 #include <fmt/format.h>
@@ -20,8 +21,8 @@
 namespace viscontact::reduced_model {
 namespace {
 
-/// Gap [L] and velocity [L/T] of a trajectory at times that do not decrease from call to call,
-/// linear between its rows.
+/// Interpolates gap [L] and velocity [L/T] of a trajectory linearly between its rows. The times
+/// must not decrease from call to call.
 class Interpolation {
  public:
   explicit Interpolation(const std::vector<TrajectoryRow>& rows) : rows_(rows) {}
@@ -46,14 +47,16 @@ class Interpolation {
   std::size_t next_ = 0;
 };
 
-/// Integral of |d| over a step of time in which d changes linearly from d0 to d1.
+/// Integral of |d| over a step of time of the length `step` >= 0 [T], in which d changes linearly
+/// from d0 to d1, in the unit of d times [T].
 double integral_of_absolute(double d0, double d1, double step) {
   if (d0 * d1 >= 0) return step * (std::abs(d0) + std::abs(d1)) / 2;
   return step * (d0 * d0 + d1 * d1) / (2 * (std::abs(d0) + std::abs(d1)));
 }
 
-/// Sets the distances of `result` over the times that both trajectories cover. Throws
-/// Error(kBadInput) if there are none.
+/// Sets the distances of `result` over the times that both trajectories cover: the largest |q -
+/// q_ref| [L], and the integrals over time of |q - q_ref| [L T] and |u - u_ref| [L], with the gap q
+/// and the velocity u of both. Throws Error(kBadInput) if there is no time that both cover.
 void measure_distances(const Trajectory& trajectory, const Trajectory& reference,
                        ModelComparison& result) {
   const double from = std::max(trajectory.rows.front().time, reference.rows.front().time);
@@ -92,8 +95,8 @@ void measure_distances(const Trajectory& trajectory, const Trajectory& reference
   }
 }
 
-/// The contact interval that the trajectory states, or else the times of the first and the last row
-/// with gamma < 0 (TrajectoryRow::gamma); nothing if no row has this.
+/// The first and last time of contact [T] that the trajectory states. If it states none, they are
+/// the times of the first and the last row with gamma < 0; nothing if no row has gamma < 0.
 std::optional<std::array<double, 2>> contact_interval(const Trajectory& trajectory) {
   if (trajectory.contact_interval) return trajectory.contact_interval;
   const auto& rows = trajectory.rows;
@@ -106,6 +109,8 @@ std::optional<std::array<double, 2>> contact_interval(const Trajectory& trajecto
 
 }  // namespace
 
+/// Compares each trajectory with that of the model `reference_model`, in the order of the list. The
+/// failed models of the result are left empty.
 Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
                                 std::string_view reference_model, const StopToken& stop) {
   const auto reference = std::ranges::find(trajectories, reference_model, &Trajectory::model);
@@ -144,6 +149,10 @@ Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
   return comparison;
 }
 
+// The functions fields_of() state the keys of the file in their order, both for reading and for
+// writing. Times are [T], gaps [L], velocities [L/T], impulses [M L/T], works [M L^2/T^2] and
+// computing times [s]. A key with Absence::kAllowed may be missing in a file, as in files of
+// earlier versions. The key "books" has the budget of impulses and works.
 void fields_of(JsonFields& json, SolidTouch& touch) {
   json("time", touch.time);
   json("velocity", touch.velocity);
@@ -188,10 +197,12 @@ void fields_of(JsonFields& json, Comparison& comparison) {
   json.foreign_object("provenance");
 }
 
+/// The text of the comparison file (JSON).
 std::string write_comparison(const Comparison& comparison) {
   return JsonFields::text_of(comparison);
 }
 
+/// Throws Error(kBadInput), which names file and line, if the file is missing or of another form.
 Comparison read_comparison(const std::filesystem::path& path) {
   return JsonFields::read<Comparison>(read_file(path), path.string(),
                                       "; 'viscontact compare' writes such a file");

@@ -1,10 +1,11 @@
 // Arranges up to 6 frames of a motion of particles in an SVG, all at one scale, with the flow
-// behind them and the scales of colours below. Sizes and coordinates on the page are in page units,
-// of which the picture is 1000 wide; sizes without a reason are free choices. Lengths [L], times
-// [T] and speeds [L/T] of the motion are in the units of the case; a speed that is NaN belongs to a
-// point without flow. The title is plain text and may be empty. A flow that cannot be read is an
-// Error(kBadInput) with its path; other faults of a motion are not looked for. Used by
-// run/particles_pages.cpp. A change must keep one complete SVG.
+// behind them and the scales of colours below. Sizes and coordinates on the page are in page units;
+// the picture is 1000 page units wide. Sizes for which no reason is given are free choices. Lengths
+// [L], times [T] and speeds [L/T] of the motion are in the units of the case; points without flow
+// have the speed NaN. A panel is the picture of one frame. The title is plain text and may be
+// empty. A flow that cannot be read is an Error(kBadInput) with its path; nothing else of a motion
+// is checked. run/particles_pages.cpp uses this file. A change must keep that the result is one
+// complete SVG.
 #include "viscontact/particles/picture/particles_picture.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +25,9 @@ namespace {
 // Width of the picture, largest height of all panels, margin, title and caption [page units].
 constexpr double kPictureWidth = 1000, kMostHeight = 900, kEdge = 16, kTitle = 44, kCaption = 30;
 
-/// The indices of the frames that are drawn, as particles_picture() says.
+/// The indices of the frames that are drawn, from 0 and increasing: those whose times are nearest
+/// to `panels` evenly spaced times from the first to the last frame, each once. `panels` is limited
+/// to 1 to 6 and to the number of frames; one panel shows the last frame. Empty without frames.
 std::vector<std::size_t> chosen_frames(const Playback& playback, int panels) {
   const auto& frames = playback.frames;
   if (frames.empty()) return {};
@@ -45,7 +48,8 @@ std::vector<std::size_t> chosen_frames(const Playback& playback, int panels) {
 }
 
 /// The number of columns in which `panels` panels are arranged so that all panels together are
-/// about as wide as a slide and few places are empty. `width_over_height` is that of a panel.
+/// about as wide as a slide and few places are empty. `panels` is at least 1; `width_over_height`,
+/// > 0 [1], is the width of a panel divided by its height.
 int columns_for(int panels, double width_over_height) {
   constexpr double kSlide = 2.2;  // width over height of all panels, a free choice
   int best = 1;
@@ -62,7 +66,8 @@ int columns_for(int panels, double width_over_height) {
   return best;
 }
 
-/// A scale of colours as a bar with numbers and words below it; its place is in page units.
+/// SVG of a scale of colours: a bar with numbers and words below it. `left` and `top` are the upper
+/// left corner of the bar and `width` > 0 is its width [page units].
 std::string picture_of(const report::ColourScale& bar, double left, double top, double width) {
   constexpr int kHeight = 12;  // [page units]
   std::string text;
@@ -84,8 +89,10 @@ std::string picture_of(const report::ColourScale& bar, double left, double top, 
 
 constexpr int kBands = 20;  // number of colours of the speed, a free choice
 
-/// The speed [L/T] as a field on triangles, for level lines. Around the grid is one more ring of
-/// points, at the places of the outermost points but with the speed -1, so that level lines close.
+/// The speed [L/T] as a field on triangles, for level lines. One more ring of points surrounds the
+/// grid. Its points have the places of the outermost points of the grid, but the speed -1, so that
+/// level lines are closed. The speeds of `frame` are in the order of the grid, row by row from the
+/// bottom.
 report::LinearField closed_field(const report::Grid& grid, const FlowFrame& frame) {
   std::vector<double> speeds(frame.speed.begin(), frame.speed.end());
   // Points without flow, which are in solids, take the speed of their neighbours, layer by layer.
@@ -113,8 +120,9 @@ report::LinearField closed_field(const report::Grid& grid, const FlowFrame& fram
   return field;
 }
 
-/// Appends a line [L] to an SVG path. Points less than half a page unit from the last appended
-/// point are left out, because they could not be seen.
+/// Appends a line [L] to an SVG path. Points less than kNear page units from the last appended
+/// point are left out, because they could not be seen; the first and the last point are never left
+/// out.
 void append_path(std::string& path, const report::Polyline& line, const Projection& view) {
   constexpr double kNear = 0.5;
   double last_x = 0, last_y = 0;
@@ -128,8 +136,8 @@ void append_path(std::string& path, const report::Polyline& line, const Projecti
   }
 }
 
-/// An arrowhead at point number `at` >= 1 of a line [L], in the direction of the line; empty if
-/// this point and the one before have the same place.
+/// SVG path of an arrowhead with its tip at point number `at` >= 1 of a line [L], in the direction
+/// of the line; empty if this point and the point before it have the same place.
 std::string arrow_head(const report::Polyline& line, std::size_t at, const Projection& view) {
   constexpr double kLength = 5, kHalfWidth = 2.2;  // [page units]
   const Vector tip = {line[at].first, line[at].second, 0};
@@ -143,7 +151,8 @@ std::string arrow_head(const report::Polyline& line, std::size_t at, const Proje
                      x - a - c, y - b - d);
 }
 
-/// The flow on its grid: colours for the speed, and streamlines with arrows.
+/// SVG of the flow on its grid: bands of colour for the speed, from 0 to FlowFrames::top_speed, and
+/// streamlines with arrows.
 std::string half_picture(const FlowFrames& flows, const FlowFrame& frame, const Projection& view) {
   const auto& window = flows.grid.window;
   const double left = view.x({window.left, 0, 0}), top = view.y({0, window.top, 0});
@@ -172,7 +181,8 @@ std::string half_picture(const FlowFrames& flows, const FlowFrame& frame, const 
                     report::kStreamLineColour, lines, arrows);
 }
 
-/// The whole flow. If it has an axis, the grid covers one half, and the other is its mirror image.
+/// SVG of the whole flow. If the flow has an axis, the grid covers one half of the picture, and the
+/// other half is its mirror image.
 std::string flow_picture(const FlowFrames& flows, const FlowFrame& frame, const Projection& view) {
   auto half = half_picture(flows, frame, view);
   if (!flows.has_axis) return half;
@@ -186,8 +196,8 @@ std::string flow_behind(const FlowFrames& flows, std::size_t f, const Projection
   return flow == flows.frames.end() ? "" : flow_picture(flows, *flow, view);
 }
 
-/// Returns width and height of the box as the reader sees it [L], and sets `left` and `top` of the
-/// view so that the upper left corner of the box becomes that of the panel.
+/// Returns width and height of the box as the reader sees it [L]. Sets `left` and `top` of the view
+/// so that the upper left corner of the box has the coordinates (0, 0) in the panel.
 std::pair<double, double> show_box(Projection& view, const ViewBox& box) {
   Interval x, y;
   for (int corner = 0; corner < 8; ++corner) {
@@ -202,8 +212,8 @@ std::pair<double, double> show_box(Projection& view, const ViewBox& box) {
   return {x.high - x.low, y.high - y.low};
 }
 
-/// The gradient that fills a sphere, from `colours[0]` at its brightest point to `colours[2]` at
-/// its rim, as an element with this id.
+/// SVG element, with the id `id`, of the gradient that fills a sphere: `colours[0]` at the
+/// brightest point of the sphere, `colours[1]` in between, and `colours[2]` at the rim.
 std::string gradient(const char* id, const std::array<SceneStyle::Colour, 4>& colours) {
   return fmt::format(
       "<radialGradient id=\"{}\" cx=\".36\" cy=\".32\" r=\".72\">"
@@ -212,7 +222,9 @@ std::string gradient(const char* id, const std::array<SceneStyle::Colour, 4>& co
       id, colours[0], colours[1], colours[2]);
 }
 
-/// The beginning of the SVG, with the title in plain text. `height` is that of the whole picture.
+/// The beginning of the SVG: size, title (plain text, escaped here), gradients and background.
+/// `height` > 0 is the height of the whole picture [page units]. If `has_bodies` is true, there is
+/// a gradient for spheres of rigid bodies, too.
 std::string opening(const std::string& title, double height, bool has_bodies) {
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -227,7 +239,8 @@ std::string opening(const std::string& title, double height, bool has_bodies) {
       gradient("ball", kStyle.ball), has_bodies ? gradient("body", kStyle.ball_of_body) : "");
 }
 
-/// The panels of the chosen frames with their times, in rows of `columns`.
+/// SVG of the panels of the chosen frames with their times. `chosen` are indices of frames, from 0;
+/// a row has `columns` >= 1 panels.
 std::string panels_of(const PanelSettings& panel, const std::vector<std::size_t>& chosen,
                       int columns) {
   const auto& units = panel.scene.playback.units;
@@ -255,10 +268,12 @@ std::string panels_of(const PanelSettings& panel, const std::vector<std::size_t>
 
 }  // namespace
 
+/// Returns the text of the SVG. `panels` is limited to 1 to 6 and to the number of frames. `known`
+/// may be null or flows of the same motion that need not be read again.
 std::string particles_picture(const Playback& original, const std::string& title, int panels,
                               const FlowFrames* known) {
-  // In a panel, more than 20000 particles or 50000 points of a flow could not be told apart. The
-  // points of the page are as good, and its flows are at hand.
+  // In a panel, more than 20000 particles or 50000 points of a flow could not be told apart. If the
+  // web page shows flows on more points, the picture takes as many, so that it can use `known`.
   constexpr std::size_t kMostInPanel = 20000, kPointsOfFlow = 50000;
   const auto chosen = chosen_frames(original, panels);
   const int count = static_cast<int>(chosen.size());
@@ -296,8 +311,8 @@ std::string particles_picture(const Playback& original, const std::string& title
   if (scene.slides) say("contacts that slide are orange");
   if (has_films && scene.touches && !has_friction) say("contacts without a film are grey");
   const double top_of_bars = bottom + (words.empty() ? 0 : 16);
-  constexpr double kHeightOfBars = 60;
-  // Two scales stand beside each other; the words of more would not fit.
+  constexpr double kHeightOfBars = 60;  // of a scale with its numbers and words [page units]
+  // Two scales stand beside each other; the words of more scales would not fit in the width.
   constexpr std::size_t kBarsInRow = 2;
   const auto rows_of_bars = (bars.size() + kBarsInRow - 1) / kBarsInRow;
   auto svg = opening(title, top_of_bars + kHeightOfBars * static_cast<double>(rows_of_bars),

@@ -1,10 +1,11 @@
 // Finds the box that is seen, reads the flows in it, and chooses the scales of colours and widths.
-// Lengths [L], speeds [L/T], pressures [M/(L T^2)], gamma [M L/T] and forces [M L/T^2] are in the
-// units of the case, of discs in a fluid the last two per length. Indices of frames, particles and
-// planes count from 0; shares are 0 to 1; dimensions are 1 (spheres on an axis, drawn in the
-// plane), 2 or 3. A point without flow has the speed and pressure NaN. A flow that cannot be read
-// is an Error(kBadInput) with its path; nothing else is checked. Used by the other sources here. A
-// change alters picture and page.
+// Lengths [L], speeds [L/T], pressures [M/(L T^2)], gamma [M L/T] (minus the impulse that the film
+// of a contact has absorbed) and forces [M L/T^2] are in the units of the case; for discs in a
+// fluid, gamma and forces are per length. Indices of frames, particles and planes count from 0;
+// shares are 0 to 1; dimensions are 1 (spheres on an axis, drawn in the plane), 2 or 3. A point
+// without flow has the speed and pressure NaN. A flow that cannot be read is an Error(kBadInput)
+// with its path; nothing else is checked. The other sources of this folder use this file. A change
+// of the choices alters both the still picture and the page.
 #include "viscontact/particles/picture/scene.hpp"
 
 #include <fmt/format.h>
@@ -19,8 +20,9 @@
 namespace viscontact::particles {
 namespace {
 
-/// The interval that the particles of a frame cover along an axis (0 to 2) [L], without the `cut`
-/// outermost ones at either end; empty if none is left.
+/// The interval that the particles of a frame cover along the axis number `axis` (0 to 2) [L]. The
+/// `cut` outermost particles at either end are left out, and particles with the position NaN, which
+/// do not exist yet. Empty if no particle is left.
 Interval reach_of(const Playback& playback, const Frame& frame, std::size_t axis, std::size_t cut) {
   std::vector<double> lows, highs;
   for (std::size_t k = 0; k < playback.radii.size(); ++k) {
@@ -46,7 +48,8 @@ double size_of(const ViewBox& box, int dimension) {
   return size;
 }
 
-/// Extends the box to a plane or circle near it, so that particles are seen to lie on it.
+/// Extends the box to a plane or circle near the box, so that the reader sees what the particles
+/// lie on. `dimension` is 2 or 3.
 void extend_to_plane(ViewBox& box, const PlanePosition& plane, int dimension) {
   constexpr double kNear = 0.5;  // largest distance over the longest side, a free choice
   const double size = size_of(box, dimension);
@@ -67,14 +70,15 @@ void extend_to_plane(ViewBox& box, const PlanePosition& plane, int dimension) {
   }
 }
 
-/// Scene::box for these frames and for the flow that fills `domain`, if there is one.
+/// Scene::box, the part of space that is seen [L], for the frames with the indices `frames` and for
+/// the flow that fills `domain`, if there is one.
 ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& frames,
                     const std::optional<report::Window>& domain) {
   // If all particles cover more than 1.5 times the interval that the central ones cover, some have
   // flown away. Any factor that is clearly larger than 1 works.
   constexpr double kFlownAway = 1.5;
   const auto dimension = static_cast<std::size_t>(playback.dimension);
-  // Both ends of all axes together leave out 2 % of the particles.
+  // The particles that are left out at both ends of all axes are together 2 %, a free choice.
   const auto cut = playback.radii.size() / (100 * dimension);
   ViewBox box;
   double size = 0;
@@ -96,8 +100,8 @@ ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& fr
   for (const auto f : frames)
     for (const auto& plane : playback.frames[f].planes)
       extend_to_plane(box, plane, playback.dimension);
-  // If the domain is more than this many times as large as the box of the particles, it is not
-  // shown whole, because the particles would be too small.
+  // If the domain is more than this many times as large as the box of the particles, the whole
+  // domain is not shown, because the particles would be too small. The number is a free choice.
   constexpr double kTooLarge = 16;
   if (domain && std::max(domain->width(), domain->height()) <= kTooLarge * size)
     box = {{domain->left, domain->bottom, 0}, {domain->right, domain->top, 0}};
@@ -118,8 +122,9 @@ ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& fr
   return box;
 }
 
-/// For each point of the grid, row by row from the bottom: 1 if it is in a particle or, in a
-/// periodic cell, in an image of one (a copy that is shifted by periods), otherwise 0.
+/// Returns a number for each point of the grid, row by row from the bottom. The number is 1 if the
+/// point is in a particle or, in a periodic cell, in an image of a particle (a copy that is shifted
+/// by periods), otherwise 0. Particles are discs, ellipses or plates with round ends.
 std::vector<char> points_in_bodies(const report::Grid& grid, const Playback& playback,
                                    const Frame& frame) {
   std::vector<char> is_body(grid.size(), 0);
@@ -160,10 +165,13 @@ std::vector<char> points_in_bodies(const report::Grid& grid, const Playback& pla
   return is_body;
 }
 
-/// Values of points outside the particles, at most 4000 of each frame: enough for quantiles.
+/// Values of a field at points outside the particles, at most kOfFrame of each frame, which are
+/// enough for quantiles.
 struct Samples {
   std::vector<double> values;
 
+  /// Adds the finite values of every n-th point. `is_body` is that of points_in_bodies(), as long
+  /// as `field`.
   void add(const std::vector<float>& field, const std::vector<char>& is_body) {
     constexpr std::size_t kOfFrame = 4000;
     const auto every = field.size() / kOfFrame + 1;
@@ -181,7 +189,8 @@ struct Samples {
   }
 };
 
-/// The mean value at the points outside the particles; 0 if there is no such point.
+/// The mean of `field`, in its unit, at the points outside the particles where it is finite; 0 if
+/// there is no such point. `is_body` is that of points_in_bodies(), as long as `field`.
 double mean_outside(const std::vector<double>& field, const std::vector<char>& is_body) {
   double sum = 0;
   std::size_t count = 0;
@@ -193,8 +202,9 @@ double mean_outside(const std::vector<double>& field, const std::vector<char>& i
   return count == 0 ? 0 : sum / static_cast<double>(count);
 }
 
-/// A wall of a cylinder, given by z and the distance from the axis, as a line in the plane (x, z),
-/// on the side x > 0 (`side` 1) or x < 0 (`side` -1) of the axis x = 0.
+/// A wall of a cylinder as a line in the plane (x, z), in which the axis is x = 0. The components
+/// of `plane` are z and the distance from the axis [L]. The line is on the side x > 0 if `side` is
+/// 1, and on the side x < 0 if `side` is -1.
 PlanePosition in_half_plane(const PlanePosition& plane, double side) {
   return {{side * plane.point[1], plane.point[0], 0},
           {side * plane.normal[1], plane.normal[0], 0},
@@ -223,8 +233,10 @@ Playback in_plane(const Playback& playback) {
   return plane;
 }
 
-/// The rectangle that the flow of the first frame with a flow fills [L], with its mirror image if
-/// there is an axis; along axes with a period it is the cell. Nothing if no frame has a flow.
+/// The rectangle that the flow fills [L], in the first frame that has a flow. If there is an axis,
+/// the rectangle includes the mirror image of the flow. Along a direction with a period the
+/// rectangle is as long as the periodic cell. Returns nothing if no frame has a flow. Throws
+/// Error(kBadInput) if the flow cannot be read.
 std::optional<report::Window> flow_extent(const Playback& in_plane, bool has_axis) {
   for (const auto& frame : in_plane.frames) {
     if (frame.flow.empty()) continue;
@@ -247,14 +259,15 @@ std::optional<report::Window> flow_extent(const Playback& in_plane, bool has_axi
   return {};
 }
 
-/// The part of the flow's rectangle that is in the view [L].
+/// The part of the rectangle of the flow, `extent`, that is in the box `view` [L].
 report::Window common_part(const report::Window& extent, const ViewBox& view) {
   return {std::max(extent.left, view.low[0]), std::min(extent.right, view.high[0]),
           std::max(extent.bottom, view.low[1]), std::min(extent.top, view.high[1])};
 }
 
-/// Reads the flow of the frame with the index `f`, and draws its streamlines. `is_body` is that of
-/// points_in_bodies(). Without a flow in the file, speeds are empty.
+/// Reads the flow of the frame with the index `f`, interpolates it on the grid of `flows`, and
+/// computes its streamlines. The mean of the pressure outside the particles becomes 0. `is_body` is
+/// that of points_in_bodies(). If the file has no flow, the speeds of the result are empty.
 FlowFrame read_flow_frame(const Playback& in_plane, std::size_t f, const FlowFrames& flows,
                           const std::vector<char>& is_body, report::StreamLines& stream_lines) {
   constexpr int kLines = 18;  // about how many streamlines a picture has, a free choice
@@ -275,8 +288,8 @@ FlowFrame read_flow_frame(const Playback& in_plane, std::size_t f, const FlowFra
 }
 
 /// Reads the flows of these frames one after the other, because all of them may be larger than the
-/// memory, and keeps their values on a grid of about `points` points in `window`. Flows on this
-/// grid that `known` has are copied.
+/// memory, and keeps their values on a grid of about `points` >= 1 points in `window` [L]. `frames`
+/// are indices. A flow that `known` has on the same grid is copied from there.
 FlowFrames read_flows(const Playback& in_plane, bool has_axis, const report::Window& window,
                       const std::vector<std::size_t>& frames, std::size_t points,
                       const FlowFrames& known) {
@@ -307,8 +320,11 @@ FlowFrames read_flows(const Playback& in_plane, bool has_axis, const report::Win
 
 }  // namespace
 
+/// Chooses at most kMostFlows frames that have a flow, evenly, and the number of points of the grid
+/// so that all flows fit into kFlowBytesOfPage bytes, with two bytes for each point.
 ShownFlows shown_flows(const Playback& playback) {
-  constexpr std::size_t kMostFlows = 150, kMostPoints = 60'000;  // free, but scene.hpp repeats them
+  // Both limits are free choices, but comments of scene.hpp repeat them.
+  constexpr std::size_t kMostFlows = 150, kMostPoints = 60'000;
   std::vector<std::size_t> with_flow;
   for (std::size_t f = 0; f < playback.frames.size(); ++f)
     if (!playback.frames[f].flow.empty()) with_flow.push_back(f);
@@ -320,7 +336,9 @@ ShownFlows shown_flows(const Playback& playback) {
   return shown;
 }
 
-/// Throws Error(kBadInput), which names the file, if a flow cannot be read.
+/// The scene of the frames with the indices `frames`. Flows are those of the frames `flow_frames`,
+/// on about `points` points, and are copied from `known` if it has them on the same grid. Throws
+/// Error(kBadInput), which names the file, if a flow cannot be read.
 Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
                const std::vector<std::size_t>& flow_frames, std::size_t points,
                const FlowFrames& known) {
@@ -365,16 +383,22 @@ Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
   return scene;
 }
 
+/// Returns the magnitude of the normal force divided by Scene::top_force, but at most 1; 0 if
+/// top_force is 0.
 double force_share(const Scene& scene, const CurrentContact& contact) {
   return scene.top_force > 0 ? std::min(1.0, std::abs(contact.normal_force) / scene.top_force) : 0;
 }
 
+/// Returns the tangential force divided by the product of friction coefficient and normal force,
+/// but at most 1. The result is 1 if the contact slides, and 0 without friction or load.
 double mobilised_friction(const Playback& playback, const CurrentContact& contact) {
   if (contact.friction == ContactFriction::kSlides) return 1;
   const double bound = playback.friction_coefficient.value_or(0) * contact.normal_force;
   return bound > 0 ? std::min(1.0, norm(contact.tangential_force) / bound) : 0;
 }
 
+/// The part of a convex polygon where the inner product of `normal` (any length > 0) and x - point
+/// [L] is >= 0; empty if there is none.
 Polygon clipped(const Polygon& polygon, const Vector& point, const Vector& normal) {
   Polygon kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -386,9 +410,12 @@ Polygon clipped(const Polygon& polygon, const Vector& point, const Vector& norma
   return kept;
 }
 
+/// The part of a convex polygon [L] in the box and on the free side of all planes but plane number
+/// `own`, in which the polygon lies. `dimension` is 2 or 3.
 Polygon clipped_to_view(Polygon polygon, const ViewBox& box,
                         const std::vector<PlanePosition>& planes, std::size_t own, int dimension) {
-  // Without the slack, round-off could remove a polygon in one of two planes that coincide.
+  // Without the slack [L], a free choice, rounding errors could remove a polygon that lies in two
+  // planes that coincide.
   const double slack = 1e-4 * size_of(box, dimension);
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
     Vector axis{0, 0, 0};

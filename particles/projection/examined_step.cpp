@@ -1,11 +1,11 @@
 // Measures the residuals of the contacts and links of a time step after a solution of its problem
-// for impulses, and finds links that contradict each other. A residual [L], of an angle times the
-// mean radius, is the distance of a gap or length from the value that its condition demands, and
-// must be at most ResidualScale::allowed_gap(). Lengths [L], mobilities [T/M], > 0, and impulses
-// [M L/T] are in any consistent units; the mean radius is > 0 [L]. Pairs, contacts, links and
-// particles are numbered from 0. Nothing is thrown: a residual that is too large or NaN makes
-// StepResiduals::converged false. Used by step_projection.cpp. A change must keep that every pair
-// whose gap the solution closes is found.
+// for impulses, and finds links that contradict each other. A residual [L] is the distance of a gap
+// or length from the value that its condition demands; residuals of angles [rad] are multiplied by
+// the mean radius. A residual must be at most ResidualScale::allowed_gap() [L]. Lengths [L],
+// mobilities [T/M], > 0, and impulses [M L/T] are in any consistent units; the mean radius is > 0
+// [L]. Pairs, contacts, links and particles are numbered from 0. Nothing is thrown: a residual that
+// is too large or NaN makes StepResiduals::converged false. step_projection.cpp uses this file. A
+// change must keep that every pair whose gap the solution closes is found.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -15,8 +15,9 @@
 namespace viscontact::particles {
 namespace {
 
-/// Adds a residual of a gap or link [L] to `result`. Returns true if it is larger than allowed or
-/// NaN. A residual within rounding errors does not count as an error of an impulse.
+/// Adds a residual of a gap or link [L] to `result`. Returns true if the residual is larger than
+/// allowed or NaN. A residual > scale.rounding also counts as an error of an impulse, which is the
+/// residual divided by scale.w [M L/T]; smaller residuals are rounding errors.
 bool take(double residual, const ResidualScale& scale, const SolverSettings& settings,
           double mean_radius, ProjectionResult& result) {
   if (residual > scale.rounding) result.residuals.take_impulse(residual / scale.w, scale.impulse);
@@ -25,10 +26,12 @@ bool take(double residual, const ResidualScale& scale, const SolverSettings& set
 
 }  // namespace
 
-/// The scale of the residual of a link: that of a contact whose change of the gap per impulse is
-/// the sum of the mobilities of the particles of the link. The impulse at work is at least the
-/// impulse that changes this gap by the largest change of a displacement, because a particle that a
-/// link holds may be at rest without any other force.
+/// The scale of the residual of a link. It is the scale of a contact whose change of the gap per
+/// impulse, w [T/M], is the sum of the mobilities of the particles of the link. The impulse at work
+/// (ResidualScale::impulse), the magnitude of the impulses that move or press the particles in the
+/// step, is at least d/w, where d [L] is the largest displacement that the impulse at work on a
+/// particle of the link causes. The reason is that a particle that a link holds may be at rest
+/// without any other force.
 template <int D>
 ResidualScale StepProjection<D>::scale_of_link(const LinkEquations& link,
                                                ResidualScales<D>& scales) const {
@@ -50,7 +53,8 @@ ResidualScale StepProjection<D>::scale_of_link(const LinkEquations& link,
   return scale;
 }
 
-/// Adds the residuals of the links to `result`, and names links that contradict each other.
+/// Adds the residuals of the links to `result`. If one of them is not allowed, writes the names of
+/// links that contradict each other to `result`. Needs constraints_ (not checked).
 template <int D>
 void StepProjection<D>::examine_links(const SolverSettings& settings, double mean_radius,
                                       ProjectionResult& result) {
@@ -67,10 +71,12 @@ void StepProjection<D>::examine_links(const SolverSettings& settings, double mea
 }
 
 /// Writes the names of links (not springs) that contradict each other to `result`, if a residual of
-/// a link or an overlap is more than kBroken mean radii: those that are violated in the motion that
-/// violates all linear equations least. If it satisfies them, the contradiction comes from finite
-/// turns of bodies. Then all links are named that share a particle or rigid body with one of the
-/// links with the numbers `beyond`, whose residuals are not allowed.
+/// a link or an overlap is more than kBroken mean radii (step_projection.hpp); otherwise does
+/// nothing. The function looks at the motion that violates the linear equations of links and
+/// contacts least (least squares). The links that are named are those whose equations this motion
+/// violates. If it satisfies all equations up to kBroken mean radii, the contradiction comes from
+/// finite turns of bodies. Then all links are named that share a particle or rigid body with one of
+/// the links with the numbers `beyond`, whose residuals are not allowed.
 template <int D>
 void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyond,
                                             double mean_radius, ProjectionResult& result) {
@@ -80,7 +86,8 @@ void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyo
   const auto violations = constraints_->least_violations();
   const double largest = *std::ranges::max_element(violations);
   if (largest > kBroken * mean_radius) {
-    // Smaller parts of the largest violation are errors of least_violations(), about 1e-6 of it.
+    // A violation below kPart times the largest one counts as an error of least_violations(), whose
+    // errors are about 1e-6 times the largest violation; kPart is a free choice above them.
     constexpr double kPart = 1e-3;
     const std::size_t contacts = chosen_.size();
     for (std::size_t b = 0; b < contacts; ++b)
@@ -110,11 +117,12 @@ void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyo
   }
 }
 
-/// Writes the residuals of the present solution to `result`: always those of pairs that are not
-/// chosen, whose gaps must not be closed, and if `is_final` also those of the chosen contacts and
-/// of the links. Returns the numbers of the pairs that are not chosen and whose gaps are closed by
-/// more than allowed. Pairs whose particles move freely are not tested, because free motion closes
-/// only chosen pairs.
+/// Writes the residuals of the present solution to `result`. It always writes those of the pairs
+/// that are not chosen, whose gaps must not be closed, and if `is_final` is true also those of the
+/// chosen contacts and of the links. If `is_final` is false, StepResiduals::converged becomes
+/// false. Returns the numbers of the pairs that are not chosen and whose gaps are closed by more
+/// than allowed. Pairs whose particles move freely are not tested, because free motion closes the
+/// gaps of chosen pairs only. `mean_radius` is > 0 [L].
 template <int D>
 std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settings,
                                                     double mean_radius, bool is_final,

@@ -1,13 +1,13 @@
 // Solves the projection of a time step, the problem for the impulses [M L/T] of contacts that keeps
-// gaps [L] open, docs/physics.md (5.3) and (5.4): chooses contacts, solves in rounds that add
-// further contacts, and computes the scales with which residuals are compared. h > 0 [T] is the
+// gaps [L] open, docs/physics.md (5.3) and (5.4). The code chooses contacts, solves in rounds that
+// add further contacts, and computes the scales with which residuals are compared. h > 0 [T] is the
 // length of the step, u* are the velocities [L/T] at its end without contacts and links, v those
-// with them; displacements h u* or h v [L] have D (2 or 3) numbers for each particle, mobilities
-// are > 0 [T/M]. Units are any consistent ones. Particles that chosen contacts or links join,
-// directly or through other particles, form an island. Nothing is checked or thrown: a step that is
-// not solved has StepResiduals::converged false in its ProjectionResult. simulation.cpp uses it.
-// Results must not depend on the number of threads; a change of a scale alters which steps
-// converge.
+// with contacts and links; displacements h u* or h v [L] have D (2 or 3) numbers for each particle;
+// mobilities h/m, with the mass m, are > 0 [T/M]. Units are any consistent ones. Particles that
+// chosen contacts or links join, directly or through other particles, form an island. Nothing is
+// checked or thrown: StepResiduals::converged says whether the step is solved. simulation.cpp uses
+// this file. A change must keep that results do not depend on the number of threads; a change of a
+// scale alters which steps converge.
 #include "viscontact/particles/projection/step_projection.hpp"
 
 #include <algorithm>
@@ -17,10 +17,11 @@
 namespace viscontact::particles {
 namespace {
 
-/// Puts pairs in an order in which a Gauss-Seidel sweep is fast. Neighbours in the list share
-/// particles, so that the processor would compute each contact after the one before it. This order
-/// takes contacts in turn from kInterleaved distant parts of each block of the thread pool. A step
-/// of bench/box2d.cpp takes 8.4, 6.8, 6.4, 7.0 and 7.2 ms with 1, 2, 3, 4 and 6 parts.
+/// Returns the numbers `pairs` in an order in which a Gauss-Seidel sweep is fast. Pairs that are
+/// neighbours in the list share particles, so that the processor would have to finish one contact
+/// before it begins the next. The new order takes contacts in turn from kInterleaved distant parts
+/// of each block of ThreadPool::kBlock pairs. kInterleaved is a free choice >= 1: a step of
+/// bench/box2d.cpp takes 8.4, 6.8, 6.4, 7.0 and 7.2 ms with 1, 2, 3, 4 and 6 parts.
 std::vector<std::size_t> interleaved(const std::vector<std::size_t>& pairs) {
   constexpr std::size_t kInterleaved = 3;
   std::vector<std::size_t> order;
@@ -36,6 +37,8 @@ std::vector<std::size_t> interleaved(const std::vector<std::size_t>& pairs) {
 
 }  // namespace
 
+/// All arguments must outlive this object. `planes_before` and `planes` are all obstacles at the
+/// beginning and at the end of the step. `displacements` are h u* before solve(), and h v after it.
 template <int D>
 StepProjection<D>::StepProjection(State& state, double h,
                                   std::span<const PlanePosition> planes_before,
@@ -54,6 +57,8 @@ StepProjection<D>::StepProjection(State& state, double h,
   find_tangents();
 }
 
+/// Sets the tangent of the obstacle for each pair in state.walls, at the place to which the present
+/// displacements move the particle. Does nothing if no obstacle is curved.
 template <int D>
 void StepProjection<D>::find_tangents() {
   if (std::ranges::none_of(planes_, &PlanePosition::is_curved)) return;
@@ -66,6 +71,7 @@ void StepProjection<D>::find_tangents() {
   }
 }
 
+/// Makes solve() treat friction, rigid bodies and links, too. `step` must outlive this object.
 template <int D>
 void StepProjection<D>::add_constraints(const ConstraintStep& step) {
   links_ = step.links;
@@ -74,9 +80,11 @@ void StepProjection<D>::add_constraints(const ConstraintStep& step) {
   constraints_->join_linked(system_);
 }
 
-/// The contact of two particles in a step with blows, which are collisions of solids (impacts/):
-/// its normal is that at the end of the step, where the blows have left both particles. Its gap is
-/// the distance of the centres at the beginning along this normal, minus both radii.
+/// The contact of pair k, of two particles, in a step with blows, which are collisions of solids
+/// (impacts/). Pairs are numbered from 0: first those of state.pairs, then those of state.walls.
+/// The normal of the contact is that at the end of the step, at the places where the blows have
+/// left both particles. The gap [L] is the distance of the centres at the beginning of the step
+/// along this normal, minus both radii.
 template <int D>
 Contact<D> StepProjection<D>::contact_at_end(std::size_t k) {
   const auto& p = state_.particles;
@@ -95,8 +103,9 @@ Contact<D> StepProjection<D>::contact_at_end(std::size_t k) {
     end[d] += relative[d];
     square += end[d] * end[d];
   }
-  // If particles pass each other in the step, their normals at its beginning and end have no common
-  // direction. The normal at the beginning is then used, as in a step without blows.
+  // If particles pass each other in the step, the directions of their normals at its beginning and
+  // end differ by more than 60 degrees (cosine 0.5, a free choice). Then the normal at the
+  // beginning is used, as in a step without blows.
   constexpr double kLeastCosine = 0.5;
   double cosine = 0;
   for (std::size_t d = 0; d < D; ++d) cosine += contact.normal[d] * end[d];
@@ -119,6 +128,9 @@ bool StepProjection<D>::gap_would_close(std::size_t k, double margin) {
          paths_meet(p, here, displacements_);
 }
 
+/// Returns the numbers of the pairs that have a film (gamma < 0, where gamma [M L/T] is minus the
+/// impulse that the film has absorbed), had an impulse in the last step, or whose gaps the present
+/// displacements, without contacts, would close; in increasing order.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::closed_by_free_motion() {
   const auto in_block = [&](std::size_t begin, std::size_t end) {
@@ -131,15 +143,16 @@ std::vector<std::size_t> StepProjection<D>::closed_by_free_motion() {
   return pool_.sum_of_blocks<ConcatenatedBlocks<std::size_t>>(pair_count(), in_block).values;
 }
 
-/// True if pair k has a film that can absorb an impulse; only after add_constraints().
+/// True if pair k has a film that can absorb an impulse. add_constraints() must have been called
+/// (not checked).
 template <int D>
 bool StepProjection<D>::has_film(std::size_t k) {
   return step_->laws.lowest_gamma(pair(k), state_.memories.of(pair(k).memory),
                                   radii_of(pair(k), state_.particles, step_->obstacles)) < 0;
 }
 
-/// Numbers of the pairs that are not chosen and whose gaps the displacements make smaller than
-/// margin_: all such pairs, or only those with a film.
+/// Returns the numbers of the pairs that are not chosen and whose gaps the displacements make
+/// smaller than margin_ [L]. If `are_films_only` is true, these are only the pairs with a film.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::nearly_closed(bool are_films_only) {
   std::vector<std::size_t> pairs;
@@ -149,6 +162,8 @@ std::vector<std::size_t> StepProjection<D>::nearly_closed(bool are_films_only) {
   return pairs;
 }
 
+/// Adds the contacts of these pairs, which must not be chosen yet (not checked), to the problem.
+/// With constraints, a pair that an arm keeps apart is marked as chosen, but gets no contact.
 template <int D>
 void StepProjection<D>::choose(const std::vector<std::size_t>& pairs) {
   // With constraints each island is solved by itself. The order of the contacts of an island must
@@ -163,10 +178,10 @@ void StepProjection<D>::choose(const std::vector<std::size_t>& pairs) {
   }
 }
 
-/// Solves for the impulses of the chosen contacts and of the links, after allow(). With
-/// constraints, half of `length` [L] is what a rough solution allows for all residuals.
-/// `iterations` were done in this step before. Returns the number after the solution, which
-/// `max_iterations` limit.
+/// Computes the impulses of the chosen contacts and of the links; allow() must have set the allowed
+/// residuals. With constraints, a rough solution allows half of `length` [L] for all residuals. The
+/// step has done `iterations` iterations before. Returns the number of iterations after this
+/// solution, which `max_iterations` limits.
 template <int D>
 int StepProjection<D>::solve_contacts(bool is_rough, double length, int iterations,
                                       int max_iterations) {
@@ -175,13 +190,14 @@ int StepProjection<D>::solve_contacts(bool is_rough, double length, int iteratio
   return iterations + system_.solve(is_rough, max_iterations - iterations, pool_).iterations;
 }
 
-/// Sets allowed residuals to halves of ResidualScale::allowed(): those of the chosen contacts for
-/// `length` [L] and `fraction` [1], those of their slips for `length` and the fraction `of_slips`,
-/// and those of the links for half the length and `fraction`.
+/// Sets each allowed residual to half of what ResidualScale::allowed() returns. Its arguments are
+/// `length` [L] and `fraction` [1] for the chosen contacts, `length` and `of_slips` [1] for the
+/// slips of these contacts (their tangential displacements), and half of `length` and `fraction`
+/// for the links. All are > 0.
 template <int D>
 void StepProjection<D>::allow(double length, double fraction, double of_slips) {
   auto scales = residual_scales();
-  // The other half is for rounding errors: examine() computes residuals in another way.
+  // The other half is for rounding errors, because examine() computes residuals by other formulas.
   if (constraints_) constraints_->slips_allowed.clear();
   for (auto& contact : system_.contacts) {
     const auto scale = scales.of(contact);
@@ -196,10 +212,11 @@ void StepProjection<D>::allow(double length, double fraction, double of_slips) {
 }
 
 /// Returns `pairs` and, from the third round on, also pairs that are connected with `pairs` and
-/// whose gaps may close next. These are the gaps that are not larger than the largest change that
-/// contacts and links have made in a displacement in the island of one of their particles.
-/// Otherwise each round would find only the next pair of a chain through which an impulse goes. The
-/// chain is followed over 1 pair in round 3, and over twice as many in each further round.
+/// whose gaps may close next. A gap may close if it is not larger than the largest change of a
+/// displacement that contacts and links have made in the island of one of the two particles.
+/// Without this function, each round would find only the next pair of a chain through which an
+/// impulse goes. The chain is followed over 1 pair in round 3, and over twice as many pairs in each
+/// further round. `round` counts from 1.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::with_connected_pairs(
     const std::vector<std::size_t>& pairs, int round) {
@@ -229,10 +246,11 @@ std::vector<std::size_t> StepProjection<D>::with_connected_pairs(
   return pairs_of_particles_->connected(pairs, depth, may_close);
 }
 
-/// Removes pairs from `pairs` whose gaps the free motion closes by no more than the allowed
+/// Removes from `pairs` those whose gaps the free motion closes by no more than the allowed
 /// residual. Pairs with a film, or with an impulse in the step before, stay. The reason is that the
-/// convex relaxation (5.9) pushes each chosen pair apart that slides. For a particle that slides
-/// along an obstacle without load, rounding errors would decide whether the pair is chosen.
+/// convex relaxation of friction, docs/physics.md (5.9), pushes apart each chosen pair that slides.
+/// For a particle that slides along an obstacle without load, rounding errors would decide whether
+/// the pair is chosen.
 template <int D>
 void StepProjection<D>::leave_touching(std::vector<std::size_t>& pairs,
                                        const SolverSettings& settings, double mean_radius) {
@@ -244,22 +262,27 @@ void StepProjection<D>::leave_touching(std::vector<std::size_t>& pairs,
   });
 }
 
+/// Solves the projection and sets the displacements to h v. `mean_radius` is > 0 [L]; the tolerance
+/// of gaps in `settings` is in units of it. May be called once only (not checked). If the step is
+/// not solved within SolverSettings::max_iterations, the result has the last solution.
 template <int D>
 ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double mean_radius) {
   ProjectionResult result;
-  // Half of the allowed overlap is tolerated. The other half is for the error that this step adds.
+  // An overlap up to half of the tolerance is left as it is. The other half of the tolerance is for
+  // the error that this step adds.
   tolerated_ = settings.tolerance * mean_radius / 2;
-  // With friction another solution takes more time than contacts that stay open do. Therefore pairs
-  // whose gaps are nearly closed (below kMargin mean radii, a free choice) are chosen early. With
-  // Coulomb's law this begins when a solution has closed further gaps, and not before the first
-  // one, because redundant contacts would take loads from particles that stand by themselves, and
-  // cost iterations. With the convex relaxation, (5.9), it begins before the first solution, but
-  // only for pairs with a film, because it pushes sliding particles without film apart.
+  // With friction, a further solution takes more time than contacts whose gaps stay open. Therefore
+  // pairs whose gaps are nearly closed (below kMargin mean radii, a free choice) are chosen early.
+  // With Coulomb's law they are chosen after a solution has closed further gaps. They are not
+  // chosen before the first solution, because redundant contacts would take loads from particles
+  // that stand without them, and would cost iterations. With the convex relaxation, (5.9), they are
+  // chosen before the first solution, but only pairs with a film, because this relaxation pushes
+  // sliding particles without a film apart.
   constexpr double kMargin = 5e-3;
   const bool has_friction = step_ != nullptr && step_->laws.friction;
   const bool is_convex = has_friction && step_->laws.friction->method == FrictionMethod::kConvex;
-  // The motion with links and without contacts decides which contacts are chosen: a free particle
-  // would meet walls that its hinge or arm takes it past.
+  // The motion with links and without contacts decides which contacts are chosen. Without its hinge
+  // or arm, a particle would meet walls from which the hinge or arm keeps it away.
   if (constraints_ && !constraints_->links().empty()) {
     allow(settings.tolerance / 2 * mean_radius, settings.impulse_tolerance,
           fraction_of_slips(settings));
@@ -274,8 +297,9 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     if (is_convex) choose(nearly_closed(true));
   }
   // Tolerances of the rough solution: of the gaps in mean radii, and of the impulses as a fraction
-  // of the impulses at work. For bench/box2d.cpp with 1000 discs, steps with 5e-4 to 2e-3 take the
-  // same time, and with 3e-3 a tenth more. The fraction is 1, because impulses are not yet known.
+  // of the impulse at work (ResidualScale::impulse). Both are free choices. For bench/box2d.cpp
+  // with 1000 discs, steps with 5e-4 to 2e-3 take the same time, and with 3e-3 a tenth more. The
+  // fraction is 1, because the impulses of the step are not known before the first solution.
   constexpr double kRoughLength = 1e-3, kRoughImpulse = 1;
   bool is_rough = settings.tolerance < kRoughLength && settings.impulse_tolerance < kRoughImpulse;
   int rounds = 0;
@@ -294,24 +318,26 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     auto more = examine(settings, mean_radius, !is_rough || is_last, result);
     if (result.residuals.converged) break;
     if (is_last || (constraints_ && constraints_->has_given_up() && !is_convex)) {
-      // An island is not solved, or its friction is bounded by given loads in place of Coulomb's
-      // law. Pairs that solutions close are still added, also to other islands, in at most
-      // kMostRounds rounds, a free choice that bounds the time of such a step.
+      // An island is not solved, or its friction is bounded by given loads (normal impulses that
+      // are fixed beforehand) in place of Coulomb's law. Pairs that solutions close are still
+      // added, also to other islands, in at most kMostRounds rounds, a free choice that bounds the
+      // time of such a step.
       constexpr int kMostRounds = 20;
       if (!constraints_ || ++rounds_unsolved > kMostRounds) break;
       // The gaps of a rough solution are not accurate, so that another solution must follow it.
       if (more.empty() && !is_rough) break;
       is_rough = false;
     }
-    // After kPatience rounds (a free choice) without gain or new pair, rounding errors are left.
+    // After kPatience rounds (a free choice) in which no pair is added and the residuals do not
+    // fall, only rounding errors are left.
     constexpr int kPatience = 10;
     waited = more.empty() && !is_rough && result.residuals.excess >= least_excess ? waited + 1 : 0;
     if (waited == kPatience) break;
     if (!is_rough) least_excess = std::min(least_excess, result.residuals.excess);
     choose(with_connected_pairs(more, ++rounds));
-    // It must not depend on other islands whether pairs that a rough solution nearly closes get
-    // another one. With Coulomb's law, whose loads the rough solution begins to build up, they
-    // always do. With the convex relaxation they never do.
+    // If a rough solution nearly closes further pairs, another rough solution may follow. Whether
+    // it follows must not depend on other islands. With Coulomb's law, whose loads rough solutions
+    // build up, it always follows. With the convex relaxation it never follows.
     if (is_convex && more.empty()) is_rough = false;
     const bool takes_near = margin_ > 0 && !(is_convex && is_rough);
     const auto near = takes_near ? nearly_closed(is_convex) : std::vector<std::size_t>{};
@@ -322,7 +348,8 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   for (std::size_t c = 0; c < chosen_.size(); ++c) {
     result.pairs.push_back(&pair(chosen_[c]));
     // A pair with an impulse is chosen in the next step, too, where the convex relaxation may push
-    // it apart. An impulse within its allowed error must not have this effect, and is set to 0.
+    // its particles apart. An impulse that is no larger than its allowed error must not have this
+    // effect. Therefore such an impulse is set to 0.
     const auto& here = system_.contacts[c];
     const double error = scales.of(here).allowed_gap(settings, mean_radius) / here.w;
     const bool is_error = is_convex && here.lowest == 0 && here.impulse <= error;
@@ -332,7 +359,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     constraints_->remember(c, memory);
     if (is_error) {
       memory[Remembered::kCarried] = 0;
-      // With a given load friction may be large without an impulse.
+      // If given loads bound the friction, it may be large although the normal impulse is 0.
       if (norm(memory.friction()) <= error) memory.set_friction({});
     }
     result.memories.push_back(memory);
@@ -345,8 +372,9 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
 template class StepProjection<2>;
 template class StepProjection<3>;
 
-/// The impulse at work on a particle is the largest of three: that of its own motion
-/// (of_particle()), the impulses of its contacts, and those that would end their overlaps.
+/// The impulse at work on a particle [M L/T] is the largest of three: the impulse of its own motion
+/// (of_particle()), the impulses of its contacts, and the impulses that would end the overlaps of
+/// these contacts.
 template <int D>
 ResidualScales<D>::ResidualScales(const State& state, double h,
                                   std::span<const double> displacements,
@@ -364,7 +392,8 @@ ResidualScales<D>::ResidualScales(const State& state, double h,
     body_scales_.push_back(of_particle(bodies[b], system.free_displacement(b)));
   for (const auto& contact : system.contacts) {
     const double gap = system.gap(contact);
-    // The film of a pair with gamma < 0 also pulls, so that an open gap needs an impulse, too.
+    // The film of a pair with gamma < 0 also pulls. Therefore an impulse would be needed to close
+    // an open gap, too.
     const double impulse = std::max(std::abs(contact.impulse),
                                     (contact.lowest < 0 ? std::abs(gap) : -gap) / contact.w);
     for (const auto particle : {contact.first, contact.second})
@@ -377,9 +406,9 @@ ResidualScales<D>::ResidualScales(const State& state, double h,
   }
 }
 
-/// The scale of a particle without its contacts. The impulse at work is the larger of the impulse
-/// of forces and gravity in the step and of the change of the particle's momentum. `moves` is its
-/// displacement h u* [L].
+/// The scale of a particle without its contacts. The impulse at work is the larger one of two: the
+/// impulse of forces and gravity in the step, and the change of the momentum of the particle.
+/// `moves` is the displacement h u* of the particle, D numbers [L].
 template <int D>
 typename ResidualScales<D>::ParticleScale ResidualScales<D>::of_particle(
     std::int32_t particle, const double* moves) const {
@@ -397,7 +426,7 @@ typename ResidualScales<D>::ParticleScale ResidualScales<D>::of_particle(
   return scale;
 }
 
-/// The scale of a particle, with its contacts if the problem has the particle.
+/// The scale of a particle. If the problem has the particle, its contacts are taken into account.
 template <int D>
 typename ResidualScales<D>::ParticleScale ResidualScales<D>::of_particle(
     std::int32_t particle) const {
@@ -406,6 +435,8 @@ typename ResidualScales<D>::ParticleScale ResidualScales<D>::of_particle(
                   : body_scales_[index_of(body)];
 }
 
+/// Returns the largest product of mobility and impulse at work of these particles [L], which is the
+/// largest displacement that an impulse at work causes; 0 without particles.
 template <int D>
 double ResidualScales<D>::largest_change(std::span<const std::int32_t> particles) const {
   double largest = 0;
@@ -414,6 +445,9 @@ double ResidualScales<D>::largest_change(std::span<const std::int32_t> particles
   return largest;
 }
 
+/// The scale of a contact or link between `particles`; negative numbers are obstacles. The impulse
+/// at work is the smallest of those of the particles. `w` > 0 is the change of the gap per impulse
+/// [T/M], and `length` >= 0 [L] is the size of the numbers whose difference is the gap.
 template <int D>
 ResidualScale ResidualScales<D>::of(std::span<const std::int32_t> particles, double w,
                                     double length) {
@@ -438,14 +472,16 @@ ResidualScale ResidualScales<D>::of(std::span<const std::int32_t> particles, dou
   return scale;
 }
 
+/// The scale of a contact. In a step with constraints its rounding errors are at least those of the
+/// radii.
 template <int D>
 ResidualScale ResidualScales<D>::of(const Contact<D>& contact) {
   const std::array particles{contact.first, contact.second};
   auto scale = of(particles, contact.w, std::abs(contact.gap));
   if (!has_constraints_) return scale;
   // The errors are taken as 1 unit in the last place of the radii. Where bodies or links turn, they
-  // are 8 units, also of the distances from the origin, because lengths of links are differences of
-  // coordinates.
+  // are taken as 8 units in the last place of the radii and of the distances from the origin,
+  // because lengths of links are differences of coordinates. Both numbers are free choices.
   const bool is_held = system_.is_held(contact);
   const double rounding = (is_held ? 8 : 1) * std::numeric_limits<double>::epsilon();
   double lengths = 0;

@@ -1,10 +1,11 @@
-// Decides whether the run in a folder can be continued, and reads its state and record. It can be
-// continued if restart.bin records the same inputs and the same version of Viscontact as this call
-// has. Times [T] are in the unit of the case, angles in [rad]; particles, sources and bodies count
-// from 0. If the run cannot be continued, a message on the terminal says so, and a new run begins
-// at the start; if a restart file that the user names cannot be read, does not fit the case or is
-// not earlier than its end, it is an Error(kBadInput) with its path. A change must keep that a run
-// with other inputs is never continued. Used by run/, sweep/ and python/.
+// Decides whether the run in a folder can be continued, and reads its state and record. A run can
+// be continued if its restart.bin records the same inputs and the same version of Viscontact as
+// this call has. Times [T] are in the unit of the case, angles in [rad]; particles, sources and
+// bodies are numbered from 0. If the run cannot be continued, a message on the terminal says so,
+// and the caller begins a new run at the start. A restart file that the user names is an
+// Error(kBadInput) with its path if it cannot be read, does not fit the case or is not earlier than
+// the end of the case. A change must keep that a run with other inputs is never continued. run/,
+// sweep/ and python/ use this file.
 #include "viscontact/particles/run/particles_earlier_run.hpp"
 
 #include <fmt/format.h>
@@ -29,7 +30,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Says how inputs or version of the earlier run differ from this call's; empty if they are equal.
+/// Says in words how the inputs or the version of the earlier run differ from those of this call;
+/// empty if they are equal. Inputs are compared by their order and their hashes.
 std::string difference(const results::Provenance& before, const results::Provenance& now) {
   const auto version = [](const results::Provenance& provenance) {
     const auto found = provenance.versions.find("Viscontact");
@@ -59,7 +61,9 @@ std::string difference(const SourceProgress& before, const Source& now) {
 }
 
 /// Throws Error(kBadInput), which names `restart`, if the state has other particles or sources than
-/// the case, or contacts with obstacles that the case does not have.
+/// the case, or contacts with obstacles that the case does not have. The state must have the
+/// particles of the case, with the same radii and masses, and then those that sources have added;
+/// their places and velocities may be any.
 void check_same_particles(const State& state, const ParticlesCase& c, const fs::path& restart) {
   const auto& p = state.particles;
   const auto differs = [&](const std::string& what) {
@@ -130,12 +134,13 @@ void take_over_bodies(State& state, const ParticlesCase& c, const fs::path& rest
                     c.path.string());
 }
 
-/// Throws Error(kBadInput) if a hinge of the state is turned beyond its stop. The earlier run then
-/// had another stop, and the first step would turn the hinge back to the present stop at once.
+/// Throws Error(kBadInput) if a hinge of the state is turned beyond its stop, the limit of its
+/// angle. Then the earlier run had another stop, and the first step would turn the hinge back to
+/// the present stop at once.
 void check_stops(const State& state, const ParticlesCase& c, const fs::path& restart) {
-  // A step may leave a hinge beyond its stop by solver.tolerance mean radii at the distance of one
-  // mean radius, which is the angle solver.tolerance. Ten times this angle, and 1e-3, are free
-  // choices.
+  // A step may leave a point at the distance of one mean radius from the hinge beyond the stop by
+  // solver.tolerance mean radii. This is the angle solver.tolerance [rad]. The factor 10 and
+  // kBeyond are free choices.
   constexpr double kBeyond = 1e-3;  // [rad]
   const double allowed = std::max(kBeyond, 10 * c.setting.solver.tolerance);
   for (const auto& stop : stop_equations(c.setting.links, state.particles))
@@ -148,7 +153,8 @@ void check_stops(const State& state, const ParticlesCase& c, const fs::path& res
 
 }  // namespace
 
-/// Throws Error(kBadInput) if the file `restart` cannot be read or does not fit; empty: no file.
+/// The state at the start: that of the case if the path `restart` is empty, otherwise that of this
+/// restart file. Throws Error(kBadInput) if the file cannot be read or does not fit the case.
 State first_state(const ParticlesCase& c, const std::string& restart) {
   State state;
   if (restart.empty()) {
@@ -168,12 +174,12 @@ State first_state(const ParticlesCase& c, const std::string& restart) {
     add_rotation(state.particles);
   }
   check_stops(state, c, restart);
-  if (state.time > c.end_time * (1 - 1e-9))  // 1e-9 and 1e-6 below are above rounding errors
+  if (state.time > c.end_time * (1 - 1e-9))  // free choices above rounding errors: 1e-9, 1e-6
     throw_bad_input({restart},
                     "is at time {}, but {} ends at {}, so there is no time left to simulate",
                     state.time, c.path.string(), c.end_time);
-  // If the time step is not that of the earlier run, the ends of steps are multiples of the time
-  // step after this state (State::grid_time).
+  // If the time step is not that of the earlier run, steps end at multiples of the new time step
+  // after the time of this state (State::grid_time).
   const double on_grid =
       state.grid_time + static_cast<double>(state.steps - state.grid_step) * c.setting.time_step;
   if (std::abs(on_grid - state.time) > 1e-6 * c.setting.time_step) {
@@ -183,7 +189,8 @@ State first_state(const ParticlesCase& c, const std::string& restart) {
   return state;
 }
 
-/// Returns nothing, and throws no Error, if there is no run or it cannot be continued.
+/// The state and the record of the run in `folder`. `provenance` are the inputs and the version of
+/// this call. Returns nothing, and throws no Error, if there is no run or it cannot be continued.
 std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c, const fs::path& folder,
                                            const results::Provenance& provenance,
                                            const RunLog& log) {
@@ -214,7 +221,9 @@ std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c, const fs::pat
   }
 }
 
-/// `tiny` >= 0 [T] is the largest difference of times that counts as none.
+/// True if the run has reached the end time of the case and the folder has all files that are
+/// written at the end, and all frames. `tiny` >= 0 [T] is the largest difference of times that
+/// counts as none. Throws nothing for a file that cannot be read, but returns false.
 bool is_finished(const EarlierRun& run, const ParticlesCase& c, double tiny,
                  const fs::path& folder) {
   if (run.state.time < c.end_time - tiny) return false;

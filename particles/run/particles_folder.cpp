@@ -1,12 +1,13 @@
 // Recognises the files of frames by their names, and files that Viscontact wrote by their
-// provenance; writes the rows of steps.csv, the record of restart.bin as JSON, and run.json.
-// Numbers of frames count from 0, those of steps from 1; times [T] are in the unit of the case,
-// computing times in seconds, residuals and overlaps in mean radii. A file of the user that has the
-// name of a result, a damaged record, an input that a run would overwrite, and a file that cannot
-// be removed are an Error(kBadInput); a missing folder is a std::filesystem::filesystem_error.
-// remove_results() goes by names alone: check_results() must come first, so that only files that
-// Viscontact wrote are removed. A change must keep this, and the columns and keys, which users'
-// scripts read. Used by run/.
+// provenance. Writes the rows of steps.csv and probes.csv, the record of restart.bin as JSON, and
+// run.json. Numbers of frames count from 0, those of steps from 1; times [T] are in the unit of the
+// case, computing times in seconds, residuals and overlaps in mean radii. A file of the user that
+// has the name of a result, a damaged record, an input that a run would overwrite, and a file that
+// cannot be removed are an Error(kBadInput); a missing folder is a
+// std::filesystem::filesystem_error. remove_results() looks at names only. Therefore
+// check_results() must come first, so that only files that Viscontact wrote are removed. A change
+// must keep this order, and the columns and keys, which users' scripts read. The files in run/ use
+// this file.
 #include "viscontact/particles/run/particles_folder.hpp"
 
 #include <fmt/format.h>
@@ -41,9 +42,14 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StepTotals, steps, unconverged, failed, itera
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunRecord, totals, frames, flows, last_frame, rebounds, files)
 
 namespace {
+// The beginning of the line with the record in restart.bin, which restart files contain.
 constexpr const char* kRecordOf = "# record after step ";
 }  // namespace
 
+/// Adds a step to the sums and largest values. The means over time begin at `average_from` [T]; a
+/// step counts with the part of its duration that is later. A step counts as failed if its excess
+/// (largest residual over what is allowed) is above kStillAResult. Steps must come in the order of
+/// time (not checked).
 void StepTotals::add(const StepReport& report, double average_from) {
   ++steps;
   unconverged += report.converged ? 0 : 1;
@@ -77,6 +83,13 @@ void StepTotals::add(const StepReport& report, double average_from) {
   last_force_errors = fluid.force_errors;
 }
 
+/// The names of the columns: numbers of steps, contacts, glued contacts (gamma < 0), iterations,
+/// parts and unresolved contacts; time [T]; residual and largest_overlap [mean radii]; converged (0
+/// or 1); impulse_residual [1]. With a fluid there are also dissipation [M L^2/T^3],
+/// apparent_viscosity [1] and fluid_seconds [s]; with inertia of the fluid also
+/// kinetic_energy_fluid [M L^2/T^2], reynolds_number and courant_number [1], and given_force_x and
+/// given_force_y [M L/T^2]. Dissipation, energy and forces in two dimensions are per length. gamma
+/// is minus the impulse that a film has absorbed.
 std::string steps_header(const std::optional<Fluid>& fluid) {
   std::string header =
       "step,time,contacts,glued,iterations,residual,largest_overlap,converged,impulse_residual,"
@@ -87,6 +100,8 @@ std::string steps_header(const std::optional<Fluid>& fluid) {
   return header + "\n";
 }
 
+/// The rows of probes.csv of a step, one for each probe: time of the flow [T], name, flow [L^2/T],
+/// pressure [M/(L T^2)]. `report.probes` must have an entry for each of `probes` (not checked).
 std::string probe_rows(const FluidStepReport& report, std::span<const Probe> probes) {
   std::string rows;
   for (std::size_t k = 0; k < probes.size(); ++k)
@@ -95,6 +110,8 @@ std::string probe_rows(const FluidStepReport& report, std::span<const Probe> pro
   return rows;
 }
 
+/// The row of the step with the number `step`, in the order of steps_header(), in the units of the
+/// report.
 std::string step_row(std::int64_t step, const StepReport& report,
                      const std::optional<Fluid>& fluid) {
   auto row =
@@ -114,11 +131,13 @@ std::string step_row(std::int64_t step, const StepReport& report,
   return row + "\n";
 }
 
+/// The comment line with the record after the step with the number `step`.
 std::string record_comment(const RunRecord& record, std::int64_t step) {
   return fmt::format("{}{}: {}\n", kRecordOf, step, nlohmann::json(record).dump());
 }
 
-/// Throws Error(kBadInput), which names `restart`, if there is no record or a damaged one.
+/// The record in `head`, the first lines of the file `restart`. Throws Error(kBadInput), which
+/// names `restart`, if there is no record or if the record is damaged.
 RunRecord read_record(const std::string& head, const std::filesystem::path& restart) {
   const auto line = head.find(kRecordOf);
   const auto json = head.find('{', line);
@@ -131,6 +150,8 @@ RunRecord read_record(const std::string& head, const std::filesystem::path& rest
   }
 }
 
+/// The text of run.json: one JSON object with the numbers of StepTotals in their units, tolerances
+/// [1], and the last overlap [mean radii]. A number that is not known is null.
 std::string run_json(const ParticlesCase& c, const StepTotals& totals, const State& state) {
   const auto steps = static_cast<double>(std::max<std::int64_t>(totals.steps, 1));
   Json json;
@@ -186,7 +207,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The number of the frame in the name of a file of this kind; nothing if it is another name.
+/// The number of the frame in `name`, such as 12 in particles_00012.vtp; nothing if `name` is not
+/// the name of a file of this kind.
 std::optional<std::uint64_t> number_of_frame(const FrameKind& kind, std::string_view name) {
   const std::string_view begin(kind.begin);
   if (!name.starts_with(begin) || name.size() <= begin.size()) return {};
@@ -196,7 +218,8 @@ std::optional<std::uint64_t> number_of_frame(const FrameKind& kind, std::string_
   return number;
 }
 
-/// The files of one kind in the folder whose numbers are at least `first`.
+/// The files of one kind in the folder whose numbers are at least `first`, in no particular order.
+/// Throws std::filesystem::filesystem_error if there is no folder.
 std::vector<fs::path> frames_in(const fs::path& folder, const FrameKind& kind,
                                 std::uint64_t first) {
   std::vector<fs::path> files;
@@ -209,6 +232,7 @@ std::vector<fs::path> frames_in(const fs::path& folder, const FrameKind& kind,
 
 }  // namespace
 
+/// The name of the file of a frame. The number has at least five digits.
 std::string frame_name(const FrameKind& kind, std::uint64_t number) {
   return fmt::format("{}_{:05}{}", kind.begin, number, kind.end);
 }
@@ -221,7 +245,8 @@ void check_results(const fs::path& folder) {
       results::refuse_other_kind(file, "", "result");
 }
 
-/// Throws Error(kBadInput) if a run into `folder` would overwrite one of its inputs.
+/// Throws Error(kBadInput) if a run into `folder` would overwrite one of its inputs: the case, its
+/// file of particles, or the file at the path `restart`, which may be empty.
 void check_inputs_stay(const ParticlesCase& c, const fs::path& restart, const fs::path& folder) {
   std::error_code none;
   if (!restart.empty() && fs::equivalent(fs::absolute(restart).parent_path(), folder, none))
@@ -238,12 +263,14 @@ void check_inputs_stay(const ParticlesCase& c, const fs::path& restart, const fs
   }
 }
 
-/// Throws Error(kBadInput) if a file cannot be removed.
+/// Removes all results and frames. Throws Error(kBadInput) if a file cannot be removed.
 void remove_results(const fs::path& folder) {
   for (const auto* name : kParticleResults) remove_file(folder / name);
   remove_later_frames(folder, 0, 0);
 }
 
+/// Removes the frames whose number is at least `frames`, the flows whose number is at least
+/// `flows`, and files that a killed process has not finished.
 void remove_later_frames(const fs::path& folder, std::uint64_t frames, std::uint64_t flows) {
   for (const auto& [kind, first] :
        {std::pair{kFrameFile, frames}, {kLinksFile, frames}, {kFlowFile, flows}})

@@ -1,8 +1,9 @@
-// Reads the frames of a run and draws them. Times [T] and lengths [L] are in the units of the case.
-// If a radius is not between 1e-37 and 3e38, the lengths that a page can draw, a warning says so. A
-// list without a frame, a frame that is missing, damaged or of other particles, a case that has
-// changed, and a file that cannot be written are an Error(kBadInput) with the path. A change must
-// keep the memory bounded, however long the run is. Used by app/ and run/.
+// Reads the frames of a run and draws them as a page and a picture. Times [T] and lengths [L] are
+// in the units of the case. If a radius is not between 1e-37 and 3e38, the lengths that a page can
+// draw, a warning says so. An Error(kBadInput) with the path is thrown for a list without a frame,
+// a frame that is missing, damaged or of other particles, a case that has changed, and a file that
+// cannot be written. A change must keep the memory bounded, however long the run is. app/ and run/
+// use this file.
 #include "viscontact/particles/run/particles_pages.hpp"
 
 #include <algorithm>
@@ -52,7 +53,7 @@ Playback without_frames(const ParticlesCase& c) {
 }
 
 /// The frame at `time` [T] in the file at `path`, without the flow. Throws Error(kBadInput) if the
-/// file has other particles than the case.
+/// file has fewer particles than the case, or more particles although the case has no sources.
 Frame read_frame(double time, const fs::path& path, const ParticlesCase& c) {
   auto content = read_vtp(path, c.particles.dimension);
   if (content.positions.size() < c.particles.positions.size() ||
@@ -69,8 +70,10 @@ Frame read_frame(double time, const fs::path& path, const ParticlesCase& c) {
   return frame;
 }
 
-/// Reads the frames of a run. Whenever those in memory take more than kMostBytes, every second one
-/// is left out; the last frame is always kept.
+/// Reads the frames that particles.pvd in `folder` lists, and the names of the files of flows.
+/// Whenever the frames in memory take more than kMostBytes, every second frame is left out; the
+/// last frame is always kept. Throws Error(kBadInput) if there is no frame, or for a frame that is
+/// missing, damaged or of other particles.
 Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
   auto playback = without_frames(c);
   auto& frames = playback.frames;
@@ -84,7 +87,8 @@ Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
     if (!playback.ids.empty()) playback.ids = last.ids;
     if (!playback.bodies.empty()) playback.bodies.resize(last.radii.size(), -1);
   }
-  constexpr std::size_t kMostBytes = std::size_t{256} << 20U;  // a page cannot show as much
+  // A free choice: a page of 24 MB cannot show as much.
+  constexpr std::size_t kMostBytes = std::size_t{256} << 20U;
   std::size_t every = 1, kept_bytes = 0;
   for (std::size_t f = 0; f < files.size(); ++f) {
     if (kept_bytes > kMostBytes && frames.size() > 4) {
@@ -102,7 +106,7 @@ Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
                   kept.planes.size() * sizeof(PlanePosition) +
                   kept.contacts.size() * sizeof(CurrentContact);
   }
-  // Particles that a source has not added yet get positions that are no numbers, and are not drawn.
+  // Particles that a source has not added yet get the position NaN, and are not drawn.
   for (auto& frame : frames) {
     const auto count = playback.radii.size();
     frame.positions.resize(count * static_cast<std::size_t>(playback.dimension),
@@ -121,6 +125,8 @@ Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
 
 }  // namespace
 
+/// Writes particles.html and particles.svg into `folder`; both get the record `provenance` of
+/// inputs and command. Throws Error(kBadInput) if a file cannot be read or written.
 void write_pages(const ParticlesCase& c, const fs::path& folder,
                  const results::Provenance& provenance) {
   constexpr int kPanels = 4;  // number of times that the still picture shows; free choice
@@ -137,6 +143,9 @@ void write_pages(const ParticlesCase& c, const fs::path& folder,
                         particles_picture(playback, c.title, kPanels, &flows), provenance);
 }
 
+/// Writes the page and the picture again for a run that has ended or was interrupted. particles.pvd
+/// in `folder` names the case. Throws Error(kBadInput) as write_pages() does, and if the case is
+/// wrong or has changed, or if Viscontact did not write a file that would be replaced.
 void report_particles(const fs::path& folder) {
   for (const auto* name : {"particles.html", "particles.svg"})
     results::refuse_other_kind(folder / name, "", "result");

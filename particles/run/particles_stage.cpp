@@ -1,12 +1,12 @@
 // Runs a case of many particles (particles_stage.hpp): checks the inputs, continues an earlier run,
 // computes time steps, saves the state and writes the results. Times of the motion [T] are in the
-// unit of the case, computing times in s, memory in MiB; the number of threads is at least 1. A
-// wrong case or file is an Error(kBadInput), a request for HDF5 without libhdf5 an
+// unit of the case, computing times in s, memory in MiB; the number of threads is at least 1 (not
+// checked). A wrong case or file is an Error(kBadInput), a request for HDF5 without libhdf5 an
 // Error(kWrongUsage), a failure of the fluid solver an Error(kExternalProgram), a step that does
-// not converge an Error(kNotConverged), a stop an Error(kInterrupted); those of a step are thrown
+// not converge an Error(kNotConverged), a stop an Error(kInterrupted). Errors of a step are thrown
 // after the results are written. A change must keep that restart.bin is written after all files
 // that a run needs to continue (Run::save()), so that a run that is killed at any time can be
-// continued. Used by app/ and sweep/.
+// continued. app/ and sweep/ use this file.
 #include "viscontact/particles/run/particles_stage.hpp"
 
 #include <fmt/format.h>
@@ -44,15 +44,15 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-/// Times of a run that differ by less than this [T] count as equal. Rounding errors are smaller,
-/// and steps longer, because Simulation::step() makes no shorter ones.
+/// Times of a run that differ by less than this [T] count as equal. Rounding errors of times are
+/// smaller. All steps are longer, because Simulation::step() makes no shorter steps.
 double tiny_time(const ParticlesCase& c) { return 1e-6 * c.setting.time_step; }
 
 /// A run with its simulation and its files. It can be saved after any step.
 class Run {
  public:
-  /// All arguments that are references must outlive this object. `log` is that of a new run, or of
-  /// the interrupted run that this one continues.
+  /// All arguments that are references must outlive this object. `log` is the log of a new run, or
+  /// of the interrupted run that this run continues. `folder` must exist (not checked).
   Run(const ParticlesCase& c, ParticleSimulation& simulation, fs::path folder,
       const results::Provenance& provenance, RunLog& log, const StopToken& stop)
       : case_(c),
@@ -63,8 +63,10 @@ class Run {
         stop_(stop) {}
 
   /// Computes steps until the end time, until a stop is requested, or until a step cannot be
-  /// computed. In the last case returns the error of this step, and the state is that before it;
-  /// otherwise returns null.
+  /// computed. In the last case the function returns the error of this step, and the state stays
+  /// that before the step; otherwise it returns null. Throws Error(kBadInput) if a file cannot be
+  /// written, and the errors of the fluid solver if it fails between two steps, while it computes a
+  /// flow or saves its state.
   std::exception_ptr simulate() {
     if (log_.record().frames == 0) add_frame();
     save(with_costs(log_.record()));
@@ -86,8 +88,8 @@ class Run {
         next_frame = frame_after(report.time);
       }
       tell(report);
-      // Time between two savings [s], a free choice. It is shorter in a fluid with inertia, because
-      // a signal can end the solver, and the flow is then lost.
+      // The time between two savings [s] is a free choice. It is shorter in a fluid with inertia,
+      // because a signal can end the solver, and then the flow since the last saving is lost.
       const auto& fluid = case_.setting.fluid;
       const double save_every = fluid && fluid->has_inertia() ? 10 : 60;  // [s]
       if (!is_at_end() && seconds_since(last_saved_) > save_every) save(with_costs(log_.record()));
@@ -95,7 +97,9 @@ class Run {
     return {};
   }
 
-  /// Writes all files of the run. Returns the text of run.json.
+  /// Writes all files of the run that are written at its end, and restart.bin. Returns the text of
+  /// run.json. Throws Error(kBadInput) if a file cannot be written, and the errors of the fluid
+  /// solver while it computes the last flow or saves its state.
   std::string write_results() {
     terminal::clear_progress();
     // The record is taken before the last frame and its flow are added. A run that continues from
@@ -127,8 +131,9 @@ class Run {
     results::write_output(folder_ / name, kind, text, provenance_);
   }
 
-  /// The time at which the frame after that at `time` is due [T]: the next multiple of the interval
-  /// after the first time. The first step that reaches it writes the frame.
+  /// The time [T] at which the next frame after `time` [T] is due: the start of the run plus a
+  /// whole number of intervals between frames. The frame is written after the first step that
+  /// reaches this time.
   double frame_after(double time) const {
     const double first = log_.totals().first_time;
     const double interval = std::max(case_.frame_interval, case_.setting.time_step);
@@ -137,9 +142,10 @@ class Run {
 
   /// Adds the flow around the particles at the end of the run, which no step computes. An
   /// interrupted run adds nothing, because the next step computes this flow when the run continues.
-  /// Nor does a run in a sheared cell: for the fluid solver the cell keeps its shape, so that it
-  /// would compute the flow around images that have not moved. All steps are done before, so that a
-  /// flow that cannot be computed is a warning.
+  /// A run in a sheared cell adds nothing either: in the solver the cell keeps its shape, so that
+  /// the solver would compute the flow around images that have not moved. If the flow cannot be
+  /// computed, only a warning says so, because all steps are done. Throws Error(kInterrupted) at a
+  /// stop.
   void add_last_flow() {
     if (cell_of(case_.setting).is_sheared()) return;
     if (!is_at_end() || stop_.stop_requested() || !log_.lacks_flow()) return;
@@ -160,6 +166,7 @@ class Run {
     log_.add_frame(simulation_.state(), link_force_errors);
   }
 
+  /// The text of final_particles.csv, with the forces of the fluid if there is a fluid.
   std::string final_particles() {
     const auto reported = simulation_.reported_particles();
     if (!simulation_.has_fluid()) return write_particles(reported);
@@ -168,7 +175,8 @@ class Run {
     return write_particles(reported, FluidForces{forces, errors, case_.setting.fluid->semi_axes});
   }
 
-  /// A copy of `record`, to which computing time and memory of this call are added.
+  /// A copy of `record` with the computing time of this call added [s], and with the larger of the
+  /// memories of earlier calls and of this call [MiB].
   RunRecord with_costs(RunRecord record) {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -180,9 +188,9 @@ class Run {
     return record;
   }
 
-  /// Writes restart.bin with the present state and the record, after everything else is on disk.
-  /// Whenever the process is killed, the files then contain what the record says, and the run can
-  /// continue from it.
+  /// Writes restart.bin with the present state and the record, after all other files are on the
+  /// disk. If the process is killed at any time, the files contain at least what the record says,
+  /// and the run can continue from this record.
   void save(const RunRecord& record) {
     log_.sync();
     // In a fluid with inertia the solver has a part of the state, the flow.
@@ -192,6 +200,7 @@ class Run {
     last_saved_ = Clock::now();
   }
 
+  /// Shows the progress on the terminal, not after each step but when it is due.
   void tell(const StepReport& report) {
     if (!progress_.is_due()) return;
     terminal::show_progress(fmt::format(
@@ -214,7 +223,7 @@ class Run {
 
 /// Says on the terminal how the run ended, after its files are written. Throws Error(kInterrupted)
 /// if the run was interrupted, Error(kNotConverged) if a step missed the tolerances by more than
-/// kStillAResult.
+/// the factor kStillAResult (particles_folder.hpp).
 void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State& state,
                   const fs::path& folder, const StopToken& stop) {
   terminal::say(
@@ -278,6 +287,8 @@ void tell_finished(const ParticlesCase& c, const EarlierRun& run, const fs::path
 
 }  // namespace
 
+/// Runs the case. Inputs are checked before a file is written. Throws the errors that the head of
+/// this file lists.
 void run_particles(const ParticlesRequest& request) {
   if (request.hdf5) require_hdf5();
   const ParticlesCase c = read_particles_case(request.case_file);
@@ -298,7 +309,7 @@ void run_particles(const ParticlesRequest& request) {
       return;
     }
     log.resume(earlier->record);
-    remove_file(folder / "particles.h5");  // it would lack the frames that are added now
+    remove_file(folder / "particles.h5");  // this file would lack the new frames
     terminal::say("particles: the run in {} continues from t = {:.6g}, after step {}",
                   folder.string(), earlier->state.time, earlier->state.steps);
     state = earlier->state;
@@ -309,7 +320,8 @@ void run_particles(const ParticlesRequest& request) {
   ParticleSimulation simulation(c.setting, std::move(state), request.threads, request.start_solver,
                                 request.stop);
   Run run(c, simulation, folder, provenance, log, request.stop);
-  // If a file cannot be written, simulate() throws; the same command continues from restart.bin.
+  // If a file cannot be written, or the fluid solver fails between two steps, simulate() throws;
+  // the same command continues from restart.bin.
   const auto failure = run.simulate();
   std::string json;
   try {

@@ -1,10 +1,11 @@
-// Writes frames (VTK), their lists (PVD) and tables (CSV), and continues them (run_log.hpp). Times
-// [T], lengths [L], impulses [M L/T] and forces [M L/T^2] (of discs in a fluid per length) are in
-// the units of the case; vtk.hpp, link_file.hpp and contact_file.hpp in io/ list all columns.
-// Numbers of frames and flows count from 0. A file that cannot be written, is missing or was
-// changed is an Error(kBadInput) with its name; add_flow() does not check that a frame lacks its
-// flow. A change must keep that lists and tables only grow, because a run is continued at the ends
-// that its record states. Used by run/.
+// Writes frames (VTK), their lists (PVD) and tables (CSV), and continues the files of an
+// interrupted run (run_log.hpp). Times [T], lengths [L], impulses [M L/T] and forces [M L/T^2] are
+// in the units of the case; impulses and forces of discs in a fluid are per length. vtk.hpp,
+// link_file.hpp and contact_file.hpp in io/ list all columns. Numbers of frames and flows count
+// from 0. A file that cannot be written, is missing or was changed is an Error(kBadInput) with its
+// name; add_flow() does not check that a frame lacks its flow. A change must keep that lists and
+// tables only grow, because a run is continued at the ends of files that its record states. The
+// files in run/ use this file.
 #include "viscontact/particles/run/run_log.hpp"
 
 #include <algorithm>
@@ -22,7 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Throws Error(kBadInput) if one of the first `count` files of a kind, or its end, is missing.
+/// Throws Error(kBadInput), which names the file, if one of the first `count` files of a kind is
+/// missing or does not end as an XML file of VTK must end.
 void check_frames(const fs::path& folder, const FrameKind& kind, std::uint64_t count) {
   constexpr std::string_view kEnd = "</VTKFile>\n";
   for (std::uint64_t number = 0; number < count; ++number) {
@@ -34,10 +36,13 @@ void check_frames(const fs::path& folder, const FrameKind& kind, std::uint64_t c
   }
 }
 
+/// The name of the list of the files of a kind, such as particles.pvd.
 std::string list_of(const FrameKind& kind) { return std::string(kind.begin) + ".pvd"; }
 
 }  // namespace
 
+/// Prepares the files of a new run, and writes none of them. The settings of the case decide which
+/// lists and tables there are. `c` and `provenance` must outlive this object.
 RunLog::RunLog(const ParticlesCase& c, fs::path folder, const results::Provenance& provenance)
     : case_(c), folder_(std::move(folder)), provenance_(provenance) {
   const auto add_list = [&](const FrameKind& kind) {
@@ -59,12 +64,16 @@ RunLog::RunLog(const ParticlesCase& c, fs::path folder, const results::Provenanc
     }
 }
 
+/// Adds a file that grows: `head` is its text at the beginning, and `foot` is the text that stays
+/// at its end.
 void RunLog::add_file(const std::string& name, TextKind kind, const std::string& head,
                       const std::string& foot) {
   const auto path = folder_ / name;
   files_.try_emplace(name, path, results::output_text(path, kind, head, provenance_), foot);
 }
 
+/// Throws Error(kBadInput), which names the file, if a file is missing or differs from what the
+/// record says.
 void RunLog::check(const RunRecord& record) const {
   for (const auto& [name, file] : files_) {
     const auto end = record.files.find(name);
@@ -75,6 +84,8 @@ void RunLog::check(const RunRecord& record) const {
   check_frames(folder_, kFlowFile, record.flows);
 }
 
+/// Continues the run with this record: removes what was written after the record. Throws
+/// Error(kBadInput) as check() does, or if a file cannot be removed or shortened.
 void RunLog::resume(const RunRecord& record) {
   check(record);
   record_ = record;
@@ -83,10 +94,14 @@ void RunLog::resume(const RunRecord& record) {
   for (auto& [name, file] : files_) file.resume(record.files.at(name));
 }
 
+/// Adds a step to the sums of the record, and its rows to steps.csv, probes.csv and rebounds.csv.
+/// `state` is that at the end of the step. `rebounds` are the impacts of solids; they must be empty
+/// if the case has no restitution, otherwise std::out_of_range is thrown.
 void RunLog::add_step(const StepReport& report, const State& state,
                       std::span<const Rebound> rebounds) {
-  // Free choices that bound the size of the tables: after kMostRows steps one step in kOneIn has a
-  // row, and after kMostRebounds rebounds no further one has.
+  // Three free choices bound the size of the tables. After kMostRows steps, only one step in kOneIn
+  // has a row, and each step that has not converged. After kMostRebounds rebounds, no further
+  // rebound has a row.
   constexpr std::int64_t kMostRows = 1000000, kOneIn = 1000;
   constexpr std::uint64_t kMostRebounds = 1000000;
   record_.totals.add(report, case_.average_from);
@@ -102,7 +117,9 @@ void RunLog::add_step(const StepReport& report, const State& state,
   record_.rebounds += more.size();
 }
 
-/// `link_force_errors` has the order and units of State::link_forces, or is empty if not known.
+/// Writes the files of a frame, and the rows of the tables at its time. `link_force_errors` has the
+/// order and units of State::link_forces [M L/T^2, torques M L^2/T^2]; it is empty if the errors
+/// are not known.
 void RunLog::add_frame(const State& state, std::span<const double> link_force_errors) {
   const auto& setting = case_.setting;
   const auto contacts = contacts_of(setting, state);
@@ -117,12 +134,15 @@ void RunLog::add_frame(const State& state, std::span<const double> link_force_er
   record_.last_frame = state.time;
 }
 
+/// Writes the flow of the last frame.
 void RunLog::add_flow(const FlowField& flow) {
   write_frame(kFlowFile, record_.frames - 1, record_.last_frame,
               write_flow(flow, case_.particles.dimension == 1));
   record_.flows = record_.frames;
 }
 
+/// Writes the file of frame `number` and adds it to its list with the time `time` [T]. The file may
+/// not be on the disk before sync().
 void RunLog::write_frame(const FrameKind& kind, std::uint64_t number, double time,
                          const std::string& text) {
   const auto name = frame_name(kind, number);
@@ -132,12 +152,14 @@ void RunLog::write_frame(const FrameKind& kind, std::uint64_t number, double tim
   files_.at(list_of(kind)).append(pvd_line(time, name));
 }
 
+/// Returns when all that was added is on the disk.
 void RunLog::sync() {
   flush_files(unflushed_);
   unflushed_.clear();
   for (auto& [name, file] : files_) file.sync();
 }
 
+/// The record of what has been written, with the end of each growing file.
 RunRecord RunLog::record() const {
   auto record = record_;
   for (const auto& [name, file] : files_) record.files[name] = file.end();

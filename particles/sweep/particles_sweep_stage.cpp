@@ -1,11 +1,13 @@
-// The stages of sweeps of particles (particles_sweep_stage.hpp). Computing times are in [s], other
-// times in the unit of the case. Rows are numbered from 0; `jobs` is at least 1, and the number of
-// a task less than that of all tasks (not checked). If all runs fail, or some are missing when they
-// are gathered, an Error(kNotConverged) is thrown; a file that cannot be read or written is an
+// The stages of sweeps of particles (particles_sweep_stage.hpp): one case is simulated with other
+// values of its numbers, and each simulation gives a row. Computing times are in [s], other times
+// in the unit of the case. Rows are numbered from 0; `jobs` >= 1, and the number of a task less
+// than that of all tasks, are not checked. An Error(kNotConverged) is thrown if all runs fail, or
+// if rows are missing when they are gathered. A file that cannot be read or written is an
 // Error(kBadInput), a stop an Error(kInterrupted), a Slurm that fails an Error(kExternalProgram),
 // an open quotation mark in its options an Error(kWrongUsage). A change must keep runs in their
-// folders until the user deletes them, so that a sweep to which draws are added computes the new
-// ones only. Used by app/.
+// folders until the user deletes them. Then a sweep that gets more draws (random arrangements of
+// the particles, with which each point is repeated) computes only the new draws. app/ uses this
+// file.
 #include "viscontact/particles/sweep/particles_sweep_stage.hpp"
 
 #include <fmt/format.h>
@@ -31,8 +33,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The runs of a sweep. If there are fewer rows than jobs, each run has several threads; results do
-/// not depend on the number of threads.
+/// The runs of a sweep, of which `rows` are to be computed. If there are fewer rows than jobs, each
+/// run has several threads; results do not depend on the number of threads.
 ParticlesRuns runs_of(const ParticlesSweep& sweep, const ParticlesSweepRequest& request,
                       std::uint64_t rows) {
   const auto runs_at_once =
@@ -58,7 +60,8 @@ results::Inputs inputs_of(const ParticlesSweep& sweep) {
   return inputs;
 }
 
-/// If there are draws, writes the table of means, unless a file with this content exists.
+/// If there are draws, writes the table of means over the draws of each point, unless a file with
+/// this content exists. `output` is the path of the file of the rows.
 void write_means(const ParticlesSweep& sweep, const std::string& output) {
   if (sweep.points().draws == 0) return;
   const auto path = path_of_means(output);
@@ -70,9 +73,8 @@ void write_means(const ParticlesSweep& sweep, const std::string& output) {
 }
 
 /// Calls `run` for each row that is not in the file of the rows, writes this file and the table of
-/// means, and says on the terminal how many runs failed. Throws
-/// Error(kBadInput) if a file cannot be read or written, Error(kInterrupted) at a stop, and
-/// Error(kNotConverged) if every run failed.
+/// means, and says on the terminal how many runs failed. Throws Error(kBadInput) if a file cannot
+/// be read or written, Error(kInterrupted) at a stop, and Error(kNotConverged) if every run failed.
 void write_tables(const ParticlesSweep& sweep, const ParticlesSweepRequest& request,
                   ParticlesRunner run) {
   const auto& output = request.output;
@@ -95,7 +97,8 @@ void write_tables(const ParticlesSweep& sweep, const ParticlesSweepRequest& requ
                 outcome.first_failure);
 }
 
-/// The numbers of the rows whose run has not ended; with `failed`, also of those that failed.
+/// The numbers of the rows whose run has not ended, increasing. If `failed` is true, also those of
+/// the rows whose run has failed.
 std::vector<std::uint64_t> missing_rows(const ParticlesSweep& sweep, const ParticlesRuns& runs,
                                         bool failed) {
   std::vector<std::uint64_t> missing;
@@ -104,7 +107,8 @@ std::vector<std::uint64_t> missing_rows(const ParticlesSweep& sweep, const Parti
   return missing;
 }
 
-/// Sets the computing time of a row in `run` [s], extrapolated from first steps of the first row.
+/// Sets the computing time of a row in `run` [s], extrapolated from the first steps of the first
+/// row, which are computed for about kEnough seconds. Throws the errors of these steps.
 void measure_first_steps(const ParticlesSweep& sweep, const StartFluidSolver& start_solver,
                          const StopToken& stop, pipeline::DryRun& run) {
   using Clock = std::chrono::steady_clock;
@@ -119,7 +123,7 @@ void measure_first_steps(const ParticlesSweep& sweep, const StartFluidSolver& st
   const double first = seconds_since(start);
   const auto after_first = Clock::now();
   const double tiny = 1e-6 * c.setting.time_step;
-  constexpr double kEnough = 2;  // [s], a free choice
+  constexpr double kEnough = 2;  // [s], a free choice; the first step may take longer
   while (simulation.state().time < c.end_time - tiny && seconds_since(start) < kEnough)
     simulation.step(c.end_time);
   const auto further = simulation.state().steps - 1;
@@ -133,6 +137,7 @@ void measure_first_steps(const ParticlesSweep& sweep, const StartFluidSolver& st
 
 }  // namespace
 
+/// Computes the missing rows and writes the tables.
 void sweep_particles(const ParticlesSweep& sweep, const ParticlesSweepRequest& request) {
   const auto runs = runs_of(sweep, request, sweep.points().rows());
   write_tables(sweep, request, [&](std::uint64_t index, const StopToken& stop) {
@@ -140,6 +145,8 @@ void sweep_particles(const ParticlesSweep& sweep, const ParticlesSweepRequest& r
   });
 }
 
+/// Computes the rows of one task, those whose number modulo share.count is share.number, and writes
+/// no table. Throws Error(kNotConverged) if every run of the task failed.
 void share_of_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& request,
                     const pipeline::Share& share) {
   if (share.number >= sweep.points().rows()) return;
@@ -168,6 +175,7 @@ void share_of_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& re
                 runs.folder().string());
 }
 
+/// Writes the tables from the runs that have ended, and computes nothing.
 void gather_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& request) {
   const auto runs = runs_of(sweep, request, sweep.points().rows());
   const auto missing = missing_rows(sweep, runs, false);
@@ -191,6 +199,8 @@ void gather_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& requ
   });
 }
 
+/// Submits a Slurm job with the tasks that have rows to compute. `options` are further words of the
+/// command line that each task runs.
 void submit_sweep(const ParticlesSweep& sweep, const pipeline::ArrayRequest& request,
                   const std::vector<std::string>& options) {
   check_output_file(request.output);
@@ -212,6 +222,8 @@ void submit_sweep(const ParticlesSweep& sweep, const pipeline::ArrayRequest& req
   pipeline::submit(job, request);
 }
 
+/// The estimate of the computing time of a row [s]: the mean over the rows that have succeeded, or,
+/// if there are none, an extrapolation from first steps. Writes nothing.
 pipeline::DryRun dry_run(const ParticlesSweep& sweep, const std::string& output,
                          const StartFluidSolver& start_solver, const StopToken& stop) {
   const ParticlesRuns runs(sweep, output, VISCONTACT_VERSION, 1, false, {});

@@ -1,9 +1,10 @@
-// Chooses the fit, runs the models of a case and writes their results. Gaps [L], >= 0, times [T]
-// and velocities [L/T] are in the units of the case. A drag that is not given and a wrong
-// SOURCE_DATE_EPOCH are an Error(kWrongUsage), a wrong case or fit and a file of the user in the
-// way an Error(kBadInput), a stop an Error(kInterrupted); if models fail, the error of the first is
-// thrown after the results of the others are written. Used by pipeline/, app/ and python/. A change
-// must keep the order of writing in write_simulated().
+// Chooses the fit of the drag, runs the models of motion of a case and writes their results. Gaps
+// [L], >= 0, times [T] and velocities [L/T] are in the units of the case. A drag that is not given
+// and a wrong SOURCE_DATE_EPOCH are an Error(kWrongUsage). A wrong case or fit, and a file of the
+// user that would be replaced, are an Error(kBadInput), a stop an Error(kInterrupted). If models
+// fail, the error of the first of them is thrown after the results of the others are written.
+// pipeline/, app/ and python/ use this file. A change must keep the order of writing in
+// write_simulated().
 #include "viscontact/pipeline/simulate/simulate_stage.hpp"
 
 #include <fmt/format.h>
@@ -28,12 +29,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The effect of the fit's errors on the motion without inertia, as JSON. Empty if the fit is
-/// exact. Empty also if this motion cannot be computed; then a warning says why.
+/// The effect of the errors of the fit on the motion without inertia, as JSON: how uncertain the
+/// gap [L] is at times [T]. The text is empty if the fit is exact. It is also empty if this motion
+/// cannot be computed; then a warning says why. Throws Error(kInterrupted) at a stop.
 std::string uncertainty_of(const reduced_model::Motion& motion, const lubrication::Fit& fit,
                            const lubrication::OutsideInterval& outside) {
-  // Number of times at which the report shows how uncertain the gap is, which docs/file-formats.md
-  // repeats; any number >= 2 works.
+  // Number of times at which the report shows how uncertain the gap is; any number >= 2 works, but
+  // docs/file-formats.md states this number.
   constexpr std::size_t kTimes = 81;
   if (lubrication::is_exact_plane(fit)) return "";
   try {
@@ -46,9 +48,10 @@ std::string uncertainty_of(const reduced_model::Motion& motion, const lubricatio
   }
 }
 
-/// The end of an error message, which says at which gaps a model would leave the fit's interval.
-/// The estimate uses the formulas for the drag outside the interval (OutsideInterval::with_limits).
-/// Empty if the model stays inside or if its motion cannot be computed with them.
+/// The end of an error message, which says up to which gaps [L] a model would move outside the
+/// interval of the fit. For this estimate, the drag outside the interval is computed by the
+/// formulas of OutsideInterval::with_limits(). The text is empty if the model stays inside the
+/// interval, or if its motion cannot be computed with these formulas.
 std::string estimate_of_gaps(const reduced_model::ModelChoice& choice,
                              const reduced_model::Motion& motion, const lubrication::Fit& fit,
                              const lubrication::OutsideInterval& outside) {
@@ -71,7 +74,9 @@ std::string estimate_of_gaps(const reduced_model::ModelChoice& choice,
   return text;
 }
 
-/// The record of a model for which reduced_model::simulate() threw `error`.
+/// The record of a model for which reduced_model::simulate() threw `error`. To an error of kind
+/// kBadInput the text of estimate_of_gaps() is added, because a gap outside the interval of the fit
+/// may be its cause.
 results::FailedModel failure_of(const reduced_model::ModelChoice& choice, const Error& error,
                                 const reduced_model::Motion& motion, const lubrication::Fit& fit,
                                 const lubrication::OutsideInterval& outside) {
@@ -83,8 +88,9 @@ results::FailedModel failure_of(const reduced_model::ModelChoice& choice, const 
   return {choice.name, reason, error.kind(), {}};
 }
 
-/// Reads the fit and scales it to radius and viscosity of the case. Tells the user if its own
-/// differ from these.
+/// Reads the fit and scales it to radius [L] and viscosity [M/(L T)] of the case. If the fit has
+/// another radius or viscosity, a message says so. Throws Error(kBadInput) if the text is no fit or
+/// the fit cannot be scaled.
 lubrication::Fit fit_of_text(const case_file::Case& c, const FitFile& file) {
   auto fit = lubrication::parse_fit(file.text, file.path.string());
   if (!equal_up_to_rounding(fit.viscosity, c.viscosity) ||
@@ -97,8 +103,9 @@ lubrication::Fit fit_of_text(const case_file::Case& c, const FitFile& file) {
   return case_file::fit_for(c, std::move(fit), file.path);
 }
 
-/// Adds comments to the trajectory that say how it was computed, and drops rows if the case asks
-/// for fewer (motion.output_rows).
+/// Adds comments to the trajectory that say how it was computed: `time_step` ([T] or words),
+/// `rows_computed` and `recovered_film`. Drops rows if the case asks for fewer rows
+/// (motion.output_rows > 0).
 void finish(reduced_model::Trajectory& trajectory, const reduced_model::ModelChoice& choice,
             const reduced_model::Motion& motion, const lubrication::LubricationForce& force) {
   auto& comments = trajectory.provenance;
@@ -117,12 +124,15 @@ void finish(reduced_model::Trajectory& trajectory, const reduced_model::ModelCho
 
 }  // namespace
 
+/// The case file, then the files of external forces that its motion reads.
 std::vector<fs::path> files_of_motion(const case_file::Case& c) {
   std::vector<fs::path> files = {c.path};
   files.insert(files.end(), c.force_files.begin(), c.force_files.end());
   return files;
 }
 
+/// The names of the models to run: `asked`, or those of the case, or the default models. Unknown
+/// names are not refused here.
 std::vector<std::string> models_to_run(const case_file::Case& c, std::vector<std::string> asked) {
   if (asked.empty()) asked = c.models;
   if (asked.empty())
@@ -130,6 +140,9 @@ std::vector<std::string> models_to_run(const case_file::Case& c, std::vector<std
   return asked;
 }
 
+/// Runs the models, in the order of models_to_run(), and writes nothing. `outside` says which drag
+/// is used outside the interval of gaps of the fit. A model that fails does not stop the others; if
+/// all fail, the error of the first is thrown.
 Simulated simulate_case(const case_file::Case& c, const FitFile& fit_file,
                         const std::vector<std::string>& models,
                         const lubrication::OutsideInterval& outside, const StopToken& stop) {
@@ -171,6 +184,10 @@ Simulated simulate_case(const case_file::Case& c, const FitFile& fit_file,
   return simulated;
 }
 
+/// Writes the results into the folder of the run: first copies of case and fit, then
+/// uncertainty.json, then trajectories, then the record of failed models. All get the record
+/// `provenance`. Files of the user are not looked for. Throws Error(kBadInput) if a file cannot be
+/// written or removed.
 void write_simulated(const results::RunFolder& run, const case_file::Case& c,
                      const Simulated& simulated, const results::Provenance& provenance) {
   write_copies(run, c, simulated.fit_text);
@@ -206,6 +223,9 @@ void write_simulated(const results::RunFolder& run, const case_file::Case& c,
   terminal::say("simulate: {} models", simulated.trajectories.size());
 }
 
+/// Path and text of the file fit.json that stands for the exact drag near a plane. It is not
+/// written here. If such a file exists and has the same numbers, its text is returned, so that the
+/// file keeps the time at which it was made.
 FitFile exact_fit_file(const case_file::Case& c, const results::RunFolder& run,
                        const results::Provenance& provenance) {
   const std::string text =
@@ -214,6 +234,8 @@ FitFile exact_fit_file(const case_file::Case& c, const results::RunFolder& run,
   return {run.fit(), results::output_text(run.fit(), TextKind::kJson, text, provenance)};
 }
 
+/// Chooses the fit (`request.fit`, that of the case, the exact drag, or fit.json in the folder),
+/// runs the models and writes their results.
 void simulate_stage(const case_file::Case& c, const SimulateRequest& request) {
   const results::RunFolder run{request.folder};
   (void)case_file::required_motion(c);
@@ -230,8 +252,8 @@ void simulate_stage(const case_file::Case& c, const SimulateRequest& request) {
   auto inputs = files_of_motion(c);
   if (!exact) inputs.push_back(path);
   auto provenance = results::provenance_of({inputs, {}});
-  // The recorded command must name the fit that the folder has, because `rerun` may repeat the
-  // command with another output folder, which has none.
+  // The recorded command must name the fit of this folder, because `rerun` may repeat the command
+  // with another output folder, which has no fit.
   if (of_folder) provenance.command.insert(provenance.command.end(), {"--fit", path.string()});
   if (request.fit.empty())
     terminal::say("simulate: the drag is {}",

@@ -1,11 +1,11 @@
-// An array job (array_job.hpp): its tasks, the script that each task runs, and the calls of Slurm's
-// programs squeue and sbatch. Each task runs `viscontact COMMAND --task K/T`, where K is the number
-// of the task, from 0 to T - 1, and T the number of tasks, at least 1 and, unless the user gives
-// it, at most 1000; nothing of this is checked. A program of Slurm that fails is an
-// Error(kExternalProgram), a second job and a file that cannot be written an Error(kBadInput), an
-// open quotation mark an Error(kWrongUsage), a stop an Error(kInterrupted). Used by app/,
-// particles/sweep and pipeline/tabulate. A change must keep the name of the job, because a second
-// job for the same output is recognised by it.
+// Makes an array job of the workload manager Slurm (array_job.hpp): its tasks, the script that each
+// task runs, and the calls of Slurm's programs squeue and sbatch. Each task runs `viscontact
+// COMMAND --task K/T`. T >= 1 is the number of tasks, at most 1000 unless the user gives the
+// number; K is the number of the task, from 0 to T - 1. None of these numbers is checked. A program
+// of Slurm that fails is an Error(kExternalProgram), a second job and a file that cannot be written
+// an Error(kBadInput), an open quotation mark an Error(kWrongUsage), a stop an Error(kInterrupted).
+// app/, particles/sweep and pipeline/tabulate use this file. A change must keep the name of the
+// job, because a second job for the same output is recognised by the name.
 #include "viscontact/pipeline/slurm/array_job.hpp"
 
 #include <fmt/format.h>
@@ -24,24 +24,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Slurm's MaxArraySize is 1001 by default, and the number of each task must be smaller than it.
+// The setting MaxArraySize of Slurm is 1001 by default. The number of each task must be smaller
+// than this setting.
 constexpr std::size_t kMostTasks = 1000;
 
+/// The absolute path of the output, without a slash at its end.
 fs::path absolute_output(const fs::path& output) {
   const fs::path whole = fs::absolute(output).lexically_normal();
   return whole.has_filename() ? whole : whole.parent_path();  // "folder/" becomes "folder"
 }
 
-/// The name of the job. It depends on the output's path only, so that refuse_second_job() finds an
-/// earlier job for the same output.
+/// The name of the job. The name depends on the path of the output only, so that
+/// refuse_second_job() finds an earlier job for the same output.
 std::string job_name(const fs::path& output) {
   constexpr std::size_t kDigits = 12;  // of the hash: 48 bits, enough to distinguish outputs
   return "viscontact-" + sha256(absolute_output(output).string()).substr(0, kDigits);
 }
 
-/// Runs a program of Slurm and returns its output without the last newline. `here` is the command
-/// of Viscontact that the message recommends in place of Slurm. Throws Error(kExternalProgram) if
-/// the program cannot be run or fails.
+/// Runs a program of Slurm and returns its output without newlines at the end. `here` is the
+/// command of Viscontact that the message recommends in place of Slurm. Throws
+/// Error(kExternalProgram) if the program cannot be run or fails, and Error(kInterrupted) at a
+/// stop.
 std::string ask_slurm(const std::vector<std::string>& command, const std::string& here,
                       const StopToken& stop) {
   auto result = run_process(command, {}, {}, {}, {}, stop);
@@ -61,8 +64,9 @@ std::string ask_slurm(const std::vector<std::string>& command, const std::string
   return result.output;
 }
 
-/// The numbers of the tasks as sbatch --array reads them, for example "0-3,7". Consecutive numbers
-/// are written as a range, because sbatch limits the length of this text.
+/// The numbers of the tasks, which must increase (not checked), as sbatch --array reads them, for
+/// example "0-3,7". Consecutive numbers are written as a range, because sbatch limits the length of
+/// this text.
 std::string array_of(const std::vector<std::size_t>& tasks) {
   std::string text;
   for (std::size_t first = 0, last = 0; first < tasks.size(); first = last + 1) {
@@ -73,8 +77,8 @@ std::string array_of(const std::vector<std::size_t>& tasks) {
   return text;
 }
 
-/// The script of a task. It runs this program on copies of the cases, which are written when the
-/// job is submitted.
+/// The text of the shell script of a task. The script runs this program on copies of the cases;
+/// the copies are written when the job is submitted.
 std::string task_script(const ArrayJob& job, const ArrayRequest& request) {
   std::vector<std::string> copies;
   for (const auto& [name, text] : job.copies)
@@ -87,8 +91,8 @@ std::string task_script(const ArrayJob& job, const ArrayRequest& request) {
       request.jobs.value_or(1), job.count);
 }
 
-/// The names of the logs, in which sbatch replaces %A by the job's number and %a by the task's. A %
-/// in the path of the folder is written as %%.
+/// The pattern for the names of the logs. sbatch replaces %A by the number of the job, %a by the
+/// number of the task, and %% by %.
 std::string log_pattern(const fs::path& folder) {
   std::string pattern;
   for (const char character : folder.string())
@@ -104,14 +108,19 @@ std::string gather_command(const ArrayJob& job, const ArrayRequest& request) {
 
 }  // namespace
 
+/// The number of tasks: the number that the user gave (not checked), or one task for each row, but
+/// at most kMostTasks.
 std::size_t task_count(const ArrayRequest& request, std::size_t rows) {
   return request.tasks.value_or(std::min(rows, kMostTasks));
 }
 
+/// The folder OUTPUT.slurm, as an absolute path, for scripts, logs and copies of cases.
 fs::path slurm_folder(const fs::path& output) {
   return absolute_output(output).string() + ".slurm";
 }
 
+/// Throws Error(kBadInput) if Slurm has a job for this output that is waiting, running or
+/// suspended.
 void refuse_second_job(const ArrayJob& job, const ArrayRequest& request) {
   std::string jobs =
       ask_slurm({"squeue", "--noheader", "--format=%F", "--states=PENDING,RUNNING,SUSPENDED",
@@ -125,6 +134,8 @@ void refuse_second_job(const ArrayJob& job, const ArrayRequest& request) {
       job.is_running, number);
 }
 
+/// Writes the script and the copies of the cases, submits the job, and prints its number to
+/// standard output. If no task has rows to compute, only a message says so.
 void submit(const ArrayJob& job, const ArrayRequest& request) {
   const auto options = split_words(request.options);
   const std::string gather = gather_command(job, request);
@@ -138,8 +149,8 @@ void submit(const ArrayJob& job, const ArrayRequest& request) {
   const auto script = folder / "task.sh";
   write_file(script, task_script(job, request));
 
-  // With --requeue, the tasks of a node that fails are run again. The user's options come later on
-  // the command line, so that they can change this.
+  // With --requeue, Slurm runs the tasks of a node that fails again. The options of the user follow
+  // --requeue on the command line, so that they can override this option.
   std::vector<std::string> command = {"sbatch", "--requeue"};
   command.insert(command.end(), options.begin(), options.end());
   command.insert(command.end(), {"--parsable", "--job-name=" + job_name(request.output),

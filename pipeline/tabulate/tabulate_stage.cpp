@@ -1,13 +1,13 @@
-// Tabulates several cases in one process, computes the rows of one task of a job on a cluster, or
-// gathers the rows of all tasks. Rows that fail do not stop the others. At the end an error names
-// the rows that are missing: it is an Error(kExternalProgram) if some of them failed, and otherwise
-// an Error(kNotConverged). A file that cannot be read or written is an Error(kBadInput), a wrong
-// VISCONTACT_FREEFEM_TIME_LIMIT an Error(kWrongUsage), a stop an Error(kInterrupted). A row's gaps
-// [L], > 0, and velocity [L/T] are in the units of its case; `jobs` is at least 1, and the Share of
-// a task are the rows whose number modulo Share::count is Share::number. A table may have a
-// companion, a file with the same rows and other columns. Used by app/, pipeline/, python/,
-// rolling/ and swimmer/. A change must keep that the journals, files beside a table to which each
-// row is added when it is finished, are removed only after the table is written.
+// Tabulates cases in one process, computes the rows of one task of a job on a cluster, or gathers
+// the rows of all tasks. Rows that fail do not stop the others; at the end an error names the rows
+// that are missing: Error(kExternalProgram) if some of them failed, else Error(kNotConverged). A
+// file that cannot be read or written is an Error(kBadInput), a wrong VISCONTACT_FREEFEM_TIME_LIMIT
+// an Error(kWrongUsage), a stop an Error(kInterrupted). Gaps [L], > 0, and velocities [L/T] of rows
+// are in the units of their case; `jobs` is at least 1 (not checked). The Share of a task are the
+// rows whose number modulo Share::count is Share::number. A companion of a table is a file with the
+// same rows and other columns. A change must keep that journals, files beside a table to which each
+// finished row is added, are removed only after the table is written. app/, pipeline/, python/,
+// rolling/ and swimmer/ use this file.
 #include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
 
 #include <fmt/format.h>
@@ -28,7 +28,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Warns on the terminal of each finished row whose error estimate exceeds the asked accuracy.
+/// Warns on the terminal of each finished row whose relative error estimate [1] exceeds the
+/// accuracy that the case asks for.
 void warn_of_unmet_accuracy(const freefem_axi::TablePlan& plan,
                             const freefem_axi::RowRecord& record) {
   for (const auto& point : plan.points) {
@@ -50,9 +51,10 @@ bool is_up_to_date(const CaseTable& one) {
   return true;
 }
 
-/// Writes the table and its companions from a record that lacks no rows but those that failed.
-/// Returns the error that names the failed rows, if there are any; it ends with `remedy`, what the
-/// user can do. Throws that error if all rows failed or the table needs all its rows.
+/// Writes the table and its companions from `record`, which must have all rows except those that
+/// failed (not checked). Returns the error that names the failed rows, or nothing if no row failed.
+/// The message ends with `remedy`, which says what the user can do. Throws such an error, and
+/// writes nothing, if all rows failed or if the table needs all its rows.
 RowFailure finish_table(const CaseTable& one, const freefem_axi::RowRecord& record,
                         const results::Provenance& provenance, const std::string& remedy) {
   const auto failures = freefem_axi::failures_of(record, one.plan.points);
@@ -79,12 +81,13 @@ RowFailure finish_table(const CaseTable& one, const freefem_axi::RowRecord& reco
       fmt::format("{} has the others and names the failed ones; {}", one.table.string(), remedy));
 }
 
+/// Shows the number of finished rows and the remaining time [s] on the terminal.
 void show_rows(const freefem_axi::TabulateProgress& progress) {
   terminal::show_progress(fmt::format("tabulate: {}/{} rows, {:.0f} s left", progress.rows_done,
                                       progress.rows, progress.seconds_left));
 }
 
-/// How many rows there are, and how many of them an earlier call has finished, in words.
+/// Says in words how many `points` (rows) there are, and how many of them are finished already.
 std::string rows_in_words(const CaseTable& one, const std::vector<freefem_axi::RowPoint>& points) {
   const auto missing =
       freefem_axi::missing_points(freefem_axi::read_row_record(one.table, one.plan), points);
@@ -108,8 +111,9 @@ RowFailure tabulate_one(const CaseTable& one, int jobs, const StopToken& stop) {
                       "the same command tries them again");
 }
 
-/// Throws the error for the rows `missing`, at least one: Error(kExternalProgram) if one of them
-/// has failed, else Error(kNotConverged).
+/// Throws the error that says that the rows `missing`, at least one, are missing. It is an
+/// Error(kExternalProgram) if one of these rows has failed, else an Error(kNotConverged).
+/// `slurm_folder` is the folder of the logs of the job, which need not exist.
 [[noreturn]] void throw_missing(const CaseTable& one, const freefem_axi::RowRecord& record,
                                 const std::vector<freefem_axi::RowPoint>& missing,
                                 const fs::path& slurm_folder) {
@@ -146,10 +150,13 @@ RowFailure gather_one(const CaseTable& one, const fs::path& slurm_folder) {
   return failure;
 }
 
-/// Calls `work` for the index of each table. An error of kind kExternalProgram or kNotConverged,
-/// which says that rows failed or are missing, does not stop the other tables. At the end such
-/// errors become one. It is returned if `work` returned all of them, because every table is
-/// written; if `work` threw one of them, it is thrown. Any other error stops the work.
+/// Calls `work` with the index of each table, from 0. An error of kind kExternalProgram or
+/// kNotConverged, which says that rows failed or are missing, does not stop the other tables. At
+/// the end one error states all these errors. If `work` returned all of them, every table is
+/// written, and this function returns the one error. If `work` threw one of them, this function
+/// throws the one error. An error of any other kind is passed on at once. A single table is not
+/// treated in this way: what `work` returns or throws is passed on. Throws Error(kInterrupted)
+/// between two tables at a stop.
 template <class Work>
 RowFailure for_each_table(const std::vector<CaseTable>& tables, const StopToken& stop,
                           const Work& work) {
@@ -183,6 +190,8 @@ RowFailure for_each_table(const std::vector<CaseTable>& tables, const StopToken&
 
 }  // namespace
 
+/// The table, at the path `table`, of the force on a sphere that approaches. Nothing is computed.
+/// Throws Error(kBadInput) if the case has no tabulation or asks for another motion.
 CaseTable case_table(const case_file::Case& c, const fs::path& table) {
   const auto& tabulation = case_file::required_tabulation(c);
   if (tabulation.motions != std::vector{lubrication::MotionKind::kApproach})
@@ -194,6 +203,8 @@ CaseTable case_table(const case_file::Case& c, const fs::path& table) {
   return case_tables(c.path, c.text, tabulation, [&](auto) { return table; }).front();
 }
 
+/// The tables of all motions of the tabulation. `path_of` gives the path of the table of a motion.
+/// Nothing is computed.
 std::vector<CaseTable> case_tables(const fs::path& case_path, const std::string& case_text,
                                    const freefem_axi::Tabulation& tabulation,
                                    const freefem_axi::TablePath& path_of) {
@@ -212,6 +223,8 @@ std::vector<CaseTable> case_tables(const fs::path& case_path, const std::string&
   return tables;
 }
 
+/// For each table the points of its rows that belong to the share. The rows of all tables are
+/// numbered in one sequence from 0; share.count is >= 1 (not checked).
 std::vector<std::vector<freefem_axi::RowPoint>> points_of(const std::vector<CaseTable>& tables,
                                                           const Share& share) {
   std::vector<std::vector<freefem_axi::RowPoint>> points;
@@ -224,11 +237,15 @@ std::vector<std::vector<freefem_axi::RowPoint>> points_of(const std::vector<Case
   return points;
 }
 
+/// Computes the missing rows of all tables and writes the tables. Returns the error that names the
+/// rows that failed, if every table is written nevertheless.
 RowFailure tabulate_stage(const std::vector<CaseTable>& tables, int jobs, const StopToken& stop) {
   return for_each_table(tables, stop,
                         [&](std::size_t i) { return tabulate_one(tables[i], jobs, stop); });
 }
 
+/// Computes the missing rows of a share and adds them to the journals of this task. Writes no
+/// table. Throws Error(kExternalProgram) at the end if rows failed.
 void share_stage(const std::vector<CaseTable>& tables, const Share& share, int jobs,
                  const StopToken& stop) {
   const freefem_axi::RowWorker worker = {freefem_axi::default_freefem(stop), jobs,
@@ -248,6 +265,7 @@ void share_stage(const std::vector<CaseTable>& tables, const Share& share, int j
   if (failure) throw Error(*failure);
 }
 
+/// Writes the tables from finished rows, and computes nothing.
 RowFailure gather_stage(const std::vector<CaseTable>& tables, const fs::path& slurm_folder,
                         const StopToken& stop) {
   return for_each_table(tables, stop,
@@ -256,7 +274,7 @@ RowFailure gather_stage(const std::vector<CaseTable>& tables, const fs::path& sl
 
 namespace {
 
-/// The numbers of the tasks that have rows to compute.
+/// The numbers of those of `count` >= 1 tasks that have rows to compute, from 0 and increasing.
 std::vector<std::size_t> tasks_with_rows(const std::vector<CaseTable>& tables, std::size_t count) {
   std::vector<freefem_axi::RowRecord> records;
   records.reserve(tables.size());
@@ -276,6 +294,8 @@ std::vector<std::size_t> tasks_with_rows(const std::vector<CaseTable>& tables, s
 
 }  // namespace
 
+/// Submits the tasks that have rows to compute. `options` are further arguments of the command
+/// `tabulate` that each task runs.
 void submit_to_slurm(const std::vector<CaseTable>& tables, const ArrayRequest& request,
                      const std::vector<std::string>& options) {
   std::size_t rows = 0;

@@ -1,10 +1,11 @@
 // Calls the integrator CVODE of SUNDIALS 6 or 7 and checks all return codes (cvode.hpp). Times are
-// in [T]. A state and its derivative have `dimension` > 0 components of any dimensions, the
-// Jacobian dimension x dimension entries by columns; lengths of spans and indices are not checked.
-// A code that is an error, or more than 1e6 steps since the restart, become Error(kNotConverged),
-// unless an Error of the system is the cause, which is then thrown; too little memory is
-// std::bad_alloc. Used by reduced_model/models and rolling/. A change must keep that CVODE prints
-// nothing, and that the file compiles with both versions of SUNDIALS.
+// in [T]. A state and its derivative have `dimension` > 0 components of any dimensions; the
+// Jacobian has dimension x dimension entries, stored by columns. Lengths of spans and indices are
+// not checked. A return code that is an error, and more than 1e6 steps since the restart, become an
+// Error(kNotConverged). If an Error that the system of equations threw is the cause, this Error is
+// thrown instead. Too little memory is a std::bad_alloc. reduced_model/models and rolling/ use this
+// file. A change must keep that CVODE prints nothing, and that the file compiles with both versions
+// of SUNDIALS.
 #include "viscontact/reduced_model/integration/cvode.hpp"
 
 #include <cvode/cvode.h>
@@ -23,13 +24,14 @@
 namespace viscontact::reduced_model {
 namespace {
 
+/// The components of a vector of SUNDIALS, as long as the vector exists.
 std::span<double> values(N_Vector vector) {
   return {N_VGetArrayPointer(vector), static_cast<std::size_t>(N_VGetLength(vector))};
 }
 
 /// Keeps SUNDIALS from printing its errors, because check() throws each of them as an Error.
-/// SUNDIALS 6 (Debian 12) has a file for the errors of each solver, SUNDIALS 7 (Debian 13) a list
-/// of error handlers in the context instead. Returns a code of SUNDIALS, < 0 if it fails.
+/// SUNDIALS 6 (Debian 12) has a file for the errors of each solver, and SUNDIALS 7 (Debian 13) has
+/// a list of error handlers in the context. Returns a code of SUNDIALS, < 0 if the call fails.
 int print_no_errors([[maybe_unused]] SUNContext context, [[maybe_unused]] void* memory) {
 #if SUNDIALS_VERSION_MAJOR >= 7
   return SUNContext_ClearErrHandlers(context);
@@ -43,8 +45,9 @@ constexpr int kTryAgain = 1;
 
 }  // namespace
 
-/// The objects of SUNDIALS, each after those that it depends on, and the functions that CVODE
-/// calls. The argument `self` of these functions is the Cvode.
+/// The objects of SUNDIALS, each after the objects that it depends on, and the functions that CVODE
+/// calls. The argument `self` of these functions is the object of class Cvode. They return 0, or
+/// kTryAgain after an Error of the system. weights() sets each weight to 1/(allowed error).
 struct Cvode::Sundials {
   struct Deleters {
     void operator()(N_Vector object) const { N_VDestroy(object); }
@@ -77,6 +80,8 @@ struct Cvode::Sundials {
   void* memory = nullptr;
 };
 
+/// Starts at the time 0 from `state`, which has system.dimension components. Throws std::bad_alloc
+/// if there is too little memory.
 Cvode::Cvode(StiffSystem system, std::span<const double> state)
     : system_(std::move(system)), sundials_(std::make_unique<Sundials>(system_.dimension)) {
   const Sundials& s = *sundials_;
@@ -88,7 +93,7 @@ Cvode::Cvode(StiffSystem system, std::span<const double> state)
   check(CVodeSetUserData(s.memory, this), "CVodeSetUserData");
   check(print_no_errors(s.context, s.memory), "print_no_errors");
   // A negative number turns off all warnings of steps that are shorter than the rounding error of
-  // the time. SUNDIALS 7 would print them on standard output.
+  // the time. SUNDIALS 7 would print these warnings on standard output.
   check(CVodeSetMaxHnilWarns(s.memory, -1), "CVodeSetMaxHnilWarns");
   check(CVodeSetLinearSolver(s.memory, s.solver.get(), s.matrix.get()), "CVodeSetLinearSolver");
   check(CVodeSetJacFn(s.memory, Sundials::jacobian), "CVodeSetJacFn");
@@ -104,16 +109,20 @@ Cvode::~Cvode() = default;
 
 std::span<const double> Cvode::state() const { return values(sundials_->state.get()); }
 
+/// Replaces the state; restart() must follow.
 void Cvode::set_state(std::span<const double> state) {
   std::ranges::copy(state, values(sundials_->state.get()).begin());
 }
 
+/// Number of steps since the construction of the object.
 long Cvode::steps() const {
   long steps = 0;
   check(CVodeGetNumSteps(sundials_->memory, &steps), "CVodeGetNumSteps");
   return steps_before_restart_ + steps;
 }
 
+/// Starts again at `time` from the present state, and does not go beyond `stop_time` > `time`.
+/// `first_step` is the first step to try; with 0 CVODE chooses it.
 void Cvode::restart(double time, double stop_time, double first_step) {
   steps_before_restart_ = steps();
   time_ = time;
@@ -125,17 +134,21 @@ void Cvode::restart(double time, double stop_time, double first_step) {
   steps_since_restart_ = 0;
 }
 
+/// Makes one step of a length that CVODE chooses. Throws Error(kNotConverged) or the Error of the
+/// system if the step fails.
 void Cvode::step() {
   const double before = time_;
   int code = CVode(sundials_->memory, stop_time_, sundials_->state.get(), &time_, CV_ONE_STEP);
-  // Since the restart; without a limit CVODE makes tiny steps for ever if the solution diverges.
+  // The largest number of steps since the restart is a free choice. Without this limit, CVODE would
+  // make tiny steps for ever if the solution diverges.
   constexpr long kMostSteps = 1'000'000;
   if (code >= 0 && (!(time_ > before) || ++steps_since_restart_ > kMostSteps))
     code = CV_TOO_MUCH_WORK;
   if (code < 0 && system_error_) {
-    // CVODE reports its own last failure. If the time that it reached exceeds the time at which the
-    // system threw an Error by at most the fraction kNoWay, that Error is the cause.
-    constexpr double kNoWay = 1e-9;  // far above the rounding error of a time
+    // CVODE reports its own last failure only. The Error that the system threw is the cause if
+    // CVODE has got no further since: the time that it reached may exceed the time of the Error by
+    // at most the fraction kNoWay, a free choice far above the rounding error of a time.
+    constexpr double kNoWay = 1e-9;
     double reached = 0;
     check(CVodeGetCurrentTime(sundials_->memory, &reached), "CVodeGetCurrentTime");
     if (reached <= system_error_time_ * (1 + kNoWay)) std::rethrow_exception(system_error_);
@@ -143,11 +156,14 @@ void Cvode::step() {
   check(code, "CVode");
 }
 
+/// Component `i`, from 0, of the state at a time within the last step; throws Error(kNotConverged)
+/// at another time.
 double Cvode::at(double time, std::size_t i) const {
   check(CVodeGetDky(sundials_->memory, time, 0, sundials_->interpolated.get()), "CVodeGetDky");
   return values(sundials_->interpolated.get())[i];
 }
 
+/// The coefficients of component `i` near time(), in powers of (t - time()), the constant first.
 std::vector<double> Cvode::expansion(std::size_t i) const {
   int order = 0;
   check(CVodeGetLastOrder(sundials_->memory, &order), "CVodeGetLastOrder");
@@ -161,6 +177,7 @@ std::vector<double> Cvode::expansion(std::size_t i) const {
   return coefficients;
 }
 
+/// Throws Error(kNotConverged), which names `call`, if `code` < 0 is an error of SUNDIALS.
 void Cvode::check(int code, const char* call) const {
   if (code >= 0) return;
   const std::unique_ptr<char, decltype(&std::free)> name(CVodeGetReturnFlagName(code), std::free);
@@ -170,6 +187,7 @@ void Cvode::check(int code, const char* call) const {
               time_, call, name.get(), system_.tolerance_key);
 }
 
+/// Stores the Error that the system has just thrown at `time`, and returns kTryAgain.
 int Cvode::keep_error(double time) {
   system_error_ = std::current_exception();
   system_error_time_ = time;

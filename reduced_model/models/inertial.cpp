@@ -1,11 +1,11 @@
-// Integrates ds/dt = (P - Gamma(q))/(m q) (inertial_equation.hpp) with CVODE: restarts it where the
-// external force jumps, and makes rows at the required times and where the velocity changes its
-// sign. q is the gap, s = ln(q/radius) the unknown of CVODE, Gamma the primitive of the resistance
-// R, m the mass, P = m dq/dt + Gamma(q); gaps [L], the mass [M] and the radius are > 0, times [T]
-// >= 0, P and Gamma are [M L/T], in any consistent units. A CVODE that gives up and, with
-// roughness, an external force with too many periods are an Error(kNotConverged), a gap outside the
-// fit, more than 1e8 rows and a start within the roughness an Error(kBadInput), a stop an
-// Error(kInterrupted). Used by models.cpp. A change of results must raise kModelsRevision
+// Integrates ds/dt = (P - Gamma(q))/(m q) (inertial_equation.hpp) with CVODE. CVODE is restarted
+// where the external force jumps; rows are made at the required times and where the velocity
+// changes its sign. q is the gap, s = ln(q/radius) the unknown of CVODE, Gamma the primitive of the
+// resistance R, m the mass, P = m dq/dt + Gamma(q). Gaps [L], the mass [M] and the radius are > 0,
+// times [T] >= 0, P and Gamma are [M L/T], in any consistent units. A CVODE that gives up and, with
+// roughness, an external force with too many periods are an Error(kNotConverged). A gap outside the
+// fit, more than 1e8 rows and a start within the roughness are an Error(kBadInput), a stop an
+// Error(kInterrupted). models.cpp uses this file. A change of results must raise kModelsRevision
 // (trajectory.hpp).
 #include "viscontact/reduced_model/models/inertial.hpp"
 
@@ -27,7 +27,8 @@ namespace {
 /// One integration from the start of the motion to its end.
 class InertialRun {
  public:
-  /// The solids touch at the gap `solid_gap` [L]; 0: never.
+  /// The solids touch at the gap `solid_gap` >= 0 [L], and never if it is 0. `motion` and `force`
+  /// must outlive this object.
   InertialRun(const Motion& motion, const lubrication::LubricationForce& force, double solid_gap)
       : motion_(motion),
         force_(force),
@@ -36,16 +37,18 @@ class InertialRun {
         cvode_(equation_.system(now_), std::array{equation_.state_of(motion.initial_gap)}),
         times_(row_times(motion)),
         next_row_(times_.begin() + 1) {
-    // The 16 additional rows are for the times at which the velocity changes its sign.
+    // Memory for 16 more rows is for the times at which the velocity changes its sign; the number
+    // is a free choice.
     trajectory_.rows.reserve(times_.size() + 16);
     add_row(0,
             {motion.initial_gap, motion.initial_velocity, 0, force.resistance(motion.initial_gap)});
   }
 
+  /// Integrates to the end of the motion; may be called once only (not checked).
   Trajectory run() {
     auto stops = motion_.external_force.jumps();
-    // A stop is needed where the external force changes its sign, because it may pull the sphere
-    // off the solids there.
+    // CVODE must also stop where the external force changes its sign, because the force may pull
+    // the sphere off the solids from there on.
     if (solid_gap_ > 0) {
       std::ranges::copy(motion_.external_force.sign_changes(motion_.end_time),
                         std::back_inserter(stops));
@@ -100,7 +103,9 @@ class InertialRun {
 
   void restart(double first_step) { cvode_.restart(now_, stop_, first_step); }
 
-  /// Makes the rebound from the solids at the time now_, and continues from there.
+  /// Makes the rebound from the solids at the time now_: the velocity changes from u to -e u, with
+  /// the coefficient e of restitution. Then restarts CVODE, or lets the sphere rest until the next
+  /// stop.
   void strike_solids() {
     const double before = std::min(0.0, velocity_at_solids()), m = motion_.mass;
     if (!trajectory_.solid_contact_from)
@@ -109,8 +114,8 @@ class InertialRun {
     const double restitution = motion_.restitution();
     double after = -restitution * before;
     const double pull = motion_.external_force.value(now_);
-    // A flight that is shorter than this part of end_time counts as rest.
-    // viscous_contact_exact.cpp has the same number.
+    // A flight that is shorter than this part of end_time counts as rest. The number is a free
+    // choice, which viscous_contact_exact.cpp repeats.
     constexpr double kShortestFlight = 1e-6;
     rests_ =
         !(after > 0) || (pull < 0 && 2 * m * after < -pull * kShortestFlight * motion_.end_time);
@@ -119,7 +124,8 @@ class InertialRun {
     solid_impulse_ += m * (after - before);
     solid_work_ += m / 2 * (after - before) * (after + before);
     if (before < 0) {
-      // The velocity that the sphere loses by the drag between the initial gap and the solids.
+      // `film` is the velocity that the sphere loses by the drag between the initial gap and the
+      // solids.
       const double film = (force_.impulse(motion_.initial_gap) - force_.impulse(solid_gap_)) / m;
       const double approach = before - film, leaving = std::max(0.0, after - film);
       trajectory_.rebounds.push_back({now_, approach, -m * before, leaving, leaving / -approach});
@@ -136,15 +142,16 @@ class InertialRun {
     return (equation_.momentum(now_) - force_.impulse(solid_gap_)) / motion_.mass;
   }
 
-  /// True if the external force, which has one sign until the next stop, pulls the sphere off the
-  /// solids.
+  /// True if the external force pulls the sphere off the solids. The force has one sign until the
+  /// next stop. If the result is true, rests_ becomes false.
   bool leaves_solids() {
     if (!(motion_.external_force.mean(now_, stop_) > 0)) return false;
     rests_ = false;
     return true;
   }
 
-  /// Lets the sphere rest on the solids, which carry the external force, until the time `stop`.
+  /// Lets the sphere rest on the solids until the time `stop` [T], and adds the rows until then.
+  /// The solids carry the external force.
   void rest_until(double stop) {
     const double carried =
         motion_.external_force.impulse(stop) - motion_.external_force.impulse(now_);
@@ -157,9 +164,9 @@ class InertialRun {
     now_ = last_stop_ = stop;
   }
 
-  /// The budget. The work of the external force is the sum over the rows of the mean force times
-  /// the change of the gap, with an error of second order in the spacing of the rows. The work of
-  /// the film is that which then balances the energy.
+  /// The budget of impulses [M L/T] and works [M L^2/T^2]. The work of the external force is the
+  /// sum over the rows of the mean force times the change of the gap. Its error is of second order
+  /// in the spacing of the rows. The work of the film is chosen so that the energy is balanced.
   MomentumEnergyBudget budget() const {
     MomentumEnergyBudget budget;
     const auto& rows = trajectory_.rows;
@@ -181,8 +188,9 @@ class InertialRun {
       cvode_.step();
       return true;
     } catch (const Error&) {
-      // CVODE can fail if it must resolve how a state returns to the balance of drag and force, at
-      // the rate R/m. Then it is restarted from the balanced state, once at each time.
+      // CVODE can fail where it must resolve how the velocity returns to the balance of drag and
+      // force, at the rate R/m. Then CVODE is restarted from the balanced state. If it fails again
+      // at the same time, the Error is thrown.
       if (now_ <= given_up_at_) throw;
       given_up_at_ = now_;
       const double q = gap();
@@ -193,18 +201,20 @@ class InertialRun {
     }
   }
 
+  /// The state of the sphere at the time t [T] with the unknown s [1].
   InertialInstant instant_of(double t, double s) const {
-    // At the stop time the external force has jumped, but the velocity has not. The force is
-    // therefore taken just before.
+    // At the stop time the external force has jumped, but the velocity has not. Therefore the force
+    // is taken just before this time.
     const double force_time = t == stop_ ? std::nextafter(stop_, last_stop_) : t;
     return equation_.instant(t, equation_.gap_of(s), force_time);
   }
 
-  /// Adds the rows of the last step of CVODE that are at most at the time `end` [T]; `now` is the
-  /// state at this time.
+  /// Adds the rows of the last step of CVODE until the time `end` [T], at most the end of this
+  /// step; `now` is the state at the time `end`. If the velocity changes its sign, there is a row
+  /// at the time of the change.
   void add_rows_of_step(double end, const InertialInstant& now) {
-    // If more rows than this are in the step, the expansion of s in powers of the time is cheaper
-    // than at().
+    // If the step has more rows than this, the expansion of s in powers of the time takes less time
+    // than at() for each row. The number is a free choice.
     constexpr std::ptrdiff_t kManyRows = 8;
     const bool many = times_.end() - next_row_ > kManyRows && *(next_row_ + kManyRows) < end;
     const std::vector<double> expansion = many ? cvode_.expansion() : std::vector<double>();
@@ -232,6 +242,7 @@ class InertialRun {
     }
   }
 
+  /// Adds a row at the time t [T] with the state `at`; its drag is -R times the velocity.
   void add_row(double t, const InertialInstant& at) {
     trajectory_.rows.push_back(
         {t, at.gap, at.velocity, -at.resistance * at.velocity, motion_.external_force.value(t)});
@@ -256,10 +267,13 @@ class InertialRun {
 
 }  // namespace
 
+/// Computes the motion of a sphere and a wall whose solids never touch.
 Trajectory simulate_inertial(const Motion& motion, const lubrication::LubricationForce& force) {
   return InertialRun(motion, force, 0).run();
 }
 
+/// Throws Error(kBadInput) unless the initial gap is greater than both heights of roughness
+/// together.
 void check_start_outside_roughness(const Motion& motion) {
   const double solid_gap = motion.roughness[0] + motion.roughness[1];
   if (!(motion.initial_gap > solid_gap))
@@ -269,6 +283,8 @@ void check_start_outside_roughness(const Motion& motion) {
         motion.initial_gap, solid_gap);
 }
 
+/// Computes the motion with solids that touch and rebound at the gap that equals both heights of
+/// roughness together. Without roughness the result is that of simulate_inertial().
 Trajectory simulate_inertial_rough(const Motion& motion,
                                    const lubrication::LubricationForce& force) {
   check_start_outside_roughness(motion);

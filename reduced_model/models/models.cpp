@@ -1,11 +1,11 @@
-// The table of models of motion, the suffixes of their names, the budget of models that resolve the
-// whole drag, and the gaps that a model reaches. Gaps [L], >= 0, velocities [L/T], times [T],
-// forces [M L/T^2], impulses [M L/T] and works [M L^2/T^2] are in any consistent units; masses and
-// time steps > 0 are not checked. An unknown name is an Error(kBadInput), a result that is not
-// finite an Error(kNotConverged), a stop an Error(kInterrupted); the errors of the models are
-// thrown, too. Used by pipeline/, sweep/, results/, report/, case_file/, app/ and python/. A change
-// must keep the names, which users' files contain, and the order, which gives the colours of the
-// report.
+// Lists the models of motion of a sphere and the suffixes of their names, runs a model, and
+// computes the budget of models that resolve the whole drag, and the gaps that a model reaches.
+// Gaps [L], >= 0, velocities [L/T], times [T], forces [M L/T^2], impulses [M L/T] and works [M
+// L^2/T^2] are in any consistent units; masses and time steps > 0 are not checked. An unknown name
+// is an Error(kBadInput), a result that is not finite an Error(kNotConverged), a stop an
+// Error(kInterrupted); the errors of the models are thrown, too. pipeline/, sweep/, results/,
+// report/, case_file/, app/ and python/ use this file. A change must keep the names, which files of
+// users contain, and the order, which decides on the colours of the report.
 #include "viscontact/reduced_model/models/models.hpp"
 
 #include <fmt/format.h>
@@ -34,10 +34,10 @@ namespace {
 ///     m (u^{n+1} - u^n)/h = -R(q^n) u^n + f^n,     q^{n+1} = q^n + h u^n.
 ///
 /// The film damps at the rate R/m, which grows without bound as q falls. As soon as h R(q)/m > 2,
-/// the velocity changes its sign at each step and grows, and the sphere goes through the wall,
-/// although the exact motion never touches it. The trajectory ends with a row of gap 0 where the
-/// sphere goes through the wall, or at the end of the motion. Throws Error(kBadInput) if the motion
-/// leaves the fit's interval.
+/// the velocity changes its sign at each step and grows, and the sphere goes through the wall. In
+/// the exact motion, the sphere never touches the wall. The trajectory ends with a row of gap 0
+/// where the sphere goes through the wall, or at the end of the motion. Throws Error(kBadInput) if
+/// the gap leaves the interval of the fit, or if there are more than 1e8 steps.
 Trajectory simulate_explicit_euler(const Motion& motion,
                                    const lubrication::LubricationForce& force) {
   const double end = motion.end_time;
@@ -106,12 +106,14 @@ constexpr std::array kModels = {
     Model{"inertial_rough", "with inertia and solid contact, CVODE", simulate_inertial_rough,
           nullptr, kOnRequest, kInertia, kFluid, kInertialRoughParameters, nullptr, "variable",
           !kInSweeps, !kUsualReference, check_start_outside_roughness},
-    // A new model stands here, at the end, so that the others keep their colours in the report.
+    // New models must be added here, at the end, so that the others keep their colours in the
+    // report.
 };
 
-/// The budget of a model that resolves the whole drag, which counts as that of the film. Between
-/// two rows, the film's impulse is the change of momentum minus the impulse of the force, and its
-/// work is this impulse times the mean velocity.
+/// The budget of a model that resolves the whole drag; the drag counts as the force of the film.
+/// `rows` has at least one row. `inertia` is false for a model without inertia, whose momentum is
+/// 0. Between two rows, the impulse of the film is the change of momentum minus the impulse of the
+/// external force. The work of the film is this impulse times the mean of both velocities.
 MomentumEnergyBudget budget_of_drag(const std::vector<TrajectoryRow>& rows, const Motion& motion,
                                     bool inertia) {
   MomentumEnergyBudget budget;
@@ -133,7 +135,7 @@ MomentumEnergyBudget budget_of_drag(const std::vector<TrajectoryRow>& rows, cons
 }
 
 /// Throws Error(kNotConverged) if a number of the trajectory is not finite, or if times do not
-/// increase.
+/// increase. The trajectory must have a budget and a row (not checked).
 void check_finite(const Trajectory& trajectory) {
   const auto refuse = [](double time) {
     throw Error(ErrorKind::kNotConverged,
@@ -153,6 +155,7 @@ void check_finite(const Trajectory& trajectory) {
     if (!(trajectory.rows[i].time > trajectory.rows[i - 1].time)) refuse(trajectory.rows[i].time);
 }
 
+/// The models for which a member of the type bool is true, in the order of the list.
 std::vector<Model> models_with(bool Model::*property) {
   std::vector<Model> models;
   std::ranges::copy_if(kModels, std::back_inserter(models), property);
@@ -177,11 +180,14 @@ std::string usual_reference() {
   return std::string(std::ranges::find(kModels, true, &Model::usual_reference)->name);
 }
 
+/// The reference among models of these names: the usual one if it is among them or if there are no
+/// names, otherwise the first.
 std::string reference_of(const std::vector<std::string>& names) {
   const std::string usual = usual_reference();
   return names.empty() || std::ranges::find(names, usual) != names.end() ? usual : names.front();
 }
 
+/// The parameters of all models, each key once, in the order of the models.
 std::vector<ModelParameter> model_parameters() {
   std::vector<ModelParameter> all;
   for (const auto& model : kModels)
@@ -191,6 +197,7 @@ std::vector<ModelParameter> model_parameters() {
   return all;
 }
 
+/// The sections of a case with these parameters and the roughness, each once.
 std::vector<std::string_view> model_sections() {
   std::vector<std::string_view> sections;
   const auto add = [&](std::string_view section) {
@@ -201,6 +208,8 @@ std::vector<std::string_view> model_sections() {
   return sections;
 }
 
+/// The model with this name, which may have suffixes; nothing if there is none, or if the suffix
+/// kSmoothSuffix follows the name of a model without contact.
 std::optional<ModelChoice> known_model(std::string_view name) {
   ModelChoice choice{std::string(name)};
   const auto take = [&](std::string_view suffix) {
@@ -218,11 +227,14 @@ std::optional<ModelChoice> known_model(std::string_view name) {
   return choice;
 }
 
+/// Throws Error(kBadInput), which lists the names, if there is no such model.
 ModelChoice find_model(std::string_view name) {
   if (const auto choice = known_model(name)) return *choice;
   return {std::string(name), &require_named(kModels, name, "model")};  // throws
 }
 
+/// False if the number of a case at `key`, such as "sphere.mass", cannot change the results of the
+/// model.
 bool depends_on(const ModelChoice& choice, std::string_view key) {
   key = key.substr(0, key.find('['));
   const Model& model = *choice.model;
@@ -257,6 +269,8 @@ std::string description_of(const ModelChoice& choice) {
                      choice.smooth ? ", smooth" : "");
 }
 
+/// A copy of `force`, or the exact drag near a plane with the same viscosity and radius, as the
+/// choice says.
 lubrication::LubricationForce drag_of(const ModelChoice& choice,
                                       const lubrication::LubricationForce& force) {
   return choice.exact_drag
@@ -264,6 +278,8 @@ lubrication::LubricationForce drag_of(const ModelChoice& choice,
              : force;
 }
 
+/// Throws the Error(kBadInput) that simulate() would throw for the time step, the start and the
+/// roughness of the motion; runs nothing.
 void check_model(const ModelChoice& choice, const Motion& motion,
                  const lubrication::LubricationForce& force) {
   with_place("model " + choice.name, [&] {
@@ -274,6 +290,8 @@ void check_model(const ModelChoice& choice, const Motion& motion,
   });
 }
 
+/// Runs a model and adds its name, its budget and the computing time [s]. Messages of errors begin
+/// with the name of the model.
 Trajectory simulate(const ModelChoice& choice, const Motion& motion,
                     const lubrication::LubricationForce& force) {
   const auto start = std::chrono::steady_clock::now();
@@ -295,6 +313,8 @@ Trajectory simulate(const ModelChoice& choice, const Motion& motion,
   return trajectory;
 }
 
+/// The smallest and the largest gap [L] at which the model evaluates the whole drag; nothing if it
+/// evaluates no drag or the motion cannot be computed. Throws Error(kInterrupted) at a stop.
 std::optional<ReachedGaps> reached_gaps(const ModelChoice& choice, const Motion& motion,
                                         const lubrication::LubricationForce& force) {
   try {

@@ -1,11 +1,12 @@
-// The loop over time of the contact models (contact_model.hpp): it makes the steps of
+// Makes the loop over time of the contact models (contact_model.hpp). It makes the steps of
 // contact_step.hpp and rebound.hpp, adds up the impulses and works, and finds when contact begins
-// and ends. gamma [M L/T] is minus the impulse that the film in the contact has absorbed. Gaps [L]
-// are at least that of contact, which is >= 0, velocities are [L/T], the mass [M] and the time step
-// [T] are > 0, in any consistent units; the model is not checked. More than 1e8 steps and a time
-// step without a value are an Error(kBadInput), a stop an Error(kInterrupted); the errors of the
-// drag are thrown, too. Used by models.cpp. A change must keep the balance of the budget to
-// round-off; one of results must raise kModelsRevision (trajectory.hpp).
+// and ends. gamma [M L/T], <= 0, is minus the impulse that the film in the contact has absorbed.
+// Gaps [L] are at least the gap of contact, which is >= 0, velocities are [L/T], the mass [M] and
+// the time step [T] are > 0, in any consistent units; the model is not checked. More than 1e8 steps
+// and a time step without a value are an Error(kBadInput), a stop an Error(kInterrupted); the
+// errors of the drag are thrown, too. models.cpp uses this file. A change must keep the budget of
+// impulses and works balanced to rounding errors. A change of results must raise kModelsRevision
+// (trajectory.hpp).
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
 
 #include <algorithm>
@@ -33,16 +34,22 @@ class DragAtDistance {
   DragAtDistance(const ResolvedDrag& drag, double contact_gap)
       : drag_(drag), contact_gap_(contact_gap) {}
 
+  /// Minus the impulse of the drag on the sphere [M L/T] while the distance changes from `from` to
+  /// `to` [L]; > 0 if the distance grows.
   double impulse(double from, double to) const {
     return from == to ? 0 : drag_.impulse(contact_gap_ + to) - drag_.impulse(contact_gap_ + from);
   }
 
+  /// The velocity [L/T] at the end of a step that begins at `distance` >= 0 with the momentum
+  /// `momentum` [M L/T], which includes the impulse of the external force; the drag acts in the
+  /// step. The distance at the end is >= 0.
   double velocity(const ContactSetting& setting, double distance, double momentum) const {
-    // With the primitive Gamma_res of the resistance, m v + Gamma_res(D + h v) - Gamma_res(D)
-    // increases with v, so the root is between 0 and the velocity without drag. Where the
-    // resistance falls with the gap, the function is concave, and Newton's method from v = 0
-    // converges to the root from below. The bracket makes the method safe for fits whose resistance
-    // does not fall.
+    // With the mass m, the length h of the step, the distance D at its beginning and a primitive
+    // Gamma_res of the resistance, the velocity v solves m v + Gamma_res(D + h v) - Gamma_res(D) =
+    // momentum. The left side increases with v, so that the root is between 0 and the velocity
+    // without drag. Where the resistance falls with the gap, the function is concave, and Newton's
+    // method from v = 0 converges to the root from below. The bracket makes the method safe for
+    // fits whose resistance does not fall.
     const double free = momentum * setting.per_mass;
     const double low = std::max(-distance * setting.per_step, std::min(0.0, free));
     const double high = std::max(0.0, free);
@@ -52,8 +59,8 @@ class DragAtDistance {
                        setting.mass + setting.step * drag_.resistance(contact_gap_ + distance +
                                                                       setting.step * v));
     };
-    // A smaller change of the velocity is within its rounding error, and does not change the next
-    // gap.
+    // A change of the velocity that is smaller than this is within the rounding error of the
+    // velocity, and does not change the next gap.
     const auto settled = [](double v, double next) {
       constexpr double kRoundOff = 4 * std::numeric_limits<double>::epsilon();
       return std::abs(next - v) <= kRoundOff * std::abs(next);
@@ -66,16 +73,17 @@ class DragAtDistance {
   double contact_gap_;
 };
 
-/// The times of a step [T]: it lasts from `begin` to `end`, and the external force acts in it by
-/// its impulse from `kick_begin` to `kick_end`. These differ from `begin` and `end` only if the
-/// model is staggered (ContactModel::is_staggered).
+/// The times of a step [T]. The step lasts from `begin` to `end`, and the external force acts in it
+/// by the impulse of the force from `kick_begin` to `kick_end`. The latter two times differ from
+/// `begin` and `end` only if the model is staggered (ContactModel::is_staggered).
 struct StepTimes {
   double begin = 0, end = 0, kick_begin = 0, kick_end = 0;
 };
 
-/// Adds a step to the budget; `push` [M L/T] is the impulse of the external force. The work of each
-/// impulse is the impulse times the mean velocity of the step, so that the works add up to the
-/// change of kinetic energy exactly.
+/// Adds a step to the budget of impulses [M L/T] and works [M L^2/T^2]; `push` [M L/T] is the
+/// impulse of the external force. The work of each impulse is the impulse times the mean of the
+/// velocities before and after the step, so that the works add up to the change of kinetic energy
+/// exactly.
 void add_to(MomentumEnergyBudget& budget, double velocity_before, double push,
             const ContactStep& step) {
   const double velocity = (velocity_before + step.state.velocity) / 2;
@@ -97,6 +105,8 @@ class ContactClock {
  public:
   explicit ContactClock(double mass) : mass_(mass) {}
 
+  /// Takes a step of contact_step.hpp into account, with the state `before` it and the impulse
+  /// `push` [M L/T] of the external force in it.
   void look_at(const StepTimes& times, const ContactState& before, double push,
                const ContactStep& step) {
     if (std::exchange(is_struck_, false)) return;
@@ -112,8 +122,8 @@ class ContactClock {
     if (contact) {
       (*interval_)[1] = next;
     } else if (touching_) {
-      // The momentum at the beginning and the impulse of the force raise gamma to 0 after this
-      // fraction of the impulse.
+      // The momentum at the beginning and the impulse of the force together raise gamma; gamma is 0
+      // when this fraction of both has acted.
       const double rise = mass_ * before.velocity + push;
       const double share = before.gamma < 0 && rise > 0 ? -before.gamma / rise : 0;
       (*interval_)[1] = kick_begin + (kick_end - kick_begin) * std::min(1.0, share);
@@ -128,6 +138,7 @@ class ContactClock {
     (*interval_)[1] = touching_ ? times.end : times.begin + step.last_impact;
     is_struck_ = true;
   }
+  /// The times at which contact begins first and ends last; nothing without contact.
   std::optional<std::array<double, 2>> interval() const { return interval_; }
 
  private:
@@ -136,12 +147,14 @@ class ContactClock {
   bool touching_ = false, is_struck_ = false;
 };
 
-/// When the solids touch, and how fast, in the first step in which they carry a load. Before it
-/// gamma is above model.gamma_min. `landing` [T] is the time at which contact began, `push` [M L/T]
-/// the impulse of the external force.
+/// The time [T] at which the solids touch, and the velocity [L/T], <= 0, with which they do, in the
+/// first step in which they carry a load. Before this step gamma is above model.gamma_min.
+/// `landing` [T] is the time at which contact began; `push` [M L/T] is the impulse of the external
+/// force.
 SolidTouch touch_in(const ContactModel& model, double mass, double landing, const StepTimes& times,
                     const ContactState& before, double push, const ContactStep& step) {
-  // The sphere landed in this step: the film takes a part of its momentum, and the solids the rest.
+  // If gamma was 0 before, the sphere landed in this step: the film takes a part of its momentum,
+  // and the solids take the rest.
   if (!(before.gamma < 0)) return {landing, step.state.velocity - step.solid / mass};
   const double rest = before.gamma + mass * before.velocity - model.gamma_min;
   if (rest <= 0) return {times.kick_begin, rest / mass};
@@ -150,8 +163,8 @@ SolidTouch touch_in(const ContactModel& model, double mass, double landing, cons
           push / (duration * model.solid_resistance)};
 }
 
-/// The change of state by the impulse `push` [M L/T] of the external force at one instant, at which
-/// the sphere does not move.
+/// The state after the impulse `push` [M L/T] of the external force at one instant, at which the
+/// gap does not change, and the impulses of film and solids [M L/T].
 ContactStep kicked(const ContactState& state, double push, const ContactSetting& setting) {
   ContactStep step{state};
   const double momentum = setting.mass * state.velocity + push;
@@ -174,11 +187,12 @@ ContactStep as_contact_step(const ReboundStep& step) {
 }
 
 /// Makes the steps from the start to the end. Calls `rebound(times, step)` for each step with
-/// impacts, `kick(velocity before, push, step)` for each other impulse `push` of the external
-/// force, and `add(times, setting, state before, push, step, state at the end)` after each step.
-/// `turns` are the times [T] at which the force changes its sign. In a staggered model the impulses
-/// before and after such a time act one after the other, because the solids must not give back
-/// after it what they carry before it.
+/// impacts, `kick(velocity before, push, step)` for each other impulse `push` [M L/T] of the
+/// external force, and `add(times, setting, state before, push, step, state at the end)` after each
+/// step. `turns` are the times [T] at which the force changes its sign, increasing. In a staggered
+/// model the impulses before and after such a time act one after the other. The reason is that the
+/// solids carry the impulse before such a time, and must not give this impulse back to the sphere
+/// afterwards.
 template <class Drag, class Rebounding, class Kick, class Add>
 void run_steps(const Motion& motion, const ContactModel& model, const Drag& drag,
                std::span<const double> turns, const Rebounding& rebound, const Kick& kick,
@@ -188,8 +202,8 @@ void run_steps(const Motion& motion, const ContactModel& model, const Drag& drag
   const int steps = step_count(end, h);
   ContactSetting setting(motion.mass, model.gamma_min, h);
   ContactState state{motion.initial_gap - model.contact_gap, motion.initial_velocity, 0};
-  // A ForceWalk is asked for times that do not decrease. Means over half steps and over whole steps
-  // are asked for in turn, so each kind has its own walk.
+  // A ForceWalk must be asked for times that do not decrease. Means over half steps and over whole
+  // steps are needed in turn, so that each kind of mean has a ForceWalk of its own.
   ForceWalk force(motion.external_force), force_of_half(motion.external_force),
       force_of_step(motion.external_force);
   auto turn = turns.begin();
@@ -244,8 +258,8 @@ void run_steps(const Motion& motion, const ContactModel& model, const Drag& drag
   }
 }
 
-/// The times [T] at which the force changes its sign. Nothing if there are too many of them to
-/// find; the lowest gamma is then that at the ends of the steps.
+/// The times [T] at which the force changes its sign. The list is empty if there are too many of
+/// them to find; then the lowest gamma is taken from the ends of the steps only.
 std::vector<double> turns_of(const Motion& motion) {
   try {
     return motion.external_force.sign_changes(motion.end_time);
@@ -256,6 +270,9 @@ std::vector<double> turns_of(const Motion& motion) {
 
 }  // namespace
 
+/// Runs the model from time 0 to motion.end_time, with the restitution of the motion. The
+/// trajectory has a row for the start and one for the end of each step; forces in a row are means
+/// over the step [M L/T^2]. motion.initial_gap must be at least model.contact_gap (not checked).
 Trajectory run_contact_model(const Motion& motion, ContactModel model) {
   model.restitution = motion.restitution();
   Trajectory trajectory;
