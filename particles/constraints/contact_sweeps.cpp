@@ -14,6 +14,8 @@
 
 namespace viscontact::particles {
 
+/// Computes the motion that a unit impulse on each row causes. `problem` must outlive the object,
+/// and only its impulses may change.
 template <int D>
 ContactSweeps<D>::ContactSweeps(ConstraintProblem<D>& problem) : problem_(problem) {
   pushes_.reserve(problem.parts.size());
@@ -27,6 +29,8 @@ double ContactSweeps<D>::wanted(std::size_t row, double w) const {
   return problem_.impulses[row] - (problem_.rows[row].offset + problem_.product(row, y_)) / w;
 }
 
+/// Sets the impulse of a row, in place `row` of problem.rows, to `impulse` [M L/T], and adds the
+/// motions that the change of the impulse causes.
 template <int D>
 void ContactSweeps<D>::change(std::size_t row, double impulse) {
   const double by = impulse - problem_.impulses[row];
@@ -39,6 +43,9 @@ void ContactSweeps<D>::change(std::size_t row, double impulse) {
   }
 }
 
+/// Sets the impulses of one contact or link to those that satisfy its conditions while all other
+/// impulses stay as they are. `w` points to the mobilities of its rows. FrictionBound::kCone is
+/// solved approximately (solve_in_cone()).
 template <int D>
 void ContactSweeps<D>::solve_block(const ConstraintBlock& block, const double* w) {
   if (!block.is_contact) {
@@ -100,6 +107,8 @@ void ContactSweeps<D>::solve_in_cone(const ConstraintBlock& block, const double*
   for (std::size_t k = 1; k < block.rows; ++k) change(block.row + k, cone.tangential * to[k]);
 }
 
+/// Improves problem.impulses by `count` >= 0 sweeps over all contacts and links, in their order and
+/// in the reverse order by turns. `w` has one mobility for each row of the problem.
 template <int D>
 void ContactSweeps<D>::sweep(int count, const std::vector<double>& w) {
   y_ = motions<D>(problem_, problem_.impulses);

@@ -4,9 +4,9 @@
 // values of the rows (gaps, slips and equations of links) [L] with the coefficients J, rho > 0
 // [M/T] stiffnesses of the rows. Rows of angles have [rad], [M L^2/T] and [M L^2/T] instead.
 // Nothing is checked or thrown; the step may be unsolved if failed() is true or solve() returns
-// max_iterations or more. Used by constraint_solver.cpp. The constants change how long a solution
-// takes, and results within the tolerances; a change of the order of sums changes results by
-// rounding errors.
+// max_iterations or more. constraint_solver.cpp uses this file. The constants change how long a
+// solution takes, and results within the tolerances; a change of the order of sums changes results
+// by rounding errors.
 #include "viscontact/particles/constraints/proximal_step.hpp"
 
 #include <algorithm>
@@ -29,6 +29,9 @@ ProximalStep<D>::ProximalStep(const ConstraintProblem<D>& problem, const std::ve
       error_(problem.units.size()),
       matrix_(matrix) {}
 
+/// Sets rho = 1/(epsilon w) of all rows, with their mobilities w. `of_slips` [1] is the epsilon of
+/// tangential rows, `of_gaps` [1] that of all other rows, both > 0. The matrix is then factorised
+/// again.
 template <int D>
 void ProximalStep<D>::set_epsilon(double of_gaps, double of_slips) {
   for (const auto& block : problem_.blocks)
@@ -39,7 +42,8 @@ void ProximalStep<D>::set_epsilon(double of_gaps, double of_slips) {
   has_factor_ = false;
 }
 
-/// Sets `q` to P^k - rho (b + J y) [M L/T] of block `b` after a step t direction_.
+/// Sets `q`, one number for each row of block `b`, to P^k - rho (b + J y) [M L/T] at the motions y
+/// = y_ + t direction_.
 template <int D>
 void ProximalStep<D>::unprojected(std::size_t b, double t, double* q) const {
   const auto& block = problem_.blocks[b];
@@ -49,6 +53,8 @@ void ProximalStep<D>::unprojected(std::size_t b, double t, double* q) const {
   }
 }
 
+/// Sets `p` to the impulses P^{k+1} of block `b` [M L/T], the projection of the numbers `q` of
+/// unprojected() on the allowed impulses. Returns the branch in which the block then is.
 template <int D>
 typename ProximalStep<D>::Branch ProximalStep<D>::project(std::size_t b, const double* q,
                                                           double* p) const {
@@ -75,7 +81,8 @@ typename ProximalStep<D>::Branch ProximalStep<D>::project(std::size_t b, const d
   return branch;
 }
 
-/// Sets `p` to the projection of `q` on the cone of (5.9), and returns its branch.
+/// The same for a block with FrictionBound::kCone, whose impulses are in the cone of
+/// docs/physics.md (5.9).
 template <int D>
 typename ProximalStep<D>::Branch ProximalStep<D>::project_on_cone(std::size_t b, const double* q,
                                                                   double* p) const {
@@ -128,7 +135,8 @@ double ProximalStep<D>::error_at(double t, bool is_kept) {
   return std::sqrt(sum);
 }
 
-/// Adds J^T (-dP^{k+1}/dy) of a block to the matrix.
+/// Adds J^T (-dP^{k+1}/dy), the derivative of the impulses of block `b` on the units, to the
+/// matrix.
 template <int D>
 void ProximalStep<D>::add_block(std::size_t b) {
   const auto& block = problem_.blocks[b];
@@ -177,6 +185,8 @@ void ProximalStep<D>::add_block(std::size_t b) {
                           factor * ((k == l ? 1 : 0) - q[k] * q[l] / square));
 }
 
+/// Assembles and factorises the matrix of Newton's method for the present branches. Returns false
+/// if it is singular.
 template <int D>
 bool ProximalStep<D>::factorise() {
   matrix_.set_to_masses();
@@ -194,8 +204,8 @@ void ProximalStep<D>::find_direction() {
     changes_[r] = problem_.product(r, direction_);
 }
 
-/// Length of a step along direction_, as a multiple of it, that reduces the error below `before`; 0
-/// if none was found. In convex problems it is length_to_minimum() > 0.
+/// Returns the length [1] of a step along direction_ after which the error is below `before`, or 0
+/// if no such length was found. In convex problems it is length_to_minimum(), which is > 0.
 template <int D>
 double ProximalStep<D>::length_of_step(double before) {
   if (problem_.is_convex) return length_to_minimum();
@@ -252,9 +262,14 @@ double ProximalStep<D>::rounding_error() const {
   return kRounding * std::sqrt(square);
 }
 
+/// Computes the step from the impulses P^k = `center` [M L/T], one for each row, with the motions
+/// `start` [L, rad], one for each unit, as the first guess. Returns the number of factorisations
+/// plus the number of solutions with factors. P^{k+1} is then in projected_.
 template <int D>
 int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<Motion<D>>& start,
                            int max_iterations) {
+  // kSlow and kExact are explained where they are used. At most kMostPaths paths are followed, and
+  // a path fails if it removes less than kLeastShare of the error. All numbers are free choices.
   constexpr double kSlow = 0.1, kExact = 1e-10;
   constexpr int kMostPaths = 3;
   constexpr double kLeastShare = 0.05;
@@ -299,11 +314,12 @@ int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<
     // again.
     const bool is_linear = D == 2 || here <= kExact * first ||
                            ((is_fresh || !problem_.is_convex) && here > before / 2);
-    // For spheres the matrix also changes while they slip. In convex problems it is factorised
-    // again if a step with earlier factors did not reduce the error to kSlow times its size.
+    // For spheres the matrix also changes while contacts slip. In convex problems the matrix is
+    // factorised again if a step with earlier factors did not reduce the error to kSlow times its
+    // size before the step.
     if (D == 3 && problem_.is_convex && !is_fresh && here > kSlow * before) has_factor_ = false;
     if (here == 0 || (length == 1 && last == branches_ && is_linear)) break;
-    // In convex problems the error may grow on the way to the minimum. If it is of the size of
+    // In convex problems the error may grow on the way to the minimum. If the error has the size of
     // rounding errors, iterations go on as long as they halve it, because impulses that must grow
     // between jammed particles need small errors.
     const bool is_rounding = here <= rounding_error();
