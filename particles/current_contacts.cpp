@@ -161,9 +161,10 @@ double largest_gamma_error(const State& state) {
   return largest;
 }
 
-/// The contacts of a state: the pairs whose gamma is < 0, whose gap is at most the tolerance, or
-/// that had a force in the last step. Pairs of particles come first, then pairs with obstacles,
-/// both in the order of the state. Forces are means over the last step.
+/// The contacts of a state: the pairs whose gamma is < 0, whose gap is at most the tolerance (in a
+/// fluid at most the threshold gap plus the tolerance), or that had a force in the last step. Pairs
+/// of particles come first, then pairs with obstacles, both in the order of the state. Forces are
+/// means over the last step.
 std::vector<CurrentContact> contacts_of(const Setting& setting, const State& state) {
   std::vector<CurrentContact> contacts;
   const auto& p = state.particles;

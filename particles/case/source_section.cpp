@@ -230,6 +230,8 @@ void read_sources(const case_file::TomlSection& root, ParticlesCase& c) {
                 {std::min(at_start, at_end), std::max(at_start, at_end)}, c);
 }
 
+/// The tables of docs/case-file.md for the keys of [[source]] and of its region. particles_case.cpp
+/// calls it.
 std::vector<case_file::KeyTable> source_tables() {
   return {case_file::describe_keys("[[source]]", source_keys, 2),
           case_file::describe_keys("source.region", region_keys, 2)};

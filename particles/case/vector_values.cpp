@@ -99,19 +99,23 @@ void read_vector(const case_file::TomlSection& section, std::string_view key, Ve
 // Each of the next four functions returns a KeyValue, which says how the value of a key is read. A
 // KeyValue keeps references to the arguments of the function, which must outlive it.
 
+/// A constant vector of `dimension` numbers.
 case_file::KeyValue vector(Vector& place, const int& dimension) {
   return case_file::custom("a list of numbers", read_vector, place, dimension);
 }
 
+/// A constant vector, or a list of pieces of time, which must reach `end_time` [T].
 case_file::KeyValue pieces(PiecewiseConstant& place, const int& dimension, const double& end_time) {
   return case_file::custom("a list of numbers, or of pieces", read_pieces, place, dimension,
                            end_time);
 }
 
+/// A torque or an angular velocity, as read_turn() reads it.
 case_file::KeyValue turn(Vector& place, const int& dimension) {
   return case_file::custom("a number; in 3D a list", read_turn, place, dimension);
 }
 
+/// A constant torque or angular velocity, or a list of pieces of time, which must reach `end_time`.
 case_file::KeyValue pieces_of_turn(PiecewiseConstant& place, const int& dimension,
                                    const double& end_time) {
   return case_file::custom("a number, in 3D a list; or pieces", read_pieces_of_turn, place,

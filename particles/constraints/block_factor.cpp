@@ -61,7 +61,8 @@ template <int K, class Block>
 inline void subtract_product(const Block& a, const Block& b, Block& c) {
   constexpr auto k = static_cast<std::size_t>(K);
   for (std::size_t i = 0; i < k; ++i) {
-    // `row` stays in registers. `c` would not: the compiler must assume that it may be a or b.
+    // `row` stays in registers. `c` would not stay there, because the compiler must assume that `c`
+    // may be the same block as `a` or `b`.
     std::array<double, k> row;
     for (std::size_t j = 0; j < k; ++j) row[j] = c[i * k + j];
     for (std::size_t l = 0; l < k; ++l)
@@ -373,8 +374,8 @@ struct BlockFactor<K>::Shared {
   /// Waits until the task is done. Another thread has taken the task, because tasks are taken in
   /// their order and need earlier ones only.
   void await(std::size_t task) {
-    // Columns take microseconds. A thread therefore looks several times before it sleeps; free
-    // choice.
+    // A column takes microseconds. A thread therefore looks several times before it sleeps. The
+    // number is a free choice.
     constexpr int kLooks = 100;
     for (int look = 0; look < kLooks && done[task] == 0; ++look) std::this_thread::yield();
     done[task].wait(0);
@@ -530,7 +531,8 @@ void UnitMatrix<D>::set_to_masses() {
 
 /// Adds `weight` times the product of the coefficients of two rows of constraint block `b`. `row`
 /// and `other` are places in ConstraintProblem::rows; `weight` has any sign and the unit [M/T], or
-/// [M L^2/T] for rows of angles. In a symmetric matrix only blocks below the diagonal are stored.
+/// [M L^2/T] for rows of angles. In a symmetric matrix only blocks below the diagonal are stored;
+/// if the two rows differ, the caller must also add the product with both rows exchanged.
 template <int D>
 void UnitMatrix<D>::add_product(std::size_t b, std::size_t row, std::size_t other, double weight) {
   constexpr auto k = static_cast<std::size_t>(kMotion);

@@ -2,11 +2,11 @@
 // impulses, mobilities, residuals, and the tangents and rows of contacts. A row is a gap, a slip or
 // a link's equation [L], with an impulse [M L/T] and a mobility [T/M], which is > 0 in rows of
 // contacts. A row of angles has [rad], [M L^2/T] and [T/(M L^2)] instead. Motions are displacements
-// [L] and turns [rad]; masses, radii and mobilities of particles are positive. Units are any
-// consistent ones. Nothing is checked or thrown; a NaN makes a residual NaN. constraints/, impacts/
-// and fluid/fluid_friction.cpp use this file. A change of residual_of() alters which steps count as
-// converged. Both arms of a contact must end at one point, because otherwise its impulses would
-// change the angular momentum of the pair.
+// [L] and turns [rad]; masses, radii and mobilities of particles are positive. The rows of one
+// contact or link form a block. Units are any consistent ones. Nothing is checked or thrown; a NaN
+// makes a residual NaN. constraints/, impacts/ and fluid/fluid_friction.cpp use this file. A change
+// of residual_of() alters which steps count as converged. Both arms of a contact must end at one
+// point, because otherwise its impulses would change the angular momentum of the pair.
 #include "viscontact/particles/constraints/constraint_problem.hpp"
 
 #include <algorithm>
@@ -206,7 +206,7 @@ template BlockResidual residual_after<3>(const ConstraintProblem<3>&, const Cons
 namespace {
 
 /// Unit vectors that complete `normal` to a right-handed basis. They depend continuously on the
-/// normal except, in space, where another of its components becomes the smallest one.
+/// normal, except for normals in space at which another component becomes the smallest one.
 template <int D>
 std::array<Vector, static_cast<std::size_t>(D - 1)> tangent_basis(const Vector& normal) {
   if constexpr (D == 2) {

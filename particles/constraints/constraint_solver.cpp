@@ -2,15 +2,17 @@
 // which order and with which parameters: Gauss-Seidel sweeps, proximal steps, paths of smoothed
 // problems and interior points. Values of rows (gaps, slips, equations of links) are in [L],
 // impulses in [M L/T], mobilities > 0 in [T/M], motions in [L, rad], in any consistent units. A
-// residual [L] is allowed if it is at most ConstraintBlock::allowed or allowed_slip, both > 0.
-// Nothing is thrown; an unsolved problem has a SolverResult::residual that is > 1 or NaN.
-// constraint_system.cpp, impacts/ and fluid/fluid_friction.cpp use this file. A change must keep
-// that results do not depend on the number of threads, which share factorisations only. Constants
-// without another reason are free choices.
+// block is a contact or link with its rows. A residual [L] is allowed if it is at most
+// ConstraintBlock::allowed or allowed_slip, both > 0. Nothing is thrown; an unsolved problem has a
+// SolverResult::residual that is > 1 or NaN. constraint_system.cpp, impacts/ and
+// fluid/fluid_friction.cpp use this file. A change must keep that results do not depend on the
+// number of threads, which share factorisations only. Constants without another reason are free
+// choices.
 //
-// `epsilon` [1], > 0, is the parameter of a proximal step: the impulse of a row with the value v
-// and the mobility w is center - v/(epsilon w), projected on the allowed impulses. A smaller
-// epsilon brings the step nearer to the solution, but makes it harder to compute.
+// `epsilon` [1], > 0, is the parameter of a proximal step. If a row has the value v, the mobility w
+// and, before the step, the impulse `center`, its new impulse is center - v/(epsilon w), projected
+// on the allowed impulses. A smaller epsilon brings the step nearer to the solution, but makes the
+// step harder to compute.
 #include "viscontact/particles/constraints/constraint_solver.hpp"
 
 #include <algorithm>
@@ -175,8 +177,8 @@ class Iteration {
   /// Follows path number `number` of smoothed problems. Returns the impulses at its end, or nothing
   /// if it ends far from a solution.
   std::optional<std::vector<double>> end_of_path(int number, int max_iterations) {
-    // Accuracies relative to the violations without impulses. Most of the factorisations are made
-    // at errors of 1e-3 to 1e-5; from there to 1e-7 there are about ten.
+    // These are accuracies relative to the violations without impulses. Most of the factorisations
+    // are made at errors of 1e-3 to 1e-5, and about ten at errors from 1e-5 to 1e-7.
     constexpr double kRough = 1e-4, kAccurate = 1e-7, kFar = 1e-3;
     // A long path is left for another one, which seldom is as long.
     const int longest = number + 1 < CoulombPath<D>::kPaths ? 400 : 2000;
@@ -517,10 +519,10 @@ ConstraintSolution<D> solve_constraints(ConstraintProblem<D>& problem, int max_i
   return Iteration<D>(problem, start).solve(max_iterations);
 }
 
-/// Bounds the friction of `problem` by given loads, and solves it. The loads are those of the
-/// present impulses. If `without_friction` is true, they are those of a solution without friction,
-/// which is computed first. They stay in the problem. An unsolved problem shows as in
-/// solve_constraints().
+/// Bounds the friction of `problem` by given loads, and solves the problem in about
+/// kMostOfGivenLoads iterations at most. The loads are those of the present impulses, or, if
+/// `without_friction` is true, those of a solution without friction, which is computed first. The
+/// loads stay in the problem. If it is unsolved, SolverResult::residual is > 1 or NaN.
 template <int D>
 ConstraintSolution<D> solve_with_given_loads(ConstraintProblem<D>& problem, bool without_friction) {
   give_loads(problem);

@@ -19,8 +19,7 @@ namespace viscontact::particles {
 
 namespace {
 
-/// Twice the kinetic energy of these motions of the units, times the length of the step
-/// [M L^2/T].
+/// Twice the kinetic energy of the `motions` of all units, times the length of the step [M L^2/T].
 template <int D>
 double energy_of(const ConstraintProblem<D>& problem, std::span<const Motion<D>> motions) {
   double energy = 0;
@@ -42,6 +41,7 @@ double sum_of_loads(const ConstraintProblem<D>& problem) {
 
 }  // namespace
 
+/// `displacements` [L] and `mobilities` (step over mass) [T/M] are those of all particles.
 template <int D>
 ConstraintSystem<D>::ConstraintSystem(const ConstraintStep& step, const Particles& particles,
                                       std::span<double> displacements,
@@ -103,6 +103,7 @@ bool ConstraintSystem<D>::is_held_apart(const Pair& pair) const {
   return false;
 }
 
+/// Appends the contact of `pair`. `memory` has its friction and load in the step before.
 template <int D>
 void ConstraintSystem<D>::add(const Contact<D>& contact, const Pair& pair,
                               const PairMemory& memory) {
@@ -116,7 +117,8 @@ void ConstraintSystem<D>::add(const Contact<D>& contact, const Pair& pair,
   contact_states_.push_back(state);
 }
 
-/// Finds the islands of `system`, ordered by their first bodies, with their contacts and links.
+/// Finds the islands of `system`, ordered by their first bodies, with their contacts and links. An
+/// island is a set of particles that contacts and links connect.
 template <int D>
 void ConstraintSystem<D>::find_islands(ContactSystem<D>& system) {
   islands_.clear();
@@ -430,9 +432,9 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
                                                int max_iterations) {
   auto& problem = island.problem;
   // Each correction multiplies the error by about the turn of the bodies in the step [rad]. With
-  // turns of 1 it gains little. Corrections diverge if they grow kPatience times in succession, or
-  // if kMostWithoutGain of them do not halve the largest correction, which a factor of 0.87 would
-  // do. Either the constraints contradict each other, or the step is too long.
+  // turns of 1 rad it gains little. Corrections count as divergent if they grow kPatience times in
+  // succession, or if kMostWithoutGain of them do not halve the largest one. (Five factors of 0.87
+  // would halve it.) Then the constraints contradict each other, or the step is too long.
   constexpr int kPatience = 3, kMostWithoutGain = 5;
   // A correction is fast if it is below kFast times the one before. All these numbers are free
   // choices.
@@ -455,8 +457,8 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
     last_change = gained_change = kInfinity;
     growing = gained_at = 0;
   };
-  // Begins anew with given loads: those of `impulses`, or, if it is empty, those of a solution
-  // without friction. Returns false, with the problem as it was, if that does not solve it.
+  // Begins anew with friction that the loads of `impulses` bound, or, if `impulses` is empty, those
+  // of a solution without friction. If this fails, restores the problem and returns false.
   const auto give_up_anew = [&](const std::vector<double>& impulses) {
     if (!may_give_up(island)) return false;
     auto corrected = problem;
@@ -491,7 +493,7 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
     // A body that friction locks between two contacts still turns about the line through them. The
     // correction for this turn demands a motion that the locks prevent. Coulomb's law then has no
     // solution. The convex relaxation has one, with loads that are larger by orders of magnitude
-    // and add energy. Planes and arms that move may add energy, too, but no such loads.
+    // and add energy. Planes and arms that move may add energy, too, but without such loads.
     constexpr double kMostEnergy = 1.01, kMostLoads = 10;  // times first_energy and first_loads
     if (n == 0) {
       const std::vector<double> none(problem.rows.size());
@@ -548,8 +550,8 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
     }
     // The loads of a solution bound the friction of the next one. With large friction this may
     // repeat without end, while corrections would follow the loads instead of vanishing. The first
-    // correction contains most of what turns change. The loads are therefore those of the solution
-    // after it, from the same first loads as before it, and later ones keep them.
+    // correction contains most of what turns change. The solution after it therefore begins with
+    // the same loads as the one before, and all later solutions keep the loads that it finds.
     if (n == 0 && !problem.keeps_loads)
       for (std::size_t b = 0; b < island.contacts.size(); ++b)
         problem.blocks[b].given_load = contact_states_[island.contacts[b]].first_load;

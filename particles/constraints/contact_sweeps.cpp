@@ -1,8 +1,9 @@
-// Gauss-Seidel sweeps over the contacts and links of a time step: computes the impulses [M L/T] of
-// one of them after the other from the values v [L] and mobilities w > 0 [T/M] of its rows, of
-// which a contact or link has 1 to 3. Rows of angles have [M L^2/T], [rad] and [T/(M L^2)] instead;
-// motions are in [L, rad]. Units are any consistent ones. Nothing is checked or thrown: the caller
-// must measure the residuals. constraint_solver.cpp uses it. A change of the order of sums changes
+// Gauss-Seidel sweeps over the contacts and links of a time step. A contact or link has 1 to 3
+// rows (gaps, slips or equations) with impulses [M L/T], values v [L] and mobilities w > 0 [T/M]. A
+// sweep computes the impulses of one contact or link after the other from these values and
+// mobilities. Rows of angles have [M L^2/T], [rad] and [T/(M L^2)] instead; motions are in
+// [L, rad]. Units are any consistent ones. Nothing is checked or thrown: the caller must measure
+// the residuals. constraint_solver.cpp uses this file. A change of the order of sums changes
 // results by rounding errors.
 #include "viscontact/particles/constraints/contact_sweeps.hpp"
 

@@ -17,8 +17,8 @@
 namespace viscontact::particles {
 namespace {
 
-/// Part of the change of an impulse that is added to that of its gap or slip [1]. It bounds the
-/// entries of the matrix at 1e10 times the masses, as in interior_points.cpp.
+/// This part [1] of the change of a scaled impulse is added to the change of its gap or slip. It
+/// bounds the entries of the matrix at 1e10 times the masses, as in interior_points.cpp.
 constexpr double kRegularisation = 1e-10;
 
 /// For each path the product of the unknowns `bound` (the bound of the friction) and `spare` (mu_s
@@ -71,8 +71,9 @@ std::array<double, 4> inverse_of(const std::array<double, 4>& a) {
   return {a[3] / determinant, -a[1] / determinant, -a[2] / determinant, a[0] / determinant};
 }
 
-/// The Hessian of -ln(x_0^2 - |x|^2), a norm of relative changes of a point (x_0, x) of the
-/// second-order cone, for the changes (a_0, a) and (b_0, b).
+/// The inner product [1] of two changes, (a_0, a) and (b_0, b), of a point (x_0, x) inside the
+/// second-order cone |x| < x_0. Its matrix is the Hessian of -ln(x_0^2 - |x|^2), so that the
+/// product measures relative changes.
 template <std::size_t N>
 double relative_product(double x_0, const std::array<double, N>& x, double a_0,
                         const std::array<double, N>& a, double b_0,

@@ -17,11 +17,12 @@
 namespace viscontact::particles {
 namespace {
 
-/// Part of the change of r that is added to the change of u [1]. It bounds the entries of the
+/// This part [1] of the change of r is added to the change of u. It bounds the entries of the
 /// matrix at 1e10 times the masses, so that its factorisation keeps six digits of the masses.
 constexpr double kRegularisation = 1e-10;
 
-/// Part of the way to the first boundary at which a step ends [1]; a free choice below 1.
+/// A step ends after this part [1] of the way to the boundary of the nearest cone. The number is a
+/// free choice below 1.
 constexpr double kInside = 0.995;
 
 /// The larger of |x_0| and the distance from the axis, which does not depend on the choice of the
@@ -42,7 +43,9 @@ InteriorPoints<D>::InteriorPoints(const ConstraintProblem<D>& problem, const std
       right_(problem.units.size()),
       impulses_(problem.impulses) {}
 
-/// Sets the rows and scales of all parts.
+/// Sets the rows and scales of all parts. A part with a cone consists of the rows of a contact with
+/// FrictionBound::kCone, or of the tangential rows of a contact with a given bound. Each other row
+/// of a gap or a link is a part of its own.
 template <int D>
 void InteriorPoints<D>::set_parts() {
   singles_.clear();
@@ -91,6 +94,7 @@ double InteriorPoints<D>::value(const Single& part, const std::vector<Motion<D>>
 }
 
 /// The scaled values of the rows of a part for the motions `y`, in the coordinates of its cone.
+/// `with_offset`: the offsets of the rows are added.
 template <int D>
 ConePoint InteriorPoints<D>::values(const Cones& part, bool with_offset,
                                     const std::vector<Motion<D>>& y) const {

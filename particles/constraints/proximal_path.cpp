@@ -74,8 +74,8 @@ double ProximalStep<D>::product(const Crossing& crossing,
   return sum;
 }
 
-/// The multiple of `sign` times direction_, >= 0 or infinite, up to which block `b` stays in its
-/// branch, and its next branch.
+/// Returns the multiple [1] of `sign` times direction_, >= 0 or infinite, up to which block `b`
+/// stays in its branch, and the branch that follows. `sign` is 1 or -1.
 template <int D>
 typename ProximalStep<D>::Exit ProximalStep<D>::exit_of(std::size_t b, double sign) const {
   const auto& block = problem_.blocks[b];

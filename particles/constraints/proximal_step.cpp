@@ -2,11 +2,12 @@
 // P^{k+1} are the impulses before and after the step [M L/T], y the motions of particles and bodies
 // [L, rad], y* those without impulses, M/h masses over the length of a time step, b + J y the
 // values of the rows (gaps, slips and equations of links) [L] with the coefficients J, rho > 0
-// [M/T] stiffnesses of the rows. Rows of angles have [rad], [M L^2/T] and [M L^2/T] instead.
-// Nothing is checked or thrown; the step may be unsolved if failed() is true or solve() returns
-// max_iterations or more. constraint_solver.cpp uses this file. The constants change how long a
-// solution takes, and results within the tolerances; a change of the order of sums changes results
-// by rounding errors.
+// [M/T] stiffnesses of the rows. Rows of angles have [rad], [M L^2/T] and [M L^2/T] instead. A
+// block is a contact or link, and its branch says whether it is open, sticks or slips. Nothing is
+// checked or thrown; the step may be unsolved if failed() is true or solve() returns max_iterations
+// or more. constraint_solver.cpp uses this file. The constants are free choices, which change how
+// long a solution takes, and results within the tolerances; a change of the order of sums changes
+// results by rounding errors.
 #include "viscontact/particles/constraints/proximal_step.hpp"
 
 #include <algorithm>
@@ -218,9 +219,9 @@ double ProximalStep<D>::length_of_step(double before) {
   return 0;
 }
 
-/// Length of a step, in (0, 1], that ends near the minimum along direction_ of the convex function
-/// whose gradient is -error_: where its derivative along direction_ is kReached times the first
-/// one.
+/// Returns the length [1] of a step along direction_, in (0, 1]. The step ends near the minimum of
+/// the convex function whose gradient is -error_: the derivative of this function along direction_
+/// is there at most kReached times its size at the beginning of the step.
 template <int D>
 double ProximalStep<D>::length_to_minimum() {
   constexpr double kReached = 0.1;
@@ -247,8 +248,8 @@ double ProximalStep<D>::length_to_minimum() {
   return length;
 }
 
-/// Size of the rounding errors in the result of error_at(): kRounding, a safe multiple of the
-/// machine epsilon, times the norm of the terms of which the error is a sum.
+/// Returns the size of the rounding errors in the result of error_at(). It is kRounding, a safe
+/// multiple of the machine epsilon, times the norm of the terms of which the error is a sum.
 template <int D>
 double ProximalStep<D>::rounding_error() const {
   double square = 0;
@@ -309,9 +310,9 @@ int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<
     move(length, direction_);
     const double here = error_at(0, true);
     // For discs the equation is linear as long as no branch changes, so that a step of length 1
-    // without a change of a branch ends at the solution, but for rounding errors. For spheres it
-    // must also have an error of kExact times the first one, or not be able to halve the error
-    // again.
+    // without a change of a branch ends at the solution, but for rounding errors. For spheres the
+    // error must also be at most kExact times the first one, or the step must have failed to halve
+    // the error. In a convex problem such a failure counts only if the factors are new.
     const bool is_linear = D == 2 || here <= kExact * first ||
                            ((is_fresh || !problem_.is_convex) && here > before / 2);
     // For spheres the matrix also changes while contacts slip. In convex problems the matrix is

@@ -22,9 +22,10 @@ namespace {
 
 /// Approximates the inverse of W between the free contacts (z above its bound): by a sparse factor
 /// if there is one, and otherwise by a sweep of symmetric Gauss-Seidel, (I + L^T)^-1 (I + L)^-1,
-/// where L is the strictly lower triangle of W between the free contacts of a block. Each block of
-/// the thread pool is swept by itself, so that threads can sweep several blocks at a time. The
-/// number of blocks does not depend on the number of threads.
+/// where L is the strictly lower triangle of W between the free contacts of a block. A block is a
+/// part of the contacts, of fixed size, on which one thread works. It is swept by itself, so that
+/// threads can sweep several blocks at a time. The number of blocks does not depend on the number
+/// of threads.
 template <int D>
 class Preconditioner {
  public:
@@ -39,7 +40,7 @@ class Preconditioner {
   bool sweeps() const { return !factor_.exists(); }
 
   /// Makes a factor of W between the contacts that are free now. Returns false, without a factor,
-  /// if it would have too many entries or cannot be computed.
+  /// if the factor would have too many entries or cannot be computed.
   bool factorise() {
     std::vector<char> free(problem_.count());
     for (std::size_t c = 0; c < problem_.count(); ++c) free[c] = problem_.is_free(c) ? 1 : 0;

@@ -291,9 +291,9 @@ std::vector<double> ContactProblem::loads() const {
   return loads;
 }
 
-/// Finds the impulses of all contacts, and w of those that have none. Returns true if all residuals
-/// are allowed. If `is_rough`, the tolerances are wider when contacts are many, because the caller
-/// only wants to find contacts that it must add.
+/// Finds the impulses [M L/T] and w [T/M] of all contacts. Returns true if all residuals are
+/// allowed. If `is_rough`, the tolerances are wider when contacts are many, because the caller only
+/// wants to find contacts that it must add.
 bool ContactProblem::solve(bool is_rough) {
   is_rough_ = false;
   if (contacts_.empty()) return true;

@@ -43,8 +43,8 @@ void FluidSimulation::examine(Motion& motion, double h, StepReport& report) cons
                 "double; check the forces and the time step",
                 longest, report.time);
   const auto& blow = motion.blow;
-  // In a step with a blow the impulses of motion.contact do not cause the displacements. Only the
-  // gaps of these contacts are examined, therefore.
+  // In a step with a blow the impulses of motion.contact do not cause the displacements. Therefore
+  // only the gaps of these contacts are examined.
   if (blow)
     for (auto& contact : motion.contact.contacts) contact.w = std::min(contact.w, 0.0);
   const auto conditions = contact_conditions(motion.free, h);

@@ -6,7 +6,7 @@
 // impulses in [M L/T], velocities of all particles in [L/T, 1/T] with 3 numbers for each, or 1 on
 // an axis. Errors of the mobility and of BlowStep::loaded are thrown. If iterations do not
 // converge, the last impulses count and FluidBlow::is_solved is false. fluid_simulation.cpp uses
-// it. A change must keep that the work of a blow is not positive.
+// this file. A change must keep that the work of a blow is not positive.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -111,7 +111,8 @@ class Blow {
   int iterations_ = 0;  // of all problems
 };
 
-/// Sets the members of each part from `drift` to `late`. Returns true if any contact is hit.
+/// Sets the members of each part from `drift` to `late`. Returns true if a contact is hit, that is,
+/// if its gap closes in the step because its surfaces approach each other.
 bool Blow::find_hits() {
   const auto free = conditions_.free_velocities;
   const double h = conditions_.h;

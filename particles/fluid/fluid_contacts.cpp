@@ -29,8 +29,8 @@ auto place_of_pair(const Pair& pair) {
   return std::tuple(std::max(pair.first, -1 - pair.first), pair.second, pair.image, pair.place);
 }
 
-/// Sorts `pairs`. A pair that is also in `before` gets the memory it has there, and the pairs of
-/// `before` with gamma < 0 are added.
+/// Sorts `pairs`. A pair that is also in `before`, the list of the step before, gets its memory
+/// from this list. The pairs of `before` with gamma < 0 are added.
 void keep_memory(std::vector<Pair>& pairs, std::vector<Pair> before) {
   std::ranges::sort(pairs, {}, place_of_pair);
   std::ranges::sort(before, {}, place_of_pair);
@@ -139,9 +139,9 @@ double along(const std::array<double, 2>& arm, const std::array<double, 2>& norm
 /// Returns the contact of a plate and a plate, a disc or an obstacle. It is the contact of two
 /// discs, whose centres are the nearest points of both spines; the spine of a disc is its centre.
 /// At an obstacle each end of the plate has a contact of its own, and two plates may have two
-/// contacts. Pair::place is the number of the contact. `start` are the particles at the beginning
-/// of the step, which decide what place belongs to what contact; `p` are the particles whose gap is
-/// computed. Sets `place`, where friction acts.
+/// contacts. Pair::place says which contact it is: the end, 0 or 1, or a place of SpineContacts, 0
+/// to 3. `start` are the particles at the beginning of the step, which decide what place belongs to
+/// what contact; `p` are the particles whose gap is computed. Sets `place`, where friction acts.
 Contact<2> contact_of_plates(const Fluid& fluid, const Particles& start, const Particles& p,
                              const Pair& pair, std::span<const PlanePosition> obstacles,
                              FrictionPlace& place) {
@@ -257,7 +257,7 @@ void make_contacts(StepContacts& step, const Particles& p, const Fluid& fluid,
     }
 }
 
-/// The particles after they moved and turned with these velocities for a time h [T].
+/// The particles after they moved and turned with the `velocities` for a time `h` [T].
 Particles moved(const Particles& p, std::span<const double> velocities, double h,
                 const MotionLayout& layout) {
   auto result = p;

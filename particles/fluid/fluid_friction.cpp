@@ -196,8 +196,8 @@ class FrictionSolver {
   /// Finds the normal and tangential impulses of the step. If Coulomb's law is not reached,
   /// step.is_solved becomes false, and given loads bound the friction.
   void solve() {
-    // One round is enough unless further contacts are added after it; a packing takes a few more
-    // rounds. The limit is a free choice.
+    // One round is enough unless further contacts are added after the round; a packing takes a few
+    // more rounds. The limit is a free choice.
     constexpr int kMostRounds = 30;
     double least = std::numeric_limits<double>::infinity();
     auto best = impulses();
@@ -227,7 +227,8 @@ class FrictionSolver {
   /// The loads of the rounds begin with the loads of the step before, and grow without bound where
   /// friction locks particles that must move.
   void give_up(const Impulses& best) {
-    // A residual of this many times what is allowed still counts as near the law; a free choice.
+    // If the residual is at most kNear times the allowed one, the solution counts as near the law.
+    // The number is a free choice.
     constexpr double kNear = 100;
     step_.has_given_loads = true;
     for (auto& contact : step_.contacts) contact.impulse = 0;
