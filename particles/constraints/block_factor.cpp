@@ -4,9 +4,9 @@
 // subtracts from each the products of all earlier ones. Bodies are numbered from 0, and an edge
 // joins two different ones. A matrix that is declared symmetric must be positive definite.
 // factorise() returns false, with unusable factors, if a block on the diagonal becomes singular,
-// infinite or NaN; nothing else is checked or thrown. Used by constraint_solver.cpp,
-// coulomb_path.cpp, interior_points.cpp and proximal_step.cpp. A change of the order of sums
-// changes results by rounding errors.
+// infinite or NaN; nothing else is checked or thrown. constraint_solver.cpp, coulomb_path.cpp,
+// interior_points.cpp and proximal_step.cpp use this file. A change of the order of sums changes
+// results by rounding errors.
 #include "viscontact/particles/constraints/block_factor.hpp"
 
 #include <metis.h>
@@ -61,7 +61,8 @@ template <int K, class Block>
 inline void subtract_product(const Block& a, const Block& b, Block& c) {
   constexpr auto k = static_cast<std::size_t>(K);
   for (std::size_t i = 0; i < k; ++i) {
-    // `row` stays in registers. `c` would not: the compiler must assume that it may be a or b.
+    // `row` stays in registers. `c` would not stay there, because the compiler must assume that `c`
+    // may be the same block as `a` or `b`.
     std::array<double, k> row;
     for (std::size_t j = 0; j < k; ++j) row[j] = c[i * k + j];
     for (std::size_t l = 0; l < k; ++l)
@@ -70,6 +71,7 @@ inline void subtract_product(const Block& a, const Block& b, Block& c) {
   }
 }
 
+/// The transpose of a block.
 template <int K, class Block>
 inline Block transposed(const Block& a) {
   constexpr auto k = static_cast<std::size_t>(K);
@@ -82,8 +84,8 @@ inline Block transposed(const Block& a) {
 // A block on the diagonal can have eigenvalues that differ by a factor of 1e9. Products with its
 // inverse would lose the digits of the small ones; substitutions with its factors keep them.
 
-/// Replaces the lower triangle of a symmetric block by its Cholesky factor L, but the diagonal by
-/// the inverses of that of L. Returns false if the block is not positive definite.
+/// Replaces the lower triangle of a symmetric block by its Cholesky factor L. The diagonal receives
+/// the inverses of the diagonal entries of L. Returns false if the block is not positive definite.
 template <int K, class Block>
 inline bool cholesky(Block& a) {
   constexpr auto k = static_cast<std::size_t>(K);
@@ -124,7 +126,9 @@ inline void substitute_back(const std::array<double, static_cast<std::size_t>(K*
   }
 }
 
-/// For each row of a block 1 over the root of its diagonal entry (1 if it is 0), to compare units.
+/// Returns for each row of a block 1 divided by the square root of the magnitude of its diagonal
+/// entry, or 1 if this entry is 0. The rows of a block have different units, and their entries can
+/// be compared after a multiplication with these scales.
 template <int K, class Block>
 std::array<double, static_cast<std::size_t>(K)> scales_of_rows(const Block& a) {
   std::array<double, static_cast<std::size_t>(K)> scales;
@@ -135,10 +139,11 @@ std::array<double, static_cast<std::size_t>(K)> scales_of_rows(const Block& a) {
   return scales;
 }
 
-/// Replaces a block by its factors L and U, but the diagonal by the inverses of that of U; the
-/// diagonal of L is 1 and not stored. In each column the row whose entry times its scale is largest
-/// is exchanged with the row of the diagonal; `pivots` receives its number. Changes `sign` if the
-/// determinant is negative. Returns false if the block is singular.
+/// Replaces a block by its factors L and U. The diagonal receives the inverses of the diagonal
+/// entries of U, because the diagonal of L is 1 and not stored. In each column the row whose entry
+/// times its scale has the largest magnitude is exchanged with the row of the diagonal; `pivots`
+/// receives the number of that row. Changes the sign of `sign` if the determinant is negative.
+/// Returns false if the block is singular, infinite or NaN.
 template <int K, class Block, class Pivots>
 bool factorise_block(std::array<double, static_cast<std::size_t>(K)> scales, Block& a,
                      Pivots& pivots, int& sign) {
@@ -165,7 +170,8 @@ bool factorise_block(std::array<double, static_cast<std::size_t>(K)> scales, Blo
   return true;
 }
 
-/// Replaces x, K rows of kColumns numbers, by the solution X of D X = x, with `factors` of D.
+/// Replaces `x`, K rows of kColumns numbers, by the solution X of D X = x. `factors` and `pivots`
+/// are the results of factorise_block() for the block D.
 template <int K, std::size_t kColumns, class Block, class Pivots>
 inline void solve_block(const Block& factors, const Pivots& pivots, double* x) {
   constexpr auto k = static_cast<std::size_t>(K);
@@ -187,7 +193,9 @@ inline void solve_block(const Block& factors, const Pivots& pivots, double* x) {
   }
 }
 
-/// The numbers of the bodies in the order of elimination. If METIS fails, AMD finds the order.
+/// Returns the numbers of all bodies in the order of their elimination. `edges` holds the numbers
+/// of the two bodies of each edge. METIS orders many bodies and AMD few ones; AMD also orders the
+/// bodies if METIS fails.
 template <int K>
 std::vector<std::int32_t> order_of_elimination(std::size_t bodies,
                                                std::span<const std::array<std::int32_t, 2>> edges) {
@@ -200,8 +208,9 @@ std::vector<std::int32_t> order_of_elimination(std::size_t bodies,
   }
   std::vector<std::int32_t> order(bodies);
   Eigen::SparseMatrix<double> pattern(count, count);
-  // With this number of bodies or more, METIS saves more time than it takes. With its order a
-  // factorisation takes 0.58 of the time with AMD's order for 2000 spheres, 0.86 for 10 000 discs.
+  // With this number of bodies or more, METIS saves more time than it takes. With the order of
+  // METIS, a factorisation takes 0.58 of the time that it takes with the order of AMD for 2000
+  // spheres, and 0.86 of it for 10 000 discs.
   constexpr std::size_t kManyBodies = K == 6 ? 500 : 5000;
   static_assert(std::is_same_v<idx_t, std::int32_t>);
   if (bodies >= kManyBodies && !edges.empty()) {
@@ -224,6 +233,8 @@ std::vector<std::int32_t> order_of_elimination(std::size_t bodies,
 
 }  // namespace
 
+/// Prepares the factorisation of matrices of `bodies` x `bodies` blocks that have blocks beside the
+/// diagonal for the pairs `edges` only. If `is_symmetric`, these matrices must be symmetric.
 template <int K>
 void BlockFactor<K>::analyse(std::size_t bodies, std::span<const Edge> edges, bool is_symmetric) {
   is_symmetric_ = is_symmetric;
@@ -240,8 +251,9 @@ void BlockFactor<K>::analyse(std::size_t bodies, std::span<const Edge> edges, bo
   permuted_.resize(bodies);
 }
 
-/// Finds the rows in which each column of L has blocks: those of A, and those of each earlier
-/// column whose first row is this column (a child of this column in the elimination tree).
+/// Finds the rows in which each column of L has blocks. These are the rows of the blocks of A in
+/// the column, and the rows of each child of the column. A child in the elimination tree is an
+/// earlier column whose first block is in the row with the number of this column.
 template <int K>
 void BlockFactor<K>::find_pattern(std::span<const Edge> edges) {
   const std::size_t bodies = order_.size();
@@ -277,6 +289,7 @@ void BlockFactor<K>::find_pattern(std::span<const Edge> edges) {
   }
 }
 
+/// Sets all blocks of the matrix to 0.
 template <int K>
 void BlockFactor<K>::clear() {
   std::ranges::fill(diagonal_, Block{});
@@ -284,7 +297,8 @@ void BlockFactor<K>::clear() {
   std::ranges::fill(above_, Block{});
 }
 
-/// Lists the entries of each row in the order of their columns, which is that of the sums.
+/// Lists the entries of each row in the order of their columns. factorise_column() subtracts
+/// products in this order.
 template <int K>
 void BlockFactor<K>::find_updates() {
   update_offsets_.assign(bodies() + 1, 0);
@@ -298,13 +312,14 @@ void BlockFactor<K>::find_updates() {
                                            static_cast<std::uint32_t>(e)};
 }
 
-/// Divides the columns into tasks. A subtree of the elimination tree needs no columns of other
-/// subtrees. Subtrees with little work, several together, are the first tasks. The columns above
-/// them follow, each as a task of its own.
+/// Divides the columns into tasks for the threads. A subtree of the elimination tree needs no
+/// columns of other subtrees. The first tasks consist of one or several subtrees with little work.
+/// Each column above these subtrees is a task of its own, and these tasks are the last ones.
 template <int K>
 void BlockFactor<K>::find_tasks() {
-  // Share of the work that is little. With more parts fewer columns are in subtrees, and with fewer
-  // parts threads wait for the last one. Free choice.
+  // The work of a subtree is little if it is at most 1/kParts of the whole work. With a larger
+  // kParts fewer columns are in subtrees, and with a smaller one threads wait for the last task.
+  // The number is a free choice.
   constexpr double kParts = 32;
   std::vector<double> work(bodies());  // products in the columns of the subtree of each column
   for (std::size_t j = 0; j < bodies(); ++j) {
@@ -359,23 +374,25 @@ struct BlockFactor<K>::Shared {
   /// Waits until the task is done. Another thread has taken the task, because tasks are taken in
   /// their order and need earlier ones only.
   void await(std::size_t task) {
-    // Columns take microseconds. A thread therefore looks several times before it sleeps; free
-    // choice.
+    // A column takes microseconds. A thread therefore looks several times before it sleeps. The
+    // number is a free choice.
     constexpr int kLooks = 100;
     for (int look = 0; look < kLooks && done[task] == 0; ++look) std::this_thread::yield();
     done[task].wait(0);
   }
+  /// Marks the task as done, and wakes the threads that wait for it.
   void finish(std::size_t task) {
     done[task] = 1;
     done[task].notify_all();
   }
 };
 
-/// Returns false if a block on the diagonal is singular, infinite or NaN, or, for a symmetric
-/// matrix, not positive definite.
+/// Replaces the blocks of the matrix by its factors. The threads of `pool` share the work on a
+/// large matrix; if `pool` is null, the calling thread works alone. Returns false if a block on the
+/// diagonal is singular, infinite or NaN, or, for a symmetric matrix, not positive definite.
 template <int K>
 bool BlockFactor<K>::factorise(ThreadPool* pool) {
-  // Numbers of multiplications with which threads save more time than it takes to wake them.
+  // With more multiplications than this number, threads save more time than it takes to wake them.
   constexpr double kManyMultiplications = 1e6;
   const bool is_shared = pool != nullptr && products_ * K * K * K > kManyMultiplications;
   const std::size_t threads = is_shared ? pool->threads() : 1;
@@ -407,9 +424,10 @@ bool BlockFactor<K>::factorise(ThreadPool* pool) {
   return !shared.has_failed;
 }
 
-/// Computes column j, and row j of U if the matrix is not symmetric. `entry_in_row` has one number
-/// for each body, in any state. Changes `sign` if the determinant of the block of D is negative.
-/// Returns false if that block is singular, infinite or NaN, or not positive definite.
+/// Computes column j of L, block j on the diagonal, and row j of U if the matrix is not symmetric.
+/// `entry_in_row` is a work array with one number for each body, whose values do not matter.
+/// Changes the sign of `sign` if the determinant of block j is negative. Returns false if block j
+/// is singular, infinite or NaN, or, for a symmetric matrix, not positive definite.
 template <int K>
 bool BlockFactor<K>::factorise_column(std::size_t j, Shared& shared,
                                       std::vector<std::size_t>& entry_in_row, int& sign) {
@@ -442,7 +460,8 @@ bool BlockFactor<K>::factorise_column(std::size_t j, Shared& shared,
   return true;
 }
 
-/// Replaces one Vec for each body. Needs a factorise() that returned true, which is not checked.
+/// Replaces `values`, K numbers for each body in the order of the bodies, by the inverse of the
+/// matrix times these values. The last factorise() must have returned true, which is not checked.
 template <int K>
 void BlockFactor<K>::solve(std::span<Vec> values) const {
   constexpr auto kSize = static_cast<std::size_t>(K);
@@ -478,6 +497,8 @@ void BlockFactor<K>::solve(std::span<Vec> values) const {
 template class BlockFactor<3>;
 template class BlockFactor<6>;
 
+/// A body of the factor is a unit of `problem`, and an edge joins two units of one constraint
+/// block.
 template <int D>
 UnitMatrix<D>::UnitMatrix(const ConstraintProblem<D>& problem, bool is_symmetric)
     : problem_(problem), is_symmetric_(is_symmetric) {
@@ -492,6 +513,8 @@ UnitMatrix<D>::UnitMatrix(const ConstraintProblem<D>& problem, bool is_symmetric
   factor_.analyse(problem.units.size(), edges, is_symmetric);
 }
 
+/// Sets the matrix to the masses [M/T] and moments of inertia [M L^2/T] of the units, divided by
+/// the length of the step.
 template <int D>
 void UnitMatrix<D>::set_to_masses() {
   constexpr auto k = static_cast<std::size_t>(kMotion), d = static_cast<std::size_t>(D);
@@ -506,6 +529,10 @@ void UnitMatrix<D>::set_to_masses() {
   }
 }
 
+/// Adds `weight` times the product of the coefficients of two rows of constraint block `b`. `row`
+/// and `other` are places in ConstraintProblem::rows; `weight` has any sign and the unit [M/T], or
+/// [M L^2/T] for rows of angles. In a symmetric matrix only blocks below the diagonal are stored;
+/// if the two rows differ, the caller must also add the product with both rows exchanged.
 template <int D>
 void UnitMatrix<D>::add_product(std::size_t b, std::size_t row, std::size_t other, double weight) {
   constexpr auto k = static_cast<std::size_t>(kMotion);

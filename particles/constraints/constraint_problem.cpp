@@ -2,10 +2,11 @@
 // impulses, mobilities, residuals, and the tangents and rows of contacts. A row is a gap, a slip or
 // a link's equation [L], with an impulse [M L/T] and a mobility [T/M], which is > 0 in rows of
 // contacts. A row of angles has [rad], [M L^2/T] and [T/(M L^2)] instead. Motions are displacements
-// [L] and turns [rad]; masses, radii and mobilities of particles are positive. Units are any
-// consistent ones. Nothing is checked or thrown; a NaN makes a residual NaN. Used by constraints/,
-// impacts/ and fluid/fluid_friction.cpp. A change of residual_of() alters which steps count as
-// converged. Both arms of a contact must end at one point, to keep a pair's angular momentum.
+// [L] and turns [rad]; masses, radii and mobilities of particles are positive. The rows of one
+// contact or link form a block. Units are any consistent ones. Nothing is checked or thrown; a NaN
+// makes a residual NaN. constraints/, impacts/ and fluid/fluid_friction.cpp use this file. A change
+// of residual_of() alters which steps count as converged. Both arms of a contact must end at one
+// point, because otherwise its impulses would change the angular momentum of the pair.
 #include "viscontact/particles/constraints/constraint_problem.hpp"
 
 #include <algorithm>
@@ -17,6 +18,10 @@
 
 namespace viscontact::particles {
 
+/// Makes the unit of a particle without a rigid body. `mobility` is the length of the step divided
+/// by the mass [T/M], `turn_mobility` that length divided by the moment of inertia [T/(M L^2)].
+/// Without contacts and links the particle moves by D numbers `displacement` [L] and turns by 1
+/// (discs) or 3 (spheres) numbers `turn` [rad].
 template <int D>
 RigidUnit<D> unit_of_particle(double mobility, double turn_mobility, const double* displacement,
                               const double* turn) {
@@ -33,6 +38,8 @@ RigidUnit<D> unit_of_particle(double mobility, double turn_mobility, const doubl
   return unit;
 }
 
+/// Makes the unit of a rigid body, whose mobilities and motion without contacts and links are those
+/// of `free`.
 template <int D>
 RigidUnit<D> unit_of_body(const BodyStep& free) {
   constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);
@@ -52,6 +59,7 @@ RigidUnit<D> unit_of_body(const BodyStep& free) {
   return unit;
 }
 
+/// The motions [L, rad] of all units with the impulses `impulses` [M L/T], one for each row.
 template <int D>
 std::vector<Motion<D>> motions(const ConstraintProblem<D>& problem,
                                std::span<const double> impulses) {
@@ -66,6 +74,8 @@ std::vector<Motion<D>> motions(const ConstraintProblem<D>& problem,
   return sums;
 }
 
+/// Makes the problem convex: the friction of each contact is bounded by the load that its solids
+/// carry at the present impulses, and no longer by the load in the solution.
 template <int D>
 void give_loads(ConstraintProblem<D>& problem) {
   problem.is_convex = problem.keeps_loads = true;
@@ -92,6 +102,10 @@ double mobility_between(const ConstraintProblem<D>& problem, std::size_t r, std:
   return sum;
 }
 
+/// The change of the value of each row of `block` by a unit impulse on the same row [T/M]. The two
+/// tangential rows of a contact of spheres both get the larger eigenvalue of their 2 x 2 matrix of
+/// such changes, because it does not depend on the choice of the tangents. Numbers beyond the rows
+/// of the block are 0.
 template <int D>
 std::array<double, kMostRows> block_mobilities(const ConstraintProblem<D>& problem,
                                                const ConstraintBlock& block) {
@@ -105,6 +119,7 @@ std::array<double, kMostRows> block_mobilities(const ConstraintProblem<D>& probl
   return w;
 }
 
+/// The block_mobilities() of all blocks, in the order of the rows.
 template <int D>
 std::vector<double> row_mobilities(const ConstraintProblem<D>& problem) {
   std::vector<double> w(problem.rows.size());
@@ -114,8 +129,10 @@ std::vector<double> row_mobilities(const ConstraintProblem<D>& problem) {
   return w;
 }
 
-/// The pointers are to the values [L], impulses [M L/T] and mobilities > 0 [T/M] of the block's
-/// rows.
+/// The residual of `block` [L], >= 0, by which it violates its conditions. `v`, `p` and `w` point
+/// to the values [L], impulses [M L/T] and mobilities > 0 [T/M] of the rows of the block. The
+/// residual is at least the rounding error of each w p, because errors of this size cannot be
+/// avoided.
 BlockResidual residual_of(const ConstraintBlock& block, const double* v, const double* p,
                           const double* w) {
   BlockResidual residual;
@@ -156,6 +173,7 @@ BlockResidual residual_of(const ConstraintBlock& block, const double* v, const d
   return residual;
 }
 
+/// The residual of `block` after the `motions` of all units, with the impulses of the problem.
 template <int D>
 BlockResidual residual_after(const ConstraintProblem<D>& problem, const ConstraintBlock& block,
                              std::span<const Motion<D>> motions) {
@@ -188,7 +206,7 @@ template BlockResidual residual_after<3>(const ConstraintProblem<3>&, const Cons
 namespace {
 
 /// Unit vectors that complete `normal` to a right-handed basis. They depend continuously on the
-/// normal except, in space, where another of its components becomes the smallest one.
+/// normal, except for normals in space at which another component becomes the smallest one.
 template <int D>
 std::array<Vector, static_cast<std::size_t>(D - 1)> tangent_basis(const Vector& normal) {
   if constexpr (D == 2) {
@@ -205,6 +223,7 @@ std::array<Vector, static_cast<std::size_t>(D - 1)> tangent_basis(const Vector& 
   }
 }
 
+/// The unit normal of a contact, whose third component is 0 for discs.
 template <int D>
 Vector normal_of(const Contact<D>& contact) {
   Vector normal{};
@@ -214,6 +233,9 @@ Vector normal_of(const Contact<D>& contact) {
 
 }  // namespace
 
+/// The tangents of a contact, the arms [L] from the centres of its particles to the point of
+/// contact, and the displacement [L] of an obstacle at this point from the time `begin` to the time
+/// `end` [T]. The caller must set the capacity of the result.
 template <int D>
 ContactTangents<D> tangents_of(const Contact<D>& contact, const Particles& particles,
                                std::span<const Plane> obstacles, double begin, double end) {
@@ -238,6 +260,9 @@ ContactTangents<D> tangents_of(const Contact<D>& contact, const Particles& parti
   return tangents;
 }
 
+/// Adds row `k` of a contact to `problem`: its gap for k = 0, otherwise (k < D) the displacement of
+/// the second surface relative to the first one along tangent k - 1. `impulse` is a guess of the
+/// impulse of the row [M L/T].
 template <int D>
 void add_contact_row(const Contact<D>& contact, const ContactTangents<D>& tangents,
                      const ContactSide& first, const ContactSide& second, std::size_t k,

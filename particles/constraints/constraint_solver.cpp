@@ -2,15 +2,17 @@
 // which order and with which parameters: Gauss-Seidel sweeps, proximal steps, paths of smoothed
 // problems and interior points. Values of rows (gaps, slips, equations of links) are in [L],
 // impulses in [M L/T], mobilities > 0 in [T/M], motions in [L, rad], in any consistent units. A
-// residual [L] is allowed if it is at most ConstraintBlock::allowed or allowed_slip, both > 0.
-// Nothing is thrown; an unsolved problem has SolverResult::residual > 1. Used by
-// constraint_system.cpp, impacts/ and fluid/fluid_friction.cpp. A change must keep that results
-// do not depend on the number of threads, which share factorisations only. Constants without
-// another reason are free choices.
+// block is a contact or link with its rows. A residual [L] is allowed if it is at most
+// ConstraintBlock::allowed or allowed_slip, both > 0. Nothing is thrown; an unsolved problem has a
+// SolverResult::residual that is > 1 or NaN. constraint_system.cpp, impacts/ and
+// fluid/fluid_friction.cpp use this file. A change must keep that results do not depend on the
+// number of threads, which share factorisations only. Constants without another reason are free
+// choices.
 //
-// `epsilon` [1], > 0, is the parameter of a proximal step: the impulse of a row with the value v
-// and the mobility w is center - v/(epsilon w), projected on the allowed impulses. A smaller
-// epsilon brings the step nearer to the solution, but makes it harder to compute.
+// `epsilon` [1], > 0, is the parameter of a proximal step. If a row has the value v, the mobility w
+// and, before the step, the impulse `center`, its new impulse is center - v/(epsilon w), projected
+// on the allowed impulses. A smaller epsilon brings the step nearer to the solution, but makes the
+// step harder to compute.
 #include "viscontact/particles/constraints/constraint_solver.hpp"
 
 #include <algorithm>
@@ -43,9 +45,12 @@ std::vector<double> scales_of_rows(const ConstraintProblem<D>& problem, Constrai
   return w;
 }
 
+/// Solves one problem. The object has the present impulses (problem.impulses), all that follows
+/// from them, and the best impulses so far.
 template <int D>
 class Iteration {
  public:
+  /// `problem` must outlive the object. Its normal impulses are raised to their lowest values.
   Iteration(ConstraintProblem<D>& problem, ConstraintStart start)
       : problem_(problem), w_(scales_of_rows(problem, start)), sweeps_(problem), start_(start) {
     for (const auto& block : problem.blocks) {
@@ -58,6 +63,8 @@ class Iteration {
     update();
   }
 
+  /// Returns the solution, or the best iterate after about `max_iterations` iterations, and leaves
+  /// its impulses in the problem.
   ConstraintSolution<D> solve(int max_iterations) {
     if (problem_.is_convex) {
       solve_with_own_loads(max_iterations);
@@ -72,6 +79,7 @@ class Iteration {
   }
 
  private:
+  /// Makes kSweeps sweeps, each of which counts as an iteration.
   void sweep() {
     constexpr int kSweeps = 30;
     sweeps_.sweep(kSweeps, w_);
@@ -79,8 +87,9 @@ class Iteration {
     update();
   }
 
-  /// Repeats kSweeps sweeps as long as these reduce the residual to less than kGain of it. A sweep
-  /// takes a small part of the time of a factorisation, so that slow progress is enough.
+  /// Repeats sweep() as long as each call reduces the residual to less than kGain times its value
+  /// before the call. A sweep takes a small part of the time of a factorisation, so that slow
+  /// progress is enough.
   void sweep_while_it_gains(int max_iterations) {
     constexpr double kGain = 0.7;
     double before = std::numeric_limits<double>::infinity();
@@ -98,10 +107,11 @@ class Iteration {
     gained_residual_ = best_.result.residual;
     gained_at_ = best_.result.iterations;
   }
-  /// True if the best residual was not halved in the last iterations, without those of paths. With
-  /// 2000 in place of 3000 and Coulomb's law, three more of the 200 steps of bench/box2d.cpp ended
-  /// without a solution when there were no paths. Convex problems whose loads are not given take 20
-  /// to 70 iterations, unless they have no solution.
+  /// True if the best residual was not halved in the last kPatience iterations (kPatienceOfCones,
+  /// if a contact has FrictionBound::kCone). Iterations of paths do not count. With 2000 in place
+  /// of 3000 and Coulomb's law, three more of the 200 steps of bench/box2d.cpp ended without a
+  /// solution when there were no paths. Convex problems whose loads are not given take 20 to 70
+  /// iterations, unless they have no solution.
   bool is_stagnant() const {
     constexpr int kPatience = 3000, kPatienceOfCones = 300;
     return best_.result.iterations - gained_at_ > (has_cones_ ? kPatienceOfCones : kPatience);
@@ -112,8 +122,8 @@ class Iteration {
   void solve_with_paths(int max_iterations) {
     // Proximal steps solve easy problems in less time than a path takes, and with loads that are
     // nearer to the guess. Their share of the time is about the same for all numbers of contacts.
-    // From the end of a path 0 to 20 iterations are the rule. With kLeastImpulses paths are the
-    // last resort, because their ends do not depend on the guess.
+    // From the end of a path, most solutions take 0 to 20 iterations. With kLeastImpulses paths are
+    // the last resort, because their ends do not depend on the guess.
     constexpr double kBeforePath = 1e5;  // iterations times contacts
     constexpr int kMostAfterPath = 200, kLeastBeforePath = 50, kMostBeforePath = 2000;
     const double contacts = static_cast<double>(problem_.blocks.size());
@@ -143,7 +153,7 @@ class Iteration {
           next = best_.result.iterations + kMostAfterPath;
         }
       } else if (is_after_path) {
-        // As many steps as without the path may then be made without progress.
+        // The iterations since the end of the path do not count in is_stagnant().
         is_after_path = false;
         gained_at_ += best_.result.iterations - path_ended_at;
         most_impulse_ = std::numeric_limits<double>::infinity();
@@ -152,8 +162,8 @@ class Iteration {
         before = problem_.impulses;
         epsilon_before = epsilon_;
         if (const auto end = end_of_path(paths++, max_iterations)) {
-          // Where particles are jammed, impulses that balance each other may be as large as one
-          // likes. A solution with larger ones than are at work has no meaning.
+          // Where particles are jammed, impulses that balance each other may have any size. A
+          // solution with an impulse larger than sum_of_impulses_at_work() has no meaning.
           is_after_path = true;
           path_ended_at = best_.result.iterations;
           most_impulse_ = sum_of_impulses_at_work();
@@ -167,12 +177,13 @@ class Iteration {
   /// Follows path number `number` of smoothed problems. Returns the impulses at its end, or nothing
   /// if it ends far from a solution.
   std::optional<std::vector<double>> end_of_path(int number, int max_iterations) {
-    // Accuracies relative to the violations without impulses. Most of the factorisations are made
-    // at errors of 1e-3 to 1e-5; from there to 1e-7 there are about ten.
+    // These are accuracies relative to the violations without impulses. Most of the factorisations
+    // are made at errors of 1e-3 to 1e-5, and about ten at errors from 1e-5 to 1e-7.
     constexpr double kRough = 1e-4, kAccurate = 1e-7, kFar = 1e-3;
     // A long path is left for another one, which seldom is as long.
     const int longest = number + 1 < CoulombPath<D>::kPaths ? 400 : 2000;
-    // A factorisation and three solutions with factors for each point of the path.
+    // Each point of the path takes a factorisation and three solutions with factors, which count
+    // as this number of iterations.
     constexpr int kForPoint = 4;
     const int left = max_iterations - best_.result.iterations;
     CoulombPath<D> path(problem_, w_, matrix());
@@ -185,9 +196,10 @@ class Iteration {
     return path.impulses();
   }
 
-  /// The sum of the impulses that stop the free motion of each unit, remove the violation of each
-  /// contact with friction and rigid link by the free motion, and hold the films of such contacts
-  /// [M L/T].
+  /// A bound of the impulses that a solution can need [M L/T]: the sum of the magnitudes of the
+  /// impulses that stop the free motion of each unit, of those that remove the violation of each
+  /// contact with friction and each rigid link by the free motion, and of the lowest impulses of
+  /// such contacts.
   double sum_of_impulses_at_work() const {
     double sum = 0;
     std::vector<Motion<D>> free;
@@ -254,13 +266,13 @@ class Iteration {
     return largest;
   }
 
-  /// Makes the residuals of gaps and links allowed, after a step from the impulses `center` after
-  /// which the residuals of the slips are allowed. Between jammed particles that stick, slips are
-  /// never 0, so that further steps would increase impulses without end and change gaps by more
-  /// than their small tolerance. The steps of this function therefore start from the last impulses
-  /// in the rows of gaps and links only. The tangential rows keep a center with which the present
-  /// motions give the present friction. Their epsilon is so large that small motions hardly change
-  /// it. Returns true if the problem is solved; otherwise restores the impulses.
+  /// Makes the residuals of gaps and links allowed. Before the call, a step from the impulses
+  /// `center` has made the residuals of the slips allowed. Between jammed particles that stick,
+  /// slips are never 0, so that further steps would increase impulses without end and change gaps
+  /// by more than their small tolerance. The steps of this function therefore start from the last
+  /// impulses in the rows of gaps and links only. The tangential rows keep a center with which the
+  /// present motions give the present friction. Their epsilon is so large that small motions hardly
+  /// change the friction. Returns true if the problem is solved; otherwise restores the impulses.
   bool close_gaps(std::vector<double> center, int max_iterations) {
     constexpr int kMostSteps = 12, kMostIterations = 200;
     constexpr double kEpsilonOfSlips = 1e-3, kLeastEpsilon = 1e-6, kFactor = 3;
@@ -312,11 +324,11 @@ class Iteration {
 
   /// Solves a convex problem by interior points alone.
   void find_interior_solution(int max_iterations) {
-    // Accuracies relative to the violations without impulses. With 1e-6 in place of kAccurate
-    // spheres take 3 to 7 % less time, because proximal steps reach the rest. But proximal steps
-    // fail where several contacts are near the tips of their cones. The rough one finds the pairs
-    // that take part, and first loads. In bench/box2d.cpp it misses no more pairs with 1e-2 than
-    // with 1e-3, but some more with 3e-2.
+    // These are accuracies relative to the violations without impulses. With 1e-6 in place of
+    // kAccurate spheres take 3 to 7 % less time, because proximal steps reach the rest. But
+    // proximal steps fail where several contacts are near the tips of their cones. A solution with
+    // kRough is used only to find the pairs that take part, and first loads. In bench/box2d.cpp it
+    // misses no more pairs with 1e-2 than with 1e-3, but some more with 3e-2.
     constexpr double kRough = 1e-2, kAccurate = 1e-9, kExact = 1e-13;
     constexpr int kMostIterations = 60;
     if (!interior_) interior_.emplace(problem_, w_, matrix());
@@ -329,13 +341,15 @@ class Iteration {
     update();
   }
 
-  /// Solves a convex problem with its present loads: by interior points, and then by proximal
-  /// steps, if needed, which are few: it is known which contacts stick and slide.
+  /// Solves a convex problem with its present loads by interior points. If these do not suffice,
+  /// proximal steps follow. Few of them are needed, because the interior points have found which
+  /// contacts stick and which ones slide.
   void solve_convex(int max_iterations) {
     if (residual_ <= 1 || best_.result.iterations >= max_iterations) return;
     // Proximal steps from a near solution change its slips little. Each solution by interior points
     // has errors of its own in the slips. Bodies that turn would pass these errors on to gaps, and
-    // corrections for finite turns would not vanish. Two to eight iterations are the rule.
+    // corrections for finite turns would not vanish. Most such solutions take two to eight
+    // iterations.
     constexpr int kMostNear = 20;
     if (problem_.is_near &&
         take_convex_steps(std::min(max_iterations, best_.result.iterations + kMostNear)))
@@ -349,7 +363,8 @@ class Iteration {
 
   /// Takes proximal steps of a convex problem. Returns true if it is solved.
   bool take_convex_steps(int max_iterations) {
-    // Errors of impulses are rounding errors of gaps over epsilon, too large with a smaller one.
+    // The errors of the impulses are the rounding errors of the gaps divided by epsilon. With a
+    // smaller epsilon than this one they are too large.
     constexpr double kFirstEpsilonOfConvex = 1e-5;
     epsilon_ = kFirstEpsilonOfConvex;
     is_rising_ = true;
@@ -462,12 +477,14 @@ class Iteration {
     best_impulses_ = problem_.impulses;
   }
 
+  /// Puts the best impulses into the problem, and returns the best iterate.
   ConstraintSolution<D> finish() {
     problem_.impulses = best_impulses_;
     return std::move(best_);
   }
 
-  // Epsilon of the first proximal step with Coulomb's law; bench/README.md lists others tried.
+  // Epsilon of the first proximal step with Coulomb's law [1]. bench/README.md lists the results of
+  // other values.
   static constexpr double kFirstEpsilon = 0.1;
 
   ConstraintProblem<D>& problem_;
@@ -493,14 +510,19 @@ class Iteration {
 
 }  // namespace
 
-/// Takes about `max_iterations` > 0 iterations at most; the residual is > 1 if the problem is
-/// unsolved.
+/// Improves problem.impulses until the residual of each block is allowed, or until about
+/// `max_iterations` > 0 iterations are made. If the problem is unsolved, SolverResult::residual is
+/// > 1 or NaN, and the result is the iterate with the smallest residual.
 template <int D>
 ConstraintSolution<D> solve_constraints(ConstraintProblem<D>& problem, int max_iterations,
                                         ConstraintStart start) {
   return Iteration<D>(problem, start).solve(max_iterations);
 }
 
+/// Bounds the friction of `problem` by given loads, and solves the problem in about
+/// kMostOfGivenLoads iterations at most. The loads are those of the present impulses, or, if
+/// `without_friction` is true, those of a solution without friction, which is computed first. The
+/// loads stay in the problem. If it is unsolved, SolverResult::residual is > 1 or NaN.
 template <int D>
 ConstraintSolution<D> solve_with_given_loads(ConstraintProblem<D>& problem, bool without_friction) {
   give_loads(problem);
@@ -514,13 +536,15 @@ ConstraintSolution<D> solve_with_given_loads(ConstraintProblem<D>& problem, bool
   return solution;
 }
 
-/// One number >= 0 for each block [L, rad]; 0 for links with a compliance.
+/// Returns for each block its violation [L], or [rad] if its rows are angles, >= 0, after the
+/// motion that violates all gaps and rigid links least. Links with a compliance have 0.
 template <int D>
 std::vector<double> least_violations(const ConstraintProblem<D>& problem) {
-  // Proximal steps: each minimises the sum of v^2/(kEpsilon w) plus the square of the change of the
-  // motions in the norm of M/h, masses over the step's length, which keeps the matrix regular. A
-  // step multiplies errors by about kEpsilon if the rows determine the motions well. The number of
-  // steps is a free choice.
+  // Each proximal step minimises the sum of v^2/(kEpsilon w) over the violated rows, with the value
+  // v and the mobility w of a row, plus the square of the change of the motions in the norm of the
+  // masses divided by the length of the step. The second term keeps the matrix regular. A step
+  // multiplies errors by about kEpsilon if the rows determine the motions well. kEpsilon and the
+  // number of steps are free choices.
   constexpr double kEpsilon = 1e-6;
   constexpr int kSteps = 30;
   const auto w = row_mobilities(problem);

@@ -1,12 +1,12 @@
 // Solves the problem for the impulses of the contacts, rigid bodies and links of a time step, which
 // island_problem.cpp makes, and finds constraints that contradict each other. A unit is a particle,
-// or a rigid body of several. Displacements, gaps and residuals are in [L], turns in [rad],
-// impulses in [M L/T], forces of links in [M L/T^2] or [M L^2/T^2], in any consistent units;
-// allowed residuals, masses and the length of the step are > 0. For each particle arrays have 2 or
-// 3 displacements, and 1 turn (discs) or 3 (spheres). Nothing is checked or thrown: a step that is
-// not solved has SolverResult::residual > 1 or NaN. projection/ uses it. A change must keep that
-// hinges and arms hold after finite turns, and the order of the link forces, which restart files
-// store.
+// or a rigid body of several particles. Displacements, gaps and residuals are in [L], turns in
+// [rad], impulses in [M L/T], forces of links in [M L/T^2] or [M L^2/T^2], in any consistent units;
+// allowed residuals, masses and the length of the step are > 0. For each particle arrays have 2
+// displacements and 1 turn (discs), or 3 of both (spheres). Nothing is checked or thrown: a step
+// that is not solved has SolverResult::residual > 1 or NaN. projection/ uses this file. A change
+// must keep that hinges and arms hold after finite turns, and the order of the link forces, which
+// restart files store.
 #include "viscontact/particles/constraints/constraint_system.hpp"
 
 #include <algorithm>
@@ -19,8 +19,7 @@ namespace viscontact::particles {
 
 namespace {
 
-/// Twice the kinetic energy of these motions of the units, times the length of the step
-/// [M L^2/T].
+/// Twice the kinetic energy of the `motions` of all units, times the length of the step [M L^2/T].
 template <int D>
 double energy_of(const ConstraintProblem<D>& problem, std::span<const Motion<D>> motions) {
   double energy = 0;
@@ -42,6 +41,7 @@ double sum_of_loads(const ConstraintProblem<D>& problem) {
 
 }  // namespace
 
+/// `displacements` [L] and `mobilities` (step over mass) [T/M] are those of all particles.
 template <int D>
 ConstraintSystem<D>::ConstraintSystem(const ConstraintStep& step, const Particles& particles,
                                       std::span<double> displacements,
@@ -71,6 +71,7 @@ ConstraintSystem<D>::ConstraintSystem(const ConstraintStep& step, const Particle
       offsets_[index_of(body.members[m])] = present_offset(body, m, D);
 }
 
+/// Makes the particles of all links take part in `system`, and connects those of each link.
 template <int D>
 void ConstraintSystem<D>::join_linked(ContactSystem<D>& system) const {
   for (const auto& link : links_)
@@ -80,6 +81,7 @@ void ConstraintSystem<D>::join_linked(ContactSystem<D>& system) const {
     }
 }
 
+/// True if an arm keeps the particles of `pair` so far apart that they do not overlap.
 template <int D>
 bool ConstraintSystem<D>::is_held_apart(const Pair& pair) const {
   for (const auto& arm : step_.links->arms) {
@@ -88,7 +90,7 @@ bool ConstraintSystem<D>::is_held_apart(const Pair& pair) const {
     // A case may give lengths that are shorter by the rounding errors of its numbers.
     constexpr double kShorter = 1e-6;
     const double touching = (1 - kShorter) * (particles_.radii[i] + particles_.radii[j]);
-    // An arm holds the nearest image. Other images may touch, also where they are as near.
+    // An arm holds the nearest image. Other images may touch, also if they are equally near.
     constexpr double kRounding = 1e-9;
     const Vector nearest =
         nearest_image(particles_.cell, particles_.position(j) - particles_.position(i));
@@ -101,6 +103,7 @@ bool ConstraintSystem<D>::is_held_apart(const Pair& pair) const {
   return false;
 }
 
+/// Appends the contact of `pair`. `memory` has its friction and load in the step before.
 template <int D>
 void ConstraintSystem<D>::add(const Contact<D>& contact, const Pair& pair,
                               const PairMemory& memory) {
@@ -114,8 +117,8 @@ void ConstraintSystem<D>::add(const Contact<D>& contact, const Pair& pair,
   contact_states_.push_back(state);
 }
 
-/// Finds the islands of `system`, in the order of their first bodies, with their contacts and
-/// links.
+/// Finds the islands of `system`, ordered by their first bodies, with their contacts and links. An
+/// island is a set of particles that contacts and links connect.
 template <int D>
 void ConstraintSystem<D>::find_islands(ContactSystem<D>& system) {
   islands_.clear();
@@ -140,8 +143,8 @@ void ConstraintSystem<D>::find_islands(ContactSystem<D>& system) {
     island_of(links_[l].parts().front().particle).links.push_back(l);
 }
 
-/// True if the island was solved so accurately before, has no contact that was added since, and its
-/// residuals are allowed. Those of Coulomb's law cannot be after the island has given up.
+/// True if the island was solved before, accurately unless `is_rough`, no contact was added since,
+/// and its residuals are allowed. Residuals of Coulomb's law do not count if it has given up.
 template <int D>
 bool ConstraintSystem<D>::is_solved(const ContactSystem<D>& system, const Island& island,
                                     bool is_rough) const {
@@ -160,6 +163,7 @@ bool ConstraintSystem<D>::is_solved(const ContactSystem<D>& system, const Island
               island.links, [&](std::size_t l) { return link_residuals_[l] <= links_allowed[l]; }));
 }
 
+/// The displacement [L] and turn [rad] of a unit; zeros if `unit` is -1.
 template <int D>
 UnitMotion ConstraintSystem<D>::motion_of(std::int32_t unit,
                                           std::span<const Motion<D>> motions) const {
@@ -191,8 +195,8 @@ void ConstraintSystem<D>::move_particles(const ContactSystem<D>& system, const I
 
 /// Moves the particles, and changes the offsets of the rows so that their linear values after these
 /// motions of the units become those after finite turns: gaps as ContactSystem::gap() gives them,
-/// and lengths of links. Stores the changes as shifts, and returns the largest one over its bound,
-/// without those of contacts that stay open.
+/// and lengths of links. Stores the changes as shifts, but not those of contacts that stay open.
+/// Returns the largest shift divided by its allowed residual [1].
 template <int D>
 double ConstraintSystem<D>::correct(ContactSystem<D>& system, Island& island,
                                     std::span<const Motion<D>> motions) {
@@ -232,8 +236,8 @@ double ConstraintSystem<D>::correct(ContactSystem<D>& system, Island& island,
   return largest;
 }
 
-/// Makes the equations those about the motion without contacts, and its impulses the guess, if it
-/// leaves all contacts open, so that it is the solution. Returns whether it does.
+/// Linearises the equations about the motion without contacts. If this motion leaves all contacts
+/// open, it is the solution: its impulses become the guess, and the function returns true.
 template <int D>
 bool ConstraintSystem<D>::begin_without_contacts(ContactSystem<D>& system, Island& island) {
   auto& problem = island.problem;
@@ -255,7 +259,7 @@ bool ConstraintSystem<D>::begin_without_contacts(ContactSystem<D>& system, Islan
   return true;
 }
 
-/// True if a last correction is larger than rounding errors and errors of solutions are.
+/// True if one of the last corrections is larger than rounding errors and errors of solutions.
 template <int D>
 bool ConstraintSystem<D>::has_large_shifts(const Island& island) const {
   constexpr double kPart = 1e-6;  // of the mean radius, a free choice
@@ -314,7 +318,7 @@ void ConstraintSystem<D>::take_over(ContactSystem<D>& system, const Island& isla
       forces_of(l)[k] += sign * problem.impulses[block.row + k] / times_.kick;
     ++b;
   }
-  // Without contacts the forces may be far from those with them.
+  // Forces of a solution without contacts may be far from those with contacts, and are no guess.
   if (!island.contacts.empty())
     for (const auto l : island.links)
       std::ranges::copy(forces_of(l), &first_link_forces_[links_[l].first_force]);
@@ -351,12 +355,12 @@ bool ConstraintSystem<D>::may_give_up(const Island& island) const {
          std::ranges::any_of(island.problem.blocks, has_own_load);
 }
 
-/// Solves the problem of an island with given loads in place of those of the solution, in which
-/// further iterations or corrections make no progress. Returns true if it is solved. The loads are
-/// those of a solution without friction if `have_diverged`, because those of the present
-/// impulses have no meaning then, and where these do not lead to a solution. Returns false, and
-/// leaves the problem and `solution` as they are, if the problem is rough, if all loads are given
-/// already, or if links contradict each other. Adds the iterations to `result` in any case.
+/// Solves the problem of an island, which made no progress, with friction that given loads bound.
+/// They are the loads of the present impulses. If `have_diverged`, these have no meaning, and the
+/// loads are those of a solution without friction; the same loads are tried if the present ones do
+/// not lead to a solution. Returns true if the problem is solved. Returns false, and leaves the
+/// problem and `solution` unchanged, if it is not (links contradict each other), if it is rough, or
+/// if all loads are given already. Adds the iterations to `result` in any case.
 template <int D>
 bool ConstraintSystem<D>::give_up(Island& island, bool have_diverged,
                                   ConstraintSolution<D>& solution, SolverResult& result) {
@@ -385,6 +389,9 @@ bool ConstraintSystem<D>::give_up(Island& island, bool have_diverged,
   return true;
 }
 
+/// Solves all islands that earlier calls have not solved, in about `max_iterations` > 0 iterations
+/// for each island. If `is_rough`, residuals up to `roughly_allowed` > 0 [L] are allowed. The
+/// result has SolverResult::residual <= 1 if all of them are solved.
 template <int D>
 SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
                                         double roughly_allowed, int max_iterations) {
@@ -404,7 +411,7 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
       progress.solved = is_rough               ? Solved::kRoughly
                         : solved.residual <= 1 ? Solved::kAccurately
                                                : Solved::kNot;
-      // The solution without contacts leaves all iterations to those with contacts.
+      // Iterations of a solution without contacts do not count for later ones with contacts.
       auto of_bodies = progress;
       if (island.contacts.empty() && solved.residual <= 1) of_bodies.iterations = 0;
       for (const auto b : island.bodies) progress_[index_of(b)] = of_bodies;
@@ -418,16 +425,16 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
   return result;
 }
 
-/// Solves the problem of one island, as solve() describes it.
+/// Solves the problem of one island, as the comment on solve() in the header describes it.
 template <int D>
 SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island& island,
                                                bool is_rough, double roughly_allowed,
                                                int max_iterations) {
   auto& problem = island.problem;
   // Each correction multiplies the error by about the turn of the bodies in the step [rad]. With
-  // turns of 1 it gains little. Corrections diverge if they grow kPatience times in succession, or
-  // if kMostWithoutGain of them do not halve the largest correction, which a factor of 0.87 would
-  // do. Either the constraints contradict each other, or the step is too long.
+  // turns of 1 rad it gains little. Corrections count as divergent if they grow kPatience times in
+  // succession, or if kMostWithoutGain of them do not halve the largest one. (Five factors of 0.87
+  // would halve it.) Then the constraints contradict each other, or the step is too long.
   constexpr int kPatience = 3, kMostWithoutGain = 5;
   // A correction is fast if it is below kFast times the one before. All these numbers are free
   // choices.
@@ -450,8 +457,8 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
     last_change = gained_change = kInfinity;
     growing = gained_at = 0;
   };
-  // Begins anew with given loads: those of `impulses`, or, if it is empty, those of a solution
-  // without friction. Returns false, with the problem as it was, if that does not solve it.
+  // Begins anew with friction that the loads of `impulses` bound, or, if `impulses` is empty, those
+  // of a solution without friction. If this fails, restores the problem and returns false.
   const auto give_up_anew = [&](const std::vector<double>& impulses) {
     if (!may_give_up(island)) return false;
     auto corrected = problem;
@@ -469,9 +476,9 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
     return true;
   };
   restart();
-  // Of the problem without corrections: the larger energy of its motions without and with impulses,
-  // the sum of its loads, and its impulses. Those of Coulomb's law may be as large as one likes
-  // where friction locks a body, and are not kept.
+  // These members belong to the problem without corrections: the larger energy of its motions
+  // without and with impulses, the sum of its loads, and its impulses. Impulses of Coulomb's law
+  // can have any size where friction locks a body, and are not kept.
   double first_energy = 0, first_loads = 0;
   std::vector<double> first_impulses;
   for (int n = 0;; ++n) {
@@ -486,8 +493,8 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
     // A body that friction locks between two contacts still turns about the line through them. The
     // correction for this turn demands a motion that the locks prevent. Coulomb's law then has no
     // solution. The convex relaxation has one, with loads that are larger by orders of magnitude
-    // and add energy. Planes and arms that move may add energy, too, but no such loads.
-    constexpr double kMostEnergy = 1.01, kMostLoads = 10;  // over first_energy and first_loads
+    // and add energy. Planes and arms that move may add energy, too, but without such loads.
+    constexpr double kMostEnergy = 1.01, kMostLoads = 10;  // times first_energy and first_loads
     if (n == 0) {
       const std::vector<double> none(problem.rows.size());
       first_energy = std::max(energy_of<D>(problem, solution.motions),
@@ -543,8 +550,8 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
     }
     // The loads of a solution bound the friction of the next one. With large friction this may
     // repeat without end, while corrections would follow the loads instead of vanishing. The first
-    // correction contains most of what turns change. The loads are therefore those of the solution
-    // after it, from the same first loads as before it, and later ones keep them.
+    // correction contains most of what turns change. The solution after it therefore begins with
+    // the same loads as the one before, and all later solutions keep the loads that it finds.
     if (n == 0 && !problem.keeps_loads)
       for (std::size_t b = 0; b < island.contacts.size(); ++b)
         problem.blocks[b].given_load = contact_states_[island.contacts[b]].first_load;
@@ -568,6 +575,8 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
   return result;
 }
 
+/// The violations [L], >= 0, of all contacts and then all links by the motion that violates them
+/// least. Those of angles are multiplied by the mean radius.
 template <int D>
 std::vector<double> ConstraintSystem<D>::least_violations() const {
   const std::size_t contacts = contact_states_.size();

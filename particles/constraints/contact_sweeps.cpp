@@ -1,8 +1,9 @@
-// Gauss-Seidel sweeps over the contacts and links of a time step: computes the impulses [M L/T] of
-// one of them after the other from the values v [L] and mobilities w > 0 [T/M] of its rows, of
-// which a contact or link has 1 to 3. Rows of angles have [M L^2/T], [rad] and [T/(M L^2)] instead;
-// motions are in [L, rad]. Units are any consistent ones. Nothing is checked or thrown: the caller
-// must measure the residuals. constraint_solver.cpp uses it. A change of the order of sums changes
+// Gauss-Seidel sweeps over the contacts and links of a time step. A contact or link has 1 to 3
+// rows (gaps, slips or equations) with impulses [M L/T], values v [L] and mobilities w > 0 [T/M]. A
+// sweep computes the impulses of one contact or link after the other from these values and
+// mobilities. Rows of angles have [M L^2/T], [rad] and [T/(M L^2)] instead; motions are in
+// [L, rad]. Units are any consistent ones. Nothing is checked or thrown: the caller must measure
+// the residuals. constraint_solver.cpp uses this file. A change of the order of sums changes
 // results by rounding errors.
 #include "viscontact/particles/constraints/contact_sweeps.hpp"
 
@@ -14,6 +15,8 @@
 
 namespace viscontact::particles {
 
+/// Computes the motion that a unit impulse on each row causes. `problem` must outlive the object,
+/// and only its impulses may change.
 template <int D>
 ContactSweeps<D>::ContactSweeps(ConstraintProblem<D>& problem) : problem_(problem) {
   pushes_.reserve(problem.parts.size());
@@ -27,6 +30,8 @@ double ContactSweeps<D>::wanted(std::size_t row, double w) const {
   return problem_.impulses[row] - (problem_.rows[row].offset + problem_.product(row, y_)) / w;
 }
 
+/// Sets the impulse of a row, in place `row` of problem.rows, to `impulse` [M L/T], and adds the
+/// motions that the change of the impulse causes.
 template <int D>
 void ContactSweeps<D>::change(std::size_t row, double impulse) {
   const double by = impulse - problem_.impulses[row];
@@ -39,6 +44,9 @@ void ContactSweeps<D>::change(std::size_t row, double impulse) {
   }
 }
 
+/// Sets the impulses of one contact or link to those that satisfy its conditions while all other
+/// impulses stay as they are. `w` points to the mobilities of its rows. FrictionBound::kCone is
+/// solved approximately (solve_in_cone()).
 template <int D>
 void ContactSweeps<D>::solve_block(const ConstraintBlock& block, const double* w) {
   if (!block.is_contact) {
@@ -100,6 +108,8 @@ void ContactSweeps<D>::solve_in_cone(const ConstraintBlock& block, const double*
   for (std::size_t k = 1; k < block.rows; ++k) change(block.row + k, cone.tangential * to[k]);
 }
 
+/// Improves problem.impulses by `count` >= 0 sweeps over all contacts and links, in their order and
+/// in the reverse order by turns. `w` has one mobility for each row of the problem.
 template <int D>
 void ContactSweeps<D>::sweep(int count, const std::vector<double>& w) {
   y_ = motions<D>(problem_, problem_.impulses);

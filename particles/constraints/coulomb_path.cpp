@@ -3,10 +3,10 @@
 // inside, gaps and impulses are scaled to the unit L (M/T)^(1/2). Paths have the numbers 0, 1, 2;
 // the accuracy [1] is in (0, 1). `tau` [M L^2/T] is the common value of the products that must
 // become 0. Nothing is checked or thrown. A path that is lost ends early: reached() [1] is the
-// error at its best point divided by that at the start, and the caller must measure the residuals.
-// Used by constraint_solver.cpp. The constants change how long a solution takes, which of several
-// solutions is found, and results within the tolerances; a change of the order of sums changes
-// results by rounding errors.
+// error at the best point of the path divided by the error at its start, and the caller must
+// measure the residuals. constraint_solver.cpp uses this file. The constants change how long a
+// solution takes, which of several solutions is found, and results within the tolerances; a change
+// of the order of sums changes results by rounding errors.
 #include "viscontact/particles/constraints/coulomb_path.hpp"
 
 #include <algorithm>
@@ -17,23 +17,26 @@
 namespace viscontact::particles {
 namespace {
 
-/// Part of the change of an impulse that is added to that of its gap or slip [1]. It bounds the
-/// entries of the matrix at 1e10 times the masses, as in interior_points.cpp.
+/// This part [1] of the change of a scaled impulse is added to the change of its gap or slip. It
+/// bounds the entries of the matrix at 1e10 times the masses, as in interior_points.cpp.
 constexpr double kRegularisation = 1e-10;
 
-/// The product of `bound` and `spare` on each path over tau. A larger one smooths the bound of the
-/// friction more. The second and third path are for problems on which the one before fails or is
-/// long. The numbers are free choices: on 88 problems of 300 to 1900 contacts the first path took
-/// 10900, 9300 and 9900 factorisations with 3, 9 and 20, and each of these was the best choice for
-/// some of them.
+/// For each path the product of the unknowns `bound` (the bound of the friction) and `spare` (mu_s
+/// times the impulse that the film can still absorb), divided by tau. A larger number smooths the
+/// bound of the friction more. The second path is for problems on which the first one fails or is
+/// long, the third one for those on which the second one does. The numbers are free choices: on 88
+/// problems of 300 to 1900 contacts the first path took 10900, 9300 and 9900 factorisations with 3,
+/// 9 and 20, and each of these numbers was the best one for some of the problems.
 constexpr std::array<double, CoulombPath<2>::kPaths> kSmoothing = {10, 100, 30};
-/// The product (bound, p) o (z, v) over tau. With 1 and 0.6 runs of bench/box2d.cpp took longer.
+/// The product (bound, p) o (z, v) on each path, divided by tau; p is the friction, v the slip and
+/// z a bound of the slip. With 1 and 0.6 runs of bench/box2d.cpp took longer.
 constexpr double kOfFriction = 2;
 
 /// The products stay between kNear and 1/kNear times their values on the path. On the problems
-/// above, 0.2 and 0.5 took as many factorisations and a fifth more.
+/// above, 0.2 took as many factorisations, and 0.5 a fifth more.
 constexpr double kNear = 0.3;
 
+/// The inner product of two vectors.
 template <std::size_t N>
 double inner(const std::array<double, N>& a, const std::array<double, N>& b) {
   double sum = 0;
@@ -51,6 +54,7 @@ std::array<double, N * N> matrix_of(double a, double b, const std::array<double,
   return matrix;
 }
 
+/// The product of a matrix, row by row, and a vector.
 template <std::size_t N>
 std::array<double, N> times(const std::array<double, N * N>& matrix,
                             const std::array<double, N>& x) {
@@ -60,14 +64,16 @@ std::array<double, N> times(const std::array<double, N * N>& matrix,
   return result;
 }
 
+/// The inverse of a matrix of one or two rows, row by row; infinite or NaN if it is singular.
 std::array<double, 1> inverse_of(const std::array<double, 1>& a) { return {1 / a[0]}; }
 std::array<double, 4> inverse_of(const std::array<double, 4>& a) {
   const double determinant = a[0] * a[3] - a[1] * a[2];
   return {a[3] / determinant, -a[1] / determinant, -a[2] / determinant, a[0] / determinant};
 }
 
-/// The Hessian of -ln(x_0^2 - |x|^2), a norm of relative changes of a point (x_0, x) of the
-/// second-order cone, for the changes (a_0, a) and (b_0, b).
+/// The inner product [1] of two changes, (a_0, a) and (b_0, b), of a point (x_0, x) inside the
+/// second-order cone |x| < x_0. Its matrix is the Hessian of -ln(x_0^2 - |x|^2), so that the
+/// product measures relative changes.
 template <std::size_t N>
 double relative_product(double x_0, const std::array<double, N>& x, double a_0,
                         const std::array<double, N>& a, double b_0,
@@ -90,6 +96,7 @@ CoulombPath<D>::CoulombPath(const ConstraintProblem<D>& problem, const std::vect
                             UnitMatrix<D>& matrix)
     : problem_(problem), w_(w), matrix_(matrix), impulses_(problem.impulses) {}
 
+/// Makes a part of each contact and of each row of a link, with its scales and constants.
 template <int D>
 void CoulombPath<D>::set_parts() {
   parts_.clear();
@@ -114,11 +121,13 @@ void CoulombPath<D>::set_parts() {
   }
 }
 
+/// The scaled value of the row of a part for the motions `y`, without the offset of the row.
 template <int D>
 double CoulombPath<D>::value(const Part& part, std::span<const Motion<D>> y) const {
   return part.scale * problem_.product(part.row, y);
 }
 
+/// The scaled values of the tangential rows of a contact for the motions `y`, without offsets.
 template <int D>
 typename CoulombPath<D>::Tangent CoulombPath<D>::slip(const Part& part,
                                                       std::span<const Motion<D>> y) const {
@@ -151,8 +160,9 @@ void CoulombPath<D>::measure() {
   }
 }
 
-/// Begins the path where all gaps and impulses beyond the lowest ones are as large as the largest
-/// violation without them, and no contact has friction.
+/// Sets state_ to the start of the path. There all scaled gaps, and all scaled impulses minus their
+/// lowest values, are equal to the largest scaled violation that occurs with the lowest impulses,
+/// and no contact has friction.
 template <int D>
 void CoulombPath<D>::start() {
   std::ranges::fill(impulses_, 0.0);
@@ -195,7 +205,8 @@ void CoulombPath<D>::start() {
 
 /// Assembles and factorises the matrix at state_. Returns false if it is singular.
 ///
-/// The changes of p, v and the bound obey, after that of z is eliminated,
+/// If the change of z is eliminated, the changes dp, dv and dbound of the friction p, the slip v
+/// and the bound of the friction obey, with terms "..." that do not depend on them,
 ///     (z I - p v^T/bound) dp = - (bound I - p p^T/bound) dv - (v - z p/bound) dbound + ...
 template <int D>
 bool CoulombPath<D>::factorise() {
@@ -229,9 +240,10 @@ bool CoulombPath<D>::factorise() {
   return matrix_.factorise();
 }
 
-/// Sets `changes` by which, to first order, each error of a linear equation and each product of
-/// (5.20) loses `of_errors` times its value at state_ and gains `of_tau` times its value on the
-/// path over tau. With `tangent`, each product also loses the product of these changes.
+/// Sets `changes` so that the following holds to first order. Each error of a linear equation and
+/// each product of (5.20) decreases by `of_errors` [1] times its value at state_, and increases by
+/// `of_tau` [M L^2/T] times the constant to which its ratio to tau is equal on the path. If
+/// `tangent` is not null, each product also decreases by the product of the changes in `tangent`.
 template <int D>
 void CoulombPath<D>::find_changes(double of_errors, double of_tau, const State* tangent,
                                   State& changes) {
@@ -241,8 +253,9 @@ void CoulombPath<D>::find_changes(double of_errors, double of_tau, const State* 
   for (std::size_t u = 0; u < error_.size(); ++u)
     for (std::size_t k = 0; k < kMotion; ++k)
       changes.y[u][k] = of_errors * error_[u][k] - of_tau * error_per_tau_[u][k];
-  // In a first pass v and u hold their own errors, r and p their changes without a motion. The
-  // second pass, with the motions, computes the changes.
+  // The first pass computes the changes of r and p if nothing moves; the changes of u and v then
+  // contain only the errors of their equations. The second pass adds the motions, and computes all
+  // changes.
   const auto find = [&](std::size_t i, bool is_moved) {
     const auto& part = parts_[i];
     const auto& at = state_.points[i];
@@ -295,8 +308,9 @@ void CoulombPath<D>::find_changes(double of_errors, double of_tau, const State* 
   for (std::size_t i = 0; i < parts_.size(); ++i) changes.points[i] = find(i, true);
 }
 
-/// The inner product of two changes, each relative to state_: for positive numbers that of the
-/// quotients. Motions and links do not count. No direction is without length, because tau counts.
+/// The inner product [1] of two changes, each taken relative to state_. The change of a positive
+/// number is divided by the number, and relative_product() takes changes of points of a cone.
+/// Motions and links do not count. The product of a change of tau and itself is > 0.
 template <int D>
 double CoulombPath<D>::product(const State& a, const State& b) const {
   double sum = degree_ * a.tau * b.tau / (state_.tau * state_.tau);
@@ -313,8 +327,8 @@ double CoulombPath<D>::product(const State& a, const State& b) const {
   return sum;
 }
 
-/// True if all points are inside their cones at this length of a step, with products near those on
-/// the path.
+/// True if all points are inside their cones at the length `length` [1] of a step, and the products
+/// are near their values on the path.
 template <int D>
 bool CoulombPath<D>::is_inside(const Step& step, double length) const {
   const double square = length * length;
@@ -372,7 +386,7 @@ void CoulombPath<D>::add(double factor, const State& changes, State& to) {
   }
 }
 
-/// The point at this length of a step.
+/// The point at the length `length` [1] of a step.
 template <int D>
 typename CoulombPath<D>::State CoulombPath<D>::end_of(const Step& step, double length) {
   State end = step.at;
@@ -382,10 +396,10 @@ typename CoulombPath<D>::State CoulombPath<D>::end_of(const Step& step, double l
   return end;
 }
 
-/// Sets the tangent of the path and the correction at right angles to it, at state_. The tangent is
-/// the change with ln(tau) or -ln(tau). Returns false if the matrix is singular, or if the
-/// correction does not lead to a point near the path. A bound on the angle between this tangent and
-/// the end of the last step would take 2 to 9 % more factorisations.
+/// Sets the tangent of the path at state_, and the correction at right angles to the tangent. The
+/// tangent is the derivative of the unknowns by ln(tau) or by -ln(tau). Returns false if the matrix
+/// is singular, or if the correction does not lead to a point near the path. (With a bound on the
+/// angle between the tangents of successive steps, paths would take 2 to 9 % more factorisations.)
 template <int D>
 bool CoulombPath<D>::find_direction(Step& step) {
   measure();
@@ -411,7 +425,9 @@ void CoulombPath<D>::find_second(Step& step) {
       step.second);
 }
 
-/// Returns the number of factorisations, at most `max_iterations`, also if the path is lost.
+/// Follows path `number` (0, 1 or 2) until the square root of tau is at most `accuracy` times its
+/// value at the start. Returns the number of factorisations, at most `max_iterations`, also if the
+/// path is lost. The impulses of the best point are then in impulses_.
 template <int D>
 int CoulombPath<D>::follow(int number, double accuracy, int max_iterations) {
   // Lengths of steps are changes of ln(tau) at their start. A step may be kGrowth times as long as
@@ -419,7 +435,7 @@ int CoulombPath<D>::follow(int number, double accuracy, int max_iterations) {
   // choices.
   constexpr double kLongest = 0.9, kGrowth = 4, kLess = 0.7;
   // If the end of a step cannot be corrected, the step is taken again with kShorter times its
-  // length, and after kMostTries the same is done with the one before. kKept steps are kept.
+  // length. After kMostTries the same is done with the step before. The last kKept steps are kept.
   constexpr double kShorter = 0.3;
   constexpr int kMostTries = 3;
   constexpr std::size_t kKept = 8;
@@ -486,7 +502,8 @@ void CoulombPath<D>::take_impulses() {
     const bool is_open = !part.is_equation && point.u > point.r;
     impulses_[part.row] = part.base + (is_open ? 0 : part.scale * point.r);
     if (!part.rubs) continue;
-    // A blow may have a lowest impulse that the solids carry, so that the contact has friction.
+    // In a collision (impacts/) solids may carry a part of the lowest impulse. A contact with its
+    // lowest impulse then has friction, too.
     const double friction = part.of_slip * std::sqrt(inner(point.p, point.p));
     const double bound = problem_.blocks[part.block].bound(impulses_[part.row]);
     const double share = friction > bound ? bound / friction : 1;

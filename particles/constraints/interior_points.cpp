@@ -1,12 +1,13 @@
 // Iterations of the interior-point method for convex problems of contacts with friction and links.
-// Each iteration computes a predictor, whose goal is u.r = 0 for all pairs of a displacement u and
-// an impulse r, and from it the goal of a corrector, whose change of u, r and the motions y
-// [L, rad] of all units is made. u and r are scaled to the unit L (M/T)^(1/2), with mobilities of
-// rows > 0 [T/M]; z is the additional unknown of a contact with a given bound of its friction. The
-// accuracy [1] is in (0, 1), impulses are in [M L/T], units any consistent ones. Nothing is checked
-// or thrown. solve() does not tell whether it reached the accuracy: the caller must measure the
-// residuals. Used by constraint_solver.cpp. The constants change how long a solution takes, and
-// results within the tolerances; a change of the order of sums changes results by rounding errors.
+// An iteration first computes a predictor: changes whose goal is u.r = 0 for all pairs of a
+// displacement u and an impulse r. The predictor gives the goal of a corrector, whose changes of u,
+// r and the motions y [L, rad] of all units are made. u and r are scaled to the unit L (M/T)^(1/2)
+// by mobilities of rows > 0 [T/M]; z is the additional unknown of a contact with a given bound of
+// its friction. The accuracy [1] is in (0, 1), impulses are in [M L/T], units any consistent ones.
+// Nothing is checked or thrown. solve() does not tell whether it reached the accuracy: the caller,
+// constraint_solver.cpp, must measure the residuals. The constants change how long a solution
+// takes, and results within the tolerances; a change of the order of sums changes results by
+// rounding errors.
 #include "viscontact/particles/constraints/interior_points.hpp"
 
 #include <algorithm>
@@ -16,11 +17,12 @@
 namespace viscontact::particles {
 namespace {
 
-/// Part of the change of r that is added to the change of u [1]. It bounds the entries of the
+/// This part [1] of the change of r is added to the change of u. It bounds the entries of the
 /// matrix at 1e10 times the masses, so that its factorisation keeps six digits of the masses.
 constexpr double kRegularisation = 1e-10;
 
-/// Part of the way to the first boundary at which a step ends [1]; a free choice below 1.
+/// A step ends after this part [1] of the way to the boundary of the nearest cone. The number is a
+/// free choice below 1.
 constexpr double kInside = 0.995;
 
 /// The larger of |x_0| and the distance from the axis, which does not depend on the choice of the
@@ -41,7 +43,9 @@ InteriorPoints<D>::InteriorPoints(const ConstraintProblem<D>& problem, const std
       right_(problem.units.size()),
       impulses_(problem.impulses) {}
 
-/// Sets the rows and scales of all parts.
+/// Sets the rows and scales of all parts. A part with a cone consists of the rows of a contact with
+/// FrictionBound::kCone, or of the tangential rows of a contact with a given bound. Each other row
+/// of a gap or a link is a part of its own.
 template <int D>
 void InteriorPoints<D>::set_parts() {
   singles_.clear();
@@ -90,6 +94,7 @@ double InteriorPoints<D>::value(const Single& part, const std::vector<Motion<D>>
 }
 
 /// The scaled values of the rows of a part for the motions `y`, in the coordinates of its cone.
+/// `with_offset`: the offsets of the rows are added.
 template <int D>
 ConePoint InteriorPoints<D>::values(const Cones& part, bool with_offset,
                                     const std::vector<Motion<D>>& y) const {
@@ -109,6 +114,7 @@ ConePoint InteriorPoints<D>::impulse_of(const Cones& part, const ConePoint& r) c
   return impulse;
 }
 
+/// Adds the impulses on the units that the dual point `r` of a part exerts, to `to` [M L/T].
 template <int D>
 void InteriorPoints<D>::add_impulse(const Cones& part, const ConePoint& r,
                                     std::vector<Motion<D>>& to) const {
@@ -130,9 +136,10 @@ double InteriorPoints<D>::largest_value() const {
   return largest;
 }
 
-/// Computes the errors of all conditions at the present point, and gap_. Returns the largest of
-/// them, in the unit of u and r: of the values of rows, of the root of each u.r, which is 0 at the
-/// solution, and of the impulses on units, in the norm of the mobilities.
+/// Computes the errors of all conditions at the present point, and gap_, the mean of all u.r.
+/// Returns the largest of the following errors, in the unit of u and r: those of the values of
+/// rows; the square root of each u.r, which is 0 at the solution; and those of the impulses on the
+/// units, in the norm of the mobilities. The result is NaN if one of them is NaN.
 template <int D>
 double InteriorPoints<D>::measure() {
   double largest = 0, largest_product = 0;
@@ -187,14 +194,16 @@ void InteriorPoints<D>::begin_predictor(Single& part) {
   part.weight = 1 / ((part.is_equation ? part.compliance : part.u / part.r) + kRegularisation);
 }
 
+/// Sets the goal of the predictor of a part with a cone, -u in the numbers of cone.hpp.
 template <int D>
 void InteriorPoints<D>::begin_predictor(Cones& part) {
   part.goal = part.scaling.numbers_of_u();
   for (double& number : part.goal) number = -number;
 }
 
-/// The change dr of r with which (W^2 + kRegularisation I) dr has these numbers (cone.hpp); if a
-/// bound is given, dr_0 = 0, and component 0 of the product is not set.
+/// The change dr of r for which (W^2 + kRegularisation I) dr has the given `numbers`, with the
+/// scaling W and the numbers of cone.hpp. If a bound is given, component 0 of dr is 0 instead, and
+/// component 0 of the product can have any value.
 template <int D>
 ConePoint InteriorPoints<D>::change_of_r(const Cones& part, const ConePoint& numbers) {
   return part.is_bound_given ? part.scaling.solve_beside(kRegularisation, numbers)
@@ -227,8 +236,9 @@ bool InteriorPoints<D>::factorise() {
 }
 
 /// Sets the changes of y, u and r with which, to first order, all errors become 0 and the goals are
-/// reached, by one or two `solutions` with the factors of the matrix. A second solution removes the
-/// rounding errors of the motions, which large entries of the matrix multiply.
+/// reached. `solutions`, 1 or 2, is the number of solutions with the factors of the matrix. The
+/// second one removes the rounding errors of the motions, which large entries of the matrix
+/// multiply.
 template <int D>
 void InteriorPoints<D>::find_direction(int solutions) {
   right_ = error_;
@@ -303,10 +313,11 @@ double InteriorPoints<D>::length_to_boundary() const {
   return length;
 }
 
-/// Sets the goals of the corrector, from the changes of the predictor, whose step has the `length`,
-/// and from gap_ before it. The corrector aims at equal products of all u and r, which are the
-/// smaller, the more the predictor reduces gap_, and corrects the product of the predictor's
-/// changes.
+/// Sets the goals of the corrector from the changes of the predictor. `length` [1] is the length
+/// that a step of the predictor can have, and `gap_before` [M L^2/T] is gap_ before this step. The
+/// corrector aims at equal products of all u and r. These products are small if the step would
+/// reduce gap_ much. The goals also contain the products of the changes of u and r, which the
+/// predictor neglects.
 template <int D>
 void InteriorPoints<D>::set_corrector(double gap_before, double length) {
   double after = 0;
@@ -333,6 +344,7 @@ void InteriorPoints<D>::set_corrector(double gap_before, double length) {
   }
 }
 
+/// Adds `length` [1] times the changes to y, u and r.
 template <int D>
 void InteriorPoints<D>::move(double length) {
   for (std::size_t u = 0; u < y_.size(); ++u)
@@ -364,9 +376,10 @@ void InteriorPoints<D>::take_impulses() {
   }
 }
 
-/// Sets all points inside their cones, with u and r of the given `size` [L (M/T)^(1/2)] times the
-/// unit of the cone. If a given bound fixes component 0 of r, r is multiplied by the factor
-/// that gives it, and u is divided by this factor. Computes degree_.
+/// Sets all u and r to points inside their cones: `size` [L (M/T)^(1/2)], > 0, times the unit of
+/// the cone. If a given bound fixes component 0 of r, r is multiplied by the factor with which this
+/// component has its value, and u is divided by the same factor. Sets degree_, the value of the sum
+/// of all u.r if each u and r is the unit of its cone.
 template <int D>
 void InteriorPoints<D>::start(double size) {
   degree_ = 0;
@@ -390,17 +403,21 @@ void InteriorPoints<D>::start(double size) {
   }
 }
 
-/// Returns the number of iterations, at most `max_iterations`, also if `accuracy` is not reached.
+/// Iterates until the error that measure() returns is at most `accuracy` times the largest scaled
+/// value of a row with the least impulses. Stops earlier if errors grow or only rounding errors are
+/// left. Returns the number of iterations, at most `max_iterations`. impulses_ then has the
+/// impulses with the least error.
 template <int D>
 int InteriorPoints<D>::solve(double accuracy, int max_iterations) {
   // If the error is below kNear times its size at the start, and an iteration does not reduce it to
-  // kSlow times the least error so far, only rounding errors are left.
+  // kSlow times the least error so far, only rounding errors are left. All constants of this
+  // function are free choices.
   constexpr double kNear = 1e-6, kSlow = 0.5;
   // The second solution of find_direction() saves iterations only near the end: when the error
   // divided by its size at the start is below kNearEnd and below kNearAccuracy * accuracy.
   constexpr double kNearAccuracy = 1e3, kNearEnd = 1e-3;
   set_parts();
-  // The least impulses that are allowed, and the motions with these.
+  // The impulses get their least allowed values, and y_ the motions with these impulses.
   std::ranges::fill(impulses_, 0.0);
   for (const auto& part : singles_) impulses_[part.row] = part.base;
   y_ = motions(problem_, impulses_);

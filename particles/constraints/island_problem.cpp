@@ -3,8 +3,8 @@
 // equations of its links, and the motions of its units without contacts. Rows and allowed
 // residuals > 0 are in [L] ([rad] for angles), impulses in [M L/T], turns in [rad], mobilities in
 // [T/M], in any consistent units. Contacts and links are given by their numbers from 0. Nothing is
-// checked or thrown. constraint_system.cpp uses it. A change of the order of rows changes results
-// by rounding errors.
+// checked or thrown. constraint_system.cpp uses this file. A change of the order of rows changes
+// results by rounding errors.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -48,6 +48,7 @@ void ConstraintSystem<D>::number_units(const ContactSystem<D>& system, Island& i
   }
 }
 
+/// The unit of a particle, and the place of the particle in it; unit -1 for an obstacle (-1).
 template <int D>
 ContactSide ConstraintSystem<D>::side_of(std::int32_t particle) const {
   if (particle < 0) return {};
@@ -55,6 +56,8 @@ ContactSide ConstraintSystem<D>::side_of(std::int32_t particle) const {
   return {unit_of_particle_[k], particles_.bodies.body_of(particle) < 0 ? Vector{} : offsets_[k]};
 }
 
+/// Adds the block and the rows of contact number `c` to `problem`, with its last impulses as the
+/// guess. `allowed_slip` [L] is the allowed residual of its tangential rows.
 template <int D>
 void ConstraintSystem<D>::add_contact(const Contact<D>& contact, std::size_t c, double allowed_slip,
                                       ConstraintProblem<D>& problem) {
@@ -82,6 +85,9 @@ void ConstraintSystem<D>::add_contact(const Contact<D>& contact, std::size_t c, 
   }
 }
 
+/// Adds the block and the rows of link number `l` to `problem`, with the last forces of the link as
+/// the guess. `allowed` is the allowed residual of its rows [L]; for angles it is divided by the
+/// mean radius.
 template <int D>
 void ConstraintSystem<D>::add_link(std::size_t l, double allowed, ConstraintProblem<D>& problem) {
   const auto& link = links_[l];
@@ -112,7 +118,8 @@ bool ConstraintSystem<D>::has_motions_without_contacts(const Island& island) con
   });
 }
 
-/// The motions of the units of the island with links, and without contacts.
+/// The motions [L, rad] of the units of the island with links but without contacts. A unit whose
+/// links were not solved without contacts has its motion without contacts and links.
 template <int D>
 std::vector<Motion<D>> ConstraintSystem<D>::motions_without_contacts(const ContactSystem<D>& system,
                                                                      const Island& island) const {
@@ -126,9 +133,10 @@ std::vector<Motion<D>> ConstraintSystem<D>::motions_without_contacts(const Conta
   return motions;
 }
 
-/// Bounds friction by the loads that the contacts had when the solver gave up their problems.
-/// Contacts that were added later get the loads of the step before. Those of an island that was
-/// joined get the loads of its last solution, or, if it could not give up, those before it.
+/// Bounds the friction of an island that has given up by given loads. A contact gets the load that
+/// it had when its island gave up. A contact that was added later gets its load in the step before.
+/// A contact of another island, which has joined this one since, gets its load in the last solution
+/// of that island. If that island could not give up, the load is the one before this solution.
 template <int D>
 void ConstraintSystem<D>::give_loads_of_step(Island& island) {
   give_loads(island.problem);
@@ -141,7 +149,8 @@ void ConstraintSystem<D>::give_loads_of_step(Island& island) {
   }
 }
 
-/// Makes the problem of an island, as solve() describes it.
+/// Makes the problem of an island: units, contacts and links. If `is_rough`, the allowed residual
+/// of all rows is `roughly_allowed` > 0 [L].
 template <int D>
 void ConstraintSystem<D>::make_problem(const ContactSystem<D>& system, Island& island,
                                        bool is_rough, double roughly_allowed) {
@@ -156,7 +165,7 @@ void ConstraintSystem<D>::make_problem(const ContactSystem<D>& system, Island& i
   // Without friction every problem is convex.
   problem.is_convex |= std::ranges::all_of(
       problem.blocks, [](const ConstraintBlock& block) { return block.rows == 1; });
-  // In a rough solution the impulses at work are not known yet.
+  // Before a rough solution the impulses are not known yet, on which Contact::allowed depends.
   if (is_rough)
     for (auto& block : problem.blocks) block.allowed = roughly_allowed;
   for (const auto l : island.links)
@@ -165,8 +174,8 @@ void ConstraintSystem<D>::make_problem(const ContactSystem<D>& system, Island& i
   if (island.has_given_up) {
     give_loads_of_step(island);
   } else if (!is_rough && std::ranges::all_of(island.contacts, has_load)) {
-    // Without further pairs the loads of the last solution remain, so that the motion does not
-    // depend on how often it is solved, which rounding errors may decide.
+    // If no contact was added, the loads of the last solution remain. The motion then does not
+    // depend on the number of solutions, which rounding errors may decide.
     for (std::size_t b = 0; b < island.contacts.size(); ++b)
       problem.blocks[b].given_load = *contact_states_[island.contacts[b]].last_load;
     problem.keeps_loads = true;

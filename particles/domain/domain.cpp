@@ -2,8 +2,8 @@
 // in any consistent units, angular velocities in [rad/T]; a normal has length 1 and points to the
 // free side; radii and heights are > 0. The motion of a plane is a rotation about its pivot and
 // then a translation. Nothing is checked or thrown; case/ checks the values. All of particles/ and
-// freefem_flow/ use it. A change must keep the position of a plane at rest bit for bit, and the
-// order of the walls, by which files number obstacles.
+// freefem_flow/ use this file. A change must keep the position of a plane at rest bit for bit, and
+// the order of the walls, by which files number obstacles.
 #include "viscontact/particles/domain/domain.hpp"
 
 #include <cmath>
@@ -20,6 +20,7 @@ Vector turned(const Vector& a, const Vector& axis, double angle) {
 
 }  // namespace
 
+/// The position of the plane at the time `t` >= 0.
 PlanePosition Plane::at(double t) const {
   PlanePosition place = start;
   if (const double speed = norm(angular_velocity); speed > 0 && t > 0) {
@@ -31,6 +32,8 @@ PlanePosition Plane::at(double t) const {
   return place;
 }
 
+/// The displacement [L], from the time `from` to the time `to`, of the material point of the plane
+/// that is at `point` [L] at the time `to`.
 Vector Plane::displacement(const Vector& point, double from, double to) const {
   const Vector shift = velocity.integral(to) - velocity.integral(from);
   const double speed = norm(angular_velocity);
@@ -40,10 +43,12 @@ Vector Plane::displacement(const Vector& point, double from, double to) const {
   return shift + arm - turned(arm, axis, speed * (from - to));
 }
 
+/// The velocity [L/T] of the material point of the plane that is at `point` [L] at the time `t`.
 Vector Plane::surface_velocity(const Vector& point, double t) const {
   return velocity.value(t) + cross(angular_velocity, point - pivot - velocity.integral(t));
 }
 
+/// The positions of all planes at the time `t` >= 0, in the order of `planes`.
 std::vector<PlanePosition> positions_of(const std::vector<Plane>& planes, double t) {
   std::vector<PlanePosition> places;
   for (const auto& plane : planes) places.push_back(plane.at(t));
@@ -52,11 +57,16 @@ std::vector<PlanePosition> positions_of(const std::vector<Plane>& planes, double
 
 namespace {
 
+/// A wall: a plane or circle at rest.
 Plane wall(const PlanePosition& place) {
   Plane plane;
   plane.start = place;
   return plane;
 }
+
+// The functions walls() return the walls of a domain in the order of their numbers in files. The
+// walls of a box are, along each axis that is not periodic, the side with the smallest coordinate
+// and then the side with the largest one.
 
 std::vector<Plane> walls(std::monostate) { return {}; }
 
@@ -75,7 +85,8 @@ std::vector<Plane> walls(const BoxDomain& box) {
   return planes;
 }
 
-/// Component 0 of a vector is z, component 1 the distance from the axis, 0 for all particles.
+/// The walls are the side, the floor and the lid. Component 0 of a vector is the coordinate z along
+/// the axis, and component 1 the distance from the axis, which is 0 for all particles.
 std::vector<Plane> walls(const CylinderDomain& cylinder) {
   return {wall({{0, -cylinder.radius, 0}, {0, 1, 0}}), wall({{0, 0, 0}, {1, 0, 0}}),
           wall({{cylinder.height, 0, 0}, {-1, 0, 0}})};
@@ -83,7 +94,8 @@ std::vector<Plane> walls(const CylinderDomain& cylinder) {
 
 }  // namespace
 
-/// Area [L^2] in the plane, otherwise volume [L^3]; 0 without a domain.
+/// The area [L^2] of a disc or a rectangle, or the volume [L^3] of a cuboid or a cylinder. It is 0
+/// without a domain.
 double measure(const Domain& domain) {
   using std::numbers::pi;
   if (const auto* disc = std::get_if<DiscDomain>(&domain)) return pi * disc->radius * disc->radius;
@@ -95,6 +107,7 @@ double measure(const Domain& domain) {
   return box->dimension() == 2 ? area : area * (box->to[2] - box->from[2]);
 }
 
+/// The walls of the domain, at rest, in the order of their numbers in files.
 std::vector<Plane> obstacles_of(const Domain& domain) {
   return std::visit([](const auto& shape) { return walls(shape); }, domain);
 }

@@ -2,11 +2,11 @@
 // contacts: chooses between conjugate gradients, a sparse factor of the matrix W and Newton's
 // method. With the mobility w > 0 [T/M] and the impulse p [M L/T] of a contact, z is w^(1/2) p, and
 // a gradient is a gap [L] over w^(1/2), both in L (M/T)^(1/2) for any consistent units. W has no
-// dimension, and its diagonal is 1; B takes z to the displacements of bodies [L]. Nothing is
-// checked or thrown: a problem that is not solved in max_iterations > 0 has
+// dimension, and its diagonal is 1; the matrix B takes z to the displacements of bodies [L].
+// Nothing is checked or thrown: a problem that is not solved in max_iterations > 0 has
 // SolverResult::residual > 1, the largest residual over the allowed one. contact_system.cpp uses
-// it. The constants change how long a solution takes, and results within the tolerances. A change
-// must keep results independent of the number of threads.
+// this file. The constants are free choices, which change how long a solution takes, and results
+// within the tolerances. A change must keep results independent of the number of threads.
 #include <algorithm>
 #include <cstddef>
 #include <span>
@@ -22,9 +22,10 @@ namespace {
 
 /// Approximates the inverse of W between the free contacts (z above its bound): by a sparse factor
 /// if there is one, and otherwise by a sweep of symmetric Gauss-Seidel, (I + L^T)^-1 (I + L)^-1,
-/// where L is the strictly lower triangle of W between the free contacts of a block. Each block of
-/// the thread pool is swept by itself, so that threads can sweep several blocks at a time. The
-/// number of blocks does not depend on the number of threads.
+/// where L is the strictly lower triangle of W between the free contacts of a block. A block is a
+/// part of the contacts, of fixed size, on which one thread works. It is swept by itself, so that
+/// threads can sweep several blocks at a time. The number of blocks does not depend on the number
+/// of threads.
 template <int D>
 class Preconditioner {
  public:
@@ -39,7 +40,7 @@ class Preconditioner {
   bool sweeps() const { return !factor_.exists(); }
 
   /// Makes a factor of W between the contacts that are free now. Returns false, without a factor,
-  /// if it would have too many entries or cannot be computed.
+  /// if the factor would have too many entries or cannot be computed.
   bool factorise() {
     std::vector<char> free(problem_.count());
     for (std::size_t c = 0; c < problem_.count(); ++c) free[c] = problem_.is_free(c) ? 1 : 0;
@@ -55,16 +56,17 @@ class Preconditioner {
     });
   }
 
-  /// The same for contact `c`. `y` are the displacements of the bodies of its block that the
-  /// contacts before it have caused; its own are added.
+  /// The forward half of the sweep for contact `c` alone, with its scaled gradient. `y` holds the
+  /// displacements of the bodies of its block [L] that the contacts before it have caused, and
+  /// receives those that it causes.
   void sweep_forward(std::size_t c, double gradient, bool is_free, double* y) {
     const double t = is_free ? gradient - problem_.to_contact_in_block(c, y) : 0.0;
     half_swept_[c] = t;
     problem_.add_in_block(c, t, y);
   }
 
-  /// Sets `swept` to the preconditioner times the gradient, and `y` to B swept (dual_problem.hpp).
-  /// Returns the inner product of `swept` and the gradient.
+  /// Sets `swept`, one number for each contact, to the preconditioner times the gradient, and `y`
+  /// to B swept. Returns the inner product of `swept` and the gradient.
   double apply(std::span<const double> gradient, std::vector<double>& swept,
                std::vector<double>& y) const {
     const double product =
@@ -74,7 +76,8 @@ class Preconditioner {
   }
 
  private:
-  /// The backward half of the sweep: swept = (I + L^T)^-1 half_swept_. Returns as apply().
+  /// The backward half of the sweep: swept = (I + L^T)^-1 half_swept_. Returns the inner product of
+  /// `swept` and the gradient. With a single block it also sets `y` to B swept.
   double sweep_back(std::span<const double> gradient, std::vector<double>& swept,
                     std::vector<double>& y) const {
     return problem_.pool().template sum_of_blocks<double>(
@@ -102,12 +105,14 @@ class Preconditioner {
 
 }  // namespace
 
+/// Improves the guess problem.z until all residuals are allowed, or until about `max_iterations`
+/// are done. `factor` may come from an earlier call for the same step, and may be replaced.
 template <int D>
 SolverResult solve_dual_problem(MassDualProblem<D>& problem, int max_iterations,
                                 FreeSetFactor<D>& factor) {
   Mprgp mprgp(problem, Preconditioner<D>(problem, factor));
   SolverResult solved;
-  // After so many iterations with the same free contacts, a (new) factor is made. If a factor
+  // After this number of iterations with the same free contacts, a new factor is made. If a factor
   // exists but the iterations have not converged, it belongs to other free contacts. A rough
   // solution (MassDualProblem::is_rough) changes the free contacts often, so that a factor would
   // soon be too old. For an accurate one, 10 in place of 30 saves 7 % of the time on
@@ -118,7 +123,8 @@ SolverResult solve_dual_problem(MassDualProblem<D>& problem, int max_iterations,
   // because conjugate gradients take about as many iterations as a chain has contacts. In packings
   // it may fail, so that it is tried only after many iterations.
   constexpr int kLongPatience = 300, kNewtonIterations = 10;
-  constexpr std::size_t kLongChain = 6;  // shorter chains take fewer sweeps than a factor costs
+  // Sweeps solve chains of up to kLongChain bodies in less time than a factor takes.
+  constexpr std::size_t kLongChain = 6;
   const bool has_chains = problem.largest_island > kLongChain &&
                           problem.count() < problem.bodies() + problem.bodies() / 8;
   // If the residual of the guess is at most this fraction of the allowed one, the guess counts as

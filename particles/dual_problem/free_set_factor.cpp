@@ -1,10 +1,11 @@
 // FreeSetFactor: computes and applies a sparse Cholesky factor of the matrix W of the dual problem
 // between the free contacts, those whose impulse is above its bound, with Eigen. W is scaled and
-// has no dimension; its diagonal is 1. Arrays have one number for each contact. If the factor would
-// have too many entries or cannot be computed, nothing is thrown: factorise() returns false, and so
-// does exists(). solve() and precondition() need exists(), which is not checked.
-// contact_system.hpp, dual_solver.cpp and active_set_newton.hpp use it. A change must keep that the
-// order of elimination depends on the pattern of W alone.
+// has no dimension; its diagonal is 1. Arrays have one number for each contact: gradients (gaps)
+// and solutions (impulses), scaled to the unit L (M/T)^(1/2). If the factor would have too many
+// entries or cannot be computed, nothing is thrown: factorise() and exists() return false. For
+// solve() and precondition() exists() must be true, which is not checked. contact_system.hpp,
+// dual_solver.cpp and active_set_newton.hpp use this file. A change must keep that the order of
+// elimination depends on the pattern of W alone.
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <utility>
@@ -17,8 +18,9 @@ namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// Lower triangle of W + epsilon I. Entries of contacts that are not `free` are stored as 0 beside
-/// the diagonal 1 + epsilon, so that the pattern does not depend on `free`.
+/// The lower triangle of W + epsilon I, where I is the identity and `epsilon` >= 0. `free` has 1
+/// for the free contacts and 0 for all others, whose entries beside the diagonal are stored as 0.
+/// The pattern therefore does not depend on `free`.
 template <int D>
 SparseMatrix lower_triangle(const MassDualProblem<D>& problem, const std::vector<char>& free,
                             double epsilon) {
@@ -65,17 +67,21 @@ struct FreeSetFactor<D>::Factor {
   bool complete = false;  // the factor itself has been computed, not only its pattern
 };
 
+/// `epsilon` [1], >= 0, is added to the diagonal of W, because W is singular if several impulses
+/// cause the same motion.
 template <int D>
 FreeSetFactor<D>::FreeSetFactor(double epsilon) : epsilon_(epsilon) {}
 template <int D>
 FreeSetFactor<D>::~FreeSetFactor() = default;
 
+/// True if the last factorise() returned true.
 template <int D>
 bool FreeSetFactor<D>::exists() const {
   return factor_ != nullptr && factor_->complete;
 }
 
-/// Returns false, and leaves no factor, if it would have too many entries or cannot be computed.
+/// Makes a factor of W between the contacts with free[c] != 0. Returns false, and leaves no factor,
+/// if the factor would have too many entries or cannot be computed.
 template <int D>
 bool FreeSetFactor<D>::factorise(const MassDualProblem<D>& problem, const std::vector<char>& free) {
   const auto w = lower_triangle(problem, free, epsilon_);
@@ -84,7 +90,8 @@ bool FreeSetFactor<D>::factorise(const MassDualProblem<D>& problem, const std::v
     factor_->cholesky.analyzePattern(w);
     // The factor has 2 entries per contact in a chain, and about 20 in a packing of discs (with
     // 20000 contacts). Packings of spheres have more, and are excluded: for 1000 spheres that come
-    // to rest, a run with the factor took 1.2 times as long as with Gauss-Seidel sweeps.
+    // to rest, a run with the factor took 1.2 times as long as with Gauss-Seidel sweeps. The limit
+    // is a free choice between these numbers.
     constexpr Eigen::Index kMostEntries = 40;
     factor_->pays = factor_->cholesky.symbolic_entries() <= kMostEntries * (w.cols() + 1);
   }
@@ -96,6 +103,8 @@ bool FreeSetFactor<D>::factorise(const MassDualProblem<D>& problem, const std::v
   return factor_->complete;
 }
 
+/// Sets `solved` to (W + epsilon I)^-1 gradient for the contacts of the factor, and to 0 for all
+/// others.
 template <int D>
 void FreeSetFactor<D>::solve(std::span<const double> gradient, std::span<double> solved) const {
   const auto count = static_cast<Eigen::Index>(gradient.size());
@@ -105,6 +114,10 @@ void FreeSetFactor<D>::solve(std::span<const double> gradient, std::span<double>
   values = factor_->cholesky.solve(values);
 }
 
+/// Sets `solved` to the result of a preconditioner for `gradient`, and returns the inner product of
+/// both. Contacts that are free now get the solution with the factor, or their gradient if the
+/// factor does not contain them. All others get 0. `problem` is that of factorise(), to which
+/// contacts may have been added at the end.
 template <int D>
 double FreeSetFactor<D>::precondition(const MassDualProblem<D>& problem,
                                       std::span<const double> gradient,

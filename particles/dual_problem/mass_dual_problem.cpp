@@ -1,11 +1,11 @@
 // Fills the arrays of a MassDualProblem, the problem for the impulses of contacts in a time step.
 // Gaps and displacements, D (2 or 3) numbers for each body, are in [L], mobilities (length of the
-// step over mass) in [T/M], > 0, in any consistent units. The mobility of a contact, Contact::w,
-// must be the sum of those of its bodies. Impulses are scaled by the root of it, and gradients
-// divided by it, so that both are in L (M/T)^(1/2). A contact of an obstacle has first < 0; all
-// obstacles are one body, the last one, which does not move. The sources of this folder use it.
-// Nothing is checked or thrown. A change must keep the order of all sums, because bits of results
-// depend on it.
+// step over mass) in [T/M], > 0, in any consistent units. The mobility w of a contact, Contact::w,
+// must be the sum of the mobilities of its bodies. A scaled impulse is w^(1/2) times the impulse,
+// and a scaled gradient is a gap divided by w^(1/2), so that both are in L (M/T)^(1/2). A contact
+// with an obstacle has first < 0; all obstacles are one body, the last one, which does not move.
+// The sources of this folder use this file. Nothing is checked or thrown. A change must keep the
+// order of all sums, because bits of results depend on it.
 #include "viscontact/particles/dual_problem/mass_dual_problem.hpp"
 
 #include <Eigen/Core>
@@ -14,6 +14,9 @@
 
 namespace viscontact::particles {
 
+/// `contacts` name particles, and `body_of` has the number of the body of each particle; if it is
+/// empty, both numbers are the same. `displacements` are those without contacts [L], D numbers for
+/// each body, `mobilities` has one number for each body.
 template <int D>
 MassDualProblem<D>::MassDualProblem(std::span<const Contact<D>> contacts,
                                     std::span<const double> displacements,
@@ -69,7 +72,9 @@ void MassDualProblem<D>::list_shares() {
   }
 }
 
-/// Numbers the bodies of each block of contacts in the order in which its contacts name them.
+/// Numbers the bodies of each block of contacts, which one thread works on at a time, from 0 in the
+/// order in which the contacts of the block name them. If there is only one block, bodies keep
+/// their numbers.
 template <int D>
 void MassDualProblem<D>::number_bodies_of_blocks() {
   const bool is_single = rows_.size() <= ThreadPool::kBlock;  // bodies then keep their numbers
@@ -93,13 +98,17 @@ void MassDualProblem<D>::number_bodies_of_blocks() {
   }
 }
 
+/// Replaces `into` by y + factor * into. Both arrays have D displacements [L] for each body, the
+/// obstacles' body included, and are the displacements that some scaled impulses cause; `factor`
+/// [1] is any number. Returns the sum of |into|^2/mobility over the bodies after it [M L^2/T].
 template <int D>
 double MassDualProblem<D>::combine(std::span<const double> y, double factor,
                                    std::span<double> into) const {
   return pool_->sum_of_blocks<double>(bodies(), [&](std::size_t begin, std::size_t end) {
     const auto first = static_cast<Eigen::Index>(begin * D);
     const auto size = static_cast<Eigen::Index>((end - begin) * D);
-    // Eigen's several partial sums are faster than one, where each addition waits for the last.
+    // Eigen computes several partial sums, which is faster than a single sum, because each addition
+    // to a single sum waits for the one before.
     const auto from = Eigen::Map<const Eigen::ArrayXd>(y.data() + first, size);
     const auto per_mobility =
         Eigen::Map<const Eigen::ArrayXd>(inverse_mobilities_.data() + first, size);

@@ -3,10 +3,10 @@
 // W/(w_i w_j)^(1/2) [1]. The mobility gives the velocities [L/T, 1/T] by forces
 // [M L/T^2, M L^2/T^2], 3 numbers for each particle, or 1 on an axis. The length of the step
 // is > 0; units are any consistent ones. A contact is free if its impulse is above the lowest value
-// that is allowed. If contacts are few, W is computed, otherwise only products with it. Only errors
+// that is allowed. If contacts are few, W is computed, otherwise only products with W. Only errors
 // of the mobility are thrown; solve() returns false if it misses the tolerances. fluid_contacts.cpp
-// uses it. A change must keep that results depend on nothing but the arguments, because a run that
-// is continued must give the same bits.
+// uses this file. A change must keep that results depend on nothing but the arguments, because a
+// run that is continued must give the same bits.
 #include <Eigen/Core>
 #include <set>
 #include <utility>
@@ -26,7 +26,8 @@ double gap_without_contact(const Contact<2>& contact, const ContactConditions& c
   return gap_after(contact, conditions.free_velocities.data(), conditions.h, conditions.layout);
 }
 
-/// For each contact the number of its group. Contacts of one group have no common particle.
+/// Returns for each contact the number of its group, from 0. Contacts of one group have no common
+/// particle.
 std::vector<std::size_t> disjoint_groups(std::span<const Contact<2>> contacts) {
   std::set<std::pair<std::int32_t, std::size_t>> used;  // particles and their groups
   std::vector<std::size_t> groups;
@@ -40,9 +41,10 @@ std::vector<std::size_t> disjoint_groups(std::span<const Contact<2>> contacts) {
   return groups;
 }
 
-/// Estimates w of each contact by one call of the mobility for each group of contacts without a
-/// common particle. The other contacts of the group also change the gap, but much less. Returns the
-/// number of groups. `motions` is the number of components of all velocities.
+/// Sets w of each contact [T/M] to an estimate, by one call of the mobility for each group of
+/// contacts without a common particle. The other contacts of the group also change the gap of a
+/// contact, but much less. Returns the number of groups. `motions` is the number of components of
+/// all velocities; `contacts` must not be empty.
 int estimate_w(std::span<Contact<2>> contacts, std::size_t motions, const Mobility& mobility,
                const MotionLayout& layout) {
   const auto group = disjoint_groups(contacts);
@@ -55,8 +57,9 @@ int estimate_w(std::span<Contact<2>> contacts, std::size_t motions, const Mobili
     for (std::size_t c = 0; c < contacts.size(); ++c)
       if (group[c] == g) contacts[c].w = opening(contacts[c], velocities.data(), layout);
   }
-  // The other contacts of the group may cancel a contact's own change. At least a tenth of the
-  // median is therefore taken, a free choice: w scales unknowns and allowed residuals only.
+  // The other contacts of the group may cancel the change by the contact itself. An estimate is
+  // therefore at least the median divided by kLargestRatio. This number is a free choice, because w
+  // scales unknowns and allowed residuals only.
   std::vector<double> sorted;
   for (const auto& contact : contacts) sorted.push_back(contact.w);
   std::ranges::sort(sorted);
@@ -84,10 +87,13 @@ class FluidDualProblem : public DualProblem {
       set(c, contacts[c], gap_without_contact(contacts[c], conditions));
   }
 
+  /// Number of numbers in a vector y = B z.
   std::size_t displacement_count() const { return 2 * motions_; }
-  /// One thread, because the solver of the fluid does most of the work.
+  /// A pool of one thread, which is enough because the solver of the fluid does most of the work.
   ThreadPool& pool() const { return pool_; }
 
+  /// Sets `y` to B z for z = `values`, one number for each contact, and returns z^T W z with the
+  /// scaled W.
   double to_bodies(std::span<const double> values, std::span<double> y) {
     const auto impulses = y.subspan(motions_);
     std::ranges::fill(impulses, 0.0);
@@ -100,12 +106,14 @@ class FluidDualProblem : public DualProblem {
     for (std::size_t i = 0; i < motions_; ++i) form += displacements[i] * impulses[i];
     return form;
   }
+  /// Replaces `into` by y + factor * into, which is B z for some z, and returns z^T W z.
   double combine(std::span<const double> y, double factor, std::span<double> into) const {
     for (std::size_t i = 0; i < into.size(); ++i) into[i] = y[i] + factor * into[i];
     double form = 0;
     for (std::size_t i = 0; i < motions_; ++i) form += into[i] * into[motions_ + i];
     return form;
   }
+  /// Entry `c` of W z for y = B z: the scaled change of the gap of contact `c`.
   double to_contact(std::size_t c, const double* y) const {
     return opening(contacts_[c], y, layout_) / scale[c];
   }
@@ -118,8 +126,9 @@ class FluidDualProblem : public DualProblem {
   mutable ThreadPool pool_{1};
 };
 
-/// W of contacts [T/M]. Column c has the changes of all gaps by a unit impulse of contact c, from
-/// responses[c], the velocities that a unit force of this contact causes.
+/// Returns the matrix W of the contacts [T/M]. Its column c has the changes of all gaps by a unit
+/// impulse of contact c, and follows from responses[c], the velocities that a unit force of this
+/// contact causes.
 Eigen::MatrixXd dense_w(std::span<const Contact<2>> contacts,
                         std::span<const std::vector<double>> responses,
                         const MotionLayout& layout) {
@@ -132,8 +141,9 @@ Eigen::MatrixXd dense_w(std::span<const Contact<2>> contacts,
   return matrix;
 }
 
-/// The same problem with the scaled matrix itself. A vector y = B z holds the product of
-/// scaled_matrix and z, and then z.
+/// The same problem as FluidDualProblem, for few contacts, with a computed matrix. A vector y = B z
+/// holds the product of scaled_matrix and z, and then z. The member functions are those of
+/// FluidDualProblem.
 class DenseDualProblem : public DualProblem {
  public:
   /// The matrix of the problem is the symmetric part of `full_w`, dense_w() of the contacts. If W
@@ -187,7 +197,8 @@ class DenseFactor {
   /// `error_of_w` >= 0 is the relative error of W.
   explicit DenseFactor(double error_of_w) : error_of_w_(error_of_w) {}
 
-  bool exists() const { return !free_.empty(); }
+  bool exists() const { return !free_.empty(); }  ///< true after the first factorise()
+  /// Factorises the scaled W between the contacts c with free[c] != 0. Returns true in any case.
   bool factorise(const DenseDualProblem& problem, const std::vector<char>& free) {
     free_ = free;
     chosen_.clear();
@@ -202,6 +213,8 @@ class DenseFactor {
     factor_.compute(regular);
     return true;
   }
+  /// Sets `solved` to the inverse of the scaled W between the chosen contacts times `gradient`, and
+  /// to 0 for all other contacts. Both arrays have one number for each contact.
   void solve(std::span<const double> gradient, std::span<double> solved) const {
     const Eigen::VectorXd right =
         Eigen::Map<const Eigen::VectorXd>(gradient.data(), std::ssize(gradient))(chosen_);
@@ -221,8 +234,8 @@ class DenseFactor {
   Eigen::LDLT<Eigen::MatrixXd> factor_;
 };
 
-/// No preconditioner for the conjugate gradients of Mprgp, because the scaled W has about the
-/// diagonal 1.
+/// The identity, as the preconditioner of the conjugate gradients of Mprgp. The scaled W needs no
+/// other one, because its diagonal is about 1.
 template <SolvableDualProblem Problem>
 class IdentityPreconditioner {
  public:
@@ -231,7 +244,8 @@ class IdentityPreconditioner {
   /// `problem` must outlive the object.
   explicit IdentityPreconditioner(Problem& problem) : problem_(&problem) {}
 
-  /// Sets swept to the gradient of the free contacts, and y = B swept. Returns swept.gradient.
+  /// Sets `swept` to the gradient for free contacts and to 0 for all others, and `y` to B swept.
+  /// Returns the inner product of `swept` and `gradient`.
   double apply(std::span<const double> gradient, std::vector<double>& swept,
                std::vector<double>& y) const {
     double product = 0;
@@ -268,6 +282,8 @@ int solve_by_gradients(Problem& problem, int most) {
 
 }  // namespace
 
+/// The forces of the contacts, and their torques, on all particles: impulses divided by the length
+/// of the step [M L/T^2, M L^2/T^2].
 std::vector<double> ContactProblem::loads() const {
   std::vector<double> loads(velocities_.size());
   for (const auto& contact : contacts_)
@@ -275,6 +291,9 @@ std::vector<double> ContactProblem::loads() const {
   return loads;
 }
 
+/// Finds the impulses [M L/T] and w [T/M] of all contacts. Returns true if all residuals are
+/// allowed. If `is_rough`, the tolerances are wider when contacts are many, because the caller only
+/// wants to find contacts that it must add.
 bool ContactProblem::solve(bool is_rough) {
   is_rough_ = false;
   if (contacts_.empty()) return true;
@@ -304,7 +323,8 @@ bool ContactProblem::solve(bool is_rough) {
   const auto is_solved = [&] {
     return measure_residuals(contacts_, velocities_, conditions).converged;
   };
-  // The relative error of velocities that are sums of responses to forces.
+  // The relative error of velocities that are sums of responses to forces. Residuals that such
+  // errors cause are allowed in all rounds.
   constexpr double kErrorOfSums = 2e-11;
   if (conditions.keeps_solution && is_dense) {
     take_velocities();
@@ -319,7 +339,8 @@ bool ContactProblem::solve(bool is_rough) {
   for (int round = 0; round < rounds; ++round) {
     for (auto& contact : contacts_) contact.impulse = std::max(contact.impulse, contact.lowest);
     set_allowed(contacts_, conditions);
-    // The other half is left for errors of the velocities that the fluid solver computes at last.
+    // Half of each allowed residual is left for errors of the velocities that the fluid solver
+    // computes from the final forces.
     for (auto& contact : contacts_) contact.allowed /= 2;
     is_dense ? solve_dense() : solve_by_products();
     if (is_solved()) return true;
@@ -330,12 +351,14 @@ bool ContactProblem::solve(bool is_rough) {
   return is_solved();
 }
 
+/// Improves the impulses with the computed W, first by Newton's method on the set of free contacts,
+/// and then, if this method cycles, by conjugate gradients. Sets the velocities.
 void ContactProblem::solve_dense() {
   DenseDualProblem problem(contacts_, conditions_,
                            dense_w(contacts_, responses_, conditions_.layout));
   DenseFactor factor(conditions_.velocity_error);
   const int most = conditions_.solver.max_iterations - iterations_;
-  constexpr int kNewtonSteps = 50;  // a free choice; Newton's method needs few steps, or cycles
+  constexpr int kNewtonSteps = 50;  // a free choice: Newton's method takes few steps, or it cycles
   auto solved = active_set_newton(problem, factor, std::min(most, kNewtonSteps));
   if (!(solved.residual <= 1))
     solved.iterations += solve_by_gradients(problem, most - solved.iterations);
@@ -344,6 +367,7 @@ void ContactProblem::solve_dense() {
   take_velocities();
 }
 
+/// Sets the velocities to those without contact plus the responses to the impulses of all contacts.
 void ContactProblem::take_velocities() {
   std::ranges::copy(conditions_.free_velocities, velocities_.begin());
   for (std::size_t c = 0; c < contacts_.size(); ++c)
@@ -351,6 +375,8 @@ void ContactProblem::take_velocities() {
       velocities_[i] += responses_[c][i] * (contacts_[c].impulse / conditions_.h);
 }
 
+/// Improves the impulses by conjugate gradients, with one call of the mobility for each product
+/// with W. Sets the velocities.
 void ContactProblem::solve_by_products() {
   FluidDualProblem problem(contacts_, conditions_, mobility_);
   iterations_ += 1 + solve_by_gradients(problem, conditions_.solver.max_iterations - iterations_);

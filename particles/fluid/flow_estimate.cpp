@@ -2,8 +2,8 @@
 // and on another mesh. Velocities [L/T, 1/T] and forces [M L/T^2, M L^2/T^2] have 3 numbers for
 // each particle (x, y, rotation), or 1 on an axis; radii [L] are > 0, relative errors [1] >= 0.
 // Units are any consistent ones. Errors of FluidSolver are thrown; sizes are not checked.
-// fluid_simulation.cpp uses it. A change must keep the order of the calls, because vary_penalty()
-// and vary_mesh() replace the problem that the solver had before.
+// fluid_simulation.cpp uses estimate_flow(). A change must keep the order of the calls, because
+// vary_penalty() and vary_mesh() replace the problem that the solver had before.
 #include <algorithm>
 #include <cmath>
 #include <variant>
@@ -13,22 +13,24 @@
 namespace viscontact::particles {
 namespace {
 
-/// The results of one flow; `further` is what the argument `further` of estimate_flow() returned.
+/// The results of one flow. `further` holds the numbers that the argument `further` of
+/// estimate_flow() returned, in any units.
 struct Results {
   std::vector<double> velocities;
   FlowQuantities quantities;
   std::vector<double> further;
 };
 
-/// The numbers `of` minus the numbers `from`.
+/// Returns the numbers `of` minus the numbers `from`, of which there are as many.
 std::vector<double> difference(std::span<const double> of, std::span<const double> from) {
   std::vector<double> result(of.begin(), of.end());
   for (std::size_t i = 0; i < result.size(); ++i) result[i] -= from[i];
   return result;
 }
 
-/// For each component the length of the velocity or force that it belongs to; for an angular
-/// velocity or torque its absolute value.
+/// Returns for each number in `of` the length of the vector (velocity or force) to which it
+/// belongs, and for an angular velocity or torque its absolute value. `components` is the number of
+/// components of a particle, 3 or 1.
 std::vector<double> lengths(std::span<const double> of, std::size_t components) {
   std::vector<double> result;
   for (const double x : of) result.push_back(std::abs(x));
@@ -37,8 +39,9 @@ std::vector<double> lengths(std::span<const double> of, std::size_t components) 
   return result;
 }
 
-/// The largest of the lengths(). Angular velocities are multiplied by the radius (`power` 1),
-/// torques divided by it (`power` -1).
+/// Returns the largest of the lengths(), in [L/T] or [M L/T^2]. `power` is 1 if `of` are
+/// velocities, so that angular velocities are multiplied by the radius of the particle. It is -1 if
+/// `of` are forces, so that torques are divided by the radius.
 double largest(std::span<const double> of, const Particles& particles, int power) {
   const auto components = motion_components(particles.dimension);
   const auto all = lengths(of, components);
@@ -51,10 +54,10 @@ double largest(std::span<const double> of, const Particles& particles, int power
   return result;
 }
 
-/// The changes of forces. In the plane all loads on a particle get one value: the larger one of two
-/// numbers, the change of its force and the change of its torque over its radius. The torque gets
-/// this value times the radius. A load whose change is small by chance then gets no error that is
-/// too small.
+/// Returns the magnitudes of `changes` of forces and torques. In the plane the two components of
+/// the force on a particle get one value: the larger one of the change of this force and the change
+/// of the torque divided by the radius. The torque gets this value times the radius. A force whose
+/// change is small by chance then gets no error that is too small.
 std::vector<double> of_loads(std::span<const double> changes, const Particles& particles) {
   auto result = lengths(changes, motion_components(particles.dimension));
   if (particles.dimension == 1) return result;
@@ -67,8 +70,8 @@ std::vector<double> of_loads(std::span<const double> changes, const Particles& p
   return result;
 }
 
-/// The largest entry of the gradient of a linear flow times the largest radius [L/T]; 0 without a
-/// linear flow.
+/// Returns the largest entry of the gradient of a linear flow (a shear or a strain) times the
+/// largest radius [L/T]; 0 without a linear flow or without particles.
 double speed_of_flow(const Fluid& fluid, const Particles& particles) {
   const auto* flow = std::get_if<LinearFlow>(&fluid.boundary);
   if (flow == nullptr || particles.radii.empty()) return 0;
@@ -77,9 +80,9 @@ double speed_of_flow(const Fluid& fluid, const Particles& particles) {
   return rate * std::ranges::max(particles.radii);
 }
 
-/// The estimates relative to `scale`; 0 if `scale` is 0. `by_mesh` is the largest change of a
-/// result by the other mesh, `by_penalty` the largest change by the other penalty times the factor
-/// of vary_penalty().
+/// Returns the estimates of errors divided by `scale`; all are 0 if `scale` is 0. `by_mesh` is the
+/// largest change of a result by the other mesh, `by_penalty` the largest change by the other
+/// penalty times the factor that vary_penalty() returns, both in the unit of `scale`.
 RelativeErrors relative(double by_mesh, double by_penalty, const SecondMesh& mesh, double scale) {
   if (!(scale > 0)) return {0, 0, 0};
   return {(mesh.error * by_mesh + by_penalty) / scale,
@@ -88,6 +91,9 @@ RelativeErrors relative(double by_mesh, double by_penalty, const SecondMesh& mes
 
 }  // namespace
 
+/// Returns the flow under the `forces`, extrapolated from two meshes, and estimates of its errors.
+/// solver.place() must have been called with `particles`. `further` may be empty; otherwise it is
+/// called after each flow, and the errors of the numbers that it returns are estimated, too.
 FlowEstimate estimate_flow(FluidSolver& solver, std::span<const double> forces,
                            const Particles& particles, const Fluid& fluid,
                            const std::function<std::vector<double>()>& further) {

@@ -6,7 +6,7 @@
 // impulses in [M L/T], velocities of all particles in [L/T, 1/T] with 3 numbers for each, or 1 on
 // an axis. Errors of the mobility and of BlowStep::loaded are thrown. If iterations do not
 // converge, the last impulses count and FluidBlow::is_solved is false. fluid_simulation.cpp uses
-// it. A change must keep that the work of a blow is not positive.
+// this file. A change must keep that the work of a blow is not positive.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -57,12 +57,13 @@ class Blow {
     double pull = 0;         // rate of the gap by the forces of the step on particles at rest [L/T]
     bool is_closed = false;  // at the beginning of the step
     bool is_hit = false;     // its gap closes in the step by an approach, not by the load alone
-    double late = 0;         // time of the hit from the beginning, over the length of the step, 0-1
-    double load = 0;         // set by take_load()
-    double compressed = 0;   // impulse at the end of the compression, load included
-    double solid = 0;        // part of it that the solids take up beyond the load, >= 0
-    double left = 0;         // gamma at the end of the compression, <= 0
-    double restored = 0;     // least impulse of the whole blow: compressed + left + e_d solid
+    double late = 0;  // time of the hit after the beginning of the step over its length [1], 0 to 1
+    double load = 0;  // impulse of the contact if particles are at rest [M L/T], see take_load()
+    // The following numbers are impulses [M L/T].
+    double compressed = 0;  // impulse at the end of the compression, load included
+    double solid = 0;       // part of `compressed` that the solids take up beyond the load, >= 0
+    double left = 0;        // gamma at the end of the compression, <= 0
+    double restored = 0;    // least impulse of the whole blow: compressed + left + e_d solid
   };
 
   bool find_hits();
@@ -80,7 +81,7 @@ class Blow {
     if (ordinary_.contacts[c].is_stop()) return kOfStop;
     return c < n ? ordinary_.pairs[c] : ordinary_.walls[c - n];
   }
-  // gamma_min, the gamma at which the solids touch.
+  // gamma_min of contact `c`, the gamma at which the solids touch [M L/T].
   double lowest_gamma(std::size_t c) const {
     if (ordinary_.contacts[c].is_stop()) return 0;
     const auto& of = pair(c);
@@ -110,7 +111,8 @@ class Blow {
   int iterations_ = 0;  // of all problems
 };
 
-/// Sets the members of each part from `drift` to `late`. Returns true if any contact is hit.
+/// Sets the members of each part from `drift` to `late`. Returns true if a contact is hit, that is,
+/// if its gap closes in the step because its surfaces approach each other.
 bool Blow::find_hits() {
   const auto free = conditions_.free_velocities;
   const double h = conditions_.h;
@@ -155,9 +157,9 @@ bool Blow::find_hits() {
   for (const auto c : approaching) {
     auto& part = parts_[c];
     const auto& of = pair(c);
-    // A contact that bore a load is hit only if it approached faster than kUnderLoad times the
-    // rate that the forces of a step cause, as in particles/impacts/: otherwise small rebounds
-    // would keep a packing moving.
+    // A contact that bore a load is hit only if its surfaces approached each other faster than
+    // kUnderLoad times the rate that the forces of a step cause. Otherwise small rebounds would
+    // keep a packing moving. The number is a free choice, which impacts/impacts.cpp also uses.
     constexpr double kUnderLoad = 5;
     const bool bore_load = of.impulse != 0 || of.gamma < 0;
     if (part.is_closed && bore_load && !(rate(c, step_.before) < kUnderLoad * part.pull)) continue;
@@ -167,10 +169,10 @@ bool Blow::find_hits() {
   return any;
 }
 
-/// The contact problem of a blow. An impulse of a contact acts on the velocities as if it were a
-/// force during the time BlowStep::kick [T] for which the forces of the step act on the velocities,
-/// which therefore takes the place of the step's length h. The gaps of hit contacts are 0 at its
-/// beginning. Those of the others are multiplied by kick/h, so that they close at the same velocity
+/// The contact problem of a blow. The impulse of a contact acts on the velocities as a force would
+/// do in the time BlowStep::kick [T], for which the forces of the step act on the velocities. This
+/// time takes the place of the length h of the step. The gaps of hit contacts are 0 when the blow
+/// begins. The gaps of all others are multiplied by kick/h, so that they close at the same velocity
 /// as in the step.
 StepContacts Blow::problem() const {
   const double kick = step_.kick;
@@ -187,7 +189,7 @@ StepContacts Blow::problem() const {
 
 /// Sets Part::load of the contacts that are closed or hit: the impulses that would keep these gaps
 /// from closing if the particles were at rest and the forces of the step acted on them. Returns
-/// true if they reach the tolerances.
+/// true if the residuals of these impulses are allowed.
 bool Blow::take_load() {
   auto load = problem();
   std::vector<Contact<2>> contacts;
@@ -212,9 +214,9 @@ bool Blow::take_load() {
   return load.is_solved;
 }
 
-/// Divides the impulses of the compression between films and solids. Returns true if the solids of
-/// a contact give back more than its load. If not, there is no blow, because the particles would be
-/// apart for less than two steps.
+/// Divides the impulses of the contacts at the end of the compression, `compressed`, between films
+/// and solids. Returns true if the solids of a contact give back more than its load. Otherwise
+/// there is no blow, because the particles would be apart for less than two steps.
 bool Blow::share_impulses(const std::vector<Contact<2>>& compressed) {
   bool any = false;
   for (std::size_t c = 0; c < parts_.size(); ++c) {
@@ -236,10 +238,10 @@ bool Blow::share_impulses(const std::vector<Contact<2>>& compressed) {
   return any;
 }
 
-/// Keeps a blow from adding energy. The work of the impulses is the sum of impulse times mean of
-/// the rates of the gap before and after the blow. It can be positive if several contacts have
-/// films. The impulses are then moved towards those of the compression, whose work is negative,
-/// until the work is not positive.
+/// Keeps a blow from adding energy. The work of the impulses is a sum over the contacts: the
+/// impulse times the mean of the rates of the gap before and after the blow. The work can be
+/// positive if several contacts have films. The impulses `restored` are then moved towards those of
+/// the compression, whose work is negative, until the work is not positive.
 void Blow::restrain(const StepContacts& compressed, StepContacts& restored) const {
   const auto work = [&](double share) {
     double sum = 0;
@@ -254,7 +256,7 @@ void Blow::restrain(const StepContacts& compressed, StepContacts& restored) cons
   };
   if (!(work(1) > 0)) return;
   double low = 0, high = 1;
-  constexpr int kHalvings = 50;  // reach about rounding errors
+  constexpr int kHalvings = 50;  // after 50 halvings the error is about a rounding error
   for (int n = 0; n < kHalvings; ++n) {
     const double middle = (low + high) / 2;
     (work(middle) > 0 ? high : low) = middle;
@@ -272,9 +274,9 @@ void Blow::restrain(const StepContacts& compressed, StepContacts& restored) cons
   }
 }
 
-/// Sets FluidBlow::moved, the displacements of the step. Until the time of its hit a contact
-/// exerts nothing, and in the rest of the step the force of the blow. A contact that is not hit
-/// exerts its load until the time of the first hit.
+/// Sets FluidBlow::moved, the displacements of the step divided by its length. A hit contact exerts
+/// no force until the time of its hit, and the force of the blow in the rest of the step. A contact
+/// that is not hit exerts its load until the time of the first hit, and then the force of the blow.
 void Blow::move(FluidBlow& blow) {
   const auto& layout = conditions_.layout;
   double first = 1;
@@ -315,9 +317,11 @@ void Blow::move(FluidBlow& blow) {
   blow.moved = std::move(gaps.velocities);
 }
 
-/// Sets FluidBlow::absorbed and FluidBlow::rebounds.
+/// Sets FluidBlow::absorbed, the impulses from which the films get their new gamma, and
+/// FluidBlow::rebounds, the records of the contacts whose solids rebound.
 void Blow::book(FluidBlow& blow) const {
-  // A rate below this share of the approach is a rounding error of the fluid solver.
+  // If the rate of a gap after the blow is below this share of its rate before, it counts as 0,
+  // because it is a rounding error of the fluid solver.
   constexpr double kAtRest = 1e-9;
   for (std::size_t c = 0; c < parts_.size(); ++c) {
     const auto& part = parts_[c];
@@ -335,6 +339,8 @@ void Blow::book(FluidBlow& blow) const {
   }
 }
 
+/// Computes the compression, the loads, the restitution and the displacements. Returns nothing if
+/// no contact is hit, or if no solids give back more than their load.
 std::optional<FluidBlow> Blow::solve() {
   if (!find_hits()) return std::nullopt;
   const auto conditions = conditions_over(step_.kick);
@@ -368,6 +374,8 @@ std::optional<FluidBlow> Blow::solve() {
 
 }  // namespace
 
+/// Finds the blow of a step, or nothing if there is none. `contacts` are the contacts of the step,
+/// solved without restitution.
 std::optional<FluidBlow> solve_blow(const StepContacts& contacts, const BlowStep& step,
                                     const Mobility& mobility, const ContactConditions& conditions) {
   return Blow(contacts, step, mobility, conditions).solve();

@@ -6,8 +6,8 @@
 // contacts together. Impulses are in [M L/T], gaps and slips in [L], velocities of all particles in
 // [L/T, 1/T], 3 numbers for each. Only the errors of the mobility are thrown; if the law is not
 // reached, StepContacts::is_solved is false. fluid_contacts.cpp, fluid_acceptance.cpp and
-// fluid_simulation.cpp use it. A change must keep that the first part comes last, so that gaps are
-// exact for the friction found.
+// fluid_simulation.cpp use this file. A change must keep that each solution ends with the first
+// part, so that gaps are exact for the friction found.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -31,8 +31,8 @@ using Eigen::Index;
 /// Any share well below 1 works.
 constexpr double kShareOfAllowed = 0.1;
 
-/// The sides of a box that are walls, as indices of SideVelocities, in the order in which the walls
-/// are obstacles.
+/// The sides of a box that are walls, as indices of SideVelocities (0 left, 1 right, 2 bottom, 3
+/// top), in the order in which the walls are obstacles.
 std::vector<std::size_t> walls_of(const BoxDomain& box) {
   std::vector<std::size_t> sides;
   for (std::size_t d = 0; d < 2; ++d)
@@ -41,8 +41,8 @@ std::vector<std::size_t> walls_of(const BoxDomain& box) {
 }
 
 /// Mean velocity [L/T] of the wall with the number `wall` among the obstacles, at `point` [L], from
-/// the time `begin` to `end` [T]. The caller uses the component along the wall only. It is 0 on an
-/// open side, and on one with a parabolic velocity, which is normal to the side.
+/// the time `begin` to `end` [T]. The caller uses the component along the wall only. This component
+/// is 0 on an open side, and on a side with a parabolic velocity, which is normal to the side.
 std::array<double, 2> velocity_of_wall(const Setting& setting, std::size_t wall,
                                        const Vector& point, double begin, double end) {
   const auto& boundary = setting.fluid->boundary;
@@ -64,7 +64,8 @@ double residual_of_friction(double p_t, double bound, double slip, double w) {
   return w * std::abs(p_t - std::clamp(p_t - slip / w, -bound, bound));
 }
 
-/// The residual [L] that is allowed for the friction of a contact; Contact::allowed must be set.
+/// The residual [L] that is allowed for the friction of a contact, > 0. Contact::allowed must be
+/// set.
 double allowed_for(const ContactFrictionInFluid& friction, const Contact<2>& contact,
                    const ContactConditions& conditions) {
   const double largest = conditions.solver.tolerance * conditions.mean_radius / 2;
@@ -88,8 +89,9 @@ struct CoupledRows {
 struct MovedDirections {
   Eigen::MatrixXd root;     ///< a matrix L with W = L L^T within the error
   Eigen::MatrixXd unmoved;  ///< the unmoved eigenvectors, as columns
-  Eigen::VectorXd scales;   ///< roots of W_rr
+  Eigen::VectorXd scales;   ///< square roots of the diagonal entries W_rr
 
+  /// `w` is W [T/M], and `error` > 0 [1] its relative error.
   MovedDirections(const Eigen::MatrixXd& w, double error) : scales(w.diagonal().cwiseSqrt()) {
     const Eigen::MatrixXd scaled = w.cwiseQuotient(scales * scales.transpose());
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(scaled);
@@ -116,9 +118,10 @@ struct MovedDirections {
   }
 };
 
-/// Adds the rows to a problem of solve_constraints() whose matrix is W = root root^T. Each column
-/// of `root` is an imagined degree of freedom, which a unit impulse moves by a unit length. Three
-/// columns each take the place of the degrees of freedom of one RigidUnit.
+/// Adds the rows to a problem of solve_constraints() whose matrix is W = root root^T. `offsets` are
+/// gaps and slips without contact [L], `guesses` are impulses [M L/T], one number of each for a
+/// row. Each column of `root` is an imagined degree of freedom, which a unit impulse moves by a
+/// unit length. Three columns each take the place of the degrees of freedom of one RigidUnit.
 void add_rows(const Eigen::MatrixXd& root, std::span<const double> offsets,
               std::span<const double> guesses, ConstraintProblem<2>& problem) {
   constexpr Index kOfUnit = 3;
@@ -153,8 +156,8 @@ int improve(const Eigen::MatrixXd& w, double error, double rounding, bool gives_
   double allowed = std::numeric_limits<double>::infinity();
   for (const auto& block : rows.blocks) allowed = std::min(allowed, block.allowed);
   // Each round multiplies the error by about the ratio of the skew part to the symmetric part. The
-  // limit is kRoundsOfSkewPart of contact_problem.cpp, which solves the same problem without
-  // friction.
+  // limit is a free choice. It is the same as kRoundsOfSkewPart in contact_problem.cpp, which
+  // solves the same problem without friction.
   constexpr int kRounds = 40;
   int iterations = 0;
   for (int round = 0; round < kRounds && (gives_loads || iterations < most); ++round) {
@@ -180,6 +183,7 @@ int improve(const Eigen::MatrixXd& w, double error, double rounding, bool gives_
 /// of contacts cause, so that the fluid solver computes each of them once.
 class FrictionSolver {
  public:
+  /// All references must outlive the object. `mu_s` [1] is >= 0.
   FrictionSolver(StepContacts& step, double mu_s, const Mobility& mobility,
                  const ContactConditions& conditions)
       : step_(step),
@@ -189,9 +193,11 @@ class FrictionSolver {
         of_gaps_(step.contacts.size()),
         of_slips_(step.frictions.size()) {}
 
+  /// Finds the normal and tangential impulses of the step. If Coulomb's law is not reached,
+  /// step.is_solved becomes false, and given loads bound the friction.
   void solve() {
-    // One round is enough unless further contacts are added after it; a packing takes a few more
-    // rounds. The limit is a free choice.
+    // One round is enough unless further contacts are added after the round; a packing takes a few
+    // more rounds. The limit is a free choice.
     constexpr int kMostRounds = 30;
     double least = std::numeric_limits<double>::infinity();
     auto best = impulses();
@@ -215,13 +221,14 @@ class FrictionSolver {
   /// Normal and tangential impulses of all contacts [M L/T].
   using Impulses = std::pair<std::vector<double>, std::vector<double>>;
 
-  /// Bounds the friction by given loads, (5.17), after the rounds have not converged. These are the
-  /// loads of the solids in the best round, if the solution with them nearly obeys Coulomb's law.
-  /// Otherwise they are those of a solution without friction: where friction locks particles that
-  /// must move, the loads of the rounds, which begin with those of the step before, grow without
-  /// bound.
+  /// Bounds the friction by given loads, docs/physics.md (5.17), after the rounds have not
+  /// converged. These are the loads of the solids in the best round (`best`), if the solution with
+  /// them nearly obeys Coulomb's law. Otherwise they are the loads of a solution without friction.
+  /// The loads of the rounds begin with the loads of the step before, and grow without bound where
+  /// friction locks particles that must move.
   void give_up(const Impulses& best) {
-    // A residual of this many times what is allowed still counts as near the law; a free choice.
+    // If the residual is at most kNear times the allowed one, the solution counts as near the law.
+    // The number is a free choice.
     constexpr double kNear = 100;
     step_.has_given_loads = true;
     for (auto& contact : step_.contacts) contact.impulse = 0;
@@ -254,13 +261,14 @@ class FrictionSolver {
     return largest;
   }
 
+  /// The contact in which the friction acts.
   const Contact<2>& contact_of(const ContactFrictionInFluid& friction) const {
     return step_.contacts[friction.contact];
   }
 
   /// Finds the normal impulses that keep the gaps open with the present friction. With
-  /// `keeps_solution`, impulses that already do so are not changed: in redundant contacts they are
-  /// not unique, and other ones would change the bounds of friction.
+  /// `keeps_solution`, impulses that keep the gaps open already are not changed. In redundant
+  /// contacts such impulses are not unique, and other ones would change the bounds of friction.
   void solve_gaps(bool keeps_solution) {
     std::vector<double> loads(conditions_.free_velocities.size());
     bool is_any = false;
@@ -284,20 +292,23 @@ class FrictionSolver {
     set_allowed(step_.contacts, conditions_);
   }
 
+  /// The present impulses.
   Impulses impulses() const {
     Impulses found;
     for (const auto& contact : step_.contacts) found.first.push_back(contact.impulse);
     for (const auto& friction : step_.frictions) found.second.push_back(friction.impulse);
     return found;
   }
+  /// Makes `found` the present impulses.
   void take(const Impulses& found) {
     for (std::size_t c = 0; c < found.first.size(); ++c) step_.contacts[c].impulse = found.first[c];
     for (std::size_t f = 0; f < found.second.size(); ++f)
       step_.frictions[f].impulse = found.second[f];
   }
 
-  /// The largest residual of Coulomb's law over the allowed one; the law holds if it is <= 1. Sets
-  /// ContactFrictionInFluid::slides, and w where it is needed.
+  /// The largest residual of Coulomb's law divided by the allowed one [1]. The law holds if the
+  /// result is at most 1. Sets ContactFrictionInFluid::slides, and w of each contact that carries a
+  /// load or has friction.
   double excess_of_coulomb() {
     double excess = 0;
     for (std::size_t f = 0; f < step_.frictions.size(); ++f) {
@@ -315,7 +326,8 @@ class FrictionSolver {
           friction.slip(contact, step_.velocities.data(), conditions_.h, conditions_.layout);
       const double aim = friction.impulse - slip / friction.w;
       if (std::abs(aim) > mu_s_ * carried) friction.slides = aim > 0 ? 1 : -1;
-      // The other half is left for errors of the velocities that the fluid solver computes at last.
+      // Half of the allowed residual is left for errors of the velocities that the fluid solver
+      // computes from the final forces.
       const double allowed = allowed_for(friction, contact, conditions_) / 2;
       const double residual =
           residual_of_friction(friction.impulse, mu_s_ * carried, slip, friction.w);
@@ -324,7 +336,7 @@ class FrictionSolver {
     return excess;
   }
 
-  /// The velocities by a unit force of friction number f. Sets its w.
+  /// The velocities by a unit force of friction number `f`. Sets w of this friction.
   const std::vector<double>& respond(std::size_t f) {
     auto& friction = step_.frictions[f];
     if (of_slips_[f].empty()) {
@@ -334,13 +346,14 @@ class FrictionSolver {
       ++step_.iterations;
       friction.w =
           friction.slip_rate(contact_of(friction), of_slips_[f].data(), conditions_.layout);
-      // If a hinge holds the point of contact, no force moves it, and it has no friction.
+      // If a hinge holds the point of contact, no force moves this point, and there is no friction.
       if (!(friction.w > conditions_.least_w)) friction.w = 0;
     }
     return of_slips_[f];
   }
 
-  /// Improves the normal and tangential impulses of all contacts of the step, in one problem.
+  /// Improves the normal and tangential impulses of all contacts of the step, in one problem. With
+  /// `gives_loads` the loads of the solids at the present impulses bound the friction.
   void solve_together(bool gives_loads) {
     CoupledRows rows;
     std::vector<std::size_t> contacts, frictions;  // numbers for each block; kNone: no friction
@@ -431,6 +444,9 @@ class FrictionSolver {
 
 }  // namespace
 
+/// The friction of a contact before the problem is solved. `contact` must have the distance of the
+/// surfaces as its gap, and `place` says where the friction acts. The first guess of the impulse is
+/// the friction that the pair remembers.
 ContactFrictionInFluid friction_of_contact(const FrictionOfStep& step, const Particles& particles,
                                            const Pair& pair, const Contact<2>& contact,
                                            const FrictionPlace& place,
@@ -465,11 +481,15 @@ ContactFrictionInFluid friction_of_contact(const FrictionOfStep& step, const Par
   return friction;
 }
 
+/// Finds the impulses of the contacts of a step with the friction step.frictions and its
+/// coefficient `mu_s` >= 0 [1].
 void solve_with_friction(StepContacts& step, double mu_s, const Mobility& mobility,
                          const ContactConditions& conditions) {
   FrictionSolver(step, mu_s, mobility, conditions).solve();
 }
 
+/// The power [M L^2/T^3] that friction turns into heat in the step, for the `velocities` of the
+/// particles.
 double heat_of_friction(const StepContacts& step, std::span<const double> velocities,
                         const ContactConditions& conditions) {
   double heat = 0;
@@ -479,6 +499,8 @@ double heat_of_friction(const StepContacts& step, std::span<const double> veloci
   return heat / (conditions.h * conditions.h);
 }
 
+/// Adds the residuals [L] of Coulomb's law to `residuals`, for the `velocities` of the particles
+/// with the contact forces.
 void take_residuals_of_friction(const StepContacts& step, double mu_s,
                                 std::span<const double> velocities,
                                 const ContactConditions& conditions, StepResiduals& residuals) {
