@@ -1,12 +1,12 @@
-// Draws plots by gnuplot and writes the page around them. Sizes are in pixels, >= 0; numbers of
-// plots have no units here. Along a curve x must not decrease (not checked), and a y that is not
-// finite interrupts the line. A missing gnuplot is a warning, a failing one an
-// Error(kExternalProgram), a file that cannot be written or must not be replaced an
-// Error(kBadInput), a wrong SOURCE_DATE_EPOCH an Error(kWrongUsage), a requested stop an
-// Error(kInterrupted), and a path that the system refuses a std::filesystem::filesystem_error. Used
-// by report/, rolling/, swimmer/ and particles/. The keys of the JSON and the names of PointKind
-// must agree with the scripts in report/page. Texts of users may contain markup and must pass
-// through escaped().
+// Draws plots by gnuplot and writes the page (HTML) around them. Sizes are in pixels, >= 0; numbers
+// in plots have no units here. Along a curve x must not decrease (not checked), and a y that is not
+// finite interrupts the line. A missing gnuplot is only a warning; a failing one throws
+// Error(kExternalProgram). A file that cannot be written or must not be replaced throws
+// Error(kBadInput), a wrong SOURCE_DATE_EPOCH Error(kWrongUsage), a requested stop
+// Error(kInterrupted), and a path that the system refuses a std::filesystem::filesystem_error.
+// report/, rolling/, swimmer/ and particles/ use this file. The keys of the JSON and the names of
+// PointKind must agree with the scripts in report/page. Texts of users may contain markup and must
+// pass through escaped().
 #include "viscontact/report/page.hpp"
 
 #include <fmt/format.h>
@@ -44,7 +44,7 @@ std::string doubled_percent(const std::string& text) {
 
 constexpr int kWidth = 860;  // of still pictures [pixels], a free choice
 
-/// The tag before a still picture, by which page_is_current() finds one.
+/// The tag before a still picture, by which page_is_current() finds out whether a page has one.
 constexpr std::string_view kStill = "<div class=still>";
 
 /// A kind of point in gnuplot (pointtype) and page/axes.js. The rows are in the order of PointKind.
@@ -79,6 +79,7 @@ std::string bound(const std::optional<double>& value) {
   return value ? fmt::format("{}", *value) : "*";
 }
 
+/// gnuplot's commands for the ranges, legend and tics of a panel.
 std::vector<std::string> gnuplot_settings(const PlotPanel& panel) {
   std::vector<std::string> settings = {
       fmt::format("set xrange [{}:{}]", bound(panel.x.low), bound(panel.x.high)),
@@ -107,10 +108,12 @@ nlohmann::ordered_json number(double value) {
                               : nlohmann::ordered_json(nullptr);
 }
 
+/// The number as in number(), or null if there is none.
 nlohmann::ordered_json optional_number(const std::optional<double>& value) {
   return value ? number(*value) : nlohmann::ordered_json(nullptr);
 }
 
+// The JSON of an axis and of a curve, for the scripts in report/page.
 nlohmann::ordered_json json_of(const PlotAxis& axis) {
   return {{"label", axis.label},
           {"logarithmic", axis.logarithmic},
@@ -197,6 +200,8 @@ void warn_of_missing_pictures(const std::exception_ptr& failure) {
 
 }  // namespace
 
+/// The text with the characters that HTML would read as markup replaced, and with U+FFFD in place
+/// of control characters other than line breaks and tabs.
 std::string escaped(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -247,6 +252,9 @@ std::string warnings_box(const std::vector<std::string>& items) {
       fmt::join(items, "</li>\n<li>"));
 }
 
+/// The beginning of a page, up to the end of its <style> element. `more` are further elements of
+/// the head (HTML); the title is plain text and `style` is CSS. The page may load nothing from
+/// elsewhere.
 std::string page_head(std::string_view title, std::string_view style, bool has_images,
                       std::string_view more) {
   return fmt::format(
@@ -257,6 +265,9 @@ std::string page_head(std::string_view title, std::string_view style, bool has_i
       has_images ? "; img-src data:" : "", more, escaped(title), style);
 }
 
+/// True if `folder` has a report with still pictures, if the pictures of `names` that the report
+/// refers to exist, and if no input of the report has changed since it was made. False, too, if a
+/// file cannot be read.
 bool page_is_current(const std::filesystem::path& folder, std::span<const std::string_view> names) {
   const results::RunFolder run{folder};
   try {
@@ -278,6 +289,8 @@ bool page_is_current(const std::filesystem::path& folder, std::span<const std::s
   }
 }
 
+/// `names` are all pictures that a report of this kind can have. Throws Error(kBadInput) if the
+/// report or one of these pictures would replace a file that Viscontact did not write.
 Report::Report(std::filesystem::path folder, std::span<const std::string_view> names)
     : run_{std::move(folder)}, names_(names) {
   results::refuse_other_kind(run_.report(), "id=\"provenance\"", "report");
@@ -285,6 +298,8 @@ Report::Report(std::filesystem::path folder, std::span<const std::string_view> n
     results::refuse_other_kind(run_.plot(std::string(name)), "<svg", "picture");
 }
 
+/// Draws the still pictures of the plots, each in its own thread, and adds the figures. If gnuplot
+/// fails for one of the plots, none of them gets a still picture, and write() tells the user.
 void Report::draw(std::vector<Plot> plots, const StopToken& stop) {
   std::vector<std::future<std::string>> drawings;
   for (const auto& plot : plots)
@@ -304,6 +319,8 @@ void Report::draw(std::vector<Plot> plots, const StopToken& stop) {
     figures_.push_back({std::move(plots[i]), std::move(drawn[i])});
 }
 
+/// The HTML of a figure: the still picture, the plot as JSON and the link to the file. A plot
+/// without panels is a still picture only.
 std::string Report::html_of(const Figure& figure) {
   const auto& [plot, svg] = figure;
   const std::string caption =
@@ -318,6 +335,7 @@ std::string Report::html_of(const Figure& figure) {
       plot.name, kStill, svg, json_of(plot), caption);
 }
 
+/// The HTML of the figures with these names, in this order, or of all figures if no name is given.
 std::string Report::figures(std::initializer_list<std::string_view> names) const {
   std::string text;
   if (names.size() == 0)
@@ -340,6 +358,9 @@ std::string Report::hints() const {
   return text;
 }
 
+/// Writes the pictures and report.html, removes pictures of an earlier report that this one does
+/// not have, and tells the user. `title` is plain text; `opening` and `sections` are HTML above and
+/// below the hints for the use of the figures.
 void Report::write(std::string_view title, const std::string& opening, const std::string& sections,
                    const results::Provenance& provenance) const {
   const auto page =

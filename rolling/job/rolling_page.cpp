@@ -1,7 +1,8 @@
-// The pictures and the page of a rolling sphere, in the units of the case: gaps [L], > 0, times
-// [T], velocities [L/T] and forces [M L/T^2]. Each trajectory has a row (not checked). A gnuplot
-// that fails is an Error(kExternalProgram), a file in the way or not written an Error(kBadInput), a
-// stop an Error(kInterrupted). Used by rolling_stage.cpp. A change must list every picture in
+// Makes the pictures and the page of a rolling sphere. Gaps [L], > 0, times [T], velocities [L/T]
+// and forces [M L/T^2] are in the units of the case. Each trajectory has a row (not checked). A
+// gnuplot that fails throws Error(kExternalProgram); a file that cannot be written, or a file of
+// the user that would be replaced, throws Error(kBadInput); a requested stop throws
+// Error(kInterrupted). rolling_stage.cpp uses this file. A change must list every picture in
 // kRollingPictures, which decides which files in plots/ may be replaced or removed.
 #include "viscontact/rolling/job/rolling_page.hpp"
 
@@ -23,6 +24,8 @@ std::size_t place_of(const std::string& model) {
   return static_cast<std::size_t>(found - models.begin());
 }
 
+/// A plot with a curve of `value` of each row over time for each model. `label` names the vertical
+/// axis with its unit.
 template <class Value>
 report::Plot plot_of(const RollingResults& results, const std::string& name,
                      const std::string& title, const std::string& label, bool logarithmic,
@@ -49,7 +52,8 @@ const char* contact_in_words(SolidContact contact) {
   return "none";
 }
 
-/// The table (HTML) of the state of each model at the end of the motion.
+/// The table (HTML) of the state of each model at the end of the motion. The slip over the velocity
+/// [1] is that relative to the plane; it is empty if the sphere does not move along the plane.
 std::string end_table(const RollingResults& results) {
   std::string rows =
       "<tr><th>model</th><th>gap [L]</th><th>velocity [L/T]</th><th>angular velocity [1/T]</th>"
@@ -70,6 +74,7 @@ std::string end_table(const RollingResults& results) {
   return report::table_of(rows);
 }
 
+/// The table (HTML) of the parameters of the case with their dimensions.
 std::string parameters_of_rolling(const RollingResults& results) {
   const auto& m = results.c.motion;
   const auto row = [](const char* name, double value) {
@@ -110,6 +115,7 @@ std::vector<report::Plot> rolling_plots(const RollingResults& results) {
 
 }  // namespace
 
+/// A sentence for each model whose smallest gap [L] is below the gaps of the fit.
 std::vector<std::string> rolling_warnings(const RollingResults& results) {
   std::vector<std::string> warnings;
   const double low = results.fit.gap_interval[0];
@@ -125,6 +131,7 @@ std::vector<std::string> rolling_warnings(const RollingResults& results) {
   return warnings;
 }
 
+/// Writes report.html and the pictures in plots/ into `folder`.
 void write_rolling_report(const RollingResults& results, const std::filesystem::path& folder,
                           const results::Provenance& provenance, const StopToken& stop) {
   const auto& units = results.c.units;
