@@ -321,8 +321,9 @@ void add_unit(std::string& label, const Units& units) {
 /// case. Throws Error(kBadInput) if the fit or the motion is refused.
 std::vector<Plot> plots_of(const results::RunResults& run) {
   const auto& motion = case_file::required_motion(run.c);
-  // Below the smallest fitted gap, the drag is continued as k/q + constant with the fitted k, even
-  // if the case does not allow it: no trajectory then is there, and only pictures depend on it.
+  // Below the smallest fitted gap, the drag is continued as k/q + constant with the gap q and the
+  // fitted coefficient k. If the case does not allow this, no trajectory reaches such gaps, and
+  // only pictures depend on the continued drag.
   const lubrication::LubricationForce force(run.fit,
                                             {lubrication::BelowInterval::kLubricationLimit});
   std::vector<Plot> plots = {plot_minimal_gaps(run.comparison, run.c.published),
