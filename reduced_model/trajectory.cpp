@@ -1,8 +1,8 @@
 // Reads and writes the CSV file of a trajectory (docs/file-formats.md), and selects rows for it.
 // Times [T], gaps [L], velocities [L/T], forces [M L/T^2] and gamma [M L/T] are in the units of the
 // case; gamma is minus the impulse that the film of fluid has absorbed. The reader checks that all
-// numbers are finite, that times increase and that gaps are >= 0, but no other signs. A fault of a
-// file throws Error(kBadInput), which names the file and, for a fault of a row, the line.
+// numbers are finite, that times increase and that gaps are >= 0; it checks no other signs. A fault
+// of a file throws Error(kBadInput), which names the file and, for a fault of a row, the line.
 // pipeline/, sweep/, results/ and python/ use this file. A change must keep three things: the names
 // of the columns, which users' scripts read; the order of kColumns, by which read_trajectory()
 // finds the columns; and in fewer_rows() the rows that a comparison looks for.
@@ -169,7 +169,8 @@ std::string write_trajectory(const Trajectory& trajectory) {
 
 namespace {
 
-// In contact the film has absorbed an impulse; on the solid the surfaces press on each other.
+// in_contact() says whether the film has absorbed an impulse, and on_solid() whether the solids
+// press on each other.
 bool in_contact(const TrajectoryRow& row) { return row.gamma && *row.gamma < 0; }
 bool on_solid(const TrajectoryRow& row) { return row.solid_force && *row.solid_force > 0; }
 

@@ -2,8 +2,8 @@
 // in plots have no units here. Along a curve x must not decrease (not checked), and a y that is not
 // finite interrupts the line. A missing gnuplot is only a warning; a failing one throws
 // Error(kExternalProgram). A file that cannot be written or must not be replaced throws
-// Error(kBadInput), a wrong SOURCE_DATE_EPOCH Error(kWrongUsage), a requested stop
-// Error(kInterrupted), and a path that the system refuses a std::filesystem::filesystem_error.
+// Error(kBadInput), a wrong SOURCE_DATE_EPOCH throws Error(kWrongUsage), a requested stop throws
+// Error(kInterrupted), and a path that the system refuses throws std::filesystem::filesystem_error.
 // report/, rolling/, swimmer/ and particles/ use this file. The keys of the JSON and the names of
 // PointKind must agree with the scripts in report/page. Texts of users may contain markup and must
 // pass through escaped().
@@ -26,7 +26,8 @@
 
 namespace viscontact::report {
 
-// The texts of the files in report/page, made by CMakeLists.txt; a page needs no other file.
+// The texts of the files in report/page. CMakeLists.txt makes these functions. A page needs no
+// other file.
 std::string_view uplot_script();
 std::string_view uplot_style();
 std::string_view uplot_licence();
@@ -42,7 +43,7 @@ std::string doubled_percent(const std::string& text) {
   return result;
 }
 
-constexpr int kWidth = 860;  // of still pictures [pixels], a free choice
+constexpr int kWidth = 860;  // width of still pictures [pixels], a free choice
 
 /// The tag before a still picture, by which page_is_current() finds out whether a page has one.
 constexpr std::string_view kStill = "<div class=still>";
@@ -225,6 +226,9 @@ std::string section(std::string_view heading, const std::string& body) {
   return body.empty() ? "" : fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", heading, body);
 }
 
+/// A link (HTML) to a file of the run, whose path is relative to the folder of the run. The text of
+/// the link is `words`, or `file` if there are none. If there is no such file, the result is the
+/// text alone.
 std::string link_to(const results::RunFolder& run, const std::string& file,
                     std::string_view words) {
   const std::string text = escaped(words.empty() ? file : words);
@@ -237,6 +241,7 @@ std::string headings(std::initializer_list<std::string_view> cells) {
   return fmt::format("<tr><th>{}</th></tr>", fmt::join(cells, "</th><th>"));
 }
 
+/// A table of rows of HTML; `head` has the rows of headings, if there are any.
 std::string table_of(const std::string& rows, const std::string& head) {
   if (head.empty()) return "<div class=scroll><table>\n" + rows + "</table></div>\n";
   return fmt::format(
@@ -245,6 +250,7 @@ std::string table_of(const std::string& rows, const std::string& head) {
 
 std::string source(const std::string& words) { return "<p class=source>From " + words + ".</p>\n"; }
 
+/// A box with the warnings, which are HTML; empty if there are none.
 std::string warnings_box(const std::vector<std::string>& items) {
   if (items.empty()) return "";
   return fmt::format(
@@ -276,7 +282,8 @@ bool page_is_current(const std::filesystem::path& folder, std::span<const std::s
     if (page.find(fmt::format("{}<svg", kStill)) == std::string::npos) return false;
     const auto provenance = results::provenance_in(page, run.report().string());
     if (!provenance) return false;
-    // An input without a hash was a pipe. It is skipped: its content is in the copy of the case.
+    // An input without a hash was a pipe. Such an input is skipped, because its content is in the
+    // copy of the case.
     for (const auto& input : provenance->inputs)
       if (!input.sha256.empty() && !results::change_of(input, provenance->folder).empty())
         return false;

@@ -259,7 +259,7 @@ Plot plot_external_force(const reduced_model::ExternalForce& force, double end_t
   auto stops = force.jumps();
   std::erase_if(stops, [&](double t) { return t >= end_time; });
   stops.push_back(end_time);
-  constexpr int kPoints = 2000;  // about how many for the whole time; more cannot be seen
+  constexpr int kPoints = 2000;  // about this number for the whole time; a picture shows no more
   double from = 0;
   for (const double to : stops) {
     const int points = 2 + static_cast<int>(kPoints * (to - from) / end_time);

@@ -152,7 +152,8 @@ std::string plot_bases(const lubrication::MotionTable& table,
 /// recovered from gamma [L], interval of contact [T], and largest distance of the gap from that of
 /// the reference [L]; if solids touch in a model, also the time [T] and the velocity [L/T] of that.
 std::string comparison_table(const reduced_model::Comparison& comparison) {
-  // As wide as the longest name, and at least 30, which few names exceed.
+  // The first column is as wide as the longest name, and at least 30 characters wide, which few
+  // names exceed.
   std::size_t width = 30;
   for (const auto& model : comparison.models) width = std::max(width, model.model.size());
   for (const auto& model : comparison.failed_models) width = std::max(width, model.model.size());

@@ -136,7 +136,7 @@ double RollingEquation::slip(std::span<const double> y) const {
   return slip_of({y[kMove], y[kTurn]}, radius_);
 }
 
-/// Force and torque on the sphere without those of the solids.
+/// The force [M L/T^2] and the torque [M L^2/T^2] on the sphere without those of the solids.
 RollingForce RollingEquation::free_force(std::span<const double> y) const {
   const auto fluid = fluid_force(fluid_.at(gap_of(y)), {y[kMove], y[kTurn]});
   return {motion_.force + fluid.force, motion_.torque + fluid.torque};
@@ -193,7 +193,8 @@ reduced_model::StiffSystem RollingEquation::system(const double& step_begin) con
   return system;
 }
 
-/// The derivatives in time of all components but the gap.
+/// Sets `f` to the derivatives by time of all components of the state `y` except s. f[kLogGap] is
+/// not set.
 void RollingEquation::derivative(std::span<const double> y, std::span<double> f) const {
   const auto free = free_force(y);
   const double friction = friction_force(y);
@@ -203,8 +204,8 @@ void RollingEquation::derivative(std::span<const double> y, std::span<double> f)
   f[kAngle] = y[kTurn];
 }
 
-/// All entries of the Jacobian, column by column, but the derivative of the rate of s by s, which
-/// is set to 0 here and computed by gap_equation_.
+/// Sets `j` to the entries of the Jacobian, column by column. The derivative of the rate of s by s
+/// is set to 0, because gap_equation_ computes it.
 void RollingEquation::jacobian(std::span<const double> y, std::span<double> j) const {
   std::ranges::fill(j, 0.0);
   const auto at = [&](std::size_t row, std::size_t column) -> double& {
@@ -229,10 +230,10 @@ void RollingEquation::jacobian(std::span<const double> y, std::span<double> j) c
   at(kAngle, kTurn) = 1;
 }
 
-/// The tolerances of all components but the gap. Those of the velocities are relative to the
-/// largest velocity that the forces can cause, so that a velocity that passes through 0 does not
-/// stop CVODE. The terms with 1e-12 and 1e-3 keep the tolerances > 0 for a sphere at rest and at x
-/// = 0.
+/// Sets `allowed` to the errors that CVODE may make in the components of the state `y` except s, in
+/// their units. The tolerances of the velocities are relative to the largest velocity that the
+/// forces can cause, so that a velocity that passes through 0 does not stop CVODE. The terms with
+/// 1e-12 and 1e-3 keep the tolerances > 0 for a sphere at rest and at x = 0.
 void RollingEquation::tolerance(std::span<const double> y, std::span<double> allowed) const {
   const auto r = fluid_.at(std::min(gap_of(y), fluid_.largest_gap()));
   const double move = std::abs(y[kMove]) + radius_ * std::abs(y[kTurn]) +
@@ -378,7 +379,7 @@ class LubricatedRun {
 
   const RollingMotion& motion_;
   double contact_gap_;
-  std::vector<double> times_;  // of the rows
+  std::vector<double> times_;  // times of the rows [T]
   double now_ = 0;
   RollingEquation equation_;
   reduced_model::Cvode cvode_;

@@ -157,9 +157,10 @@ void check_ranges(const Points& points) {
                   v.key, v.first, v.last, v.last);
 }
 
-// If `stop` requests a stop, returns the index after the last row that was passed on, without an
-// Error. Threads compute rows in any order, but the rows must be passed on in order, so that the
-// file does not depend on the number of threads.
+/// Computes the rows `begin` to `size` - 1 with `jobs` threads and passes each row to `take`, in
+/// the order of the rows and from one thread at a time, so that the file does not depend on the
+/// number of threads. Returns the index after the last row that was passed on. A requested stop
+/// ends the function early without an Error; an exception of `row` or `take` is thrown again.
 std::uint64_t run_rows(
     std::uint64_t size, std::uint64_t begin, int jobs,
     const std::function<std::string(std::uint64_t index, const StopToken& stop)>& row,

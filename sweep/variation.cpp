@@ -57,9 +57,9 @@ double Variation::value(std::uint64_t i) const {
   return at(static_cast<double>(i) / static_cast<double>(count - 1));
 }
 
-/// The value of the range at the share [1] of its length, 0 <= share < 1; in a logarithmic range it
-/// is the share of the logarithms. Of a list, the element with the index floor(share n) of its n
-/// elements.
+/// The value of the range at the share [1] of the way from its first to its last value, 0 <= share
+/// < 1; in a logarithmic range the way is that of the logarithms. For a list of n elements it is
+/// the element with the index floor(share n).
 double Variation::at(double share) const {
   if (!values.empty())
     return values[static_cast<std::size_t>(share * static_cast<double>(values.size()))];
@@ -120,7 +120,7 @@ std::vector<std::pair<std::string, double>> grid_point(const std::vector<Variati
 
 /// The keys and values of the random point `index`. Each value comes from a hash of `seed`, `index`
 /// and the number of the key, so that equal arguments give equal values. Values are uniformly
-/// distributed over their ranges, in a logarithmic range the logarithms are.
+/// distributed over their ranges; in a logarithmic range their logarithms are.
 std::vector<std::pair<std::string, double>> random_point(const std::vector<Variation>& variations,
                                                          std::uint64_t index, std::uint64_t seed) {
   std::vector<std::pair<std::string, double>> point;

@@ -1,5 +1,5 @@
 // Finds the stroke of least energy by Newton's method. A stroke is a loop of the arms of a swimmer,
-// the distances of neighbouring spheres, whose coordinates are polynomials (polynomial_loop.hpp).
+// the distances of neighbouring centres, whose coordinates are polynomials (polynomial_loop.hpp).
 // Displacements, not 0, arms and coefficients of polynomials [L] are in the units of the fit; there
 // are at least two arms and at least kFewestPolynomials polynomials of each arm (not checked).
 // Energies [M L^2/T^2] are those in a period of 1, which LoopSums::energy_times_period is. Loops
@@ -48,8 +48,9 @@ class LoopOptimizer {
   /// The multiple of the loop, as seen from `through`, that has this displacement [L]. Nothing if
   /// none was found in the table.
   std::optional<PolynomialLoop> scaled_to(PolynomialLoop loop, double displacement) const;
-  /// The Hessian of the Lagrangian, energy minus multiplier times displacement, at a loop. Nothing
-  /// if a loop beside this one leaves the table.
+  /// The Hessian, by all coefficients, of the Lagrangian, which is the energy minus the multiplier
+  /// times the displacement, at a loop. Nothing if a loop that its differences need leaves the
+  /// table.
   std::optional<MatrixXd> lagrangian_hessian(const PolynomialLoop& loop, double multiplier) const;
   /// Newton's step of the coefficients, which keeps the displacement to first order; the last entry
   /// is the new multiplier. Nothing if there is no Hessian.
@@ -73,7 +74,7 @@ std::optional<PolynomialLoop> LoopOptimizer::scaled_to(PolynomialLoop loop,
   // The displacement grows nearly like the square of the size of the loop, so that a few steps
   // suffice; kMostSteps only ends a search that fails.
   constexpr int kMostSteps = 50;
-  constexpr double kTolerance = 1e-13;  // relative; near round-off
+  constexpr double kTolerance = 1e-13;  // relative difference of the displacement, near round-off
   for (int step = 0; step < kMostSteps; ++step) {
     if (!functional_.contains(loop)) return {};
     const double ratio = displacement / functional_.displacement(loop);
@@ -272,7 +273,8 @@ OptimalStroke find_optimal_stroke(const Swimmer& swimmer, const OptimalStrokeReq
         "for less, begin at a shape farther from the table's borders, or make a table of more arms",
         request.displacement);
   // For fewer polynomials than `best` has, the search starts from the first polynomials of `best`.
-  // Its result does not replace `best`, because with few polynomials it may be far from the others.
+  // Its result does not replace `best`, because with few polynomials it may be far from the results
+  // with more polynomials.
   OptimalStroke optimal;
   for (Index count = kFewestPolynomials;; count += 2) {
     count = std::min(count, request.polynomials);

@@ -1,4 +1,4 @@
-// Computes loops of a swimmer's arms (distances of neighbouring spheres) that are polynomials of a
+// Computes loops of a swimmer's arms (distances of neighbouring centres) that are polynomials of a
 // parameter s from 0 to 1, their energy and displacement, and the gradients of both
 // (polynomial_loop.hpp). Arms, coefficients and displacements [L], periods [T] and energies times
 // the period [M L^2/T] are in the units of the swimmer's fit. A loop has a row of coefficients for

@@ -50,8 +50,8 @@ bool Swimmer::contains(const Eigen::VectorXd& arms) const {
 
 /// The mechanics at the shape with these arms [L]: the velocity of the middle sphere per arm
 /// velocity [1], the velocities of all spheres per arm velocity [1], R, the metric and the
-/// resistance against towing [M/T]. If `with_slopes` is true, also the derivatives of the first and
-/// of the metric by each arm [1/L] and [M/(L T)].
+/// resistance against towing [M/T]. If `with_slopes` is true, also the derivatives by each arm of
+/// the velocity of the middle sphere [1/L] and of the metric [M/(L T)].
 ShapeMechanics Swimmer::at(const Eigen::VectorXd& arms, bool with_slopes) const {
   for (Index k = 0; k < arms.size(); ++k) {
     const auto [from, to] = arm_interval(k);

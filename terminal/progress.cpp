@@ -18,7 +18,8 @@ namespace {
 
 constexpr const char* kEraseLine = "\r\033[K";
 
-thread_local int quiet_objects = 0;  // objects of QuietThread in this thread
+// The number of objects of QuietThread in this thread. If it is > 0, nothing is written.
+thread_local int quiet_objects = 0;
 
 /// True if the file descriptor is a terminal that understands escape sequences.
 bool understands_escapes(int descriptor) {

@@ -51,7 +51,9 @@ void for_each_pixel(const std::array<double, 3>& x, const std::array<double, 3>&
   // A barycentric coordinate may be this far below 0, and the range of pixels is wider by this
   // share of a pixel, so that a centre on a side is in at least one triangle in spite of round-off.
   constexpr double kSlack = 1e-9;
-  // The first pixel with its centre from `low` to `high` in a row or column, and one past the last.
+  // Returns the index of the first pixel whose centre is from `low` to `high` [L] in a row or
+  // column of `count` pixels, and the index after the last such pixel. The row or column begins at
+  // `start`, and a pixel has the length `step` [L].
   const auto range = [](double low, double high, double start, double step, std::size_t count) {
     const auto clamp = [&](double place) {
       return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(count)));

@@ -120,8 +120,8 @@ constexpr double kGapReach = 2.5;
 /// gap would be too flat at equal scales.
 PlotView gap_view(const QuadraticMesh& mesh, double radius, double gap, double reach = kGapReach) {
   constexpr double kOfSphere = 0.9;  // largest half width of the view over the radius
-  constexpr double kMargin = 0.08;   // above and below the gap, over the height
-  constexpr double kFlattest = 0.4;  // at equal scales, least height over width
+  constexpr double kMargin = 0.08;   // margin above and below the gap, over the height of the gap
+  constexpr double kFlattest = 0.4;  // least height over width of a view with equal scales
   const double half = std::min(reach * std::sqrt(2 * gap * radius), kOfSphere * radius);
   const double top = sphere_bottom(radius, gap, half);
   double bottom = 0;
@@ -203,14 +203,14 @@ std::vector<Curve> outlines(const freefem_axi::RowPicture& picture, const PlotVi
 
 // Margins of the drawing around the plot [pixels].
 constexpr double kLeft = 110, kAbove = 66, kBelow = 106;
-constexpr double kColourBar = 165;  // at the right, with the numbers of the colours
+constexpr double kColourBar = 165;  // margin at the right with the numbers of the colours
 constexpr double kNoColourBar = 30;
 
 /// gnuplot's command for an arrow on the visible part of the sphere; it points upwards if the
-/// velocity of the sphere is > 0. `radius` [L], `window` [L].
+/// velocity of the sphere is > 0. `radius` and `window` are in [L].
 std::string velocity_arrow(const freefem_axi::RowPicture& row, double radius,
                            const Window& window) {
-  constexpr double kLength = 0.4;  // over the height of the visible part
+  constexpr double kLength = 0.4;  // length of the arrow over the height of the visible part
   const double top = std::min(row.gap + 2 * radius, window.top);
   const double middle = (row.gap + top) / 2;
   const double half = std::copysign(kLength / 2 * (top - row.gap), row.reference_velocity);
@@ -344,7 +344,7 @@ std::pair<double, double> extremes(const QuadraticMesh& mesh, const std::vector<
 /// The streamlines around an approaching sphere with this radius and gap [L], > 0. The curve is
 /// empty if there are no streamlines.
 Curve streamlines(const ViewedFlow& viewed, double radius, double gap) {
-  constexpr int kLines = 14;  // about how many on each side of the axis
+  constexpr int kLines = 14;  // about this number of lines on each side of the axis, a free choice
   const auto& grid = viewed.grid;
   std::vector<char> is_sphere(grid.size());
   for (std::size_t i = 0; i < is_sphere.size(); ++i)
@@ -386,7 +386,8 @@ std::string plot_pressure_and_streamlines(const std::string& what,
 Curve velocity_arrows(const ViewedFlow& viewed, double fastest) {
   const auto& view = viewed.view;
   constexpr std::size_t kColumns = 24;
-  constexpr double kHead = 0.35, kAngle = 0.45;  // head: length over the arrow's, half angle [rad]
+  // The length of an arrow's head over that of the arrow, and half the angle of the head [rad].
+  constexpr double kHead = 0.35, kAngle = 0.45;
   const auto rows = static_cast<std::size_t>(
       std::lround(std::max(2.0, kColumns * view.plot_height / view.plot_width)));
   const auto& window = view.window;
@@ -460,8 +461,8 @@ std::string plot_motion(const freefem_axi::RowPicture& picture,
 /// The SVG of the finest mesh in the gap and, over it, of the coarsest mesh, for any motion.
 std::string plot_mesh(const freefem_axi::RowPicture& picture,
                       const freefem_axi::Tabulation& tabulation, const StopToken& stop) {
-  // In how many straight pieces a side of the coarsest mesh is drawn. A side of the finest mesh,
-  // which is at most a quarter as long, has a quarter of them.
+  // A side of the coarsest mesh is drawn in this number of straight pieces. A side of the finest
+  // mesh is at most a quarter as long and has a quarter of the pieces.
   constexpr int kPieces = 8;
   constexpr std::size_t kMostSides = 3500;  // if there are more, the view is made narrower
   double reach = kGapReach;

@@ -104,10 +104,10 @@ double length_of(const Polyline& line) {
 StreamLine directed(Polyline line, const Grid& grid, const FlowOnGrid& flow,
                     const std::vector<char>& is_body, Polyline& arrows) {
   // The least length of a line with an arrow, and the least distance of two arrows, both over the
-  // longer side of the window; free choices.
+  // longer side of the window. Both are free choices.
   constexpr double kShort = 0.12, kApart = 0.14;
-  // Where an arrow is tried, and where the direction of the flow is compared with that of the line,
-  // as shares of the number of points.
+  // The places on the line, as shares of the number of its points, at which an arrow is tried and
+  // at which the direction of the flow is compared with that of the line.
   constexpr std::array<double, 9> kPlaces = {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9};
   const auto at = [&](double share) {
     return static_cast<std::size_t>(share * static_cast<double>(line.size() - 1));
@@ -138,7 +138,8 @@ StreamLine directed(Polyline line, const Grid& grid, const FlowOnGrid& flow,
         arrows.push_back(line[i]);
         break;
       }
-  // The parts before and after the arrow are simplified separately, so that it stays at a point.
+  // The parts before and after the arrow are simplified separately, so that the arrow stays at a
+  // point of the line.
   const double tolerance = 0.1 * std::min(grid.step_x(), grid.step_y());  // [L]; a free choice
   const auto middle = line.begin() + static_cast<std::ptrdiff_t>(arrow);
   result.points = simplified({line.begin(), middle + 1}, tolerance);

@@ -117,7 +117,7 @@ struct PictureMarks {
 /// The marks of a kind of picture; those of an SVG if the kind is neither PDF nor PNG.
 PictureMarks marks_of(TextKind kind) {
   if (kind == TextKind::kPdf) return {"%PDF-", "%%EOF"};
-  if (kind == TextKind::kPng) return {"\x89PNG", "IEND\xae\x42\x60\x82"};  // with its CRC
+  if (kind == TextKind::kPng) return {"\x89PNG", "IEND\xae\x42\x60\x82"};  // with its checksum
   return {"<svg", "</svg>"};
 }
 
@@ -167,8 +167,8 @@ std::string draw_picture(const results::PictureFormat& format, const std::vector
   // A picture takes about one second. If gnuplot needs ten minutes, it hangs. The limit is a free
   // choice.
   constexpr std::chrono::seconds kLongest = std::chrono::minutes(10);
-  // gnuplot reads standard input byte by byte, but a file in blocks. For long data that saves more
-  // time than another process takes.
+  // gnuplot reads standard input byte by byte, but a file in blocks. If the script is long, blocks
+  // save more time than the process `cat` takes. The limit is a free choice.
   constexpr std::size_t kLong = 200'000;  // bytes
   const std::string gnuplot = script.size() > kLong ? "cat | gnuplot /dev/stdin" : "gnuplot";
   // This shell command puts gnuplot's warnings after the picture. Without it they could stand in

@@ -86,8 +86,8 @@ class SweepRows {
   std::vector<std::string> names_, fields_;
 };
 
-/// True if all finite values are > 0 and span a decade or more. The axis then is logarithmic,
-/// because a linear one would show little of the small values.
+/// True if all finite values are > 0 and span a decade or more, a free choice. The axis then is
+/// logarithmic, because a linear axis would show little of the small values.
 bool is_logarithmic(const std::vector<double>& values) {
   double low = std::numeric_limits<double>::infinity(), high = 0;
   for (const double value : values) {
@@ -130,7 +130,8 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
               false, false,  {kLegendBelow},
               {}};
   std::vector<Curve> bars;
-  std::map<std::vector<double>, std::size_t> first_curves;  // by the values of plot.others
+  // The index of the first curve for each combination of values of the keys plot.others.
+  std::map<std::vector<double>, std::size_t> first_curves;
   const auto first_curve_of_row = [&] {
     std::vector<double> values;
     std::string words;
@@ -193,7 +194,8 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
   return draw_picture(format, {panel}, kSweepWidth, 520, stop);
 }
 
-// The value that an axis shows, and its label: decimal logarithms, if the axis is logarithmic.
+// The value that an axis shows, and the label of the axis. A logarithmic axis shows decimal
+// logarithms.
 double scaled(double value, bool logarithmic) { return logarithmic ? std::log10(value) : value; }
 
 std::string label(const std::string& name, bool logarithmic) {
@@ -219,7 +221,8 @@ MapAxis axis_of(const std::set<double>& values) {
 
 /// For each pixel along the axis, the nearest value, so that uneven steps of values are seen.
 std::vector<double> values_of_pixels(const MapAxis& axis) {
-  // Some programs smooth a picture of few pixels; with eight for each value, edges stay sharp.
+  // Some programs smooth a picture of few pixels. With eight pixels for each value, a free choice,
+  // edges stay sharp.
   const auto pixels = 8 * axis.values.size();
   std::vector<double> found;
   for (std::size_t i = 0; i < pixels; ++i) {

@@ -23,7 +23,8 @@ namespace {
 using lubrication::MotionKind;
 
 /// The keys from which the force of the motion is computed: two components of a force [M L/T^2], or
-/// the weight less the buoyancy [M L/T^2] and the angle of the plane, which falls towards +x.
+/// the weight less the buoyancy [M L/T^2] and the angle of the plane [rad], which falls towards +x
+/// if the angle is > 0.
 struct WeightKeys {
   std::vector<double> force;
   double weight = 0, incline = 0;
@@ -113,7 +114,7 @@ void rolling_keys(case_file::Keys& keys, RollingCase& c) {
   keys.required("end_time", case_file::number(motion.end_time, kPositive), {"end of the motion"});
   keys.required("time_step", case_file::number(motion.time_step, kPositive),
                 {"the step of `viscous_contact`, and the spacing of all rows"});
-  // The range of inertial.relative_tolerance in reduced_model/models/inertial.hpp.
+  // This range is also that of inertial.relative_tolerance in reduced_model/models/inertial.hpp.
   constexpr Allowed kOfTolerance = {[](double v) { return v >= 1e-13 && v <= 1e-2; },
                                     "from 1e-13 to 0.01"};
   keys.optional("relative_tolerance", case_file::number(motion.relative_tolerance, kOfTolerance),

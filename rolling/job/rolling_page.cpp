@@ -52,8 +52,9 @@ const char* contact_in_words(SolidContact contact) {
   return "none";
 }
 
-/// The table (HTML) of the state of each model at the end of the motion. The slip over the velocity
-/// [1] is that relative to the plane; it is empty if the sphere does not move along the plane.
+/// The table (HTML) of the state of each model at the end of the motion. Its column "slip over
+/// velocity" [1] has the slip divided by the velocity of the sphere relative to the plane; the
+/// field is empty if the sphere does not move along the plane.
 std::string end_table(const RollingResults& results) {
   std::string rows =
       "<tr><th>model</th><th>gap [L]</th><th>velocity [L/T]</th><th>angular velocity [1/T]</th>"
@@ -121,7 +122,7 @@ std::vector<std::string> rolling_warnings(const RollingResults& results) {
   const double low = results.fit.gap_interval[0];
   for (const auto& [model, rows] : results.trajectories) {
     const double thinnest = std::ranges::min_element(rows, {}, &RollingRow::gap)->gap;
-    // Relative rounding error of the gap of a sphere that rests at the smallest fitted gap.
+    // The relative rounding error of the gap of a sphere that rests at the smallest fitted gap.
     constexpr double kRounding = 1e-9;
     if (thinnest < (1 - kRounding) * low)
       warnings.push_back(fmt::format(

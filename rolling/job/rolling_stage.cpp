@@ -55,11 +55,11 @@ void check_rolling_files(const RollingFolder& folder) {
   for (const auto& model : rolling_models())
     results::refuse_other_kind(folder.trajectory(model.name), "# viscontact: rolling sphere",
                                "trajectory of a rolling sphere");
-  (void)report::Report(folder.path, kRollingPictures);  // throws if a file is in its way
+  (void)report::Report(folder.path, kRollingPictures);  // throws for a file of the user
 }
 
-/// Computes the tables and fits them, unless the case names a fit. Sets `failure` to the error that
-/// names the rows that failed, if any did.
+/// Computes the tables in the folder and fits them, unless the case names a fit. If rows of a table
+/// fail, `failure` is set to the error that names these rows.
 void make_fit(const RollingCase& c, const RollingFolder& folder, const RollingRequest& request,
               pipeline::RowFailure& failure) {
   if (c.fit) return;
@@ -73,7 +73,9 @@ void make_fit(const RollingCase& c, const RollingFolder& folder, const RollingRe
   });
 }
 
-/// The fit that the case names, or the one in the folder, scaled to the case.
+/// The fit that the case names, or else the fit in the folder, scaled to the radius and the
+/// viscosity of the case. Throws Error(kBadInput) if the fit cannot be read or is not that of a
+/// plane.
 motions::PairFit fit_of(const RollingCase& c, const RollingFolder& folder) {
   const auto file = c.fit.value_or(folder.fit());
   return fit_for(c, motions::read_pair_fit(file), file);
@@ -127,8 +129,8 @@ std::string trajectory_csv(const std::string& model, const RollingTrajectory& tr
   return text;
 }
 
-/// Reads MODEL.csv again. Throws Error(kBadInput) if a number or all rows are missing, or if a
-/// state of contact is unknown.
+/// Reads the file MODEL.csv of an earlier run. Throws Error(kBadInput) if a number is missing, if
+/// there are no rows, or if a state of contact is not 0, 1 or 2.
 RollingTrajectory read_trajectory(const fs::path& path) {
   RollingTrajectory trajectory;
   for (const auto& [fields, line] : read_csv(path, kColumnNames, kColumnNames.size()).rows) {

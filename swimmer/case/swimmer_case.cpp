@@ -86,7 +86,8 @@ double rows_of(const SwimmerCase& c) {
   return rows;
 }
 
-/// Reads `arms`: one table for all arms, or an array with one table for each.
+/// Reads `arms`, which is one table for all arms or an array with a table for each arm. Throws
+/// Error(kBadInput) if the number of tables is wrong or if there are more rows than kMostRows.
 void read_grid(const case_file::TomlSection& section, std::string_view key, SwimmerCase& c) {
   const auto& radii = c.spheres.radii;
   const std::size_t arms = radii.size() - 1;
@@ -105,8 +106,9 @@ void read_grid(const case_file::TomlSection& section, std::string_view key, Swim
                   rows_of(c), kMostRows);
 }
 
-/// Reads `table`: a file with a table of resistance matrices, which is scaled to radii and
-/// viscosity of the case.
+/// Reads `table`, a file with a table of resistance matrices, which is scaled to the radii and the
+/// viscosity of the case. Throws Error(kBadInput) if the table cannot be read, has another number
+/// of spheres or other ratios of radii, or if the case also has keys for a new table.
 void read_given_table(const case_file::TomlSection& section, std::string_view key, SwimmerCase& c) {
   for (const auto* other : {"arms", "relative_accuracy"})
     section.require(!section.has(other), other, "must be left out, because `table` gives a table");

@@ -119,9 +119,9 @@ report::Plot plot_of_components(const SwimmerResults& results, const std::string
   return plot;
 }
 
-/// A plot over the number of polynomials: by how much the energy is larger than that with the most
-/// polynomials, divided by the latter [1], and the residual of Euler and Lagrange's equation [1].
-/// `place` is the index of the first curve's colour. `steps` must not be empty (not checked).
+/// A plot over the number of polynomials: the energy relative to the energy with the most
+/// polynomials, minus 1 [1], and the residual of Euler and Lagrange's equation [1]. `place` is the
+/// index of the first curve's colour. `steps` must not be empty (not checked).
 report::Plot plot_convergence(const std::vector<OptimalStrokeStep>& steps, std::size_t place) {
   report::PlotPanel panel{"Convergence of the optimal stroke",
                           {"polynomials for each arm"},

@@ -51,7 +51,7 @@ void check_files(const SwimmerFolder& folder) {
   results::refuse_other_kind(folder.results(), "\"swimmer\"", "swimmer.json");
   for (const auto& stroke : {folder.stroke(), folder.optimal()})
     results::refuse_other_kind(stroke, "# viscontact: stroke of a swimmer", "stroke");
-  (void)report::Report(folder.path, kSwimmerPictures);  // throws if a file is in its way
+  (void)report::Report(folder.path, kSwimmerPictures);  // throws for a file of the user
 }
 
 /// Fits the table and writes fit.json, unless that file has the same content already.
@@ -74,7 +74,7 @@ ResistanceFit fit_table(const SwimmerFolder& folder, const ResistanceTable& tabl
 /// L/T^2] is the derivative of the least energy by the displacement if the stroke is optimal, and 0
 /// if it is not.
 StrokeResult result_of(const SwimmerResults& results, const Stroke& stroke, double multiplier) {
-  // About as many rows has stroke.csv. The number is a free choice, enough for smooth curves.
+  // stroke.csv has about this number of rows, a free choice that is enough for smooth curves.
   constexpr int kIntervals = 400;
   const Swimmer swimmer(results.fit);
   const auto sums = swim_sums(swimmer, stroke);

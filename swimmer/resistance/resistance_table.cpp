@@ -114,8 +114,9 @@ std::vector<std::vector<double>> gap_grid(const ResistanceTable& table) {
   return grid;
 }
 
-/// The ratio [1] of the radii to the radii `other`, which is the same for all. `what` is the word
-/// for the thing with the radii `other` in the message.
+/// The ratio [1] of each radius to the radius of the same sphere in `other`. Throws
+/// Error(kBadInput) unless this ratio is the same for all spheres. In the message, `what` is the
+/// word for the thing that has the radii `other`.
 double ratio_of_radii(const std::vector<double>& radii, const std::vector<double>& other,
                       std::string_view what) {
   const double ratio = radii.front() / other.front();

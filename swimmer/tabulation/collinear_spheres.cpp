@@ -5,9 +5,8 @@
 // that its matrix is multiplied by the viscosity of the case. A FreeFEM that fails, refuses a
 // number or exceeds its time limit throws Error(kExternalProgram), and a requested stop throws
 // Error(kInterrupted). swimmer/case, swimmer/job and resistance_table_plan.cpp use this file. A
-// change of the arguments or of the lines that are read must be made in the script, too, and a
-// change of the words of surroundings_in_words() in lubrication/scaling.cpp, which finds the
-// lengths in them.
+// change must keep the arguments and the lines that are read in agreement with the script, and the
+// words of surroundings_in_words(), in which lubrication/scaling.cpp finds the lengths.
 #include "viscontact/swimmer/tabulation/collinear_spheres.hpp"
 
 #include <fmt/format.h>

@@ -107,7 +107,7 @@ freefem_axi::TablePlan resistance_table_plan(const CollinearSpheres& spheres, co
     if (!has_mirror || point <= reflected(point)) parts.points.push_back(point);
   parts.relative_accuracy = spheres.relative_accuracy;
   parts.typical_seconds = typical_seconds_of(spheres);
-  parts.needs_all_rows = true;  // because its fit is a polynomial through all of them
+  parts.needs_all_rows = true;  // because the fit is a polynomial through all rows
   parts.solve = [spheres](const freefem_axi::FreeFem& freefem, const freefem_axi::RowPoint& gaps) {
     return std::vector{solve_resistance(freefem, spheres, gaps)};
   };
