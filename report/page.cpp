@@ -114,7 +114,7 @@ nlohmann::ordered_json optional_number(const std::optional<double>& value) {
   return value ? number(*value) : nlohmann::ordered_json(nullptr);
 }
 
-// The JSON of an axis and of a curve, for the scripts in report/page.
+/// The JSON of an axis, for the scripts in report/page. An end that the axis does not set is null.
 nlohmann::ordered_json json_of(const PlotAxis& axis) {
   return {{"label", axis.label},
           {"logarithmic", axis.logarithmic},
@@ -122,6 +122,8 @@ nlohmann::ordered_json json_of(const PlotAxis& axis) {
           {"high", optional_number(axis.high)}};
 }
 
+/// The JSON of a curve, for the scripts in report/page, with lists of x and of y. Numbers that are
+/// not finite are null.
 nlohmann::ordered_json json_of(const PlotCurve& curve) {
   auto x = nlohmann::ordered_json::array(), y = nlohmann::ordered_json::array();
   for (const auto& point : curve.points) {
@@ -353,6 +355,7 @@ std::string Report::figures(std::initializer_list<std::string_view> names) const
   return text;
 }
 
+/// Hints for the use of the figures (HTML), and a note if the page has no still pictures.
 std::string Report::hints() const {
   std::string text =
       "<p class=hint>Drag in a plot to zoom; double-click or tap twice to see the whole plot "

@@ -383,6 +383,7 @@ std::string summary(const results::RunResults& run) {
   return text + ".</p>\n";
 }
 
+/// All sections of the page (HTML) below the warnings. A section without content is left out.
 std::string sections_of(const results::RunResults& run, const Report& report) {
   return section("Models", models_table(run) + report.figures({"thinnest_film"})) +
          section("Trajectories", report.figures({"gap", "gap_logarithmic", "lubrication_force",

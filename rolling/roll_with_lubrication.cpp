@@ -364,6 +364,7 @@ class LubricatedRun {
       add_row(times_[rows_.size()], state_at(times_[rows_.size()]));
   }
 
+  /// Adds the row of the time `time` [T] with the state `y`.
   void add_row(double time, const RollingStateVector& y) {
     rows_.push_back({.time = time,
                      .gap = equation_.gap_of(y),

@@ -78,6 +78,7 @@ std::optional<Kept> kept_rows(const fs::path& path, const std::string& header, c
 
 }  // namespace
 
+/// The names of all columns: the varied keys, the results and `failure`.
 std::vector<std::string> Study::columns() const {
   auto columns = points.keys();
   columns.insert(columns.end(), results.begin(), results.end());
@@ -104,6 +105,9 @@ std::string Study::row(std::uint64_t index, const StopToken& stop) const {
   return fmt::format("{},{}\n", text, failure);
 }
 
+/// The lines "# key: value" that every sweep has. `kind` is the kind of the sweep in words, and
+/// `case_text` the content of the case file. `identity` is a text that contains everything else
+/// that determines the rows.
 std::map<std::string, std::string> head_of(const std::string& kind, const std::string& case_text,
                                            const Points& points, const std::string& identity,
                                            const std::string& version) {
@@ -121,6 +125,8 @@ void refuse_doubles(const std::vector<std::string>& names, std::string_view kind
       throw Error(ErrorKind::kWrongUsage, "{} {} is given twice", kind, name);
 }
 
+/// The points of the ranges "KEY=RANGE" in the line `line`, counted from 1, of a case. Throws
+/// Error(kBadInput), which names file and line, if a range is not valid.
 Points points_of_case(const std::vector<std::string>& ranges, const fs::path& case_path, int line) {
   Points points;
   if (!ranges.empty()) points.place = PlaceOfRanges{case_path.string(), line};

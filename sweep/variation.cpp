@@ -145,8 +145,10 @@ std::uint64_t grid_size(const std::vector<Variation>& variations) {
 
 std::uint64_t Points::count() const { return samples > 0 ? samples : grid_size(variations); }
 
+/// The number of rows, which is the number of points times that of the draws at each point.
 std::uint64_t Points::rows() const { return count() * std::max<std::uint64_t>(draws, 1); }
 
+/// The varied keys, and the key of the seed if there are draws.
 std::vector<std::string> Points::keys() const {
   std::vector<std::string> keys;
   for (const auto& variation : variations) keys.push_back(variation.key);

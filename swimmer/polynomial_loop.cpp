@@ -74,12 +74,14 @@ LoopFunctional::LoopFunctional(const Swimmer& swimmer, Index polynomials) : swim
   }
 }
 
+/// True if the table contains the shapes of the loop at all points of the quadrature.
 bool LoopFunctional::contains(const PolynomialLoop& loop) const {
   for (Index q = 0; q < points_.size(); ++q)
     if (!swimmer_.contains(shape_at(loop, values_.col(q)))) return false;
   return true;
 }
 
+/// The displacement of the loop [L], without gradients.
 double LoopFunctional::displacement(const PolynomialLoop& loop) const {
   double sum = 0;
   for (Index q = 0; q < points_.size(); ++q) {

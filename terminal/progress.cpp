@@ -100,6 +100,7 @@ void complain(const std::string& text) {
   say(coloured(text.substr(0, end), Colour::kRed, STDERR_FILENO) + text.substr(end));
 }
 
+// While an object of QuietThread exists, the functions of this file write nothing in its thread.
 QuietThread::QuietThread() { ++quiet_objects; }
 QuietThread::~QuietThread() { --quiet_objects; }
 

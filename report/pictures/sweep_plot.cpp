@@ -73,6 +73,7 @@ class SweepRows {
     return column < fields_.size() ? parse_number(fields_[column]).value_or(kNoValue) : kNoValue;
   }
 
+  /// The index of the column `name`. Throws Error(kBadInput) if there is no such column.
   std::size_t index_of(const std::string& name) const {
     const auto found = std::ranges::find(names_, name);
     if (found == names_.end())

@@ -215,6 +215,8 @@ motions::PairFit fit_for(const RollingCase& c, motions::PairFit fit,
   return motions::scaled_to(std::move(fit), c.viscosity, c.radius);
 }
 
+/// The tables of the keys of those sections that differ from other kinds of cases, for
+/// docs/case-file.md.
 std::vector<case_file::KeyTable> tables_of_rolling_case() {
   return {case_file::describe_keys("[sphere] of a rolling sphere", rolling_sphere_keys),
           case_file::describe_keys("[rolling]", rolling_keys),

@@ -40,6 +40,7 @@ report::Plot plot_of(const RollingResults& results, const std::string& name,
   return {name, 400, {panel}};  // the height in pixels is a free choice
 }
 
+/// What the solids do, in one word.
 const char* contact_in_words(SolidContact contact) {
   switch (contact) {
     case SolidContact::kRolling:

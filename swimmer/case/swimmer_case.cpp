@@ -421,6 +421,7 @@ void read_root(const case_file::TomlSection& root, SwimmerCase& c) {
   root.finish();
 }
 
+/// The tables of the keys of all sections, for docs/case-file.md.
 std::vector<case_file::KeyTable> tables_of_swimmer_case() {
   return {case_file::describe_keys("[swimmer]", swimmer_keys),
           case_file::describe_keys("swimmer.arms", arm_keys),

@@ -301,6 +301,7 @@ std::string parameters_of(const SwimmerResults& results) {
   return report::table_of(rows);
 }
 
+/// A paragraph (HTML) with links to the files of the folder.
 std::string files_words(const SwimmerResults& results) {
   std::string text =
       "<p>Files of this folder: <a href=\"table.csv\">table.csv</a>, <a "

@@ -122,6 +122,7 @@ double divided_difference_of_exp(double a, double b) {
 
 }  // namespace
 
+/// Prepares the evaluation of `fit`, whose lists have the sizes of ResistanceFit (not checked).
 FittedResistance::FittedResistance(const ResistanceFit& fit)
     : viscosity_(fit.viscosity),
       radii_(fit.radii),
@@ -131,6 +132,7 @@ FittedResistance::FittedResistance(const ResistanceFit& fit)
   for (const auto& gaps : fit.gaps) intervals_.push_back({gaps.front(), gaps.back()});
 }
 
+/// True if each of the gaps [L] is in the interval of its nodes; false if one of them is NaN.
 bool FittedResistance::contains(std::span<const double> gaps) const {
   // A relative difference that is allowed because gaps are rounded differences of arms and radii.
   // swimmer_case.cpp has the same number.
