@@ -93,8 +93,8 @@ std::string panel_script(const Panel& panel, std::size_t index) {
   return script + plots + "\n";
 }
 
-/// gnuplot's command that sets its output to a kind of picture with this font size [points].
-/// Letters, lines and points have the same size relative to the picture in all kinds.
+/// gnuplot's command that sets its output to a kind of picture, with a font size in the unit of
+/// `width`. Letters, lines and points have the same size relative to the picture in all kinds.
 std::string terminal_of(TextKind kind, double font_size, int width, int height) {
   const auto common =
       fmt::format("noenhanced font 'sans-serif,{:g}' background 'white'", font_size);
