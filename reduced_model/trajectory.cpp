@@ -1,10 +1,11 @@
 // Reads and writes the CSV file of a trajectory (docs/file-formats.md), and selects rows for it.
-// Times [T], which increase, gaps [L], >= 0, velocities [L/T], forces [M L/T^2] and gamma [M L/T],
-// minus the impulse that the film has absorbed, are in the units of the case; all are finite, but
-// only the signs of gaps are checked. A fault of a file is an Error(kBadInput) with the file and,
-// in a row, the line. Used by pipeline/, sweep/, results/ and python/. A change must keep three
-// things: the names of the columns, which users' scripts read; the order of kColumns, by which
-// read_trajectory() finds the columns; and in fewer_rows() the rows that a comparison looks for.
+// Times [T], gaps [L], velocities [L/T], forces [M L/T^2] and gamma [M L/T] are in the units of the
+// case; gamma is minus the impulse that the film of fluid has absorbed. The reader checks that all
+// numbers are finite, that times increase and that gaps are >= 0; it checks no other signs. A fault
+// of a file throws Error(kBadInput), which names the file and, for a fault of a row, the line.
+// pipeline/, sweep/, results/ and python/ use this file. A change must keep three things: the names
+// of the columns, which users' scripts read; the order of kColumns, by which read_trajectory()
+// finds the columns; and in fewer_rows() the rows that a comparison looks for.
 #include "viscontact/reduced_model/trajectory.hpp"
 
 #include <fmt/format.h>
@@ -22,16 +23,19 @@ namespace {
 
 const std::array<std::string, 7> kColumns = {
     "time", "gap", "velocity", "lubrication_force", "external_force", "gamma", "solid_force"};
+// Keys in the head of the file: the interval of times [T] of contact, and the time [T] and the
+// velocity [L/T] of the first touch of the solids.
 const std::array<std::string, 2> kContactKeys = {"contact_from", "contact_until"};
 const std::array<std::string, 2> kSolidKeys = {"solid_contact_from", "solid_contact_velocity"};
 constexpr std::size_t kRequiredColumns = 3;  // time, gap, velocity
 
+/// The number as text, or an empty text if the value is missing.
 std::string optional_number(const OptionalDouble& value) {
   return value ? format_number(*value) : "";
 }
 
-/// The number of steps in the head, from 0 to 1e15. Throws Error(kBadInput) for anything else, and
-/// if it is missing.
+/// The number of steps in the head of the file. Throws Error(kBadInput) if it is missing or is not
+/// from 0 to 1e15.
 long steps_of(const CsvComments& comments, const std::string& file) {
   constexpr double kMost = 1e15;  // below 2^53, so every integer up to it is a double
   const double steps = csv_comment_number(comments, "steps", file);
@@ -40,7 +44,9 @@ long steps_of(const CsvComments& comments, const std::string& file) {
   return static_cast<long>(steps);
 }
 
-/// The rebounds as text: the five numbers of each are separated by blanks, and rebounds by "; ".
+/// The rebounds as text. A rebound is five numbers, separated by blanks: time [T], velocity of
+/// approach [L/T], impulse of the solids [M L/T], velocity of rebound [L/T] and coefficient of
+/// restitution [1]. Rebounds are separated by "; ".
 std::string write_rebounds(const std::vector<Rebound>& rebounds) {
   std::string text;
   for (const auto& of : rebounds)
@@ -50,8 +56,8 @@ std::string write_rebounds(const std::vector<Rebound>& rebounds) {
   return text;
 }
 
-/// The rebounds in the head, five numbers each, separated by ";". Throws Error(kBadInput) for
-/// another text; signs are not checked.
+/// The rebounds of a text that write_rebounds() made. Throws Error(kBadInput) if a rebound does not
+/// have five numbers; their signs are not checked.
 std::vector<Rebound> read_rebounds(const std::string& text, const FilePosition& file) {
   std::vector<Rebound> rebounds;
   std::istringstream in(text);
@@ -72,6 +78,9 @@ std::vector<Rebound> read_rebounds(const std::string& text, const FilePosition& 
 
 }  // namespace
 
+/// Reads a CSV file with the columns kColumns, of which the first three are required; the lines "#
+/// key: value" of its head give the other members. A key that this function does not know goes to
+/// `provenance`. The model has the name of the file without its ending unless the head names it.
 Trajectory read_trajectory(const std::filesystem::path& path) {
   const std::string file = path.string();
   const auto csv = read_csv(path, kColumns, kRequiredColumns);
@@ -126,6 +135,8 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
   return trajectory;
 }
 
+/// The text of the file that read_trajectory() reads: the head and a row of text for each row of
+/// the trajectory, in which a missing value is an empty field. Nothing is checked or thrown.
 std::string write_trajectory(const Trajectory& trajectory) {
   CsvComments comments = trajectory.provenance;
   comments["viscontact"] = "trajectory";
@@ -158,10 +169,13 @@ std::string write_trajectory(const Trajectory& trajectory) {
 
 namespace {
 
+// in_contact() says whether the film has absorbed an impulse, and on_solid() whether the solids
+// press on each other.
 bool in_contact(const TrajectoryRow& row) { return row.gamma && *row.gamma < 0; }
 bool on_solid(const TrajectoryRow& row) { return row.solid_force && *row.solid_force > 0; }
 
-/// The indices of the rows that differ from the row before in contact or in solid contact.
+/// The indices of the rows for which in_contact() or on_solid() differs from that of the row
+/// before.
 std::vector<std::size_t> changes_of_contact(const std::vector<TrajectoryRow>& rows) {
   std::vector<std::size_t> changes;
   for (std::size_t i = 1; i < rows.size(); ++i)
@@ -179,7 +193,12 @@ std::size_t first_of_least(const std::vector<TrajectoryRow>& rows, const Value& 
 
 }  // namespace
 
-/// `count` >= 2 is not checked.
+/// About `count` of the rows, in their order: the first row at or after each of `count` equally
+/// spaced times, and the rows that a comparison looks for. These are the first and the last row,
+/// the rows with the smallest and the largest gap and with the lowest gamma, and the two rows
+/// around each change of contact. If there are more than `count` changes, only the first and the
+/// last of them count. All rows are kept if there are at most `count`. `count` must be >= 2 (not
+/// checked).
 std::vector<TrajectoryRow> fewer_rows(const std::vector<TrajectoryRow>& rows, int count) {
   const auto wanted = static_cast<std::size_t>(count);
   if (rows.size() <= wanted) return rows;
@@ -188,7 +207,8 @@ std::vector<TrajectoryRow> fewer_rows(const std::vector<TrajectoryRow>& rows, in
   std::size_t row = 0;
   for (std::size_t n = 0; n < wanted; ++n) {
     const double w = static_cast<double>(n) / static_cast<double>(wanted - 1);
-    // The factor makes the time slightly earlier, so that rounding cannot skip its row.
+    // The factor makes the time slightly earlier, so that rounding cannot skip the row at this
+    // time.
     const double time = from + w * (to - from) * (1 - 1e-12);
     while (row + 1 < rows.size() && rows[row].time < time) ++row;
     kept[row] = 1;

@@ -1,12 +1,12 @@
-// Draws plots by gnuplot and writes the page around them. Sizes are in pixels, >= 0; numbers of
-// plots have no units here. Along a curve x must not decrease (not checked), and a y that is not
-// finite interrupts the line. A missing gnuplot is a warning, a failing one an
-// Error(kExternalProgram), a file that cannot be written or must not be replaced an
-// Error(kBadInput), a wrong SOURCE_DATE_EPOCH an Error(kWrongUsage), a requested stop an
-// Error(kInterrupted), and a path that the system refuses a std::filesystem::filesystem_error. Used
-// by report/, rolling/, swimmer/ and particles/. The keys of the JSON and the names of PointKind
-// must agree with the scripts in report/page. Texts of users may contain markup and must pass
-// through escaped().
+// Draws plots by gnuplot and writes the page (HTML) around them. Sizes are in pixels, >= 0; numbers
+// in plots have no units here. Along a curve x must not decrease (not checked), and a y that is not
+// finite interrupts the line. A missing gnuplot is only a warning; a failing one throws
+// Error(kExternalProgram). A file that cannot be written or must not be replaced throws
+// Error(kBadInput), a wrong SOURCE_DATE_EPOCH throws Error(kWrongUsage), a requested stop throws
+// Error(kInterrupted), and a path that the system refuses throws std::filesystem::filesystem_error.
+// report/, rolling/, swimmer/ and particles/ use this file. The keys of the JSON and the names of
+// PointKind must agree with the scripts in report/page. Texts of users may contain markup and must
+// pass through escaped().
 #include "viscontact/report/page.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +26,8 @@
 
 namespace viscontact::report {
 
-// The texts of the files in report/page, made by CMakeLists.txt; a page needs no other file.
+// The texts of the files in report/page. CMakeLists.txt makes these functions. A page needs no
+// other file.
 std::string_view uplot_script();
 std::string_view uplot_style();
 std::string_view uplot_licence();
@@ -42,9 +43,9 @@ std::string doubled_percent(const std::string& text) {
   return result;
 }
 
-constexpr int kWidth = 860;  // of still pictures [pixels], a free choice
+constexpr int kWidth = 860;  // width of still pictures [pixels], a free choice
 
-/// The tag before a still picture, by which page_is_current() finds one.
+/// The tag before a still picture, by which page_is_current() finds out whether a page has one.
 constexpr std::string_view kStill = "<div class=still>";
 
 /// A kind of point in gnuplot (pointtype) and page/axes.js. The rows are in the order of PointKind.
@@ -79,6 +80,7 @@ std::string bound(const std::optional<double>& value) {
   return value ? fmt::format("{}", *value) : "*";
 }
 
+/// gnuplot's commands for the ranges, legend and tics of a panel.
 std::vector<std::string> gnuplot_settings(const PlotPanel& panel) {
   std::vector<std::string> settings = {
       fmt::format("set xrange [{}:{}]", bound(panel.x.low), bound(panel.x.high)),
@@ -107,10 +109,12 @@ nlohmann::ordered_json number(double value) {
                               : nlohmann::ordered_json(nullptr);
 }
 
+/// The number as in number(), or null if there is none.
 nlohmann::ordered_json optional_number(const std::optional<double>& value) {
   return value ? number(*value) : nlohmann::ordered_json(nullptr);
 }
 
+/// The JSON of an axis, for the scripts in report/page. An end that the axis does not set is null.
 nlohmann::ordered_json json_of(const PlotAxis& axis) {
   return {{"label", axis.label},
           {"logarithmic", axis.logarithmic},
@@ -118,6 +122,8 @@ nlohmann::ordered_json json_of(const PlotAxis& axis) {
           {"high", optional_number(axis.high)}};
 }
 
+/// The JSON of a curve, for the scripts in report/page, with lists of x and of y. Numbers that are
+/// not finite are null.
 nlohmann::ordered_json json_of(const PlotCurve& curve) {
   auto x = nlohmann::ordered_json::array(), y = nlohmann::ordered_json::array();
   for (const auto& point : curve.points) {
@@ -197,6 +203,8 @@ void warn_of_missing_pictures(const std::exception_ptr& failure) {
 
 }  // namespace
 
+/// The text with the characters that HTML would read as markup replaced, and with U+FFFD in place
+/// of control characters other than line breaks and tabs.
 std::string escaped(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -220,6 +228,9 @@ std::string section(std::string_view heading, const std::string& body) {
   return body.empty() ? "" : fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", heading, body);
 }
 
+/// A link (HTML) to a file of the run, whose path is relative to the folder of the run. The text of
+/// the link is `words`, or `file` if there are none. If there is no such file, the result is the
+/// text alone.
 std::string link_to(const results::RunFolder& run, const std::string& file,
                     std::string_view words) {
   const std::string text = escaped(words.empty() ? file : words);
@@ -232,6 +243,7 @@ std::string headings(std::initializer_list<std::string_view> cells) {
   return fmt::format("<tr><th>{}</th></tr>", fmt::join(cells, "</th><th>"));
 }
 
+/// A table of rows of HTML; `head` has the rows of headings, if there are any.
 std::string table_of(const std::string& rows, const std::string& head) {
   if (head.empty()) return "<div class=scroll><table>\n" + rows + "</table></div>\n";
   return fmt::format(
@@ -240,6 +252,7 @@ std::string table_of(const std::string& rows, const std::string& head) {
 
 std::string source(const std::string& words) { return "<p class=source>From " + words + ".</p>\n"; }
 
+/// A box with the warnings, which are HTML; empty if there are none.
 std::string warnings_box(const std::vector<std::string>& items) {
   if (items.empty()) return "";
   return fmt::format(
@@ -247,6 +260,9 @@ std::string warnings_box(const std::vector<std::string>& items) {
       fmt::join(items, "</li>\n<li>"));
 }
 
+/// The beginning of a page, up to the end of its <style> element. `more` are further elements of
+/// the head (HTML); the title is plain text and `style` is CSS. The page may load nothing from
+/// elsewhere.
 std::string page_head(std::string_view title, std::string_view style, bool has_images,
                       std::string_view more) {
   return fmt::format(
@@ -257,6 +273,9 @@ std::string page_head(std::string_view title, std::string_view style, bool has_i
       has_images ? "; img-src data:" : "", more, escaped(title), style);
 }
 
+/// True if `folder` has a report with still pictures, if the pictures of `names` that the report
+/// refers to exist, and if no input of the report has changed since it was made. False, too, if a
+/// file cannot be read.
 bool page_is_current(const std::filesystem::path& folder, std::span<const std::string_view> names) {
   const results::RunFolder run{folder};
   try {
@@ -265,7 +284,8 @@ bool page_is_current(const std::filesystem::path& folder, std::span<const std::s
     if (page.find(fmt::format("{}<svg", kStill)) == std::string::npos) return false;
     const auto provenance = results::provenance_in(page, run.report().string());
     if (!provenance) return false;
-    // An input without a hash was a pipe. It is skipped: its content is in the copy of the case.
+    // An input without a hash was a pipe. Such an input is skipped, because its content is in the
+    // copy of the case.
     for (const auto& input : provenance->inputs)
       if (!input.sha256.empty() && !results::change_of(input, provenance->folder).empty())
         return false;
@@ -278,6 +298,8 @@ bool page_is_current(const std::filesystem::path& folder, std::span<const std::s
   }
 }
 
+/// `names` are all pictures that a report of this kind can have. Throws Error(kBadInput) if the
+/// report or one of these pictures would replace a file that Viscontact did not write.
 Report::Report(std::filesystem::path folder, std::span<const std::string_view> names)
     : run_{std::move(folder)}, names_(names) {
   results::refuse_other_kind(run_.report(), "id=\"provenance\"", "report");
@@ -285,6 +307,8 @@ Report::Report(std::filesystem::path folder, std::span<const std::string_view> n
     results::refuse_other_kind(run_.plot(std::string(name)), "<svg", "picture");
 }
 
+/// Draws the still pictures of the plots, each in its own thread, and adds the figures. If gnuplot
+/// fails for one of the plots, none of them gets a still picture, and write() tells the user.
 void Report::draw(std::vector<Plot> plots, const StopToken& stop) {
   std::vector<std::future<std::string>> drawings;
   for (const auto& plot : plots)
@@ -304,6 +328,8 @@ void Report::draw(std::vector<Plot> plots, const StopToken& stop) {
     figures_.push_back({std::move(plots[i]), std::move(drawn[i])});
 }
 
+/// The HTML of a figure: the still picture, the plot as JSON and the link to the file. A plot
+/// without panels is a still picture only.
 std::string Report::html_of(const Figure& figure) {
   const auto& [plot, svg] = figure;
   const std::string caption =
@@ -318,6 +344,7 @@ std::string Report::html_of(const Figure& figure) {
       plot.name, kStill, svg, json_of(plot), caption);
 }
 
+/// The HTML of the figures with these names, in this order, or of all figures if no name is given.
 std::string Report::figures(std::initializer_list<std::string_view> names) const {
   std::string text;
   if (names.size() == 0)
@@ -328,6 +355,7 @@ std::string Report::figures(std::initializer_list<std::string_view> names) const
   return text;
 }
 
+/// Hints for the use of the figures (HTML), and a note if the page has no still pictures.
 std::string Report::hints() const {
   std::string text =
       "<p class=hint>Drag in a plot to zoom; double-click or tap twice to see the whole plot "
@@ -340,6 +368,9 @@ std::string Report::hints() const {
   return text;
 }
 
+/// Writes the pictures and report.html, removes pictures of an earlier report that this one does
+/// not have, and tells the user. `title` is plain text; `opening` and `sections` are HTML above and
+/// below the hints for the use of the figures.
 void Report::write(std::string_view title, const std::string& opening, const std::string& sections,
                    const results::Provenance& provenance) const {
   const auto page =

@@ -1,10 +1,11 @@
-// The report of a run of one sphere: warnings, tables, plots and how the files were made. Gaps [L],
-// times [T] and all other numbers are in the units of the case, and each trajectory has a row (not
-// checked). An input that is missing or wrong, or a file that must not be replaced, is an
-// Error(kBadInput), a wrong SOURCE_DATE_EPOCH an Error(kWrongUsage), a failing gnuplot an
-// Error(kExternalProgram), and a requested stop an Error(kInterrupted). Used by `run` and `report`.
-// kPlotNames must contain the name of every plot, because it decides which files in plots/ are
-// replaced or removed; kDimensions repeats the labels of axes in run_plots.cpp.
+// Writes the report (HTML) of a run of one sphere: warnings, tables, plots and how the files were
+// made. Gaps [L], times [T] and all other numbers are in the units of the case, and each trajectory
+// has a row (not checked). Most functions return a piece of HTML. An input that is missing or
+// wrong, or a file that must not be replaced, throws Error(kBadInput), a wrong SOURCE_DATE_EPOCH
+// Error(kWrongUsage), a failing gnuplot Error(kExternalProgram), and a requested stop
+// Error(kInterrupted). The commands `run` and `report` use this file. A change must keep that
+// kPlotNames contains the name of every plot, because it decides which files in plots/ are replaced
+// or removed, and that kDimensions has the labels of axes in run_plots.cpp.
 #include "viscontact/report/report.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +28,9 @@
 namespace viscontact::report {
 namespace {
 
-/// How well the fit predicts rows of the table that it did not use, as HTML; empty if not known.
+/// How well the fit predicts rows of the table that it did not use, with residuals that are
+/// relative [1] and gaps [L], as HTML. Empty if this is not known. Throws std::bad_optional_access
+/// for a fit of an earlier version that lacks a number.
 std::string trust(const lubrication::FitDiagnostics& d) {
   std::string text;
   if (d.leave_one_out_rms)
@@ -64,6 +67,7 @@ std::string model_link(const results::RunResults& run, const std::string& model)
   return link_to(run.folder, trajectory_name(model), model);
 }
 
+/// Where the drag comes from, and the gaps [L] for which it is known, in words.
 std::string drag_in_words(const results::RunResults& run) {
   const lubrication::Fit& fit = run.fit;
   if (fit.terms.empty()) return "Brenner's exact series; nothing is fitted";
@@ -79,6 +83,7 @@ std::string command_line(const std::vector<std::string>& words) {
   return line;
 }
 
+/// The record of how the file was made; nothing if the record is missing or damaged.
 std::optional<results::Provenance> provenance_or_none(const std::filesystem::path& path) {
   try {
     return results::read_provenance(path);
@@ -91,7 +96,8 @@ std::string hash_cell(const std::string& sha256) {
   return "<code class=hash>" + escaped(sha256) + "</code>";
 }
 
-/// The parameters of the case with their units or, if the case says none, dimensions.
+/// The table of the parameters of the case, each with its unit or, if the case says no units, with
+/// its dimension.
 std::string parameters_table(const results::RunResults& run) {
   const case_file::Case& c = run.c;
   const auto& motion = case_file::required_motion(c);
@@ -132,13 +138,14 @@ std::string parameters_table(const results::RunResults& run) {
          table_of(rows, headings({"parameter", "value", has_units ? "unit" : "dimension"}));
 }
 
-/// The unit of a quantity, given by its powers of mass, length and time, for a heading: " [m/s]";
-/// empty if the case says no units.
+/// The unit, such as " [m/s]", of a quantity with these powers of mass, length and time, for a
+/// heading. Empty if the case says no units.
 std::string in_brackets(const results::RunResults& run, int mass, int length, int time) {
   return escaped(run.c.units.in_brackets(mass, length, time));
 }
 
-/// For each model: smallest gap, times of contact, touch of the solids, distance to the reference.
+/// The table with a row for each model: smallest gap [L], times of contact [T], touch of the
+/// solids, and distances to the motion of the reference model.
 std::string models_table(const results::RunResults& run) {
   std::string rows;
   for (const auto& model : run.comparison.models)
@@ -213,7 +220,7 @@ std::string budget_table(const results::RunResults& run) {
          source(link_to(run.folder, "comparison.json"));
 }
 
-/// The coefficients of the fit, its residuals and what trust() says.
+/// The table of the coefficients of the fit, with its residuals and the words of trust().
 std::string fit_table(const results::RunResults& run) {
   const lubrication::Fit& fit = run.fit;
   if (fit.terms.empty())
@@ -310,10 +317,13 @@ void add_unit(std::string& label, const Units& units) {
   label += units.in_brackets(found->mass, found->length, found->time);
 }
 
+/// The plots of the run, without those that have no curves. The labels of axes get the units of the
+/// case. Throws Error(kBadInput) if the fit or the motion is refused.
 std::vector<Plot> plots_of(const results::RunResults& run) {
   const auto& motion = case_file::required_motion(run.c);
-  // Below the smallest fitted gap, the drag is continued as k/q + constant with the fitted k, even
-  // if the case does not allow it: no trajectory then is there, and only pictures depend on it.
+  // Below the smallest fitted gap, the drag is continued as k/q + constant with the gap q and the
+  // fitted coefficient k. If the case does not allow this, no trajectory reaches such gaps, and
+  // only pictures depend on the continued drag.
   const lubrication::LubricationForce force(run.fit,
                                             {lubrication::BelowInterval::kLubricationLimit});
   std::vector<Plot> plots = {plot_minimal_gaps(run.comparison, run.c.published),
@@ -337,6 +347,8 @@ std::vector<Plot> plots_of(const results::RunResults& run) {
   return plots;
 }
 
+/// The box with the warnings of the run, or a line that says that there are none. Throws
+/// Error(kBadInput) if a file cannot be read.
 std::string warnings_of_run(const results::RunResults& run) {
   std::vector<std::string> items;
   for (const auto& warning : warnings_of(run))
@@ -350,6 +362,8 @@ std::string warnings_of_run(const results::RunResults& run) {
       kPoorFit);
 }
 
+/// The first paragraph of the report (HTML): the number of models, the reference model and its
+/// smallest gap [L].
 std::string summary(const results::RunResults& run) {
   const auto& comparison = run.comparison;
   const auto reference = std::ranges::find(comparison.models, comparison.reference_model,
@@ -369,6 +383,7 @@ std::string summary(const results::RunResults& run) {
   return text + ".</p>\n";
 }
 
+/// All sections of the page (HTML) below the warnings. A section without content is left out.
 std::string sections_of(const results::RunResults& run, const Report& report) {
   return section("Models", models_table(run) + report.figures({"thinnest_film"})) +
          section("Trajectories", report.figures({"gap", "gap_logarithmic", "lubrication_force",
@@ -384,6 +399,8 @@ std::string sections_of(const results::RunResults& run, const Report& report) {
 
 }  // namespace
 
+/// Writes the report of the run into its `folder`. `given` are the inputs of the user; the files of
+/// the folder are the inputs if it is empty.
 void write_report(const std::filesystem::path& folder,
                   const std::vector<std::filesystem::path>& given, const StopToken& stop) {
   Report report(folder, kPlotNames);

@@ -1,8 +1,8 @@
 // Finds what the report of a run of one sphere must warn of. Gaps and films [L] are in the unit of
 // the case; residuals and error estimates are relative [1]; each trajectory has a row (not
-// checked). A file that cannot be read, or a fit or a motion that is refused, is an
-// Error(kBadInput), and a case without a motion a std::bad_optional_access. Used by report.cpp. A
-// change of a limit alters reports that are made again.
+// checked). A file that cannot be read, or a fit or a motion that is refused, throws
+// Error(kBadInput); a case without a motion throws std::bad_optional_access. report.cpp uses this
+// file. The limits are free choices, but a change of one alters reports that are made again.
 #include "viscontact/report/run_warnings.hpp"
 
 #include <fmt/format.h>
@@ -68,6 +68,7 @@ void add_extrapolation(Warnings& warnings, const results::RunResults& run) {
   }
 }
 
+/// Warns of models that failed and have no trajectory.
 void add_failed_models(Warnings& warnings, const results::RunResults& run) {
   for (const auto& failed : run.comparison.failed_models)
     warnings.add("failed_models.json", "{} failed and has no trajectory: {}", failed.model,
@@ -93,6 +94,8 @@ void add_coarser_than_table(Warnings& warnings, const lubrication::FitDiagnostic
                  d.chi_squared.value_or(0), d.degrees_of_freedom);
 }
 
+/// Warns of a fit whose largest relative residual is above kPoorFit (run_warnings.hpp), and of what
+/// the fit itself warns of.
 void add_poor_fit(Warnings& warnings, const lubrication::Fit& fit) {
   const auto& diagnostics = fit.diagnostics;
   if (std::abs(fit.largest_relative_residual) > kPoorFit)
@@ -106,6 +109,8 @@ void add_poor_fit(Warnings& warnings, const lubrication::Fit& fit) {
   add_coarser_than_table(warnings, *diagnostics);
 }
 
+/// Warns of rows of the table whose error estimate is larger than the relative accuracy [1] that
+/// the case asks for.
 void add_unmet_accuracy(Warnings& warnings, const results::RunResults& run) {
   if (!run.table || !run.c.tabulation) return;
   const double asked = run.c.tabulation->relative_accuracy;
@@ -120,6 +125,7 @@ void add_unmet_accuracy(Warnings& warnings, const results::RunResults& run) {
                unmet, run.table->rows.size(), asked, worst->relative_error_estimate, worst->gap);
 }
 
+/// Warns of models without contact whose gap ends at 0, because the sphere went through the plane.
 void add_passage_through_plane(Warnings& warnings, const results::RunResults& run) {
   for (const auto& trajectory : run.trajectories) {
     const auto choice = reduced_model::known_model(trajectory.model);
@@ -131,7 +137,8 @@ void add_passage_through_plane(Warnings& warnings, const results::RunResults& ru
   }
 }
 
-/// Warns of models without solid contact if the rough surfaces would touch at their gaps.
+/// Warns of models without solid contact whose smallest gap is less than the sum of the roughness
+/// heights of sphere and plane [L], at which the solids would touch.
 void add_roughness(Warnings& warnings, const results::RunResults& run) {
   const auto& motion = run.c.motion.value();
   const double roughness = motion.roughness[0] + motion.roughness[1];
@@ -150,6 +157,7 @@ void add_roughness(Warnings& warnings, const results::RunResults& run) {
   }
 }
 
+/// Warns if more than kManyRefused of the random draws of the fit's coefficients were refused.
 void add_refused_draws(Warnings& warnings, const results::RunResults& run) {
   if (!run.uncertainty) return;
   const auto& u = *run.uncertainty;
@@ -160,8 +168,9 @@ void add_refused_draws(Warnings& warnings, const results::RunResults& run) {
                  u.refused, u.draws);
 }
 
-/// Warns of files that were made from other files than those in the folder: the hash that they have
-/// recorded differs from that of the file in the folder.
+/// Warns of files that were made from other files than those in the folder. The head of a
+/// trajectory has the hashes of its case and fit, and a fit has the hash of its table; they must be
+/// those of the files in the folder.
 void add_other_origin(Warnings& warnings, const results::RunResults& run) {
   const auto fit_hash = results::content_sha256(read_file(run.folder.fit()));
   const std::array<std::pair<std::string, std::string>, 2> inputs = {
@@ -210,6 +219,7 @@ void add_old_comparison(Warnings& warnings, const results::RunResults& run) {
 
 }  // namespace
 
+/// The warnings in the order of their functions; empty if there is nothing to warn of.
 std::vector<ReportWarning> warnings_of(const results::RunResults& run) {
   Warnings warnings;
   add_failed_models(warnings, run);

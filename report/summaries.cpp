@@ -1,8 +1,10 @@
-// Writes the columns and words of the summaries, and draws their pictures. Gaps [L], times [T] and
-// velocities [L/T] are in the units of the case, residuals and error estimates relative [1],
-// pictures in pixels; what is not known is shown as a dash. A missing or failing gnuplot is an
-// Error(kExternalProgram), a requested stop an Error(kInterrupted), and a fit without diagnostics a
-// std::bad_optional_access. Used by pipeline/. A change must keep the JSON's keys.
+// Writes the columns and words of the summaries of fits and comparisons, and draws their pictures.
+// Gaps [L], times [T] and velocities [L/T] are in the units of the case; residuals and error
+// estimates are relative [1]; sizes of pictures are in pixels. A dash shows a value that is not
+// known. A missing or failing gnuplot throws Error(kExternalProgram), a requested stop throws
+// Error(kInterrupted), and a fit without diagnostics throws std::bad_optional_access. pipeline/
+// uses this file. A change must keep the keys of the JSON; columns, sizes and colours are free
+// choices.
 #include "viscontact/report/summaries.hpp"
 
 #include <fmt/format.h>
@@ -18,6 +20,7 @@
 namespace viscontact::report {
 namespace {
 
+/// The number in this format of the library fmt, or a dash if there is none.
 std::string number_or_dash(const std::optional<double>& number, const char* format) {
   return number ? fmt::format(fmt::runtime(format), *number) : "-";
 }
@@ -33,13 +36,16 @@ std::string misfit_in_words(const lubrication::FitDiagnostics& d) {
                            : ": but for the outliers, the data explain the residuals");
 }
 
-/// The relative residual of a row in the fit of the other rows, or a dash if there is no such row.
+/// The relative residual [1] of the row in the fit of the other rows, in this format of fmt, or a
+/// dash if there is no such row.
 std::string left_out(const std::optional<lubrication::LeftOutRow>& row, const char* format) {
   return number_or_dash(row ? std::optional(row->relative_residual) : std::nullopt, format);
 }
 
 }  // namespace
 
+/// Lines on the fit for the terminal: its basis, largest residual [1], errors of rows that were
+/// left out [1], condition number [1], misfit and outliers. The last line has no line break.
 std::string fit_in_words(const lubrication::Fit& fit) {
   const auto& d = fit.diagnostics.value();
   std::string text = fmt::format(
@@ -54,6 +60,9 @@ std::string fit_in_words(const lubrication::Fit& fit) {
   return text;
 }
 
+/// A table for the terminal with a line for each basis: number of terms, largest residual, root
+/// mean square, residuals of rows that were left out, chi-squared per degree of freedom, condition
+/// number and information criterion (AICc), all [1]. A fit that failed has its reason instead.
 std::string basis_table(const std::vector<fitting::BasisResult>& results) {
   constexpr const char* kLine = "{:<20} {:>6} {:>11} {:>9} {:>14} {:>9} {:>11} {:>10} {:>8}\n";
   std::string text = fmt::format(fmt::runtime(kLine), "basis", "terms", "largest res.", "rms",
@@ -82,6 +91,7 @@ std::string basis_table(const std::vector<fitting::BasisResult>& results) {
   return text;
 }
 
+/// A JSON list with the fit file of each basis, or "basis" and "failure" if the fit failed.
 std::string basis_json(const std::vector<fitting::BasisResult>& results) {
   auto json = nlohmann::ordered_json::array();
   for (const auto& result : results)
@@ -91,6 +101,8 @@ std::string basis_json(const std::vector<fitting::BasisResult>& results) {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
+/// The picture, in `format`, of the relative residuals [1] of all fits over the gap [L] in the rows
+/// of `table`. Each basis has its own curve.
 std::string plot_bases(const lubrication::MotionTable& table,
                        const std::vector<fitting::BasisResult>& results,
                        const results::PictureFormat& format, const StopToken& stop) {
@@ -102,7 +114,8 @@ std::string plot_bases(const lubrication::MotionTable& table,
               true,
               {"set format y '1e%T'", "set key below Left reverse noopaque"},
               {}};
-  // Of a long table only every n-th row is drawn, because a picture cannot show more points.
+  // Of a long table only every n-th row is drawn, because a picture cannot show more points than
+  // about this number, a free choice.
   constexpr std::size_t kMostPoints = 2000;
   const std::size_t stride = 1 + table.rows.size() / kMostPoints;
   std::size_t place = 0;
@@ -135,8 +148,12 @@ std::string plot_bases(const lubrication::MotionTable& table,
   return draw_picture(format, {panel}, 860, 520, stop);  // [pixels], free choices
 }
 
+/// A table for the terminal with a line for each model: smallest gap [L] and its time [T], film
+/// recovered from gamma [L], interval of contact [T], and largest distance of the gap from that of
+/// the reference [L]; if solids touch in a model, also the time [T] and the velocity [L/T] of that.
 std::string comparison_table(const reduced_model::Comparison& comparison) {
-  // As wide as the longest name, and at least 30, which few names exceed.
+  // The first column is as wide as the longest name, and at least 30 characters wide, which few
+  // names exceed.
   std::size_t width = 30;
   for (const auto& model : comparison.models) width = std::max(width, model.model.size());
   for (const auto& model : comparison.failed_models) width = std::max(width, model.model.size());
@@ -169,6 +186,8 @@ std::string comparison_table(const reduced_model::Comparison& comparison) {
   return text;
 }
 
+/// The picture, in `format`, of the shifts [L] of the rows below the crests of a rough wall, over
+/// the gap [L], and below it of their relative residuals [1]. `wall` names the wall in the title.
 std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& wall,
                             const results::PictureFormat& format, const StopToken& stop) {
   Curve own{

@@ -5,10 +5,10 @@
 // u and V are the velocities of sphere and plane along x [L/T], w is the angular velocity [1/T], q
 // the gap [L], r the radius [L], s = ln(q/r); slip is u - V - r w. Mass m [M], moment of inertia I
 // [M L^2], q and r are > 0, in any consistent units (not checked). A fit that lacks a resistance or
-// whose squeeze is not positive, a gap above those of the fit and more than 1e8 rows are an
-// Error(kBadInput), a step that CVODE cannot make an Error(kNotConverged), a stop an
-// Error(kInterrupted). roll_with_viscous_contact.cpp lists the models. A change must keep the slip
-// exactly 0 while the sphere rolls.
+// whose squeeze is not positive, a gap above those of the fit, and more than 1e8 rows throw
+// Error(kBadInput). A step that CVODE cannot make throws Error(kNotConverged), and a requested stop
+// throws Error(kInterrupted). roll_with_viscous_contact.cpp lists the models. A change must keep
+// the slip exactly 0 while the sphere rolls.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,7 +34,8 @@ struct SolidState {
   bool touches = false;  ///< true: the gap is constant
   /// How the solids move along each other; kNone if they do not touch.
   SolidContact contact = SolidContact::kNone;
-  double sliding_direction = 0;  ///< the sign of the slip while the sphere slides
+  /// A number of any size whose sign is that of the slip while the sphere slides.
+  double sliding_direction = 0;
 };
 
 /// The equations of motion (4.8) for what the solids do at present. `motion` and `fit` must outlive
@@ -51,9 +52,10 @@ class RollingEquation {
   double gap_of(std::span<const double> y) const;
   /// dq/dt [L/T] at time t.
   double normal_velocity(double t, std::span<const double> y) const;
-  double contact_force() const;  ///< of the solids along z [M L/T^2], >= 0
-  double friction_force(std::span<const double> y) const;  ///< of the solids along x [M L/T^2]
-  double slip(std::span<const double> y) const;            ///< of the lowest point [L/T]
+  double contact_force() const;  ///< force of the solids along z [M L/T^2], >= 0
+  /// Force of the solids along x [M L/T^2].
+  double friction_force(std::span<const double> y) const;
+  double slip(std::span<const double> y) const;  ///< slip of the lowest point [L/T]
   /// 1/m + r^2/I [1/M]: acceleration of the lowest point per force of friction.
   double compliance() const;
   /// True if Coulomb's friction can keep the slip at 0. If it cannot, sets the direction of
@@ -85,6 +87,7 @@ class RollingEquation {
   reduced_model::InertialEquation gap_equation_;
 };
 
+/// The motion of the sphere along z, for the equation of the gap: the force along z is constant.
 reduced_model::Motion normal_motion(const RollingMotion& motion) {
   return {.mass = motion.mass,
           .initial_gap = motion.initial_gap,
@@ -133,7 +136,7 @@ double RollingEquation::slip(std::span<const double> y) const {
   return slip_of({y[kMove], y[kTurn]}, radius_);
 }
 
-/// Force and torque on the sphere without those of the solids.
+/// The force [M L/T^2] and the torque [M L^2/T^2] on the sphere without those of the solids.
 RollingForce RollingEquation::free_force(std::span<const double> y) const {
   const auto fluid = fluid_force(fluid_.at(gap_of(y)), {y[kMove], y[kTurn]});
   return {motion_.force + fluid.force, motion_.torque + fluid.torque};
@@ -190,7 +193,8 @@ reduced_model::StiffSystem RollingEquation::system(const double& step_begin) con
   return system;
 }
 
-/// The derivatives in time of all components but the gap.
+/// Sets `f` to the derivatives by time of all components of the state `y` except s. f[kLogGap] is
+/// not set.
 void RollingEquation::derivative(std::span<const double> y, std::span<double> f) const {
   const auto free = free_force(y);
   const double friction = friction_force(y);
@@ -200,8 +204,8 @@ void RollingEquation::derivative(std::span<const double> y, std::span<double> f)
   f[kAngle] = y[kTurn];
 }
 
-/// All entries of the Jacobian, column by column, but the derivative of the rate of s by s, which
-/// is set to 0 here and computed by gap_equation_.
+/// Sets `j` to the entries of the Jacobian, column by column. The derivative of the rate of s by s
+/// is set to 0, because gap_equation_ computes it.
 void RollingEquation::jacobian(std::span<const double> y, std::span<double> j) const {
   std::ranges::fill(j, 0.0);
   const auto at = [&](std::size_t row, std::size_t column) -> double& {
@@ -226,10 +230,10 @@ void RollingEquation::jacobian(std::span<const double> y, std::span<double> j) c
   at(kAngle, kTurn) = 1;
 }
 
-/// The tolerances of all components but the gap. Those of the velocities are relative to the
-/// largest velocity that the forces can cause, so that a velocity that passes through 0 does not
-/// stop CVODE. The terms with 1e-12 and 1e-3 keep the tolerances > 0 for a sphere at rest and at x
-/// = 0.
+/// Sets `allowed` to the errors that CVODE may make in the components of the state `y` except s, in
+/// their units. The tolerances of the velocities are relative to the largest velocity that the
+/// forces can cause, so that a velocity that passes through 0 does not stop CVODE. The terms with
+/// 1e-12 and 1e-3 keep the tolerances > 0 for a sphere at rest and at x = 0.
 void RollingEquation::tolerance(std::span<const double> y, std::span<double> allowed) const {
   const auto r = fluid_.at(std::min(gap_of(y), fluid_.largest_gap()));
   const double move = std::abs(y[kMove]) + radius_ * std::abs(y[kTurn]) +
@@ -278,6 +282,7 @@ class LubricatedRun {
     return std::move(rows_);
   }
 
+  /// The lift-off; nothing if the motion ended without one.
   const std::optional<LiftOff>& lift_off() const { return lift_off_; }
 
  private:
@@ -305,6 +310,8 @@ class LubricatedRun {
       cvode_.restart(now_, motion_.end_time);
   }
 
+  /// The state at a time [T] within the last step of CVODE; `time` = 0 gives the state at the
+  /// start.
   RollingStateVector state_at(double time) const {
     if (time == 0) return equation_.initial_state();
     RollingStateVector state{};
@@ -321,7 +328,8 @@ class LubricatedRun {
     return has_stopped(to) ? bisect_first_true(from, to, has_stopped) : to;
   }
 
-  /// The solids touch: the normal velocity becomes 0, and friction acts during the impact, too.
+  /// Changes the state as the solids touch. The normal velocity becomes 0, and Coulomb's friction
+  /// acts during the impact, too. A force away from the plane lifts the sphere off at once.
   void touch(RollingStateVector& state) {
     const double impulse = -motion_.mass * std::min(0.0, equation_.normal_velocity(now_, state));
     const double slip = equation_.slip(state);
@@ -335,7 +343,8 @@ class LubricatedRun {
     if (motion_.normal_force > 0) lift_off_ = {now_, state};
   }
 
-  /// Sets the slip to 0 exactly. Then the sphere rolls if friction can prevent slip, else slides.
+  /// Sets the slip to 0 exactly. From then on the sphere rolls if friction can prevent slip;
+  /// otherwise it slides.
   void stick(RollingStateVector& state) {
     push(state, -equation_.slip(state) / equation_.compliance());
     equation_.solids.contact =
@@ -349,11 +358,13 @@ class LubricatedRun {
     state[kTurn] -= equation_.radius() * impulse / motion_.moment_of_inertia;
   }
 
+  /// Adds the rows whose times are at most `time` [T].
   void add_rows_until(double time) {
     for (; rows_.size() < times_.size() && times_[rows_.size()] <= time;)
       add_row(times_[rows_.size()], state_at(times_[rows_.size()]));
   }
 
+  /// Adds the row of the time `time` [T] with the state `y`.
   void add_row(double time, const RollingStateVector& y) {
     rows_.push_back({.time = time,
                      .gap = equation_.gap_of(y),
@@ -369,7 +380,7 @@ class LubricatedRun {
 
   const RollingMotion& motion_;
   double contact_gap_;
-  std::vector<double> times_;  // of the rows
+  std::vector<double> times_;  // times of the rows [T]
   double now_ = 0;
   RollingEquation equation_;
   reduced_model::Cvode cvode_;
@@ -399,6 +410,8 @@ void append_flight(const RollingMotion& motion, const motions::PairFit& fit, dou
   rows.insert(rows.end(), later.begin(), later.end());
 }
 
+/// The motion of a sphere whose solids touch at the gap `contact_gap` [L] >= 0; 0: they never
+/// touch. The rows are those of the multiples of motion.time_step, and of the end time.
 RollingTrajectory roll_with_lubrication(const RollingMotion& motion, const motions::PairFit& fit,
                                         double contact_gap) {
   const int count = reduced_model::step_count(motion.end_time, motion.time_step);

@@ -2,11 +2,12 @@
 // physics.md (4.5) and (4.10); also end_of() and the list of all models of rolling_motion.hpp.
 // gamma is minus the impulse that the film of fluid has absorbed, gamma_min its value at which the
 // solids touch, q0 the initial gap [L]. Gaps, mass [M], moment of inertia [M L^2] and time step [T]
-// are > 0, roughness [L] and friction [1] >= 0, forces [M L/T^2] and velocities [L/T] have any
-// sign, in any consistent units (not checked). A fit that lacks a resistance and more than 1e8
-// steps are an Error(kBadInput), a number beyond any double is an Error(kNotConverged), a stop an
-// Error(kInterrupted). Used by rolling/case, rolling/job, app/ and python/. A change must keep the
-// balance of contact_step.hpp and the order of the models, which gives their colours in pages.
+// are > 0; roughness [L] and friction [1] are >= 0; forces [M L/T^2] and velocities [L/T] have any
+// sign. All are in any consistent units (not checked). A fit that lacks a resistance and more than
+// 1e8 steps throw Error(kBadInput), a number that a double cannot hold throws Error(kNotConverged),
+// and a requested stop throws Error(kInterrupted). rolling/case, rolling/job, app/ and python/ use
+// this file. A change must keep the balance of contact_step.hpp and the order of the models, which
+// gives their colours in pages.
 
 #include <algorithm>
 #include <cmath>
@@ -32,6 +33,7 @@ class ImplicitStep {
         c_(motion.moment_of_inertia / step + r.roll),
         radius_(radius) {}
 
+  /// The velocities v for the right side `f`: a force [M L/T^2] and a torque [M L^2/T^2].
   RollingVelocity solve(const RollingForce& f) const {
     const double determinant = a_ * c_ - b_ * b_;
     return {(c_ * f.force - b_ * f.torque) / determinant,
@@ -46,6 +48,9 @@ class ImplicitStep {
 
 }  // namespace
 
+/// The motion in steps of motion.time_step [T], with a row for the start and for each step. The
+/// resistances along x and against rotation are those at the gap at the end of the step, or at the
+/// largest gap of `fit` if that is smaller.
 RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
                                             const motions::PairFit& fit) {
   const RollingFluid fluid(fit);
@@ -108,7 +113,9 @@ RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
   return rows;
 }
 
-/// `trajectory` must have a row, and `radius` [L] be > 0 (not checked).
+/// How the motion of a sphere of this radius [L] ends: its last row, its smallest gap [L], the slip
+/// at the end [L/T] and the time of the first row with solid contact [T]. `trajectory` must have a
+/// row, and `radius` must be > 0 (not checked).
 RollingEnd end_of(const RollingTrajectory& trajectory, const RollingMotion& motion, double radius) {
   RollingEnd end;
   end.last = trajectory.back();
@@ -120,6 +127,7 @@ RollingEnd end_of(const RollingTrajectory& trajectory, const RollingMotion& moti
   return end;
 }
 
+/// The names, descriptions and functions of all models.
 const std::vector<RollingModel>& rolling_models() {
   static const std::vector<RollingModel> models = {
       {"smooth", "lubrication at every gap, no solid contact", roll_smooth},

@@ -1,10 +1,11 @@
-// Plans, checks and computes the rows of a sweep of one sphere, in the units of the case: gaps,
-// films and distances [L], l1_gap_distance [L T], times [T], velocities [L/T], film_ratio [1]. A
-// model that fails leaves its columns empty. A key that cannot be varied and a missing fit are an
-// Error(kWrongUsage), a wrong case or model is an Error(kBadInput), a stop an Error(kInterrupted).
-// Used by app/ (command `sweep`). A change must keep the names of the columns, which users' scripts
-// read and add_model() repeats, and put everything that determines the rows into identity_of(), so
-// that rows of another sweep are not kept.
+// Plans, checks and computes the rows of a sweep of one sphere. Gaps and films [L], distances [L],
+// l1_gap_distance [L T], times [T] and velocities [L/T] are in the units of the case; film_ratio is
+// [1]. A model that fails leaves its columns empty. A key that cannot be varied and a missing fit
+// throw Error(kWrongUsage), a wrong case or model throws Error(kBadInput), and a requested stop
+// throws Error(kInterrupted). app/ (command `sweep`) uses this file. A change must keep the names
+// of the columns, which users' scripts read and which add_model() repeats. It must also put
+// everything that determines the rows into identity_of(), so that rows of another sweep are not
+// kept.
 #include "viscontact/sweep/sphere_study.hpp"
 
 #include <fmt/format.h>
@@ -25,7 +26,9 @@
 namespace viscontact::sweep {
 namespace {
 
-// The columns of each model, after "MODEL.", in the order of the file.
+// The columns of each model, after "MODEL.", in the order of the file. `sup_gap_distance` is the
+// largest difference of the gap from that of the reference model, and the two columns after it are
+// the integrals over time of the differences of the gap and of the velocity.
 constexpr std::array kModelColumns = {
     "minimal_gap",     "minimal_gap_time",     "film",
     "contact_from",    "contact_until",        "sup_gap_distance",
@@ -37,8 +40,9 @@ double thinnest(const reduced_model::ModelComparison& model) {
   return model.recovered_minimal_gap.value_or(model.minimal_gap);
 }
 
-/// Adds the results of a model to the row. Without a reference (null) it has no distances and no
-/// film_ratio; the field of a ratio to a film of 0 is empty.
+/// Adds the results of a model to the row. If there is no `reference` (null), the model has no
+/// distances and no film_ratio. If the film of the reference is 0, the ratio is not finite, and its
+/// field is empty.
 void add_model(const reduced_model::ModelComparison& model,
                const reduced_model::ModelComparison* reference, RowResults& results) {
   const auto put = [&](const char* column, double value) {
@@ -125,8 +129,8 @@ std::string identity_of(const SpherePlan& plan) {
 
 using SphereTemplate = case_file::CaseTemplate<case_file::Case>;
 
-/// The case with these values of its keys. Throws Error(kBadInput) if it is not valid, or if the
-/// fit cannot be scaled to it.
+/// The case with these values of its keys. Throws Error(kBadInput) if the case is not valid, or if
+/// the fit cannot be scaled to the case.
 case_file::Case case_with(const SphereTemplate& cases, const SpherePlan& plan,
                           const std::vector<std::pair<std::string, double>>& numbers) {
   case_file::Case c = cases.with(numbers);
@@ -134,8 +138,8 @@ case_file::Case case_with(const SphereTemplate& cases, const SpherePlan& plan,
   return c;
 }
 
-/// The trajectories of the models of a case that do not fail; the reasons of the others are added
-/// to the failure of the row.
+/// The trajectories of those models of the plan that do not fail. The reasons of the failures of
+/// the other models are added to the failure of the row.
 std::vector<reduced_model::Trajectory> run_models(const SpherePlan& plan, const case_file::Case& c,
                                                   const StopToken& stop, RowResults& results) {
   std::vector<reduced_model::Trajectory> trajectories;
@@ -151,7 +155,8 @@ std::vector<reduced_model::Trajectory> run_models(const SpherePlan& plan, const 
   return trajectories;
 }
 
-/// Adds the results of the trajectories, compared with that of the reference if there is one.
+/// Adds the results of the trajectories to the row, compared with the trajectory of the model
+/// `reference` if there is one.
 void add_comparison(const std::vector<reduced_model::Trajectory>& trajectories,
                     const std::string& reference, RowResults& results) {
   if (trajectories.empty()) return;
@@ -168,6 +173,8 @@ void add_comparison(const std::vector<reduced_model::Trajectory>& trajectories,
 
 }  // namespace
 
+/// The plan that the sections [sweep] and [fit] of the case ask for. Names of models and keys are
+/// not checked.
 SpherePlan planned_sphere(const case_file::Case& c) {
   const case_file::SweepRequest request = c.sweep.value_or(case_file::SweepRequest{});
   const case_file::FitRequest fit = c.fit.value_or(case_file::FitRequest{});
@@ -187,6 +194,9 @@ SpherePlan planned_sphere(const case_file::Case& c) {
   return plan;
 }
 
+/// The study of the plan: its points, the names of its results and the function that computes a
+/// row. `version` is the version of Viscontact, for the head of the file. The first and the last
+/// point must give valid cases.
 Study sphere_study(SpherePlan plan, const std::string& version) {
   const SphereTemplate cases(plan.case_path);
   if (plan.fit.basis.empty())

@@ -1,10 +1,11 @@
-// Newton's method for the stroke of least energy, whose loop in the space of arms has polynomials
-// as coordinates (polynomial_loop.hpp). Displacements, not 0, arms and coefficients of polynomials
-// [L] are in the units of the fit; there are at least two arms and kFewestPolynomials polynomials
-// of each (not checked). An energy [M L^2/T^2] is that in a period of 1, which is
-// LoopSums::energy_times_period. Loops that leave the table are an Error(kBadInput), a failure of
-// Newton's method an Error(kNotConverged), a stop an Error(kInterrupted). Used by swimmer/case,
-// swimmer/job and python/. A change must keep energies to the digits of docs/swimmer.md.
+// Finds the stroke of least energy by Newton's method. A stroke is a loop of the arms of a swimmer,
+// the distances of neighbouring centres, whose coordinates are polynomials (polynomial_loop.hpp).
+// Displacements, not 0, arms and coefficients of polynomials [L] are in the units of the fit; there
+// are at least two arms and at least kFewestPolynomials polynomials of each arm (not checked).
+// Energies [M L^2/T^2] are those in a period of 1, which LoopSums::energy_times_period is. Loops
+// that leave the table throw Error(kBadInput), a failure of Newton's method throws
+// Error(kNotConverged), and a requested stop throws Error(kInterrupted). swimmer/case, swimmer/job
+// and python/ use this file. A change must keep energies to the digits of docs/swimmer.md.
 #include "viscontact/swimmer/optimal_stroke.hpp"
 
 #include <cmath>
@@ -47,8 +48,9 @@ class LoopOptimizer {
   /// The multiple of the loop, as seen from `through`, that has this displacement [L]. Nothing if
   /// none was found in the table.
   std::optional<PolynomialLoop> scaled_to(PolynomialLoop loop, double displacement) const;
-  /// The Hessian of the Lagrangian, energy minus multiplier times displacement, at a loop. Nothing
-  /// if a loop beside this one leaves the table.
+  /// The Hessian, by all coefficients, of the Lagrangian, which is the energy minus the multiplier
+  /// times the displacement, at a loop. Nothing if a loop that its differences need leaves the
+  /// table.
   std::optional<MatrixXd> lagrangian_hessian(const PolynomialLoop& loop, double multiplier) const;
   /// Newton's step of the coefficients, which keeps the displacement to first order; the last entry
   /// is the new multiplier. Nothing if there is no Hessian.
@@ -60,6 +62,8 @@ class LoopOptimizer {
   Eigen::LLT<MatrixXd> factor_;
 };
 
+/// The loop whose coefficients are changed by `share` times `step` [L], a list of all coefficients,
+/// column by column.
 PolynomialLoop moved(const PolynomialLoop& loop, const VectorXd& step, double share) {
   return {loop.through, loop.coefficients + share * step.reshaped(loop.coefficients.rows(),
                                                                   loop.coefficients.cols())};
@@ -70,7 +74,7 @@ std::optional<PolynomialLoop> LoopOptimizer::scaled_to(PolynomialLoop loop,
   // The displacement grows nearly like the square of the size of the loop, so that a few steps
   // suffice; kMostSteps only ends a search that fails.
   constexpr int kMostSteps = 50;
-  constexpr double kTolerance = 1e-13;  // relative; near round-off
+  constexpr double kTolerance = 1e-13;  // relative difference of the displacement, near round-off
   for (int step = 0; step < kMostSteps; ++step) {
     if (!functional_.contains(loop)) return {};
     const double ratio = displacement / functional_.displacement(loop);
@@ -81,7 +85,7 @@ std::optional<PolynomialLoop> LoopOptimizer::scaled_to(PolynomialLoop loop,
   return {};
 }
 
-/// By central differences of the exact gradient.
+/// The Hessian is computed by central differences of the exact gradient and made symmetric.
 std::optional<MatrixXd> LoopOptimizer::lagrangian_hessian(const PolynomialLoop& loop,
                                                           double multiplier) const {
   // The best step balances the relative rounding error of the gradients, 1e-14, with the error of
@@ -135,7 +139,7 @@ std::optional<Extremal> LoopOptimizer::solve(const Extremal& start, double displ
   // so that 1e-8 is reached with a step to spare. The relative error of the energy is about its
   // square.
   constexpr double kTolerance = 1e-8;
-  constexpr int kMostSteps = 200, kMostHalvings = 30;  // only end a search that fails
+  constexpr int kMostSteps = 200, kMostHalvings = 30;  // these limits only end a search that fails
   auto loop = scaled_to(start.loop, displacement);
   double multiplier = start.multiplier;
   for (int iteration = 0; loop && iteration < kMostSteps; ++iteration) {
@@ -182,6 +186,8 @@ struct BestPlane {
   double curl = 0;
 };
 
+/// The best plane at the shape `through` [L], by a singular value decomposition of the curl of the
+/// displacement form, scaled by the metric.
 BestPlane best_plane(const Swimmer& swimmer, const VectorXd& through) {
   const auto mechanics = swimmer.at(through, true);
   const Index arms = through.size();
@@ -250,6 +256,8 @@ std::optional<Extremal> follow(const Swimmer& swimmer, const OptimalStrokeReques
 
 }  // namespace
 
+/// The loop of least energy of those that are followed from four small circles, in directions that
+/// are a right angle apart. Newton's method then improves the loop with more and more polynomials.
 OptimalStroke find_optimal_stroke(const Swimmer& swimmer, const OptimalStrokeRequest& request,
                                   const StopToken& stop) {
   std::optional<Extremal> best;
@@ -265,7 +273,8 @@ OptimalStroke find_optimal_stroke(const Swimmer& swimmer, const OptimalStrokeReq
         "for less, begin at a shape farther from the table's borders, or make a table of more arms",
         request.displacement);
   // For fewer polynomials than `best` has, the search starts from the first polynomials of `best`.
-  // Its result does not replace `best`, because with few polynomials it may be far from the others.
+  // Its result does not replace `best`, because with few polynomials it may be far from the results
+  // with more polynomials.
   OptimalStroke optimal;
   for (Index count = kFewestPolynomials;; count += 2) {
     count = std::min(count, request.polynomials);

@@ -1,10 +1,10 @@
-// Solves the balance of forces of a swimmer, a line of spheres, at one shape. A shape is the list
-// of its arms, the distances of neighbouring centres [L], one less than there are spheres (not
-// checked). Velocities per arm velocity have no dimension; the resistance R and the metric, the
-// power per squared arm velocities, are [M/T], all in the units of the fit. A shape outside the
-// table is an Error(kBadInput). Used by swim.cpp, polynomial_loop.cpp, optimal_stroke.cpp,
-// swimmer/job and python/. A change must keep that the total force on the fluid is 0, and that
-// slopes are the derivatives.
+// Solves the balance of forces of a swimmer, which is a line of spheres, at one shape. A shape is
+// the list of the arms, which are the distances of neighbouring centres [L]; there is one arm less
+// than spheres (not checked). Velocities per arm velocity are [1]. The resistance R is [M/T]; the
+// metric, which is the matrix of the power as a quadratic form of arm velocities, is [M/T], too.
+// All are in the units of the fit. A shape outside the table throws Error(kBadInput). swim.cpp,
+// polynomial_loop.cpp, optimal_stroke.cpp, swimmer/job and python/ use this file. A change must
+// keep that the total force on the fluid is 0, and that slopes are the derivatives.
 #include "viscontact/swimmer/shape_mechanics.hpp"
 
 #include "viscontact/common/error.hpp"
@@ -26,6 +26,7 @@ Eigen::MatrixXd relative_positions(Index spheres) {
 
 }  // namespace
 
+/// The gaps [L] between the surfaces of neighbouring spheres, which are the arms minus two radii.
 std::vector<double> Swimmer::gaps_of(const Eigen::VectorXd& arms) const {
   std::vector<double> gaps;
   for (std::size_t k = 0; k + 1 < radii().size(); ++k)
@@ -33,6 +34,8 @@ std::vector<double> Swimmer::gaps_of(const Eigen::VectorXd& arms) const {
   return gaps;
 }
 
+/// The shortest and the longest arm k [L] in the table. Throws std::out_of_range if there is no arm
+/// k.
 std::array<double, 2> Swimmer::arm_interval(Index k) const {
   const auto i = static_cast<std::size_t>(k);
   const auto [from, to] = resistance_.gap_interval(i);
@@ -40,10 +43,15 @@ std::array<double, 2> Swimmer::arm_interval(Index k) const {
   return {from + both_radii, to + both_radii};
 }
 
+/// True if the table contains the shape with these arms [L].
 bool Swimmer::contains(const Eigen::VectorXd& arms) const {
   return resistance_.contains(gaps_of(arms));
 }
 
+/// The mechanics at the shape with these arms [L]: the velocity of the middle sphere per arm
+/// velocity [1], the velocities of all spheres per arm velocity [1], R, the metric and the
+/// resistance against towing [M/T]. If `with_slopes` is true, also the derivatives by each arm of
+/// the velocity of the middle sphere [1/L] and of the metric [M/(L T)].
 ShapeMechanics Swimmer::at(const Eigen::VectorXd& arms, bool with_slopes) const {
   for (Index k = 0; k < arms.size(); ++k) {
     const auto [from, to] = arm_interval(k);
@@ -79,6 +87,8 @@ ShapeMechanics Swimmer::at(const Eigen::VectorXd& arms, bool with_slopes) const 
   return mechanics;
 }
 
+/// The displacement of a small loop of two arms, counter-clockwise in their plane, divided by the
+/// area of the loop [1/L]. `arms` has two numbers [L] (not checked).
 double displacement_curl(const Swimmer& swimmer, const Eigen::VectorXd& arms) {
   const auto slopes = swimmer.at(arms, true).displacement_form_slopes;
   return slopes.at(0)[1] - slopes.at(1)[0];

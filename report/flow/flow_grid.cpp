@@ -1,10 +1,11 @@
 // Interpolates a flow at the points of a grid (flow_grid.hpp). Places [L], velocities [L/T] and
-// pressures [M/(L T^2)] are in the units of the case; a grid has at least 2 rows and columns, and
-// lists have a number for each of its points or for each node of the mesh (not checked). Which
-// triangle contains a point is decided as if its six nodes formed four straight triangles; the
-// value at the point then is that of the quadratic shape functions. A point without a triangle gets
-// NaN. Nothing is thrown. Used by flow_plots.cpp, stream_lines.cpp and particles/picture. A change
-// must keep the numbering of nodes: corners, then the middles of sides 01, 12 and 20.
+// pressures [M/(L T^2)] are in the units of the case. A grid has at least 2 rows and columns, and
+// lists have a number for each point of the grid or for each node of the mesh (not checked). A
+// triangle of the mesh has six nodes. To decide whether it contains a point, it is replaced by four
+// straight triangles between its nodes; the value at the point then is that of the quadratic shape
+// functions. A point in no triangle gets NaN. Nothing is thrown. flow_plots.cpp, stream_lines.cpp
+// and particles/picture use this file. A change must keep the numbering of nodes (corners 0, 1 and
+// 2, then the middles of the sides 01, 12 and 20) and of points (row by row from the bottom).
 #include "viscontact/report/flow/flow_grid.hpp"
 
 #include <algorithm>
@@ -17,27 +18,30 @@ namespace {
 
 constexpr double kNoFlow = std::numeric_limits<double>::quiet_NaN();
 
-/// Places of the six nodes in the reference triangle (0, 0), (1, 0), (0, 1).
+/// Coordinates [1] of the six nodes in the reference triangle with corners (0, 0), (1, 0), (0, 1).
 constexpr std::array<std::array<double, 2>, 6> kReference = {
     {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}}};
-/// The straight triangles between the nodes.
+/// The four straight triangles between the six nodes, each as three indices of nodes.
 constexpr std::array<std::array<std::size_t, 3>, 4> kFour = {
     {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
 
-/// The quadratic shape functions of the six nodes at a place of the reference triangle.
+/// The values [1] of the quadratic shape functions of the six nodes at the point (a, b) [1] of the
+/// reference triangle.
 std::array<double, 6> shape_functions(double a, double b) {
   const double c = 1 - a - b;
   return {c * (2 * c - 1), a * (2 * a - 1), b * (2 * b - 1), 4 * c * a, 4 * a * b, 4 * b * c};
 }
 
-/// The shifts along one axis of a mesh and its copies one period further [L].
+/// The distances [L] by which the mesh and its copies are shifted along one axis: -period, 0 and
+/// period. If `period` is 0, there are no copies.
 std::vector<double> shifts(double period) {
   return period > 0 ? std::vector<double>{-period, 0, period} : std::vector<double>{0};
 }
 
 /// Divides the window into `columns` x `rows` pixels and calls visit(pixel, w1, w2) for each pixel
-/// whose centre is in the triangle with the corners (x[i], y[i]) [L]. w1 and w2 are the barycentric
-/// coordinates of corners 1 and 2.
+/// whose centre is in the triangle with the corners (x[i], y[i]) [L]. Pixels are counted from 0,
+/// row by row from the bottom. w1 and w2 [1] are the barycentric coordinates of the centre that
+/// belong to corners 1 and 2; they are 0 at corner 0. A triangle of area 0 has no pixels.
 template <class Visit>
 void for_each_pixel(const std::array<double, 3>& x, const std::array<double, 3>& y,
                     const Window& window, std::size_t columns, std::size_t rows,
@@ -47,7 +51,9 @@ void for_each_pixel(const std::array<double, 3>& x, const std::array<double, 3>&
   // A barycentric coordinate may be this far below 0, and the range of pixels is wider by this
   // share of a pixel, so that a centre on a side is in at least one triangle in spite of round-off.
   constexpr double kSlack = 1e-9;
-  // The first pixel with its centre from `low` to `high` in a row or column, and one past the last.
+  // Returns the index of the first pixel whose centre is from `low` to `high` [L] in a row or
+  // column of `count` pixels, and the index after the last such pixel. The row or column begins at
+  // `start`, and a pixel has the length `step` [L].
   const auto range = [](double low, double high, double start, double step, std::size_t count) {
     const auto clamp = [&](double place) {
       return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(count)));
@@ -72,9 +78,10 @@ void for_each_pixel(const std::array<double, 3>& x, const std::array<double, 3>&
     }
 }
 
-/// Calls visit(point, nodes, shape, shift) for each point of the grid in a triangle of the mesh or
-/// of a copy that is shifted by `shift` [L]. `shape` has the values of the shape functions of the
-/// triangle's six `nodes` at the point.
+/// Calls visit(point, nodes, shape, shift) for each point of the grid that is in a triangle of the
+/// mesh or of a copy of the mesh. `point` is the index of the point, `shift` the shift of the copy
+/// along x and y [L], and `shape` has the values of the shape functions of the triangle's six
+/// `nodes` at the point. A point on a side of two triangles is visited for both.
 template <class Visit>
 void for_each_point(const QuadraticMesh& mesh, const Grid& grid, const FlowPeriods& periods,
                     const Visit& visit) {
@@ -104,8 +111,10 @@ void for_each_point(const QuadraticMesh& mesh, const Grid& grid, const FlowPerio
 
 }  // namespace
 
+/// A grid of the window [L] with about `points` points, which are nearly as far apart along x as
+/// along y.
 Grid grid_of(const Window& window, std::size_t points) {
-  static constexpr double kMost = 1200;  // a longer row could not be seen on a screen
+  static constexpr double kMost = 1200;  // a free choice; a screen cannot show longer rows
   const auto wanted = static_cast<double>(points);
   const double columns = std::sqrt(wanted * window.width() / window.height());
   const auto count = [](double n) {
@@ -114,6 +123,9 @@ Grid grid_of(const Window& window, std::size_t points) {
   return {window, count(columns), count(wanted / columns)};
 }
 
+/// The velocity and the pressure at each point of the grid. `periods` has the lengths after which
+/// the flow repeats itself [L], or 0, and the mean gradient of the velocity [1/T]; one period
+/// further the velocity is larger by this gradient times the period.
 FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid, const FlowPeriods& periods) {
   FlowOnGrid found;
   for (auto* field : {&found.velocity_x, &found.velocity_y, &found.pressure})
@@ -135,6 +147,7 @@ FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid, const FlowPerio
   return found;
 }
 
+/// The field at each point of the grid. `values` are its values at the nodes, in any unit.
 std::vector<double> field_on_grid(const QuadraticMesh& mesh, const std::vector<double>& values,
                                   const Grid& grid) {
   std::vector<double> found(grid.size(), kNoFlow);
@@ -147,6 +160,8 @@ std::vector<double> field_on_grid(const QuadraticMesh& mesh, const std::vector<d
   return found;
 }
 
+/// Replaces each NaN by the mean of those of its at most eight neighbours on the grid that were
+/// numbers before the call. `values` has rows of `columns` >= 1 numbers.
 void fill_next_to_known(std::vector<double>& values, std::size_t columns) {
   const auto inner = values;
   const auto rows = values.size() / columns;

@@ -1,10 +1,11 @@
-// Draws the pictures of a row of a table of lubrication forces in the half-plane (rho, z) of the
-// distance rho from the axis and the height z, and its mirror image. Radius and gap [L], > 0,
-// velocities [L/T] or angular velocities [1/T] and pressures are in the units of the case and not
-// checked, sizes on the picture in pixels; sizes, ratios and numbers of lines without a reason are
-// free choices. A gnuplot that is missing, fails or takes ten minutes is an
-// Error(kExternalProgram), a requested stop an Error(kInterrupted). Used by pipeline/tabulate. A
-// change must keep the title true where heights are drawn larger than widths.
+// Draws the pictures of a row of a table of lubrication forces on a sphere. The flow was computed
+// in the half-plane of the distance rho from the axis and the height z; pictures also show its
+// mirror image. Radius and gap [L], > 0, velocities [L/T] or angular velocities [1/T], not 0, and
+// pressures [M/(L T^2)] are in the units of the case and are not checked. Sizes on the picture are
+// in pixels; sizes, ratios and numbers of lines without a reason are free choices. A gnuplot that
+// is missing, fails or takes ten minutes throws Error(kExternalProgram), and a requested stop
+// throws Error(kInterrupted). pipeline/tabulate uses this file. A change must keep that the title
+// says so if heights are drawn larger than widths, and that each result is the text of one SVG.
 #include "viscontact/report/flow/flow_plots.hpp"
 
 #include <fmt/format.h>
@@ -42,7 +43,7 @@ constexpr double kPlotWidth = 640;
 constexpr double kTallestPlot = 640;
 constexpr double kStretchedPlot = 360;
 
-/// A view with equal scales on both axes.
+/// A view of the window [L] with equal scales on both axes, as large as the limits above allow.
 PlotView unstretched(const Window& window) {
   const double scale = std::min(kPlotWidth / window.width(), kTallestPlot / window.height());
   return {window, window.width() * scale, window.height() * scale};
@@ -53,7 +54,8 @@ double sphere_bottom(double radius, double gap, double rho) {
   return gap + radius - std::sqrt(std::max(0.0, radius * radius - rho * rho));
 }
 
-/// The lines [L] without the points that are less than a pixel away from the last kept point.
+/// The lines [L] without the points that are less than a pixel away from the last point that was
+/// kept. The ends of each line are kept.
 std::vector<Polyline> thinned(const std::vector<Polyline>& lines, const PlotView& view) {
   const double x_scale = view.plot_width / view.window.width();
   const double y_scale = view.plot_height / view.window.height();
@@ -70,8 +72,9 @@ std::vector<Polyline> thinned(const std::vector<Polyline>& lines, const PlotView
   return result;
 }
 
-/// Adds a side of a triangle, unless it is outside the window: the parabola through its ends (nodes
-/// side[0] and side[1]) and its middle (side[2]), as `pieces` straight pieces.
+/// Adds a side of a triangle to `lines` [L], unless it is to the right of the window [L], above it
+/// or below it. The side is the parabola through its ends (nodes side[0] and side[1]) and its
+/// middle (node side[2]), drawn as `pieces` >= 1 straight pieces.
 void add_side(std::vector<Polyline>& lines, const QuadraticMesh& mesh, const Window& window,
               const std::array<std::size_t, 3>& side, int pieces) {
   const auto at = [&](std::size_t place) {
@@ -112,12 +115,13 @@ PlotView surroundings(const QuadraticMesh& mesh, double radius, double gap) {
 /// axis, the film over a plane is twice as thick as on the axis, at 2.5 units 7 times.
 constexpr double kGapReach = 2.5;
 
-/// A view of the gap on both sides of the axis, whose half width is `reach` times that unit if the
-/// sphere is wide enough; with stretched heights if the gap would be too flat at equal scales.
+/// A view of the gap on both sides of the axis. Its half width is `reach` times the unit of
+/// kGapReach, but at most 0.9 radii, and at least half of its height. Heights are stretched if the
+/// gap would be too flat at equal scales.
 PlotView gap_view(const QuadraticMesh& mesh, double radius, double gap, double reach = kGapReach) {
   constexpr double kOfSphere = 0.9;  // largest half width of the view over the radius
-  constexpr double kMargin = 0.08;   // above and below the gap, over the height
-  constexpr double kFlattest = 0.4;  // at equal scales, least height over width
+  constexpr double kMargin = 0.08;   // margin above and below the gap, over the height of the gap
+  constexpr double kFlattest = 0.4;  // least height over width of a view with equal scales
   const double half = std::min(reach * std::sqrt(2 * gap * radius), kOfSphere * radius);
   const double top = sphere_bottom(radius, gap, half);
   double bottom = 0;
@@ -132,7 +136,8 @@ PlotView gap_view(const QuadraticMesh& mesh, double radius, double gap, double r
   return {window, kPlotWidth, kStretchedPlot};
 }
 
-/// The lines and their mirror images rho < 0 as one curve, in which a NaN separates two lines.
+/// The lines [L] and their mirror images at rho < 0 as one curve, in which a NaN separates two
+/// lines. `style` is in gnuplot's syntax.
 Curve mirrored(const std::string& legend, const std::string& style,
                const std::vector<Polyline>& lines) {
   Curve curve{legend, style, {}};
@@ -158,7 +163,8 @@ std::vector<Polyline> sides(const QuadraticMesh& mesh, const Window& window, int
   return lines;
 }
 
-/// The sphere as a filled surface; walls and surfaces without shear stress as lines.
+/// The curves for the sphere of this radius [L], which is a filled surface, and for walls and
+/// surfaces without shear stress, which are lines.
 std::vector<Curve> outlines(const freefem_axi::RowPicture& picture, const PlotView& view,
                             double radius) {
   const double gap = picture.gap;
@@ -197,13 +203,14 @@ std::vector<Curve> outlines(const freefem_axi::RowPicture& picture, const PlotVi
 
 // Margins of the drawing around the plot [pixels].
 constexpr double kLeft = 110, kAbove = 66, kBelow = 106;
-constexpr double kColourBar = 165;  // at the right, with the numbers of the colours
+constexpr double kColourBar = 165;  // margin at the right with the numbers of the colours
 constexpr double kNoColourBar = 30;
 
-/// gnuplot's command for an arrow on the visible part of the sphere, along its velocity.
+/// gnuplot's command for an arrow on the visible part of the sphere; it points upwards if the
+/// velocity of the sphere is > 0. `radius` and `window` are in [L].
 std::string velocity_arrow(const freefem_axi::RowPicture& row, double radius,
                            const Window& window) {
-  constexpr double kLength = 0.4;  // over the height of the visible part
+  constexpr double kLength = 0.4;  // length of the arrow over the height of the visible part
   const double top = std::min(row.gap + 2 * radius, window.top);
   const double middle = (row.gap + top) / 2;
   const double half = std::copysign(kLength / 2 * (top - row.gap), row.reference_velocity);
@@ -212,6 +219,8 @@ std::string velocity_arrow(const freefem_axi::RowPicture& row, double radius,
       middle - half, middle + half);
 }
 
+/// gnuplot's commands for the axes and margins of a picture of the size `width` x `height` [pixels]
+/// with the margins `right` and `below` [pixels].
 std::vector<std::string> layout(const PlotView& view, double right, double below, double width,
                                 double height) {
   return {"unset grid", "set border linewidth 1 back", "set tics out nomirror",
@@ -228,7 +237,7 @@ std::vector<std::string> layout(const PlotView& view, double right, double below
            "fillstyle solid noborder")};
 }
 
-/// The end of a title, before the value of the velocity.
+/// The words of a title that name the motion; the value of the velocity follows them.
 std::string motion_in_words(lubrication::MotionKind motion) {
   using lubrication::MotionKind;
   if (motion == MotionKind::kApproach) return " at velocity";
@@ -237,6 +246,9 @@ std::string motion_in_words(lubrication::MotionKind motion) {
                                        : ", spinning at angular velocity";
 }
 
+/// A panel with a title and labels, but without curves. The title has the words `what`, the gap and
+/// radius [L], the velocity and the geometry, and says how many times heights are stretched if that
+/// is more than 1.05 times.
 Panel empty_panel(const std::string& what, const freefem_axi::RowPicture& picture,
                   const freefem_axi::Tabulation& tabulation, const PlotView& view) {
   constexpr double kVisible = 1.05;
@@ -253,6 +265,8 @@ Panel empty_panel(const std::string& what, const freefem_axi::RowPicture& pictur
   return panel;
 }
 
+/// Adds the layout to the panel, draws it with gnuplot and returns the SVG. `right` is the margin
+/// at the right [pixels]. The margin below grows by 20 pixels for every two entries of the legend.
 std::string draw(Panel panel, const PlotView& view, double right, const StopToken& stop) {
   constexpr double kLegendRow = 20;
   const auto legends =
@@ -276,6 +290,7 @@ struct ViewedFlow {
   FlowOnGrid flow;
 };
 
+/// The grid of the points at the centres of the cells, for the right half (rho > 0) of the view.
 Grid grid_of_view(const PlotView& view) {
   // Size of a cell [pixels], a free choice. gnuplot's time is proportional to the number of cells.
   constexpr double kCell = 1.5;
@@ -289,12 +304,14 @@ Grid grid_of_view(const PlotView& view) {
           rows};
 }
 
+/// The view with its grid and the flow at the points of the grid.
 ViewedFlow flow_in(const PlotView& view, const FlowField& flow) {
   const auto grid = grid_of_view(view);
   return {view, grid, flow_on_grid(flow, grid)};
 }
 
-/// The values at the points of the grid, and their mirror images, as colours in the view.
+/// The values at the points of the grid, in any unit, and their mirror images at the left of the
+/// axis, as a field of colours in the view. NaN stands for a point outside the fluid.
 ColourField colour_field(std::vector<double> values, const Grid& grid, const PlotView& view) {
   // The boundary of the fluid may cross a cell whose centre is outside the fluid.
   fill_next_to_known(values, grid.columns);
@@ -311,7 +328,8 @@ ColourField colour_field(std::vector<double> values, const Grid& grid, const Plo
   return field;
 }
 
-/// The smallest and the largest value at the nodes of the mesh that are in the window.
+/// The smallest and the largest of the `values`, in any unit, at the nodes of the mesh that are in
+/// the window; infinity and -infinity if no node is in it.
 std::pair<double, double> extremes(const QuadraticMesh& mesh, const std::vector<double>& values,
                                    const Window& window) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -323,9 +341,10 @@ std::pair<double, double> extremes(const QuadraticMesh& mesh, const std::vector<
   return {low, high};
 }
 
-/// The streamlines of an approaching sphere, without those inside it; empty if there are none.
+/// The streamlines around an approaching sphere with this radius and gap [L], > 0. The curve is
+/// empty if there are no streamlines.
 Curve streamlines(const ViewedFlow& viewed, double radius, double gap) {
-  constexpr int kLines = 14;  // about how many on each side of the axis
+  constexpr int kLines = 14;  // about this number of lines on each side of the axis, a free choice
   const auto& grid = viewed.grid;
   std::vector<char> is_sphere(grid.size());
   for (std::size_t i = 0; i < is_sphere.size(); ++i)
@@ -342,6 +361,8 @@ Curve streamlines(const ViewedFlow& viewed, double radius, double gap) {
                   "lines linewidth 1 linecolor rgb '#202020'", thinned(drawn, viewed.view));
 }
 
+/// Draws the pressure as colours and the streamlines over it. `what` is the beginning of the title,
+/// and `pressure` [M/(L T^2)] the field whose colours `colours` decides. Returns the SVG.
 std::string plot_pressure_and_streamlines(const std::string& what,
                                           const freefem_axi::RowPicture& picture,
                                           const freefem_axi::Tabulation& tabulation,
@@ -360,11 +381,13 @@ std::string plot_pressure_and_streamlines(const std::string& what,
 
 /// Arrows of the velocity in the plane through the axis and the direction of motion. The grid has
 /// the velocity at the right of the axis, where the angle phi about the axis is 0. At the left (phi
-/// = pi), u_z has the other sign; the component to the right is equal. `fastest`: top speed [L/T].
+/// = pi), u_z has the other sign; the component to the right is equal. `fastest` is the largest
+/// speed [L/T], whose arrow is 0.9 cells long. Arrows shorter than 0.1 cells are left out.
 Curve velocity_arrows(const ViewedFlow& viewed, double fastest) {
   const auto& view = viewed.view;
   constexpr std::size_t kColumns = 24;
-  constexpr double kHead = 0.35, kAngle = 0.45;  // head: length over the arrow's, half angle [rad]
+  // The length of an arrow's head over that of the arrow, and half the angle of the head [rad].
+  constexpr double kHead = 0.35, kAngle = 0.45;
   const auto rows = static_cast<std::size_t>(
       std::lround(std::max(2.0, kColumns * view.plot_height / view.plot_width)));
   const auto& window = view.window;
@@ -384,7 +407,8 @@ Curve velocity_arrows(const ViewedFlow& viewed, double fastest) {
                                                 static_cast<double>(u_field.columns));
     const double u = u_field.values.at(pixel), w = w_field.values.at(pixel);
     if (!std::isfinite(u)) continue;
-    // The length of an arrow is proportional to the root of the speed, so that slow flow is seen.
+    // The length of an arrow, in cells, is proportional to the square root of the speed, so that
+    // slow flow can be seen.
     const double speed = std::hypot(u, w);
     const double length = 0.9 * std::sqrt(speed / fastest);
     const double dx = length * u / speed, dy = length * (x < 0 ? -w : w) / speed;
@@ -407,6 +431,9 @@ Curve velocity_arrows(const ViewedFlow& viewed, double fastest) {
 
 }  // namespace
 
+/// The SVG of the flow around a sphere that slides, rolls or spins: colours show the speed [L/T]
+/// and arrows the direction. For a spin, colours show the size of the azimuthal velocity [L/T],
+/// without arrows. `in_gap` chooses the view of the gap instead of that of the whole sphere.
 std::string plot_motion(const freefem_axi::RowPicture& picture,
                         const freefem_axi::Tabulation& tabulation, bool in_gap,
                         const StopToken& stop) {
@@ -431,10 +458,11 @@ std::string plot_motion(const freefem_axi::RowPicture& picture,
   return draw(panel, view, kColourBar, stop);
 }
 
+/// The SVG of the finest mesh in the gap and, over it, of the coarsest mesh, for any motion.
 std::string plot_mesh(const freefem_axi::RowPicture& picture,
                       const freefem_axi::Tabulation& tabulation, const StopToken& stop) {
-  // In how many straight pieces a side of the coarsest mesh is drawn. A side of the finest mesh,
-  // which is at most a quarter as long, has a quarter of them.
+  // A side of the coarsest mesh is drawn in this number of straight pieces. A side of the finest
+  // mesh is at most a quarter as long and has a quarter of the pieces.
   constexpr int kPieces = 8;
   constexpr std::size_t kMostSides = 3500;  // if there are more, the view is made narrower
   double reach = kGapReach;
@@ -462,6 +490,7 @@ std::string plot_mesh(const freefem_axi::RowPicture& picture,
   return draw(panel, view, kNoColourBar, stop);
 }
 
+/// The SVG of the flow around an approaching sphere, with the pressure as colours and streamlines.
 std::string plot_flow(const freefem_axi::RowPicture& picture,
                       const freefem_axi::Tabulation& tabulation, const StopToken& stop) {
   const auto& flow = picture.flow;
@@ -470,6 +499,9 @@ std::string plot_flow(const freefem_axi::RowPicture& picture,
   const auto pressure = colour_field(viewed.flow.pressure, viewed.grid, view);
   const double usual =
       tabulation.viscosity * std::abs(picture.reference_velocity) / tabulation.radius;
+  // The pressure mu |u0|/r [M/(L T^2)], > 0, is the scale of pressures far from a narrow gap, where
+  // mu is the viscosity, u0 the velocity and r the radius. If the extremes of the picture are much
+  // larger, the scale of colours is linear below about this pressure and logarithmic above it.
   auto colours = robust_colours(pressure.values, usual);
   // A thin film may contain no centre of a cell. Therefore the extremes in the words of the scale
   // are those at the nodes of the mesh.
@@ -478,6 +510,8 @@ std::string plot_flow(const freefem_axi::RowPicture& picture,
                                        colours, stop);
 }
 
+/// The SVG of the flow of an approaching sphere in the gap, with the pressure and streamlines. The
+/// scale of colours is linear.
 std::string plot_gap_flow(const freefem_axi::RowPicture& picture,
                           const freefem_axi::Tabulation& tabulation, const StopToken& stop) {
   const auto viewed = flow_in(gap_view(picture.flow, tabulation.radius, picture.gap), picture.flow);

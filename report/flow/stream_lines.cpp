@@ -1,8 +1,9 @@
 // Solves for the stream function on a grid, follows its level lines, and simplifies them
-// (stream_lines.hpp). Places [L], velocities [L/T] and the stream function psi [L^2/T], with an
-// axis [L^3/T], are in the units of the case; lists have one number for each point of the grid, NaN
-// where there is no fluid (not checked). Pairs of points that are not both in the fluid have a
-// small weight in the least squares, so that the matrix is never singular and the fluid may consist
+// (stream_lines.hpp). Places [L], velocities [L/T] and the stream function psi are in the units of
+// the case; psi is in [L^2/T], or in [L^3/T] if the flow is symmetric about an axis. Lists have one
+// number for each point of the grid, NaN where there is no fluid (not checked). The least squares
+// have an equation for each two neighbouring points. The equation of two points that are not both
+// in the fluid has a small weight, so that the matrix is never singular and the fluid may consist
 // of several regions. Nothing is thrown. flow_plots.cpp and particles/picture draw the lines. A
 // change must keep the equal steps of psi between lines.
 #include "viscontact/report/flow/stream_lines.hpp"
@@ -24,7 +25,7 @@ std::uint64_t pair_key(Index a, Index b) {
   return (static_cast<std::uint64_t>(std::min(a, b)) << kHalf) | std::max(a, b);
 }
 
-/// Distance of the point p from the straight line through a and b, or from a if both are equal.
+/// Distance [L] of the point p from the straight line through a and b, or from a if a equals b.
 double distance(const Polyline::value_type& p, const Polyline::value_type& a,
                 const Polyline::value_type& b) {
   const double x = b.first - a.first, y = b.second - a.second, length = std::hypot(x, y);
@@ -32,8 +33,8 @@ double distance(const Polyline::value_type& p, const Polyline::value_type& a,
   return length > 0 ? std::abs(x * py - y * px) / length : std::hypot(px, py);
 }
 
-/// The line with fewer points, so that each point that is left out is at most `tolerance` away from
-/// the new line (Douglas & Peucker 1973).
+/// The line with fewer points. Each point that is left out is at most `tolerance` [L] away from the
+/// straight line through the neighbouring points that are kept (Douglas & Peucker 1973).
 Polyline simplified(const Polyline& line, double tolerance) {
   if (line.size() < 3) return line;
   std::vector<char> is_kept(line.size(), 0);
@@ -59,8 +60,8 @@ Polyline simplified(const Polyline& line, double tolerance) {
   return kept;
 }
 
-/// The field with these values at the points of the grid, on two triangles for each square of the
-/// grid whose four values are numbers.
+/// The field with these values, in any unit, at the points of the grid. It has two triangles for
+/// each cell of the grid whose four corners have numbers as values.
 LinearField field_on(const Grid& grid, const std::vector<double>& values) {
   LinearField field;
   field.values = values;
@@ -78,6 +79,7 @@ LinearField field_on(const Grid& grid, const std::vector<double>& values) {
   return field;
 }
 
+/// The index of the point of the grid that is nearest to `place` [L].
 std::size_t nearest_point(const Grid& grid, const Polyline::value_type& place) {
   const auto nearest = [](double steps, std::size_t count) {
     return static_cast<std::size_t>(
@@ -87,6 +89,7 @@ std::size_t nearest_point(const Grid& grid, const Polyline::value_type& place) {
          nearest((place.first - grid.window.left) / grid.step_x(), grid.columns);
 }
 
+/// The length of the line [L].
 double length_of(const Polyline& line) {
   double length = 0;
   for (std::size_t i = 1; i < line.size(); ++i)
@@ -94,16 +97,17 @@ double length_of(const Polyline& line) {
   return length;
 }
 
-/// Orders the points of the line in the direction of the flow, simplifies it, and gives it an arrow
-/// if it is long enough and has a place for one that is outside the particles and away from
-/// `arrows`, the places of the arrows of other lines; the new place is added to them.
+/// Orders the points of the line [L], which has at least two, in the direction of the flow,
+/// simplifies the line, and gives it an arrow. The line gets no arrow if it is short, or if each
+/// place that is tried is in a particle (is_body is 1) or near an arrow of another line. `arrows`
+/// has the places [L] of the arrows of the other lines; the new place is added to it.
 StreamLine directed(Polyline line, const Grid& grid, const FlowOnGrid& flow,
                     const std::vector<char>& is_body, Polyline& arrows) {
   // The least length of a line with an arrow, and the least distance of two arrows, both over the
-  // longer side of the window; free choices.
+  // longer side of the window. Both are free choices.
   constexpr double kShort = 0.12, kApart = 0.14;
-  // Where an arrow is tried, and where the direction of the flow is compared with that of the line,
-  // as shares of the number of points.
+  // The places on the line, as shares of the number of its points, at which an arrow is tried and
+  // at which the direction of the flow is compared with that of the line.
   constexpr std::array<double, 9> kPlaces = {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9};
   const auto at = [&](double share) {
     return static_cast<std::size_t>(share * static_cast<double>(line.size() - 1));
@@ -134,7 +138,8 @@ StreamLine directed(Polyline line, const Grid& grid, const FlowOnGrid& flow,
         arrows.push_back(line[i]);
         break;
       }
-  // The parts before and after the arrow are simplified separately, so that it stays at a point.
+  // The parts before and after the arrow are simplified separately, so that the arrow stays at a
+  // point of the line.
   const double tolerance = 0.1 * std::min(grid.step_x(), grid.step_y());  // [L]; a free choice
   const auto middle = line.begin() + static_cast<std::ptrdiff_t>(arrow);
   result.points = simplified({line.begin(), middle + 1}, tolerance);
@@ -146,6 +151,8 @@ StreamLine directed(Polyline line, const Grid& grid, const FlowOnGrid& flow,
 
 }  // namespace
 
+/// The lines [L] on which the field equals `level`, in the unit of the field, in no certain order.
+/// The first and the last point of a closed line are equal.
 std::vector<Polyline> level_lines(const LinearField& field, double level) {
   // The points of a level line are its crossings with sides of triangles. Each crossing has at most
   // two neighbours on the line, one in each triangle at the side.
@@ -206,17 +213,19 @@ std::vector<Polyline> level_lines(const LinearField& field, double level) {
   return lines;
 }
 
-/// The factor of the normal equations, and the points in the fluid for which it was computed.
+/// The factor of the normal equations for psi, and the points (1: in the fluid) for which it was
+/// computed.
 struct StreamLines::Equations {
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor;
   std::vector<char> is_fluid;
   bool is_analysed = false;
 
-  /// Weight of the equation between two neighbouring points; the small one is a free choice.
+  /// Weight [1] of the equation between two neighbouring points. The small weight is a free choice.
   static double weight(bool both_in_fluid) { return both_in_fluid ? 1 : 1e-5; }
 
-  /// Factorises the matrix for the points in the fluid (1: in it). If it was factorised for nearly
-  /// the same points, that factor is kept.
+  /// Factorises the matrix for the points in the fluid; `points` has 1 for a point in the fluid and
+  /// 0 for another one. If the matrix was factorised before for nearly the same points, the earlier
+  /// factor is kept.
   void prepare(const Grid& grid, std::vector<char> points) {
     constexpr double kNearly = 0.005;  // largest share of points that may differ, a free choice
     if (is_fluid.size() == points.size()) {
@@ -241,7 +250,8 @@ struct StreamLines::Equations {
     factor.factorize(matrix);
   }
 
-  /// Calls visit(a, b, is_horizontal) for each two neighbours a, b in a row or a column.
+  /// Calls visit(a, b, is_horizontal) for each two neighbours in a row or a column of the grid; a
+  /// and b are their indices.
   template <class Visit>
   static void for_each_side(const Grid& grid, const Visit& visit) {
     for (std::size_t row = 0; row < grid.rows; ++row)
@@ -258,6 +268,9 @@ StreamLines::StreamLines(const Grid& grid, bool has_axis)
 StreamLines::~StreamLines() = default;
 StreamLines::StreamLines(StreamLines&&) noexcept = default;
 
+/// psi at each point of the grid, by least squares from its differences between neighbouring
+/// points, which follow from the velocity [L/T]. NaN at points that are neither in the fluid nor
+/// next to it.
 std::vector<double> StreamLines::stream_function(const FlowOnGrid& flow) {
   auto u = flow.velocity_x, v = flow.velocity_y;
   std::vector<char> points(u.size());
@@ -285,6 +298,9 @@ std::vector<double> StreamLines::stream_function(const FlowOnGrid& flow) {
   return values;
 }
 
+/// The streamlines at `count` > 0 values of psi in equal steps between its extremes outside the
+/// particles. `is_body` is 1 for each point of the grid in a particle, else 0. The set is empty if
+/// psi is constant. A level line of at most two points is left out.
 StreamLineSet StreamLines::of(const FlowOnGrid& flow, const std::vector<char>& is_body, int count) {
   const auto psi = stream_function(flow);
   double low = std::numeric_limits<double>::infinity(), high = -low;

@@ -1,10 +1,10 @@
 // Writes gnuplot's commands and data, runs gnuplot and reads its picture, for report/ and swimmer/.
-// A gnuplot that is missing, fails or hangs is an Error(kExternalProgram), a requested stop an
-// Error(kInterrupted), and a system without free sockets a std::system_error. Sizes are in pixels,
-// those of a PDF in points; width and height are > 0, and a field has at least 2 columns and rows
-// (not checked). Values have no units here; one that is not finite interrupts a curve or is
-// transparent. Texts of the user must pass through quoted_for_gnuplot, because gnuplot can run
-// commands of the shell.
+// A gnuplot that is missing, fails or hangs throws Error(kExternalProgram), a requested stop throws
+// Error(kInterrupted), and a system without free sockets std::system_error. Sizes are in pixels,
+// but those of a PDF in points (1/72 inch). Width and height are > 0, and a field of colours has at
+// least 2 columns and rows (not checked). Values have no units here. A value that is not finite
+// interrupts a curve; in a field it makes its cell transparent. Texts of the user must pass through
+// quoted_for_gnuplot(), because gnuplot can run commands of the shell.
 #include "viscontact/report/pictures/gnuplot.hpp"
 
 #include <fmt/format.h>
@@ -19,6 +19,8 @@
 namespace viscontact::report {
 namespace {
 
+/// gnuplot's data block `name` with the points of the curve, one in each line. An empty line
+/// interrupts the curve.
 std::string data_block(const std::string& name, const Curve& curve) {
   std::string text = fmt::format("${} << END_OF_CURVE\n", name);
   for (const auto& [x, y] : curve.points)
@@ -33,6 +35,7 @@ std::string data_block(const std::string& name, const Curve& curve) {
 // this or a larger value is transparent, too.
 constexpr double kTransparent = 1e99;
 
+/// gnuplot's data block `name` with the values of the field, row by row from the bottom.
 std::string data_block(const std::string& name, const ColourField& field) {
   std::string text = fmt::format("${} << END_OF_FIELD\n", name);
   for (std::size_t i = 0; i < field.values.size(); ++i) {
@@ -44,6 +47,8 @@ std::string data_block(const std::string& name, const ColourField& field) {
   return text + "END_OF_FIELD\n";
 }
 
+/// gnuplot's command that draws the field in the block `name`; the cells fill the rectangle of the
+/// field exactly.
 std::string plot_of(const std::string& name, const ColourField& field) {
   const double width = (field.right - field.left) / static_cast<double>(field.columns);
   const double height = (field.top - field.bottom) / static_cast<double>(field.rows);
@@ -59,6 +64,8 @@ std::string last_part(const std::string& output) {
   return output.size() <= kLength ? output : output.substr(output.size() - kLength);
 }
 
+/// gnuplot's data and commands for the panel with this index, counted from 0. A curve without
+/// points is left out.
 std::string panel_script(const Panel& panel, std::size_t index) {
   std::string script;
   for (std::size_t i = 0; i < panel.curves.size(); ++i)
@@ -86,8 +93,8 @@ std::string panel_script(const Panel& panel, std::size_t index) {
   return script + plots + "\n";
 }
 
-/// The command that sets the terminal of a picture. Letters, lines and points have the same size
-/// relative to the picture in all kinds.
+/// gnuplot's command that sets its output to a kind of picture, with a font size in the unit of
+/// `width`. Letters, lines and points have the same size relative to the picture in all kinds.
 std::string terminal_of(TextKind kind, double font_size, int width, int height) {
   const auto common =
       fmt::format("noenhanced font 'sans-serif,{:g}' background 'white'", font_size);
@@ -101,19 +108,22 @@ std::string terminal_of(TextKind kind, double font_size, int width, int height) 
   return fmt::format("set terminal svg size {},{} dynamic {}", width, height, common);
 }
 
-/// Where a picture ends in the output of gnuplot, after which warnings follow, and where it begins.
+/// The texts with which a picture begins and ends in the output of gnuplot. Warnings of gnuplot
+/// follow after the end.
 struct PictureMarks {
   std::string begin, end;
 };
 
+/// The marks of a kind of picture; those of an SVG if the kind is neither PDF nor PNG.
 PictureMarks marks_of(TextKind kind) {
   if (kind == TextKind::kPdf) return {"%PDF-", "%%EOF"};
-  if (kind == TextKind::kPng) return {"\x89PNG", "IEND\xae\x42\x60\x82"};  // with its CRC
+  if (kind == TextKind::kPng) return {"\x89PNG", "IEND\xae\x42\x60\x82"};  // with its checksum
   return {"<svg", "</svg>"};
 }
 
 }  // namespace
 
+/// The text as a string of gnuplot, with quotes. gnuplot executes nothing in it as a command.
 std::string quoted_for_gnuplot(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
@@ -135,6 +145,9 @@ std::string draw_svg(const std::vector<Panel>& panels, int width, int height,
   return draw_picture({}, panels, width, height, stop);
 }
 
+/// Draws the panels one below the other and returns the picture, or the script with its data if the
+/// format is TextKind::kHashComment, for which gnuplot is not run. `width` and `height` are the
+/// size [pixels]; format.width > 0 replaces `width`, and the height changes in proportion.
 std::string draw_picture(const results::PictureFormat& format, const std::vector<Panel>& panels,
                          int width, int height, const StopToken& stop) {
   const auto kind = format.kind;
@@ -151,13 +164,15 @@ std::string draw_picture(const results::PictureFormat& format, const std::vector
   if (panels.size() > 1) script += "unset multiplot\n";
   if (kind == TextKind::kHashComment)
     return "# gnuplot script by Viscontact, with its data: gnuplot FILE > PICTURE.svg\n" + script;
-  // A picture takes about one second. If gnuplot needs ten minutes, it hangs.
+  // A picture takes about one second. If gnuplot needs ten minutes, it hangs. The limit is a free
+  // choice.
   constexpr std::chrono::seconds kLongest = std::chrono::minutes(10);
-  // gnuplot reads standard input byte by byte, but a file in blocks. For long data that saves more
-  // time than another process takes.
+  // gnuplot reads standard input byte by byte, but a file in blocks. If the script is long, blocks
+  // save more time than the process `cat` takes. The limit is a free choice.
   constexpr std::size_t kLong = 200'000;  // bytes
   const std::string gnuplot = script.size() > kLong ? "cat | gnuplot /dev/stdin" : "gnuplot";
-  // The shell command puts gnuplot's warnings after the picture; they could stand in the middle.
+  // This shell command puts gnuplot's warnings after the picture. Without it they could stand in
+  // the middle of the picture.
   const auto result =
       run_process({"/bin/sh", "-c",
                    "{ errors=$(" + gnuplot +

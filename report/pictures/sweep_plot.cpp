@@ -1,10 +1,10 @@
-// Reads the columns to draw from a sweep's CSV file and draws them. Values, of which one that is
-// missing or no number is not drawn, are in the units of the case, sizes in pixels; heights and
+// Reads the columns to draw from a sweep's CSV file and draws them. Values are in the units of the
+// case; a value that is missing or not a number is not drawn. Sizes are in pixels; heights and
 // margins are free choices. A file that cannot be read, a column that is missing or has no number,
-// and a map with fewer than two values along an axis are an Error(kBadInput), a missing or failing
-// gnuplot an Error(kExternalProgram), and a requested stop an Error(kInterrupted). Used by `sweep`
-// (app/commands/sweep/). Files larger than the memory must be read row by row. kMean and kError
-// must be the ends of names in particles/case/particles_study.cpp.
+// and a map with fewer than two values along an axis throw Error(kBadInput). A missing or failing
+// gnuplot throws Error(kExternalProgram), and a requested stop throws Error(kInterrupted). The
+// command `sweep` (app/commands/sweep/) uses this file. Files larger than the memory must be read
+// row by row. kMean and kError must be the ends of names in particles/case/particles_study.cpp.
 #include "viscontact/report/pictures/sweep_plot.hpp"
 
 #include <fmt/format.h>
@@ -29,7 +29,8 @@ namespace {
 
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-/// Reads a sweep's file row by row.
+/// Reads a sweep's CSV file row by row, after the lines of its head that begin with "#" and the
+/// line with the names of its columns.
 class SweepRows {
  public:
   explicit SweepRows(const std::filesystem::path& path) : path_(path), file_(path) {
@@ -38,13 +39,14 @@ class SweepRows {
     names_ = csv_fields(line);
   }
 
-  /// The index of a column, and that of the key by which it is divided, if any.
+  /// The index of a column, and the index of the column by which it is divided, if there is one.
   struct Place {
     std::size_t column;
     std::optional<std::size_t> divisor;
   };
-  /// The indices for "COLUMN" or "COLUMN/KEY"; the file names the column COLUMN with `ending`
-  /// added. Throws Error(kBadInput), which lists the columns, if the file has no such column.
+  /// The indices for `name`, which is "COLUMN" or "COLUMN/KEY"; the name of the column in the file
+  /// is COLUMN followed by `ending`. Throws Error(kBadInput), which lists the columns, if the file
+  /// has no such column.
   Place find(const std::string& name, const std::string& ending = "") const {
     const auto slash = name.find('/');
     if (slash == std::string::npos) return {index_of(name + ending), {}};
@@ -71,6 +73,7 @@ class SweepRows {
     return column < fields_.size() ? parse_number(fields_[column]).value_or(kNoValue) : kNoValue;
   }
 
+  /// The index of the column `name`. Throws Error(kBadInput) if there is no such column.
   std::size_t index_of(const std::string& name) const {
     const auto found = std::ranges::find(names_, name);
     if (found == names_.end())
@@ -84,8 +87,8 @@ class SweepRows {
   std::vector<std::string> names_, fields_;
 };
 
-/// True if all finite values are > 0 and span a decade or more. The axis then is logarithmic,
-/// because a linear one would show little of the small values.
+/// True if all finite values are > 0 and span a decade or more, a free choice. The axis then is
+/// logarithmic, because a linear axis would show little of the small values.
 bool is_logarithmic(const std::vector<double>& values) {
   double low = std::numeric_limits<double>::infinity(), high = 0;
   for (const double value : values) {
@@ -108,6 +111,9 @@ void check_has_value(const std::filesystem::path& path, const std::vector<double
                                : "has no value to draw in the columns that were asked for");
 }
 
+/// The picture of the columns as lines over the key plot.x. There is a group of lines, one for each
+/// column, for each combination of values of the keys plot.others. If the file has means, each
+/// point has a bar of one standard error to both sides.
 std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
                        const results::PictureFormat& format, const StopToken& stop) {
   SweepRows rows(path);
@@ -125,7 +131,8 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
               false, false,  {kLegendBelow},
               {}};
   std::vector<Curve> bars;
-  std::map<std::vector<double>, std::size_t> first_curves;  // by the values of plot.others
+  // The index of the first curve for each combination of values of the keys plot.others.
+  std::map<std::vector<double>, std::size_t> first_curves;
   const auto first_curve_of_row = [&] {
     std::vector<double> values;
     std::string words;
@@ -188,13 +195,16 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
   return draw_picture(format, {panel}, kSweepWidth, 520, stop);
 }
 
+// The value that an axis shows, and the label of the axis. A logarithmic axis shows decimal
+// logarithms.
 double scaled(double value, bool logarithmic) { return logarithmic ? std::log10(value) : value; }
 
 std::string label(const std::string& name, bool logarithmic) {
   return logarithmic ? fmt::format("log10 {}", name) : name;
 }
 
-/// An axis of a map. `low` and `high` are its ends: values or, if logarithmic, decimal logarithms.
+/// An axis of a map, with the values of its key in the unit of the key. `low` and `high` are the
+/// ends of the axis: values or, if the axis is logarithmic, decimal logarithms.
 struct MapAxis {
   std::set<double> values;
   bool logarithmic = false;
@@ -212,7 +222,8 @@ MapAxis axis_of(const std::set<double>& values) {
 
 /// For each pixel along the axis, the nearest value, so that uneven steps of values are seen.
 std::vector<double> values_of_pixels(const MapAxis& axis) {
-  // Some programs smooth a picture of few pixels; with eight for each value, edges stay sharp.
+  // Some programs smooth a picture of few pixels. With eight pixels for each value, a free choice,
+  // edges stay sharp.
   const auto pixels = 8 * axis.values.size();
   std::vector<double> found;
   for (std::size_t i = 0; i < pixels; ++i) {
@@ -225,7 +236,9 @@ std::vector<double> values_of_pixels(const MapAxis& axis) {
   return found;
 }
 
-/// Commands of gnuplot for the colours of values from `low` to `high` (or of their logarithms).
+/// Commands of gnuplot for the colours of values, or of their decimal logarithms, from `low` to
+/// `high`. If values of both signs occur, and the smaller extreme is more than a tenth (a free
+/// choice) of the larger one in size, the colours show the sign.
 std::vector<std::string> map_colours(double low, double high) {
   const double reach = std::max(-low, high);
   if (low < -reach / 10 && high > reach / 10)
@@ -239,7 +252,8 @@ std::vector<std::string> map_colours(double low, double high) {
       "'#fee838')"};
 }
 
-/// A map over two keys. Throws Error(kBadInput) if one of them has fewer than two values.
+/// The picture of a map over the keys plot.x and plot.y, whose colours show the first of
+/// plot.columns. Throws Error(kBadInput) if one of the two keys has fewer than two values.
 std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot,
                      const results::PictureFormat& format, const StopToken& stop) {
   SweepRows rows(path);
@@ -294,6 +308,7 @@ std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot,
 
 }  // namespace
 
+/// The picture as text in `format`: lines if plot.y is empty, else a map.
 std::string plot_sweep(const std::filesystem::path& sweep_file, const SweepPlot& plot,
                        const results::PictureFormat& format, const StopToken& stop) {
   return plot.y.empty() ? plot_lines(sweep_file, plot, format, stop)

@@ -1,11 +1,11 @@
 // Computes the motions of a sweep of a rolling sphere (rolling_study.hpp). Gaps and positions [L],
 // angles in radians, velocities and slip [L/T], angular velocities [1/T] and times [T] are in the
 // units of the case; contact is 0 without solid contact, 1 if the solids roll, 2 if they slide.
-// Used by app/ (command `sweep`). A key that cannot be varied and an unknown model are an
-// Error(kWrongUsage), a wrong case or fit is an Error(kBadInput), a stop an Error(kInterrupted); a
-// model that fails leaves its columns empty. A change must keep the names of the columns, which
-// users' scripts read and which add_rolling_end() repeats. refuse_useless() repeats which keys a
-// model uses.
+// app/ (command `sweep`) uses this file. A key that cannot be varied and an unknown model throw
+// Error(kWrongUsage), a wrong case or fit throws Error(kBadInput), and a requested stop throws
+// Error(kInterrupted); a model that fails leaves its columns empty. A change must keep the names of
+// the columns, which users' scripts read and which add_rolling_end() repeats, and refuse_useless()
+// in agreement with the keys that each model uses.
 #include "viscontact/rolling/case/rolling_study.hpp"
 
 #include <fmt/format.h>
@@ -22,6 +22,8 @@
 namespace viscontact::rolling {
 namespace {
 
+// The columns of each model, after "MODEL.". `slip` is the velocity of the lowest point of the
+// sphere relative to the plane, and `contact_time` the time at which the solids first touch.
 constexpr std::array kRollingColumns = {"gap",   "smallest_gap", "position",
                                         "angle", "velocity",     "angular_velocity",
                                         "slip",  "contact",      "contact_time"};
@@ -38,6 +40,7 @@ void check_rolling_key(const std::string& key) {
               key, fmt::join(kOther, ", "));
 }
 
+/// Throws Error(kWrongUsage) if there is no model of this name.
 void check_rolling_model(const std::string& model) {
   const auto& all = rolling_models();
   if (find_named(all, model) == nullptr)
@@ -64,6 +67,8 @@ void refuse_useless(const RollingCase& c, const std::string& key,
                 key, fmt::join(models, ", "));
 }
 
+/// Adds the state of the sphere at the end of its motion by this model to the row. A missing
+/// contact_time gives an empty field.
 void add_rolling_end(const std::string& model, const RollingEnd& end, sweep::RowResults& results) {
   const auto put = [&](const char* column, double value) {
     results.values[fmt::format("{}.{}", model, column)] = value;
@@ -79,6 +84,8 @@ void add_rolling_end(const std::string& model, const RollingEnd& end, sweep::Row
   if (end.contact_time) put("contact_time", *end.contact_time);
 }
 
+/// Adds the results of all models of the plan to the row, for the case `c` at one point, with the
+/// fit scaled to it. The message of a model that fails becomes the failure of the row.
 void roll_models(const RollingPlan& plan, RollingCase c, const motions::PairFit& fit,
                  const StopToken& stop, sweep::RowResults& results) {
   c.motion.stop = stop;
@@ -94,6 +101,7 @@ void roll_models(const RollingPlan& plan, RollingCase c, const motions::PairFit&
 
 }  // namespace
 
+/// The plan that the sections [sweep] and [fit] of the case ask for, without models.
 RollingPlan planned_rolling(const RollingCase& c) {
   const auto request = c.sweep.value_or(case_file::SweepRequest{});
   RollingPlan plan;
@@ -104,6 +112,9 @@ RollingPlan planned_rolling(const RollingCase& c) {
   return plan;
 }
 
+/// The study of the plan: its points, the columns of its results and the function that computes a
+/// row. `version` is the version of Viscontact, for the head of the file. The first and the last
+/// point must give valid cases.
 sweep::Study rolling_study(RollingPlan plan, const std::string& version) {
   const case_file::CaseTemplate<RollingCase> cases(plan.case_path);
   if (plan.models.empty()) plan.models = cases.with({}).models;

@@ -1,7 +1,8 @@
-// The pictures and the page of a rolling sphere, in the units of the case: gaps [L], > 0, times
-// [T], velocities [L/T] and forces [M L/T^2]. Each trajectory has a row (not checked). A gnuplot
-// that fails is an Error(kExternalProgram), a file in the way or not written an Error(kBadInput), a
-// stop an Error(kInterrupted). Used by rolling_stage.cpp. A change must list every picture in
+// Makes the pictures and the page of a rolling sphere. Gaps [L], > 0, times [T], velocities [L/T]
+// and forces [M L/T^2] are in the units of the case. Each trajectory has a row (not checked). A
+// gnuplot that fails throws Error(kExternalProgram); a file that cannot be written, or a file of
+// the user that would be replaced, throws Error(kBadInput); a requested stop throws
+// Error(kInterrupted). rolling_stage.cpp uses this file. A change must list every picture in
 // kRollingPictures, which decides which files in plots/ may be replaced or removed.
 #include "viscontact/rolling/job/rolling_page.hpp"
 
@@ -23,6 +24,8 @@ std::size_t place_of(const std::string& model) {
   return static_cast<std::size_t>(found - models.begin());
 }
 
+/// A plot with a curve of `value` of each row over time for each model. `label` names the vertical
+/// axis with its unit.
 template <class Value>
 report::Plot plot_of(const RollingResults& results, const std::string& name,
                      const std::string& title, const std::string& label, bool logarithmic,
@@ -37,6 +40,7 @@ report::Plot plot_of(const RollingResults& results, const std::string& name,
   return {name, 400, {panel}};  // the height in pixels is a free choice
 }
 
+/// What the solids do, in one word.
 const char* contact_in_words(SolidContact contact) {
   switch (contact) {
     case SolidContact::kRolling:
@@ -49,7 +53,9 @@ const char* contact_in_words(SolidContact contact) {
   return "none";
 }
 
-/// The table (HTML) of the state of each model at the end of the motion.
+/// The table (HTML) of the state of each model at the end of the motion. Its column "slip over
+/// velocity" [1] has the slip divided by the velocity of the sphere relative to the plane; the
+/// field is empty if the sphere does not move along the plane.
 std::string end_table(const RollingResults& results) {
   std::string rows =
       "<tr><th>model</th><th>gap [L]</th><th>velocity [L/T]</th><th>angular velocity [1/T]</th>"
@@ -70,6 +76,7 @@ std::string end_table(const RollingResults& results) {
   return report::table_of(rows);
 }
 
+/// The table (HTML) of the parameters of the case with their dimensions.
 std::string parameters_of_rolling(const RollingResults& results) {
   const auto& m = results.c.motion;
   const auto row = [](const char* name, double value) {
@@ -110,12 +117,13 @@ std::vector<report::Plot> rolling_plots(const RollingResults& results) {
 
 }  // namespace
 
+/// A sentence for each model whose smallest gap [L] is below the gaps of the fit.
 std::vector<std::string> rolling_warnings(const RollingResults& results) {
   std::vector<std::string> warnings;
   const double low = results.fit.gap_interval[0];
   for (const auto& [model, rows] : results.trajectories) {
     const double thinnest = std::ranges::min_element(rows, {}, &RollingRow::gap)->gap;
-    // Relative rounding error of the gap of a sphere that rests at the smallest fitted gap.
+    // The relative rounding error of the gap of a sphere that rests at the smallest fitted gap.
     constexpr double kRounding = 1e-9;
     if (thinnest < (1 - kRounding) * low)
       warnings.push_back(fmt::format(
@@ -125,6 +133,7 @@ std::vector<std::string> rolling_warnings(const RollingResults& results) {
   return warnings;
 }
 
+/// Writes report.html and the pictures in plots/ into `folder`.
 void write_rolling_report(const RollingResults& results, const std::filesystem::path& folder,
                           const results::Provenance& provenance, const StopToken& stop) {
   const auto& units = results.c.units;

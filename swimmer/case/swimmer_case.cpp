@@ -1,10 +1,11 @@
 // Reads the case of a swimmer (swimmer_case.hpp): its spheres and arms (distances of the centres of
 // neighbouring spheres), and strokes given by corners, an ellipse or a file of samples. Radii and
 // gaps [L], viscosity [M/(L T)] and periods [T] are > 0 and in the units of the case; an arm [L] is
-// greater than the sum of both radii. A wrong value is an Error(kBadInput) with its line. Used by
-// swimmer/, app/ and python/. A change must keep that users' cases are accepted, and the arms of a
-// table bit for bit, because its finished rows are found by their gaps. Keys are read in an order:
-// some depend on those before.
+// greater than the sum of both radii. A wrong value throws Error(kBadInput), which names its line.
+// swimmer/, app/ and python/ use this file. Functions named ..._keys declare the keys of a section
+// and read them into their last arguments. A change must keep that users' cases are accepted, the
+// arms of a table bit for bit, because finished rows of the table are found by their gaps, and the
+// order in which keys are read, because some of them depend on those before.
 #include "viscontact/swimmer/case/swimmer_case.hpp"
 
 #include <algorithm>
@@ -26,6 +27,7 @@ void read_radii(const case_file::TomlSection& section, std::string_view key,
                   "has {} numbers; it must have {} to {}", radii.size(), kFewestSpheres,
                   kMostSpheres);
   // With a larger ratio the mesh around the small sphere has more elements than FreeFEM can number.
+  // The limit is therefore not a free choice.
   constexpr double kLargestRatio = 100;
   const auto [smallest, largest] = std::ranges::minmax(radii);
   section.require(largest <= kLargestRatio * smallest, key,
@@ -33,12 +35,13 @@ void read_radii(const case_file::TomlSection& section, std::string_view key,
                   kLargestRatio);
 }
 
-/// Request for the lengths of an arm in the table [L]: `count` lengths from `from` to `to`.
+/// What the case asks for: `count` lengths of an arm in the table [L], from `from` to `to`.
 struct ArmGrid {
   double from = 0, to = 0;
   int count = 0;
 };
 
+/// Declares the keys from, to and count of the lengths of an arm.
 void arm_keys(case_file::Keys& keys, ArmGrid& grid) {
   keys.required("from", case_file::number(grid.from, kPositive),
                 {"the shortest arm, greater than the sum of both radii, so that the gap is at "
@@ -48,7 +51,8 @@ void arm_keys(case_file::Keys& keys, ArmGrid& grid) {
   keys.required("count", case_file::count(grid.count, 3, 200), {"the number of arms between them"});
 }
 
-/// The gaps between the surfaces of spheres k and k + 1 in the table [L], rising.
+/// The gaps between the surfaces of spheres k and k + 1 in the table [L], rising; spheres are
+/// counted from 0. Throws Error(kBadInput) if a length of an arm is out of range.
 std::vector<double> read_arm_gaps(const case_file::TomlSection& section,
                                   const std::vector<double>& radii, std::size_t k) {
   const double both_radii = radii[k] + radii[k + 1];
@@ -59,14 +63,14 @@ std::vector<double> read_arm_gaps(const case_file::TomlSection& section,
                   "is {}; it must be greater than {}, the sum of the radii of spheres {} and {}, "
                   "which touch there",
                   from, both_radii, k + 1, k + 2);
-  constexpr double kLeastGap = 1e-6;  // of the smaller radius; tests go down to this value
+  constexpr double kLeastGap = 1e-6;  // over the smaller radius; tests go down to this value
   const double least = kLeastGap * std::min(radii[k], radii[k + 1]);
   section.require(from - both_radii >= least, "from",
                   "is {}, a gap of {:.3g}; a gap must be at least {} of the smaller radius, so "
                   "from must be at least {}",
                   from, from - both_radii, kLeastGap, both_radii + least);
   section.require(to > from, "to", "is {}; it must be greater than from, {}", to, from);
-  constexpr double kLargestArm = 1e4;  // times the sum of both radii
+  constexpr double kLargestArm = 1e4;  // over the sum of both radii
   section.require(to <= kLargestArm * both_radii, "to",
                   "is {}; it must be at most {} times the sum of both radii, {}", to, kLargestArm,
                   kLargestArm * both_radii);
@@ -75,14 +79,15 @@ std::vector<double> read_arm_gaps(const case_file::TomlSection& section,
   return gaps;
 }
 
-/// Number of rows of the table.
+/// The number of rows of the table, which is the product of the numbers of gaps.
 double rows_of(const SwimmerCase& c) {
   double rows = 1;
   for (const auto& gaps : c.gaps) rows *= static_cast<double>(gaps.size());
   return rows;
 }
 
-/// Reads `arms`: one table for all arms, or an array with one table for each.
+/// Reads `arms`, which is one table for all arms or an array with a table for each arm. Throws
+/// Error(kBadInput) if the number of tables is wrong or if there are more rows than kMostRows.
 void read_grid(const case_file::TomlSection& section, std::string_view key, SwimmerCase& c) {
   const auto& radii = c.spheres.radii;
   const std::size_t arms = radii.size() - 1;
@@ -93,15 +98,17 @@ void read_grid(const case_file::TomlSection& section, std::string_view key, Swim
                   "has {} tables; it must have {}, one for each arm, or be one table for all arms",
                   tables.size(), arms);
   for (std::size_t k = 0; k < arms; ++k) c.gaps.push_back(read_arm_gaps(tables[k], radii, k));
-  // Free choice: with 2 to 17 s for a row, as in data/tables/three_spheres.csv, these take days.
+  // The limit is a free choice. A row takes 2 to 17 s, as in data/tables/three_spheres.csv, so that
+  // so many rows take days.
   constexpr double kMostRows = 100000;
   section.require(rows_of(c) <= kMostRows, key,
                   "makes a table of {} rows; at most {} are allowed, so take a smaller count",
                   rows_of(c), kMostRows);
 }
 
-/// Reads `table`: a file with a table of resistance matrices, which is scaled to radii and
-/// viscosity of the case.
+/// Reads `table`, a file with a table of resistance matrices, which is scaled to the radii and the
+/// viscosity of the case. Throws Error(kBadInput) if the table cannot be read, has another number
+/// of spheres or other ratios of radii, or if the case also has keys for a new table.
 void read_given_table(const case_file::TomlSection& section, std::string_view key, SwimmerCase& c) {
   for (const auto* other : {"arms", "relative_accuracy"})
     section.require(!section.has(other), other, "must be left out, because `table` gives a table");
@@ -115,13 +122,15 @@ void read_given_table(const case_file::TomlSection& section, std::string_view ke
   c.gaps = gap_grid(c.table);
 }
 
+/// Declares the keys radius and height [L] of a tube.
 void tube_keys(case_file::Keys& keys, Tube& tube) {
   keys.required("radius", case_file::number(tube.radius, kPositive), {"radius of the tube"});
   keys.optional("height", case_file::number(tube.height, kPositive),
                 {"height of a closed cylinder with the swimmer in the middle", "a long tube"});
 }
 
-/// Reads `container`: "unbounded" or { radius, height }; without a height it is a long tube.
+/// Reads `container`, which is "unbounded" or { radius, height } [L]; without a height it is a long
+/// tube. Throws Error(kBadInput) if the tube is too narrow, too wide or too short for the swimmer.
 void read_tube(const case_file::TomlSection& section, std::string_view key, SwimmerCase& c) {
   if (section.is_text(key)) {
     section.require(section.text(key) == "unbounded", key,
@@ -134,7 +143,9 @@ void read_tube(const case_file::TomlSection& section, std::string_view key, Swim
   auto& tube = c.spheres.tube.emplace();
   case_file::read_keys(table, tube_keys, tube);
   const auto& radii = c.spheres.radii;
-  constexpr double kNarrowest = 1.01, kWidest = 1e3;  // times the largest radius
+  // Limits of the tube's radius over the largest radius of a sphere. kWidest also limits the height
+  // over the length of the swimmer.
+  constexpr double kNarrowest = 1.01, kWidest = 1e3;
   const double largest = std::ranges::max(radii);
   table.require(tube.radius >= kNarrowest * largest && tube.radius <= kWidest * largest, "radius",
                 "is {}; it must be {} to {} times the largest radius of the spheres, {}, or the "
@@ -150,6 +161,8 @@ void read_tube(const case_file::TomlSection& section, std::string_view key, Swim
                   *tube.height, longest, kWidest);
 }
 
+/// Declares the keys of [swimmer]: the radii [L], the table or the arms and the relative accuracy
+/// [1] of a new table, and the container.
 void swimmer_keys(case_file::Keys& keys, SwimmerCase& c) {
   keys.required("radii", case_file::custom("2 to 10 numbers > 0", read_radii, c.spheres.radii),
                 {"radii in the order of the line; the largest is at most 100 times the smallest"});
@@ -179,11 +192,13 @@ void swimmer_keys(case_file::Keys& keys, SwimmerCase& c) {
                c.table.container, around);
 }
 
-/// What is wrong with the length [L] of arm k if it is outside the table; empty if it is inside.
+/// What is wrong with the length `arm` [L] of arm k, counted from 0, if the length is outside the
+/// table; empty if it is inside.
 std::string fault_of_arm(double arm, std::size_t k, const SwimmerCase& c) {
   const double both_radii = c.spheres.radii[k] + c.spheres.radii[k + 1];
   const double from = c.gaps[k].front() + both_radii, to = c.gaps[k].back() + both_radii;
-  // Relative; an arm is a gap plus two radii, which may be rounded. resistance_fit.cpp repeats it.
+  // A relative length. An arm is a gap plus two radii, which may be rounded. resistance_fit.cpp has
+  // the same number.
   constexpr double kRounding = 1e-12;
   if (arm >= from * (1 - kRounding) && arm <= to * (1 + kRounding)) return "";
   if (!(arm > both_radii))
@@ -197,7 +212,8 @@ std::string fault_of_arm(double arm, std::size_t k, const SwimmerCase& c) {
       k + 1, arm, from, to);
 }
 
-/// Reads one number for each arm, or one number for all of them.
+/// Reads a number for each arm into `place`, or one number for all arms. Throws Error(kBadInput) if
+/// their number is not that of the arms, or if `allowed` refuses one of them.
 void read_arms(const case_file::TomlSection& section, std::string_view key, Eigen::VectorXd& place,
                const SwimmerCase& c, const Allowed& allowed) {
   const auto arms = static_cast<Eigen::Index>(c.gaps.size());
@@ -218,9 +234,9 @@ void check_arms(const case_file::TomlSection& section, std::string_view key,
       section.fail(key, fault);
 }
 
-/// Reads a stroke from a CSV file with the columns time [T], x1, x2, ... [L]. Throws
-/// Error(kBadInput) for fewer than 3 rows and, with the line, for an empty field, a time that is
-/// not greater than the one before, or an arm outside the table.
+/// Reads a stroke from a CSV file with the columns time [T], x1, x2, ... [L], of which the last row
+/// closes the loop. Throws Error(kBadInput) for fewer than 3 rows and, with the line, for an empty
+/// field, a time that is not greater than that of the row above, or an arm outside the table.
 void read_samples(const case_file::TomlSection& section, std::string_view key, double,
                   SwimmerCase& c) {
   section.require(!section.has("period"), "period",
@@ -257,8 +273,9 @@ void read_samples(const case_file::TomlSection& section, std::string_view key, d
   c.stroke = with_place(file, [&] { return sampled_stroke(times, samples); });
 }
 
-/// Reads the corners of a stroke, arms [L]. Throws Error(kBadInput) for fewer than two corners,
-/// equal neighbours, or arms outside the table.
+/// Reads the corners of a stroke that takes the time `period` [T]. A corner has a number for each
+/// arm [L]. Throws Error(kBadInput) for fewer than two corners, equal neighbours, or arms outside
+/// the table.
 void read_corners(const case_file::TomlSection& section, std::string_view key, double period,
                   SwimmerCase& c) {
   const auto rows = section.rows(key, c.gaps.size(), kPositive);
@@ -278,13 +295,14 @@ void read_corners(const case_file::TomlSection& section, std::string_view key, d
   c.stroke = polygon_stroke(corners, period);
 }
 
-/// The arms centre + semi_axes cos(t + phases), with t from 0 to 2 pi: one number for each arm, [L]
-/// and for the phases [rad].
+/// The arms centre + semi_axes cos(t + phases), with t from 0 to 2 pi. Each member has a number for
+/// each arm; centre and semi_axes are in [L], phases in [rad].
 struct Ellipse {
   Eigen::VectorXd centre, semi_axes, phases;
 };
 
-/// Reads `phase`: a number for the second arm, or a list for the second arm to the last.
+/// Reads `phase` [rad]: one number if there are two arms, or a list with a number for each arm
+/// except the first, whose phase is 0.
 void read_phases(const case_file::TomlSection& section, std::string_view key,
                  Eigen::VectorXd& phases) {
   const auto arms = static_cast<std::size_t>(phases.size());
@@ -301,6 +319,7 @@ void read_phases(const case_file::TomlSection& section, std::string_view key,
   phases[1] = section.number(key, kFinite);
 }
 
+/// Declares the keys of an ellipse.
 void ellipse_keys(case_file::Keys& keys, Ellipse& ellipse, const SwimmerCase& c) {
   constexpr std::string_view kArms = "a number for each arm, or one number for all";
   keys.required("centre", case_file::custom(kArms, read_arms, ellipse.centre, c, kPositive),
@@ -316,7 +335,8 @@ void ellipse_keys(case_file::Keys& keys, Ellipse& ellipse, const SwimmerCase& c)
       {"of the second arm to the last, in radians; one arm has none"});
 }
 
-/// Reads an elliptic stroke. Throws Error(kBadInput) if no arm moves or one leaves the table.
+/// Reads an elliptic stroke that takes the time `period` [T]. Throws Error(kBadInput) if no arm
+/// moves or an arm leaves the table.
 void read_ellipse(const case_file::TomlSection& section, std::string_view key, double period,
                   SwimmerCase& c) {
   const auto table = section.section(key);
@@ -329,6 +349,7 @@ void read_ellipse(const case_file::TomlSection& section, std::string_view key, d
   c.stroke = elliptic_stroke(centre, semi_axes, phases, period);
 }
 
+/// Declares the keys of [stroke]: the period [T], and the corners, the ellipse or the file.
 void stroke_keys(case_file::Keys& keys, SwimmerCase& c) {
   const int kinds = static_cast<int>(keys.has("corners")) + static_cast<int>(keys.has("ellipse")) +
                     static_cast<int>(keys.has("file"));
@@ -353,6 +374,8 @@ void stroke_keys(case_file::Keys& keys, SwimmerCase& c) {
   if (c.stroke) c.optimal_period = c.stroke->period;
 }
 
+/// Declares the keys of [optimal]: the displacement [L], not 0, the shape `through` [L], the period
+/// [T] and the number of polynomials of each arm.
 void optimal_keys(case_file::Keys& keys, SwimmerCase& c) {
   auto& request = c.optimal.emplace();
   keys.required("displacement", case_file::number(request.displacement, kNotZero),
@@ -388,6 +411,7 @@ void optimal_keys(case_file::Keys& keys, SwimmerCase& c) {
 
 }  // namespace
 
+/// Reads all sections of the case. The sections [stroke] and [optimal] may be missing.
 void read_root(const case_file::TomlSection& root, SwimmerCase& c) {
   case_file::read_title_and_units(root, c);
   case_file::read_keys(root.section("fluid"), case_file::viscosity_keys, c.spheres.viscosity);
@@ -397,6 +421,7 @@ void read_root(const case_file::TomlSection& root, SwimmerCase& c) {
   root.finish();
 }
 
+/// The tables of the keys of all sections, for docs/case-file.md.
 std::vector<case_file::KeyTable> tables_of_swimmer_case() {
   return {case_file::describe_keys("[swimmer]", swimmer_keys),
           case_file::describe_keys("swimmer.arms", arm_keys),

@@ -1,10 +1,11 @@
-// Computes the strokes of a sweep (swimmer_study.hpp). The columns displacement [L] and energy [M
-// L^2/T^2], each in a period, are in the units of the case; efficiency has no dimension. Used by
-// app/ (command `sweep`). A key that cannot be varied and a case without a stroke are an
-// Error(kWrongUsage), a wrong case or fit is an Error(kBadInput), a stop an Error(kInterrupted); a
-// stroke that fails leaves its columns empty. A change must keep the names of the columns, which
-// users' scripts read and add_sums() repeats, and put everything that determines the rows into the
-// head, so that rows of another sweep are not kept.
+// Computes the strokes of a sweep of a swimmer, which is a line of spheres that changes its arms
+// (swimmer_study.hpp). Displacements [L] and energies [M L^2/T^2], each in one period, are in the
+// units of the case; the efficiency is [1]. app/ (command `sweep`) uses this file. A key that
+// cannot be varied and a case without a stroke throw Error(kWrongUsage), a wrong case or fit throws
+// Error(kBadInput), and a requested stop throws Error(kInterrupted); a stroke that fails leaves its
+// columns empty. A change must keep the names of the columns, which users' scripts read and which
+// add_sums() repeats. It must also put everything that determines the rows into the head, so that
+// rows of another sweep are not kept.
 #include "viscontact/swimmer/case/swimmer_study.hpp"
 
 #include <utility>
@@ -23,6 +24,9 @@ namespace {
 constexpr std::string_view kSwimmerResults[] = {"displacement", "energy",
                                                 "energy_at_constant_power", "efficiency"};
 
+/// Adds the sums of a stroke over a period to the row, in the columns with this prefix.
+/// `energy_at_constant_power` [M L^2/T^2] is the energy of the same loop in the same period if it
+/// is run at constant power.
 void add_sums(const std::string& prefix, const SwimSums& sums, sweep::RowResults& results) {
   results.values[prefix + "displacement"] = sums.displacement;
   results.values[prefix + "energy"] = sums.energy;
@@ -40,8 +44,8 @@ void check_swimmer_key(const std::string& key) {
               key);
 }
 
-/// The results of a row. A stroke that fails leaves its columns empty; a stop throws
-/// Error(kInterrupted).
+/// The results of a row: those of the stroke that the case gives, and those of the stroke of least
+/// energy if the case asks for it. A stroke that fails leaves its columns empty.
 sweep::RowResults swim_strokes(const SwimmerCase& c, ResistanceFit fit, const StopToken& stop) {
   sweep::RowResults results;
   const Swimmer swimmer(scaled_to(std::move(fit), c.spheres.viscosity, c.spheres.radii));
@@ -58,6 +62,9 @@ sweep::RowResults swim_strokes(const SwimmerCase& c, ResistanceFit fit, const St
 
 }  // namespace
 
+/// The study of the case at `case_path`: its points, the columns of its results and the function
+/// that computes a row. `fit` is the fit of the resistance matrices, which is scaled to each point;
+/// `version` is the version of Viscontact, for the head of the file.
 sweep::Study swimmer_study(const std::filesystem::path& case_path, sweep::Points points,
                            const ResistanceFit& fit, const std::string& version) {
   const case_file::CaseTemplate<SwimmerCase> cases(case_path);

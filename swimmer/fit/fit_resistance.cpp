@@ -2,10 +2,10 @@
 // table, and takes the logarithm S of the rest: R = mu (R_lub + l exp S), with the viscosity mu and
 // the largest radius l (resistance_fit.hpp). The fit is the polynomial through the S of all rows.
 // Gaps and radii [L], > 0, the viscosity [M/(L T)], > 0, and R [M/T] are in the units of the table;
-// R_lub is [L], S and errors [1]. Fewer than three values of a gap, rows that are missing or stand
-// twice and a matrix that is not positive definite are an Error(kBadInput). Used by swimmer/job and
-// python/. A change must keep the random signs of change_by_estimates(), on which the error
-// estimates depend.
+// R_lub is [L], S and errors are [1]. Fewer than three values of a gap, rows that are missing or
+// occur twice, and a matrix that is not positive definite throw Error(kBadInput). swimmer/job and
+// python/ use this file. A change must keep the random signs of change_by_estimates(), on which the
+// error estimates depend.
 #include "viscontact/swimmer/fit/fit_resistance.hpp"
 
 #include <algorithm>
@@ -24,10 +24,10 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr std::size_t kFewestNodes = 3;  // so that two remain if one is left out
+constexpr std::size_t kFewestNodes = 3;  // so that two nodes remain if one is left out
 
-/// The values of each gap in the table, rising: the nodes of the polynomials. Throws
-/// Error(kBadInput) if a gap has fewer than three.
+/// The nodes of the polynomials: for each gap, its values in the table [L], rising. Throws
+/// Error(kBadInput) if a gap has fewer than three values.
 std::vector<std::vector<double>> nodes_of(const ResistanceTable& table) {
   auto nodes = gap_grid(table);
   for (std::size_t k = 0; k < nodes.size(); ++k)
@@ -39,8 +39,8 @@ std::vector<std::vector<double>> nodes_of(const ResistanceTable& table) {
   return nodes;
 }
 
-/// The rows in the order of ResistanceFit::logarithms. Throws Error(kBadInput) if a combination of
-/// gaps is missing or stands twice.
+/// The rows of the table in the order of ResistanceFit::logarithms, in which the last gap changes
+/// fastest. Throws Error(kBadInput) if a combination of gaps is missing or occurs twice.
 std::vector<ResistanceRow> sorted_rows(const ResistanceTable& table,
                                        const std::vector<std::vector<double>>& nodes) {
   std::map<std::vector<double>, ResistanceRow> rows;
@@ -56,8 +56,8 @@ std::vector<ResistanceRow> sorted_rows(const ResistanceTable& table,
   return sorted;
 }
 
-/// S, the logarithm of R/(mu l) - R_lub/l, where R_lub has `terms` terms. Nothing if this matrix is
-/// not positive definite.
+/// S, the logarithm of the matrix R/(mu l) - R_lub/l, where R_lub has `terms` terms, from 0 to
+/// kLubricationTerms. Nothing if this matrix is not positive definite.
 std::optional<MatrixXd> logarithm_of(const ResistanceRow& row, const ResistanceTable& table,
                                      int terms) {
   const double unit_length = std::ranges::max(table.radii);
@@ -70,7 +70,7 @@ std::optional<MatrixXd> logarithm_of(const ResistanceRow& row, const ResistanceT
                   eigen.eigenvectors().transpose());
 }
 
-/// R = mu (R_lub + l exp S) for S = `logarithm`.
+/// R = mu (R_lub + l exp S) [M/T] for S = `logarithm` at these gaps [L].
 MatrixXd matrix_from(const MatrixXd& logarithm, const std::vector<double>& gaps,
                      const ResistanceTable& table, int terms) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(logarithm);
@@ -82,15 +82,15 @@ MatrixXd matrix_from(const MatrixXd& logarithm, const std::vector<double>& gaps,
                   .eval());
 }
 
-/// The value of which the relative error of R_ij is a fraction
-/// (ResistanceRow::relative_error_estimates).
+/// The value [M/T] by which an error of the entry R_ij is divided to make it relative: |R_ij|, or
+/// kLeastShare sqrt(R_ii R_jj) if that is larger.
 double entry_scale(const MatrixXd& matrix, Index i, Index j) {
-  // Of sqrt(R_ii R_jj), as in collinear_spheres.edp, which makes the estimates.
+  // The share must be that in collinear_spheres.edp, which makes the error estimates of a table.
   constexpr double kLeastShare = 1e-3;
   return std::max(std::abs(matrix(i, j)), kLeastShare * std::sqrt(matrix(i, i) * matrix(j, j)));
 }
 
-/// The largest relative difference of an entry of two matrices.
+/// The largest relative difference [1] of an entry of two matrices.
 double relative_difference(const MatrixXd& fitted, const MatrixXd& exact) {
   double largest = 0;
   for (Index i = 0; i < exact.rows(); ++i)
@@ -112,8 +112,8 @@ void change_by_estimates(ResistanceRow& row, SplitMix64& random) {
     }
 }
 
-/// Barycentric weights of the inverse distances of centres 1/(gap + a + b) at the nodes of gap k,
-/// with the radii a and b.
+/// The barycentric weights of the nodes of gap k, one for each node. The variable of the
+/// polynomials is the inverse distance of centres 1/(gap + a + b) [1/L] with the radii a and b.
 Eigen::VectorXd weights_of(const ResistanceFit& fit, std::size_t k) {
   Eigen::VectorXd inverse(static_cast<Index>(fit.gaps[k].size()));
   for (std::size_t i = 0; i < fit.gaps[k].size(); ++i)
@@ -121,7 +121,8 @@ Eigen::VectorXd weights_of(const ResistanceFit& fit, std::size_t k) {
   return barycentric_weights(inverse);
 }
 
-/// Calls `use` with the indices of the matrices S on each line of the grid of nodes along gap k.
+/// Calls `use` with the indices of the matrices S of the nodes on each line of the grid along gap
+/// k, in the order of the nodes. On such a line only gap k changes.
 template <class Use>
 void for_each_line(const ResistanceFit& fit, std::size_t k, const Use& use) {
   std::size_t inner = 1;
@@ -135,7 +136,8 @@ void for_each_line(const ResistanceFit& fit, std::size_t k, const Use& use) {
     }
 }
 
-/// sum_i weights_i S_i on a line of n nodes. It is 0 if S is a polynomial of degree n - 2 or less.
+/// The sum over i of weights_i S_i on a line of n nodes. It is 0 if S is a polynomial of degree n -
+/// 2 or less in the inverse distance.
 MatrixXd weighted_sum(const ResistanceFit& fit, const Eigen::VectorXd& weights,
                       const std::vector<std::size_t>& line) {
   MatrixXd sum = MatrixXd::Zero(fit.logarithms[0].rows(), fit.logarithms[0].cols());
@@ -144,8 +146,9 @@ MatrixXd weighted_sum(const ResistanceFit& fit, const Eigen::VectorXd& weights,
   return sum;
 }
 
-/// Sets the residual of the fit and its leave-one-out errors. The polynomial through all nodes of a
-/// line but i has at node i the value S_i - (sum_j w_j S_j)/w_i, with the barycentric weights w.
+/// Sets the residual of the fit [1] and its leave-one-out errors [1], which are the errors with
+/// which the other rows on a line predict a row. The polynomial through all nodes of a line except
+/// node i has at node i the value S_i - (sum_j w_j S_j)/w_i, with the barycentric weights w.
 void measure_errors(ResistanceFit& fit, const ResistanceTable& table,
                     const std::vector<ResistanceRow>& rows) {
   const std::size_t spheres = fit.radii.size();
@@ -196,6 +199,9 @@ std::optional<ResistanceFit> fit_with(const ResistanceTable& table, int terms,
 
 }  // namespace
 
+/// The fit with the number of terms of lubrication, from 0 to kLubricationTerms, whose largest
+/// leave-one-out error is the smallest. Throws Error(kBadInput) if no number of terms gives
+/// positive definite matrices.
 ResistanceFit fit_resistance(const ResistanceTable& table) {
   const auto rows = sorted_rows(table, nodes_of(table));
   std::optional<ResistanceFit> best;
@@ -210,6 +216,9 @@ ResistanceFit fit_resistance(const ResistanceTable& table) {
   return *best;
 }
 
+/// Fits with which the results of a swimmer are computed again to estimate their errors: for each
+/// gap a fit with a polynomial of one degree less, and at most 16 fits of tables whose entries are
+/// changed by their error estimates. `fit` must be fit_resistance(table) (not checked).
 PerturbedFits perturbed_fits(const ResistanceTable& table, const ResistanceFit& fit) {
   PerturbedFits perturbed;
   // With the barycentric weights w, S - w (w.S)/(w.w) is the least-squares polynomial of one degree
@@ -224,7 +233,8 @@ PerturbedFits perturbed_fits(const ResistanceTable& table, const ResistanceFit& 
     });
     perturbed.lower_degrees.push_back(std::move(lower));
   }
-  // 16 draws give the root mean square of a result's change to about a fifth (1/sqrt(32)).
+  // Each draw changes the table with other random signs. 16 draws, a free choice, give the root
+  // mean square of a result's change to about a fifth (1/sqrt(32)).
   constexpr std::uint64_t kDraws = 16;
   const auto rows = sorted_rows(table, fit.gaps);
   for (std::uint64_t draw = 0; draw < kDraws; ++draw) {

@@ -1,9 +1,10 @@
-// The page of a swimmer: tables, curves over time, and the loops of strokes in the plane of two
-// arms, over a map of the displacement per area (displacement_curl). Arms and positions [L], times
-// [T], power [M L^2/T^3] and forces [M L/T^2] are in the units of the case; a stroke has a period >
-// 0 and a row (not checked). Heights and widths of pictures, in pixels, are free choices. A gnuplot
-// that fails is an Error(kExternalProgram), a file in the way or not written an Error(kBadInput), a
-// stop an Error(kInterrupted). Used by swimmer_stage.cpp. A change must list every picture in
+// Makes the page of a swimmer: tables, curves over time, and the loops of strokes in the plane of
+// two arms, over a map of the displacement per area [1/L] (displacement_curl). Arms and positions
+// [L], times [T], power [M L^2/T^3] and forces [M L/T^2] are in the units of the case; a stroke has
+// a period > 0 and at least one row (not checked). Heights and widths of pictures, in pixels, are
+// free choices. A gnuplot that fails throws Error(kExternalProgram); a file that cannot be written,
+// or a file of the user that would be replaced, throws Error(kBadInput); a requested stop throws
+// Error(kInterrupted). swimmer_stage.cpp uses this file. A change must list every picture in
 // kSwimmerPictures, which decides which files in plots/ may be replaced or removed.
 #include "viscontact/swimmer/job/swimmer_page.hpp"
 
@@ -34,8 +35,8 @@ std::size_t place_after_spheres(const SwimmerResults& results) {
   return first_sphere(results) + results.c.spheres.radii.size();
 }
 
-/// log10 of the magnitude of the displacement per area [1/L] of a small loop, for all pairs of arms
-/// of the table.
+/// The decimal logarithm of the size of the displacement per area [1/L] of a small loop, over the
+/// plane of the two arms [L], for all pairs of arms of the table.
 report::ColourField curl_field(const Swimmer& swimmer) {
   constexpr std::size_t kPixels = 200;  // along each axis; a smooth field needs no more
   const auto [left, right] = swimmer.arm_interval(0);
@@ -51,6 +52,7 @@ report::ColourField curl_field(const Swimmer& swimmer) {
   return field;
 }
 
+/// The path of a stroke in the plane of the first two arms [L].
 Points loop_of(const StrokeResult& stroke) {
   Points points;
   for (const auto& row : stroke.rows) points.emplace_back(row.arms[0], row.arms[1]);
@@ -64,6 +66,7 @@ struct ShownStroke {
   const StrokeResult* result;
 };
 
+/// The strokes that there are: the given stroke and the optimal stroke.
 std::vector<ShownStroke> strokes_of(const SwimmerResults& results) {
   std::vector<ShownStroke> strokes;
   if (results.stroke)
@@ -88,8 +91,8 @@ report::PlotPanel panel_of_strokes(const SwimmerResults& results, const std::str
   return panel;
 }
 
-/// A plot with one panel for each stroke, which has a curve for each component of a vector. `place`
-/// is the index of the first component's colour.
+/// A plot with one panel for each stroke. A panel has a curve over time [T] for each component of
+/// the vector `values` of a row. `place` is the index of the first component's colour.
 template <class Values>
 report::Plot plot_of_components(const SwimmerResults& results, const std::string& name,
                                 const std::string& title, const std::string& label,
@@ -116,9 +119,9 @@ report::Plot plot_of_components(const SwimmerResults& results, const std::string
   return plot;
 }
 
-/// A plot of the relative excess of the energy with fewer polynomials over that with the most, and
-/// of the residuals of Euler and Lagrange's equation. `place` is the index of the first curve's
-/// colour.
+/// A plot over the number of polynomials: the energy relative to the energy with the most
+/// polynomials, minus 1 [1], and the residual of Euler and Lagrange's equation [1]. `place` is the
+/// index of the first curve's colour. `steps` must not be empty (not checked).
 report::Plot plot_convergence(const std::vector<OptimalStrokeStep>& steps, std::size_t place) {
   report::PlotPanel panel{"Convergence of the optimal stroke",
                           {"polynomials for each arm"},
@@ -133,7 +136,7 @@ report::Plot plot_convergence(const std::vector<OptimalStrokeStep>& steps, std::
   for (const auto& step : steps) {
     const double excess = step.energy / steps.back().energy - 1;
     const auto count = static_cast<double>(step.polynomials);
-    // Smaller differences are round-off, which a logarithmic axis would show as noise.
+    // Differences below this number are round-off, which a logarithmic axis would show as noise.
     constexpr double kRoundOff = 1e-13;
     if (excess > kRoundOff) energy.points.emplace_back(count, excess);
     residual.points.emplace_back(count, step.euler_lagrange_residual);
@@ -142,8 +145,9 @@ report::Plot plot_convergence(const std::vector<OptimalStrokeStep>& steps, std::
   return {"convergence", 400, {panel}};
 }
 
-/// The distance of tics, 1, 2 or 5 times a power of ten, with which at most seven tics are in the
-/// range. gnuplot's own tics are so close that their numbers overlap if they have many digits.
+/// The distance of tics on an axis whose ends are `range` > 0 apart. It is 1, 2 or 5 times a power
+/// of ten, and at most seven tics are on the axis. gnuplot's own tics are so close that their
+/// numbers overlap if they have many digits.
 double tic_step(double range) {
   const double least = range / 6;
   const double power = std::pow(10, std::floor(std::log10(least)));
@@ -152,8 +156,8 @@ double tic_step(double range) {
   return 10 * power;
 }
 
-/// The loops in the plane of the two arms, over a map of the displacement per area of a small loop
-/// there, as an SVG.
+/// The SVG of the loops in the plane of the two arms [L], over a map of the displacement per area
+/// [1/L] of a small loop at each point.
 std::string draw_loops(const SwimmerResults& results, const StopToken& stop) {
   const Swimmer swimmer(results.fit);
   const auto length = results.c.units.in_brackets(0, 1, 0);
@@ -183,8 +187,9 @@ std::string draw_loops(const SwimmerResults& results, const StopToken& stop) {
   return report::draw_svg({panel}, 760, 700, stop);
 }
 
-/// Plots of the position of the middle sphere, power, arms and forces over time, for each stroke
-/// that there is, and of the convergence of the optimal one.
+/// Plots of the position of the middle sphere [L], the power [M L^2/T^3], the arms [L] and the
+/// forces [M L/T^2] over time for all strokes, and of the convergence of the optimal stroke. The
+/// list is empty if there is no stroke.
 std::vector<report::Plot> swimmer_plots(const SwimmerResults& results) {
   std::vector<report::Plot> plots;
   if (strokes_of(results).empty()) return plots;
@@ -239,6 +244,7 @@ std::string strokes_table(const SwimmerResults& results) {
       row("period [T]", [](const StrokeResult& s) { return seven_digits(s.period); }));
 }
 
+/// How the optimal stroke was found, as HTML; empty if there is none.
 std::string search_words(const SwimmerResults& results) {
   const auto& steps = results.convergence;
   if (steps.empty()) return "";
@@ -255,6 +261,8 @@ std::string search_words(const SwimmerResults& results) {
       last.euler_lagrange_residual);
 }
 
+/// The table (HTML) of the error estimates of the table of resistance matrices and of its fit, all
+/// relative [1].
 std::string fit_table_of(const SwimmerResults& results) {
   const auto& fit = results.fit;
   double estimate = 0;
@@ -273,6 +281,7 @@ std::string fit_table_of(const SwimmerResults& results) {
                         fmt::format("{:.2g}", fit.rms_left_one_out_error)));
 }
 
+/// The table (HTML) of the viscosity, radii, surroundings and arms of the case.
 std::string parameters_of(const SwimmerResults& results) {
   const auto& spheres = results.c.spheres;
   std::string radii;
@@ -292,6 +301,7 @@ std::string parameters_of(const SwimmerResults& results) {
   return report::table_of(rows);
 }
 
+/// A paragraph (HTML) with links to the files of the folder.
 std::string files_words(const SwimmerResults& results) {
   std::string text =
       "<p>Files of this folder: <a href=\"table.csv\">table.csv</a>, <a "
@@ -314,6 +324,8 @@ std::string loops_section(const report::Report& report) {
 
 }  // namespace
 
+/// Writes report.html and the pictures in plots/ into `folder`. The loops are drawn only if there
+/// are two arms and gnuplot did not fail.
 void write_swimmer_report(const SwimmerResults& results, const std::filesystem::path& folder,
                           const results::Provenance& provenance, const StopToken& stop) {
   const auto& units = results.c.units;

@@ -1,11 +1,12 @@
 // Runs the stages of a swimmer one after the other (swimmer_stage.hpp): the table of resistance
-// matrices, its fit, the strokes, the page. Times and periods [T], arms and displacements [L],
-// forces [M L/T^2], power [M L^2/T^3] and energies [M L^2/T^2] are in the units of the case. A
-// wrong case and a file of the user in the way are an Error(kBadInput), a FreeFEM or gnuplot that
-// fails an Error(kExternalProgram), a stroke whose sums or search do not converge an
-// Error(kNotConverged), a stop an Error(kInterrupted). Used by app/ and python/. A change must keep
-// the texts in check_files(), which the files contain, and the keys of swimmer.json and the columns
-// of stroke.csv, which are in docs/file-formats.md.
+// matrices, the fit of the table, the strokes, and the page. Times and periods [T], arms and
+// displacements [L], forces [M L/T^2], power [M L^2/T^3] and energies [M L^2/T^2] are in the units
+// of the case. A wrong case, or a file of the user that would be replaced, throws Error(kBadInput).
+// A FreeFEM or gnuplot that fails throws Error(kExternalProgram), a stroke whose sums or search do
+// not converge throws Error(kNotConverged), and a requested stop throws Error(kInterrupted). app/
+// and python/ use this file. A change must keep the texts in check_files(), which the files
+// contain, and the keys of swimmer.json and the columns of stroke.csv, which are in
+// docs/file-formats.md.
 #include "viscontact/swimmer/job/swimmer_stage.hpp"
 
 #include <fmt/format.h>
@@ -31,6 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The paths of the files in the folder of the results.
 struct SwimmerFolder {
   fs::path path;
   fs::path table() const { return path / "table.csv"; }
@@ -40,6 +42,8 @@ struct SwimmerFolder {
   fs::path optimal() const { return path / "optimal_stroke.csv"; }
 };
 
+/// Throws Error(kBadInput) if a file of the results would replace a file that Viscontact did not
+/// write.
 void check_files(const SwimmerFolder& folder) {
   results::refuse_other_kind(folder.table(), "# viscontact: resistance table",
                              "table of resistance matrices");
@@ -47,10 +51,10 @@ void check_files(const SwimmerFolder& folder) {
   results::refuse_other_kind(folder.results(), "\"swimmer\"", "swimmer.json");
   for (const auto& stroke : {folder.stroke(), folder.optimal()})
     results::refuse_other_kind(stroke, "# viscontact: stroke of a swimmer", "stroke");
-  (void)report::Report(folder.path, kSwimmerPictures);  // throws if a file is in its way
+  (void)report::Report(folder.path, kSwimmerPictures);  // throws for a file of the user
 }
 
-/// Fits the table and writes fit.json, unless it is there already.
+/// Fits the table and writes fit.json, unless that file has the same content already.
 ResistanceFit fit_table(const SwimmerFolder& folder, const ResistanceTable& table,
                         const results::Provenance& provenance) {
   auto fit = with_place(folder.table().string(), [&] { return fit_resistance(table); });
@@ -66,10 +70,12 @@ ResistanceFit fit_table(const SwimmerFolder& folder, const ResistanceTable& tabl
   return fit;
 }
 
-/// What a stroke does. `multiplier` [M L/T^2] is that of swim_errors(), 0 unless the stroke is
-/// optimal.
+/// The sums of a stroke over its period, their error estimates, and its rows. `multiplier` [M
+/// L/T^2] is the derivative of the least energy by the displacement if the stroke is optimal, and 0
+/// if it is not.
 StrokeResult result_of(const SwimmerResults& results, const Stroke& stroke, double multiplier) {
-  constexpr int kIntervals = 400;  // about as many rows of stroke.csv; enough for smooth curves
+  // stroke.csv has about this number of rows, a free choice that is enough for smooth curves.
+  constexpr int kIntervals = 400;
   const Swimmer swimmer(results.fit);
   const auto sums = swim_sums(swimmer, stroke);
   const auto perturbed = perturbed_fits(results.table, results.fit);
@@ -78,6 +84,9 @@ StrokeResult result_of(const SwimmerResults& results, const Stroke& stroke, doub
           swim_rows(swimmer, stroke, kIntervals)};
 }
 
+/// The text of the file of a stroke, which must have a row (not checked): a head, the names of the
+/// columns, and for each row time, arms x1, x2, ..., position of the middle sphere, force of each
+/// sphere on the fluid, and power.
 std::string stroke_csv(const StrokeResult& stroke) {
   const auto& first = stroke.rows.front();
   std::string text = write_csv_comments(
@@ -97,6 +106,7 @@ std::string stroke_csv(const StrokeResult& stroke) {
   return text;
 }
 
+/// The sums of a stroke with their error estimates, as an object of swimmer.json.
 Json json_of(const StrokeResult& stroke) {
   return {{"displacement", stroke.sums.displacement},
           {"displacement_error_estimate", stroke.errors.displacement},
@@ -107,6 +117,8 @@ Json json_of(const StrokeResult& stroke) {
           {"period", stroke.period}};
 }
 
+/// The text of swimmer.json: the sums of the given stroke, in "optimal" those of the optimal stroke
+/// with the steps of its search, and the errors of the fit [1].
 std::string results_json(const SwimmerResults& results) {
   Json json = {{"kind", "swimmer"}, {"title", results.c.title}};
   if (results.stroke) json.update(json_of(*results.stroke));
@@ -147,8 +159,8 @@ void compute_strokes(SwimmerResults& results, const StopToken& stop) {
   terminal::clear_progress();
 }
 
-/// Writes the file of a stroke, unless it is up to date, or removes that of an earlier run. Returns
-/// true if it wrote.
+/// Writes the file of a stroke unless the file is up to date. If there is no stroke, removes the
+/// file of an earlier run. Returns true if the file was written.
 bool write_stroke(const fs::path& path, const std::optional<StrokeResult>& stroke,
                   const results::Provenance& provenance) {
   if (stroke)
@@ -157,8 +169,8 @@ bool write_stroke(const fs::path& path, const std::optional<StrokeResult>& strok
   return false;
 }
 
-/// Reads what json_of() and stroke_csv() wrote for a swimmer with this number of spheres. Throws
-/// Error(kBadInput) if the CSV file lacks a number or has no rows.
+/// Reads the stroke that json_of() and stroke_csv() wrote for a swimmer with `spheres` >= 2
+/// spheres. Throws Error(kBadInput) if the CSV file lacks a column or a number, or has no rows.
 StrokeResult read_stroke(const Json& json, const fs::path& path, std::size_t spheres) {
   StrokeResult stroke{json.at("period"),
                       {json.at("displacement"), json.at("energy"),
@@ -183,7 +195,8 @@ StrokeResult read_stroke(const Json& json, const fs::path& path, std::size_t sph
   return stroke;
 }
 
-/// Reads the results of a run of the case from its folder.
+/// Reads the results of a run of the case from the folder. Throws Error(kBadInput) if a file is
+/// missing or wrong.
 SwimmerResults read_results(const SwimmerFolder& folder, const fs::path& case_file) {
   SwimmerResults results;
   results.c = read_swimmer_case(case_file);
@@ -202,6 +215,7 @@ SwimmerResults read_results(const SwimmerFolder& folder, const fs::path& case_fi
   return results;
 }
 
+/// Tells the user the displacement [L], the energy [M L^2/T^2] and the efficiency [1] of a stroke.
 void tell(const std::string& name, const StrokeResult& stroke) {
   terminal::say(
       "{}: displacement {:.9g} (error estimate {:.1g}), energy {:.9g} ({:.1g}), efficiency {:.4g}",
@@ -211,6 +225,8 @@ void tell(const std::string& name, const StrokeResult& stroke) {
 
 }  // namespace
 
+/// The table of the case, to be computed and written to `table`. Throws Error(kBadInput) if the
+/// case names a table.
 pipeline::CaseTable case_table(const SwimmerCase& c, const fs::path& table) {
   if (c.table_file)
     throw_bad_input({c.path.string()},
@@ -218,6 +234,8 @@ pipeline::CaseTable case_table(const SwimmerCase& c, const fs::path& table) {
   return {c.path, c.text, table, resistance_table_plan(c.spheres, c.gaps), {}, {}};
 }
 
+/// Runs all stages and writes the files of the results into request.folder. Files that are up to
+/// date are left as they are.
 void run_swimmer(const SwimmerRequest& request) {
   SwimmerResults results;
   results.c = read_swimmer_case(request.case_file);
@@ -252,6 +270,7 @@ void run_swimmer(const SwimmerRequest& request) {
   if (request.json) fmt::print("{}", json);
 }
 
+/// Writes the page again from the files in the folder `path`.
 void report_swimmer(const fs::path& path, const StopToken& stop) {
   const SwimmerFolder folder{path};
   auto files = results::given_inputs(folder.results());

@@ -1,10 +1,11 @@
-// Evaluates the lubrication of pairs, and R = mu (R_lub + l exp(S)) with its derivatives
-// (resistance_fit.hpp). mu is the viscosity, l the largest radius. Radii and gaps [L], > 0, one gap
-// less than there are spheres, R [M/T] and R_lub [L] are in the units of the fit, S has no
-// dimension; the lubrication has 0 to kLubricationTerms terms, which is not checked. Gaps outside
-// the table are an Error(kBadInput). Used by shape_mechanics.cpp and swimmer/fit. A change must
-// keep that the slopes are the derivatives of R, and the formula of the lubrication, because files
-// of fits contain only the rest.
+// Evaluates the lubrication of pairs of spheres on a line, and their resistance matrix R = mu
+// (R_lub + l exp(S)), with its derivatives by the gaps (resistance_fit.hpp). mu is the viscosity, l
+// the largest radius, R_lub the known lubrication, and S the polynomial of the fit. Radii and gaps
+// [L] are > 0, and there is one gap less than spheres (not checked). R [M/T] and R_lub [L] are in
+// the units of the fit; S is [1]. The lubrication has 0 to kLubricationTerms terms (not checked).
+// Gaps outside the table throw Error(kBadInput). shape_mechanics.cpp and swimmer/fit use this file.
+// A change must keep that the slopes are the derivatives of R, and the formula of the lubrication,
+// because files of fits contain only S.
 #include "viscontact/swimmer/resistance/resistance_fit.hpp"
 
 #include <algorithm>
@@ -24,8 +25,8 @@ std::array<double, kLubricationTerms> coefficients(double beta) {
               (42 * sum3)};
 }
 
-/// Adds to the matrix of all spheres the resistance of spheres k and k + 1 against a change of
-/// their gap.
+/// Adds the resistance of spheres k and k + 1 against a change of their gap to the matrix of all
+/// spheres, in the unit of the matrix. Spheres are counted from 0.
 void add_pair(Eigen::MatrixXd& matrix, std::size_t k, double resistance) {
   const auto i = static_cast<Eigen::Index>(k);
   matrix(i, i) += resistance;
@@ -36,6 +37,8 @@ void add_pair(Eigen::MatrixXd& matrix, std::size_t k, double resistance) {
 
 }  // namespace
 
+/// The first `terms` terms of the lubrication [L] of two spheres of radii a and b [L] > 0 at this
+/// gap [L] > 0: their resistance against a change of the gap, divided by the viscosity.
 double pair_lubrication(double a, double b, double gap, int terms) {
   const auto g = coefficients(b / a);
   const double xi = 2 * gap / (a + b), logarithm = std::log1p(1 / xi);
@@ -46,6 +49,7 @@ double pair_lubrication(double a, double b, double gap, int terms) {
   return 6 * std::numbers::pi * a * sum;
 }
 
+/// The derivative of pair_lubrication() by the gap [1].
 double pair_lubrication_slope(double a, double b, double gap, int terms) {
   const auto g = coefficients(b / a);
   const double xi = 2 * gap / (a + b), logarithm = std::log1p(1 / xi);
@@ -57,6 +61,8 @@ double pair_lubrication_slope(double a, double b, double gap, int terms) {
   return 6 * std::numbers::pi * a * sum * 2 / (a + b);
 }
 
+/// R_lub [L], with a row and a column for each sphere. Only neighbours resist a change of their
+/// gap.
 Eigen::MatrixXd lubrication_matrix(std::span<const double> radii, std::span<const double> gaps,
                                    int terms) {
   const auto spheres = static_cast<Eigen::Index>(radii.size());
@@ -69,6 +75,8 @@ Eigen::MatrixXd lubrication_matrix(std::span<const double> radii, std::span<cons
 
 namespace {
 
+/// The nodes of the polynomials: for each gap, the inverse distances of the centres [1/L] at its
+/// nodes.
 std::vector<Eigen::VectorXd> inverse_distances(const ResistanceFit& fit) {
   std::vector<Eigen::VectorXd> nodes;
   for (std::size_t k = 0; k < fit.gaps.size(); ++k) {
@@ -80,7 +88,8 @@ std::vector<Eigen::VectorXd> inverse_distances(const ResistanceFit& fit) {
   return nodes;
 }
 
-/// The entries on and above the diagonal of each matrix; column m belongs to matrix m.
+/// The entries on and above the diagonal of each matrix, row by row; column m belongs to matrix m.
+/// All matrices have the same size, and there is at least one (not checked).
 Eigen::MatrixXd columns_of(const std::vector<Eigen::MatrixXd>& matrices) {
   const auto spheres = matrices.front().rows();
   Eigen::MatrixXd columns(spheres * (spheres + 1) / 2, static_cast<Eigen::Index>(matrices.size()));
@@ -93,6 +102,8 @@ Eigen::MatrixXd columns_of(const std::vector<Eigen::MatrixXd>& matrices) {
   return columns;
 }
 
+/// The symmetric matrix of this number of spheres with these entries on and above its diagonal, row
+/// by row.
 Eigen::MatrixXd symmetric_matrix(const Eigen::VectorXd& entries, Eigen::Index spheres) {
   Eigen::MatrixXd matrix(spheres, spheres);
   Eigen::Index row = 0;
@@ -101,8 +112,8 @@ Eigen::MatrixXd symmetric_matrix(const Eigen::VectorXd& entries, Eigen::Index sp
   return matrix;
 }
 
-/// The divided difference (exp a - exp b)/(a - b) of exp, which is exp a for a = b. For |a - b| <
-/// 2e-4 the next term of the series of sinh is below round-off.
+/// The divided difference (exp a - exp b)/(a - b) of the exponential function, which is exp a for a
+/// = b. If |a - b| < 2e-4, the first two terms of the series of sinh are exact to round-off.
 double divided_difference_of_exp(double a, double b) {
   const double half = (a - b) / 2;
   const double ratio = std::abs(half) < 1e-4 ? 1 + half * half / 6 : std::sinh(half) / half;
@@ -111,6 +122,7 @@ double divided_difference_of_exp(double a, double b) {
 
 }  // namespace
 
+/// Prepares the evaluation of `fit`, whose lists have the sizes of ResistanceFit (not checked).
 FittedResistance::FittedResistance(const ResistanceFit& fit)
     : viscosity_(fit.viscosity),
       radii_(fit.radii),
@@ -120,8 +132,10 @@ FittedResistance::FittedResistance(const ResistanceFit& fit)
   for (const auto& gaps : fit.gaps) intervals_.push_back({gaps.front(), gaps.back()});
 }
 
+/// True if each of the gaps [L] is in the interval of its nodes; false if one of them is NaN.
 bool FittedResistance::contains(std::span<const double> gaps) const {
-  // Relative; gaps are rounded differences of arms and radii. swimmer_case.cpp repeats it.
+  // A relative difference that is allowed because gaps are rounded differences of arms and radii.
+  // swimmer_case.cpp has the same number.
   constexpr double kRounding = 1e-12;
   for (std::size_t k = 0; k < gaps.size(); ++k)
     if (!(gaps[k] >= intervals_[k][0] * (1 - kRounding) &&
@@ -130,6 +144,8 @@ bool FittedResistance::contains(std::span<const double> gaps) const {
   return true;
 }
 
+/// R [M/T] and its derivatives by the gaps [M/(L T)] at these gaps [L]. Throws Error(kBadInput) if
+/// a gap is outside the table.
 ResistanceWithSlopes FittedResistance::operator()(std::span<const double> gaps) const {
   if (!contains(gaps))
     for (std::size_t k = 0; k < gaps.size(); ++k)

@@ -1,10 +1,10 @@
-// The fields of the file of a ResistanceFit (docs/file-formats.md), and the fit of scaled spheres.
-// The viscosity [M/(L T)] and the radii and gaps [L] are > 0 and in the units of the table; the
-// logarithms of the matrices and relative errors, >= 0, have no dimension. Every fault of a file is
-// an Error(kBadInput) with line and key; radii of other ratios are an Error(kBadInput), too. The
-// functions are declared in resistance_fit.hpp; swimmer/job and swimmer/case use them. A change
-// must keep earlier files readable, and the text "resistance fit", for which swimmer_stage.cpp
-// searches.
+// Reads and writes the file of a ResistanceFit (JSON, docs/file-formats.md), which is a fit of the
+// resistance matrices of spheres on a line, and scales a fit to other spheres. The viscosity [M/(L
+// T)] and the radii and gaps [L] are > 0 and in the units of the table; the logarithms of the
+// matrices, and relative errors, >= 0, are [1]. Every fault of a file throws Error(kBadInput),
+// which names line and key; radii of other ratios throw Error(kBadInput), too. resistance_fit.hpp
+// declares the functions; swimmer/job and swimmer/case use them. A change must keep earlier files
+// readable, and the text "resistance fit", for which swimmer_stage.cpp searches.
 
 #include <algorithm>
 #include <functional>
@@ -19,13 +19,15 @@ namespace {
 
 using Eigen::Index;
 
+/// Throws Error(kBadInput), which names the key, unless all numbers are > 0.
 void check_positive(const JsonFields& json, const std::string& key,
                     const std::vector<double>& numbers) {
   for (const double number : numbers)
     if (!(number > 0)) json.fail(key, "contains {}; each number must be > 0", number);
 }
 
-/// Throws Error(kBadInput) unless there is a list of at least two rising numbers > 0 for each gap.
+/// Throws Error(kBadInput) unless fit.gaps has a list of at least two rising numbers > 0 for each
+/// gap, that is for each two neighbouring spheres.
 void check_gaps(const JsonFields& json, const ResistanceFit& fit) {
   for (const auto& nodes : fit.gaps) {
     check_positive(json, "gaps", nodes);
@@ -37,8 +39,10 @@ void check_gaps(const JsonFields& json, const ResistanceFit& fit) {
               fit.gaps.size(), fit.radii.size() - 1);
 }
 
-/// Writes or reads the key `logarithms`: of each matrix of ResistanceFit::logarithms the entries on
-/// and above the diagonal, because the matrices are symmetric.
+/// Writes or reads the key `logarithms`. It has the entries on and above the diagonal of each
+/// matrix of ResistanceFit::logarithms [1], row by row, because the matrices are symmetric. Throws
+/// Error(kBadInput) if a matrix, or the number of matrices, does not have the size that belongs to
+/// the radii and gaps.
 void logarithms(JsonFields& json, ResistanceFit& fit) {
   const std::size_t spheres = fit.radii.size();
   std::vector<std::vector<double>> all;
@@ -67,6 +71,8 @@ void logarithms(JsonFields& json, ResistanceFit& fit) {
 
 }  // namespace
 
+/// Writes or reads all keys of the file. The largest value of `lubrication_terms` is
+/// kLubricationTerms.
 void fields_of(JsonFields& json, ResistanceFit& fit) {
   json.constant("viscontact", "resistance fit");
   json("viscosity", fit.viscosity, kPositive);
@@ -94,6 +100,9 @@ void fields_of(JsonFields& json, ResistanceFit& fit) {
   json.foreign_object("provenance");
 }
 
+/// The fit for spheres of these radii [L] and this viscosity [M/(L T)] > 0: gaps grow with the
+/// radii, while S, the logarithm of the scaled matrices, stays the same. Throws Error(kBadInput) if
+/// the radii have other ratios than those of `fit`.
 ResistanceFit scaled_to(ResistanceFit fit, double viscosity, const std::vector<double>& radii) {
   const double ratio = ratio_of_radii(radii, fit.radii, "fit");
   fit.viscosity = viscosity;

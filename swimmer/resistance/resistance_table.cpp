@@ -1,10 +1,11 @@
-// The columns of a table of resistance matrices (resistance_table.hpp, docs/file-formats.md). Gaps
-// and radii [L] and the viscosity [M/(L T)], all > 0, and the entries of R [M/T], force on the
-// fluid per velocity, are in the units of the table; error estimates are relative, >= 0. Indices of
-// spheres, from 0, are not checked. A fault of a file, a matrix that is not positive definite and
-// radii of other ratios are an Error(kBadInput). Used by the other folders of swimmer/ and python/.
-// A change must keep the names of the columns, which published tables have, and the order of the
-// entries, that of the lines of collinear_spheres.edp.
+// Reads, writes and scales a table of resistance matrices R of spheres on a line
+// (resistance_table.hpp, docs/file-formats.md). R_ij [M/T] is the force of sphere i on the fluid
+// per velocity of sphere j. Gaps and radii [L] and the viscosity [M/(L T)] are > 0; all are in the
+// units of the table. Error estimates are relative [1], >= 0. Indices of spheres are counted from 0
+// and not checked. A fault of a file, a matrix that is not positive definite, and radii of other
+// ratios throw Error(kBadInput). The other folders of swimmer/ and python/ use this file. A change
+// must keep the names of the columns, which published tables have, and the order of the entries,
+// which is that of the lines that collinear_spheres.edp writes.
 #include "viscontact/swimmer/resistance/resistance_table.hpp"
 
 #include <fmt/format.h>
@@ -23,20 +24,23 @@ using lubrication::Column;
 using lubrication::IfAbsent;
 using lubrication::TableHead;
 
-/// The numbers of two spheres in the name of a column: "12", or "9_10" if one has two digits. The
-/// arguments i and j count from 0, the numbers from 1.
+/// The numbers of two spheres in the name of a column: "12", or "9_10" if one of them has two
+/// digits. The arguments i and j count from 0; the numbers in the name count from 1.
 std::string pair_name(std::size_t i, std::size_t j) {
   return fmt::format("{}{}{}", i + 1, std::max(i, j) >= 9 ? "_" : "", j + 1);
 }
 
 }  // namespace
 
+/// The index of R_ij in the list R11, R12, ..., R1N, R22, ..., RNN of the entries of N = `spheres`
+/// spheres.
 std::size_t entry_position(std::size_t i, std::size_t j, std::size_t spheres) {
   const auto [row, column] = std::minmax(i, j);
   return row * spheres - row * (row + 1) / 2 + column;
 }
 
-/// Throws std::out_of_range if the row has fewer entries than the matrix needs.
+/// The symmetric matrix R [M/T] of a row. Throws std::out_of_range if the row has fewer entries
+/// than the matrix needs.
 Eigen::MatrixXd matrix_of(const ResistanceRow& row, std::size_t spheres) {
   const auto size = static_cast<Eigen::Index>(spheres);
   Eigen::MatrixXd matrix(size, size);
@@ -47,6 +51,9 @@ Eigen::MatrixXd matrix_of(const ResistanceRow& row, std::size_t spheres) {
   return matrix;
 }
 
+/// The columns of a table: the gaps gap12, gap23, ... [L], the entries R11, R12, ... [M/T], their
+/// relative error estimates [1], the largest of these, the degrees of freedom, the seconds [s], and
+/// the order of convergence in the mesh size. Each column points to its number in `row`.
 std::vector<Column> columns_of(const TableHead& head, ResistanceRow& row) {
   const std::size_t spheres = head.radii.size();
   std::vector<Column> columns, estimates;
@@ -68,6 +75,7 @@ std::vector<Column> columns_of(const TableHead& head, ResistanceRow& row) {
   return columns;
 }
 
+/// Gives the lists of the row the lengths that belong to the number of radii in the head.
 void prepare(const TableHead& head, ResistanceRow& row) {
   row.gaps.resize(head.radii.size() - 1);
   row.entries.resize(entry_count(head.radii.size()));
@@ -93,6 +101,8 @@ ResistanceTable read_resistance_table(const std::filesystem::path& path) {
   return lubrication::read_table<ResistanceRow>(path);
 }
 
+/// For each gap of neighbours, in the order of the spheres, its values in the table [L], rising and
+/// without repetition.
 std::vector<std::vector<double>> gap_grid(const ResistanceTable& table) {
   std::vector<std::vector<double>> grid(table.radii.size() - 1);
   for (std::size_t k = 0; k < grid.size(); ++k) {
@@ -104,6 +114,9 @@ std::vector<std::vector<double>> gap_grid(const ResistanceTable& table) {
   return grid;
 }
 
+/// The ratio [1] of each radius to the radius of the same sphere in `other`. Throws
+/// Error(kBadInput) unless this ratio is the same for all spheres. In the message, `what` is the
+/// word for the thing that has the radii `other`.
 double ratio_of_radii(const std::vector<double>& radii, const std::vector<double>& other,
                       std::string_view what) {
   const double ratio = radii.front() / other.front();
@@ -118,6 +131,8 @@ double ratio_of_radii(const std::vector<double>& radii, const std::vector<double
   return ratio;
 }
 
+/// The table for spheres of these radii [L] and this viscosity [M/(L T)] > 0: gaps grow with the
+/// radii, and entries with the radii and the viscosity.
 ResistanceTable scaled_to(ResistanceTable table, double viscosity,
                           const std::vector<double>& radii) {
   const double ratio = ratio_of_radii(radii, table.radii, "table");

@@ -1,8 +1,9 @@
-// Interpolation on a grid by the barycentric formula (tensor_polynomial.hpp). Numbers have any
-// dimension; there is a list of nodes, all different, for each variable, a column of values for
-// each combination of nodes, of which the last variable changes fastest, and a number of a point
-// for each variable. Nothing is checked or thrown. Used by resistance_fit.cpp and swimmer/fit. A
-// change must keep that the values at the nodes are met exactly.
+// Interpolates values on a grid of nodes by polynomials in several variables, with the barycentric
+// formula (tensor_polynomial.hpp). Numbers have any dimension. There is a list of nodes, all
+// different, for each variable, and a column of values for each combination of nodes; from one
+// combination to the next the node of the last variable changes first. A point has a number for
+// each variable. Nothing is checked or thrown. resistance_fit.cpp and swimmer/fit use this file. A
+// change must keep that the polynomial has exactly the given values at the nodes.
 #include "viscontact/swimmer/resistance/tensor_polynomial.hpp"
 
 #include <cmath>
@@ -10,8 +11,8 @@
 namespace viscontact::swimmer {
 namespace {
 
-/// The matrix that maps values at the nodes to derivatives at the nodes (Berrut & Trefethen 2004,
-/// section 9.3). Each of its rows has the sum 0.
+/// The matrix that maps the values at the nodes to the derivatives at the nodes (Berrut & Trefethen
+/// 2004, section 9.3). Each of its rows has the sum 0. `weights` are barycentric_weights(nodes).
 Eigen::MatrixXd differentiation_matrix(const Eigen::VectorXd& nodes,
                                        const Eigen::VectorXd& weights) {
   const auto count = nodes.size();
@@ -25,8 +26,8 @@ Eigen::MatrixXd differentiation_matrix(const Eigen::VectorXd& nodes,
   return matrix;
 }
 
-/// The values at x of the polynomials that are 1 at one node and 0 at the others, one for each
-/// node.
+/// The values at x, one for each node, of the polynomials that are 1 at this node and 0 at all
+/// other nodes. Their sum is 1.
 Eigen::VectorXd basis_at(double x, const Eigen::VectorXd& nodes, const Eigen::VectorXd& weights) {
   Eigen::VectorXd basis(nodes.size());
   for (Eigen::Index i = 0; i < nodes.size(); ++i) {
@@ -36,8 +37,9 @@ Eigen::VectorXd basis_at(double x, const Eigen::VectorXd& nodes, const Eigen::Ve
   return basis / basis.sum();
 }
 
-/// Derivatives by variable k, at the nodes, of the polynomial through `values` on the grid.
-/// `matrix` is the differentiation matrix of variable k.
+/// The derivatives by variable k, at all combinations of nodes, of the polynomial with these
+/// `values` at them. `matrix` is the differentiation matrix of variable k; `values` and the result
+/// have a column for each combination.
 Eigen::MatrixXd derivative_by(std::size_t k, const std::vector<Eigen::VectorXd>& nodes,
                               const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& values) {
   // A combination of nodes has the number (outer * nodes[k].size() + i) * inner + rest.
@@ -55,6 +57,7 @@ Eigen::MatrixXd derivative_by(std::size_t k, const std::vector<Eigen::VectorXd>&
 
 }  // namespace
 
+/// The barycentric weights of the nodes, whose largest size is 1.
 Eigen::VectorXd barycentric_weights(const Eigen::VectorXd& nodes) {
   // With logarithms the products do not underflow if there are many nodes.
   Eigen::VectorXd logarithms = Eigen::VectorXd::Zero(nodes.size()), signs = logarithms;
@@ -69,6 +72,7 @@ Eigen::VectorXd barycentric_weights(const Eigen::VectorXd& nodes) {
   return signs.array() * (logarithms.array() - logarithms.maxCoeff()).exp();
 }
 
+/// Prepares the interpolation of `values`, which has a column for each combination of nodes.
 TensorPolynomial::TensorPolynomial(const std::vector<Eigen::VectorXd>& nodes,
                                    const Eigen::MatrixXd& values)
     : nodes_(nodes), size_(values.rows()) {
@@ -82,6 +86,8 @@ TensorPolynomial::TensorPolynomial(const std::vector<Eigen::VectorXd>& nodes,
   }
 }
 
+/// The values at the point in the first column, and their derivatives by the variables in the
+/// columns after it.
 Eigen::MatrixXd TensorPolynomial::operator()(std::span<const double> point) const {
   Eigen::VectorXd basis = Eigen::VectorXd::Ones(1);
   for (std::size_t k = 0; k < nodes_.size(); ++k) {

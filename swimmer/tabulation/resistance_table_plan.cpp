@@ -1,9 +1,9 @@
-// The table of resistance matrices of spheres on a line as a TablePlan (how rows are computed,
-// written and read): its rows and their reflections. Gaps [L], > 0 and rising in each list, and
-// radii [L], one more than there are lists, are in the unit of the case (not checked).
-// collinear_spheres.hpp declares the function. A row that FreeFEM cannot compute is an
-// Error(kExternalProgram), a stop an Error(kInterrupted). Used by swimmer/job. A change of the text
-// of inputs_of() makes every earlier table out of date.
+// Makes the plan of a table of resistance matrices of spheres on a line, which says how the rows
+// are computed, written and read (TablePlan). Gaps [L] are > 0 and rise in each list; there is one
+// radius [L] more than lists; all are in the unit of the case (not checked). collinear_spheres.hpp
+// declares the function. A row that FreeFEM cannot compute throws Error(kExternalProgram), and a
+// requested stop throws Error(kInterrupted). swimmer/job uses this file. A change of the text of
+// inputs_of() makes every earlier table out of date.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,24 +16,27 @@
 namespace viscontact::swimmer {
 namespace {
 
+// grid[k] has the gaps between spheres k and k + 1 [L].
 using Grid = std::vector<std::vector<double>>;
 
 // Revision of the FreeFEM scripts that compute the matrices. Raise it when a change of the scripts
 // changes their results; tables of another revision are then computed again.
 constexpr int kMatrixMethod = 1;
 
+/// True if the spheres and the gaps of the grid are the same in the opposite order.
 bool is_mirror_image(const CollinearSpheres& spheres, const Grid& grid) {
   return std::ranges::equal(spheres.radii,
                             std::vector(spheres.radii.rbegin(), spheres.radii.rend())) &&
          std::ranges::equal(grid, Grid(grid.rbegin(), grid.rend()));
 }
 
+/// The gaps in the opposite order.
 freefem_axi::RowPoint reflected(freefem_axi::RowPoint gaps) {
   std::ranges::reverse(gaps);
   return gaps;
 }
 
-/// The row of the spheres in the opposite order.
+/// The row of the same spheres in the opposite order: its gaps and its matrix are reflected.
 ResistanceRow reflected(const ResistanceRow& row) {
   const std::size_t spheres = row.gaps.size() + 1;
   ResistanceRow other = row;
@@ -63,6 +66,8 @@ std::vector<freefem_axi::RowPoint> all_points(const Grid& grid) {
   return points;
 }
 
+/// A text that contains everything that the rows depend on. A table is computed again if this text
+/// has changed.
 std::string inputs_of(const CollinearSpheres& spheres, const Grid& grid) {
   std::string text = fmt::format("collinear spheres; {}; {} {} {};", surroundings_in_words(spheres),
                                  format_number(spheres.viscosity),
@@ -75,9 +80,9 @@ std::string inputs_of(const CollinearSpheres& spheres, const Grid& grid) {
   return text;
 }
 
-/// The time of a row on one core [s], from measurements at a relative accuracy of 1e-5: 2 to 6 s
-/// for three spheres, 12 to 37 s for ten. If more accuracy is asked for, it grows as for one sphere
-/// (freefem_axi/motion_table_plan.cpp).
+/// An estimate of the time of a row on one core [s], from measurements at a relative accuracy of
+/// 1e-5: 2 to 6 s for three spheres, 12 to 37 s for ten. If more accuracy is asked for, the time
+/// grows as for one sphere (freefem_axi/motion_table_plan.cpp).
 double typical_seconds_of(const CollinearSpheres& spheres) {
   constexpr double kSecondsPerSphere = 1.5, kKnee = 1e-5, kPower = 0.45;
   return kSecondsPerSphere * static_cast<double>(spheres.radii.size()) *
@@ -86,6 +91,9 @@ double typical_seconds_of(const CollinearSpheres& spheres) {
 
 }  // namespace
 
+/// The plan of the table of all combinations of the gaps. If the spheres are their own mirror
+/// image, only one of each two mirrored rows is computed, and the other row is the reflection of
+/// this row.
 freefem_axi::TablePlan resistance_table_plan(const CollinearSpheres& spheres, const Grid& grid) {
   freefem_axi::PlanParts<ResistanceRow> parts;
   auto& planned = parts.rows.emplace_back();
@@ -99,7 +107,7 @@ freefem_axi::TablePlan resistance_table_plan(const CollinearSpheres& spheres, co
     if (!has_mirror || point <= reflected(point)) parts.points.push_back(point);
   parts.relative_accuracy = spheres.relative_accuracy;
   parts.typical_seconds = typical_seconds_of(spheres);
-  parts.needs_all_rows = true;  // because its fit is a polynomial through all of them
+  parts.needs_all_rows = true;  // because the fit is a polynomial through all rows
   parts.solve = [spheres](const freefem_axi::FreeFem& freefem, const freefem_axi::RowPoint& gaps) {
     return std::vector{solve_resistance(freefem, spheres, gaps)};
   };
