@@ -19,7 +19,7 @@ namespace viscontact::fitting {
 
 /// A fit in one basis, or the reason why there is none.
 struct BasisResult {
-  /// Name of the basis, such as "lecture"; kOwnTerms ("terms") for a user's list of terms.
+  /// Name of the basis, such as lecture; kOwnTerms ("terms") for a user's list of terms.
   std::string basis;
   std::optional<lubrication::Fit> fit{};  ///< nothing if the fit threw an Error
   std::string failure;                    ///< what() of that Error; empty if there is a fit

@@ -142,7 +142,7 @@ inline constexpr int kModelsRevision = 5;
 
 /// Rows in strictly increasing time, at least one, and how they were made.
 struct Trajectory {
-  std::string model;                ///< name of the model, such as "inertial"
+  std::string model;                ///< name of the model, such as inertial
   std::vector<TrajectoryRow> rows;  ///< in strictly increasing time, at least one
   /// Smallest film thickness [L], >= 0, that gamma stands for; nothing if gamma is never < 0.
   /// Contact models only.

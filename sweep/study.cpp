@@ -185,8 +185,8 @@ std::uint64_t run_rows(
   const auto work = [&] {
     std::unique_lock lock(mutex);
     for (;;) {
-      row_taken.wait(
-          lock, [&] { return error || is_stopped || next >= size || next < taken + window; });
+      row_taken.wait(lock,
+                     [&] { return error || is_stopped || next >= size || next < taken + window; });
       if (error || is_stopped || next >= size || stop.stop_requested()) return;
       const std::uint64_t index = next++;
       lock.unlock();

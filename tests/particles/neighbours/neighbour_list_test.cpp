@@ -27,7 +27,7 @@ TEST(NeighbourList, IsTheSameAsBeforeWhereAParticleMovesTooFarForItsCell) {
   state.particles.positions = {2, 5, 9, 5};
   const std::vector<double> far = {0, 0, 6, 0};
   EXPECT_THAT(failure(ErrorKind::kNotConverged, [&] { rebuild_neighbour_list(state, far, pool); }),
-              ::testing::HasSubstr("particle 1 moves by 3 relative to the others"));
+              ::testing::HasSubstr(" moves by 3 relative to the others"));
   EXPECT_EQ(state.skins, skins);
   EXPECT_EQ(state.positions_at_listing, listed_at);
   EXPECT_FALSE(neighbour_list_is_valid(state, none, pool));
