@@ -60,8 +60,9 @@ constexpr double kFar = 2;
 constexpr int kPieces = 8;
 // Coefficients of M in powers of t, computed with mpmath in 45 digits in these steps: Brenner's
 // series gives R at 30 Chebyshev nodes on each piece, and so a Chebyshev series of R. Its integral,
-// from the value of S at x = -8 by the expansion near contact, divided by eps is M. The powers
-// above t^19 are left out; they are below 1e-21.
+// from the value of S at x = -8 by the expansion near contact, divided by eps is M. The terms of
+// the Chebyshev series above T_19 are left out before it is written in powers; their coefficients
+// are below 2e-21.
 // clang-format off
 constexpr std::array<Polynomial<20>, kPieces> kMean = {{
     {2.272204722152662, -0.099586393365349857, 9.1175197429165688e-05, 1.3149216755474393e-05,

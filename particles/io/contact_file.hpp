@@ -34,8 +34,8 @@ std::string write_contacts(const Particles& particles, std::span<const CurrentCo
 inline constexpr const char* kReboundsHeader =
     "time,first,second,approach_velocity,solid_impulse,velocity\n";
 /// The rows of rebounds.csv, one for each of `rebounds`; empty without rebounds. The columns are
-/// the members of Rebound (rebound.hpp): time [T], velocities [L/T] and impulse [M L/T]. `first` and
-/// `second` are ids; at an obstacle `second` is -1, -2, ... for the first, second obstacle.
+/// the members of Rebound (rebound.hpp): time [T], velocities [L/T] and impulse [M L/T]. `first`
+/// and `second` are ids; at an obstacle `second` is -1, -2, ... for the first, second obstacle.
 std::string rebound_rows(const Particles& particles, std::span<const Rebound> rebounds);
 
 /// Tables over time that a case may ask for (output.tables). A run in a fluid always writes the

@@ -121,6 +121,8 @@ std::string film_colour(double share) {
   return colour_between(kViridis, share);
 }
 
+/// The scale of gamma, minus the impulse that a film has absorbed [M L/T], from `lowest` < 0 on the
+/// left to 0, with `colours` >= 2 colours and the title `words`. Nothing is checked.
 ColourScale film_scale(double lowest, int colours, const std::string& words) {
   ColourScale scale{words, evenly_spaced(colours, film_colour), {}};
   std::ranges::reverse(scale.colours);
@@ -129,6 +131,8 @@ ColourScale film_scale(double lowest, int colours, const std::string& words) {
   return scale;
 }
 
+/// The colour of a contact by its friction over the largest friction of Coulomb's law, from 0 (no
+/// friction, grey) to 1 (sliding, orange).
 std::string friction_colour(double share) {
   static const std::vector<ColourNode> kGreyToOrange = {{0, {90, 90, 90}}, {1, {213, 94, 0}}};
   return colour_between(kGreyToOrange, share);
@@ -242,11 +246,15 @@ PressureColours proportional_colours(const std::vector<double>& pressures) {
   return widened({sorted.front(), sorted.back(), sorted.front(), sorted.back(), 0});
 }
 
+/// A scale for the pressures `pixels` of all pixels of a picture [M/(L T^2)], of which a few may be
+/// much larger than all others; pressures that are not finite do not count. `usual` >= 0 is a
+/// pressure of the size that most pixels have; with 0 the scale stays linear.
 PressureColours robust_colours(const std::vector<double>& pixels, double usual) {
   constexpr double kBeyond = 0.005;  // share of the pixels that may be beyond each end
-  // The scale is cut if the largest pressure is more than kMuchFarther times the largest of the
-  // others, and logarithmic if one of its ends is more than kLogarithmic times the pressure
-  // `usual`.
+  // The upper end is cut if the largest pressure is more than kMuchFarther times the pressure above
+  // which a share of kBeyond of the pixels lies, and the lower end in the same way. The scale is
+  // logarithmic beyond `usual` if an end is cut, or is more than kLogarithmic times `usual`. All
+  // three limits are free choices.
   constexpr double kMuchFarther = 3, kLogarithmic = 10;
   const auto sorted = sorted_finite(pixels);
   const auto few = static_cast<std::size_t>(kBeyond * static_cast<double>(sorted.size()));
