@@ -158,7 +158,8 @@ constexpr std::array kGeometries = {
 
 std::span<const Geometry> all_geometries() { return kGeometries; }
 
-/// The geometries for which the drag near a plane is exact.
+/// The geometries in which the drag on a sphere near a body has an exact solution
+/// (Geometry::has_exact_drag).
 std::vector<Geometry> geometries_with_exact_drag() {
   std::vector<Geometry> geometries;
   std::ranges::copy_if(kGeometries, std::back_inserter(geometries), &Geometry::has_exact_drag);

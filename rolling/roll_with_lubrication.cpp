@@ -4,11 +4,12 @@
 // slip, or the sphere is lifted off. x is along the plane, z away from it, y the axis of rotation;
 // u and V are the velocities of sphere and plane along x [L/T], w is the angular velocity [1/T], q
 // the gap [L], r the radius [L], s = ln(q/r); slip is u - V - r w. Mass m [M], moment of inertia I
-// [M L^2], q and r are > 0, in any consistent units (not checked). A fit that lacks a resistance or
-// whose squeeze is not positive, a gap above those of the fit, and more than 1e8 rows throw
-// Error(kBadInput). A step that CVODE cannot make throws Error(kNotConverged), and a requested stop
-// throws Error(kInterrupted). roll_with_viscous_contact.cpp lists the models. A change must keep
-// the slip exactly 0 while the sphere rolls.
+// [M L^2], q, r, the end time and the time step [T] and the relative tolerance [1] are > 0,
+// roughness [L] and friction [1] >= 0, in any consistent units (not checked). A fit that lacks a
+// resistance or whose squeeze is not positive, a gap above those of the fit, and more than 1e8 rows
+// throw Error(kBadInput). A step that CVODE cannot make throws Error(kNotConverged), and a
+// requested stop throws Error(kInterrupted). roll_with_viscous_contact.cpp lists the models. A
+// change must keep the slip exactly 0 while the sphere rolls.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -427,10 +428,13 @@ RollingTrajectory roll_with_lubrication(const RollingMotion& motion, const motio
 
 }  // namespace
 
+/// The motion of a smooth sphere, which lubrication alone keeps from the plane.
 RollingTrajectory roll_smooth(const RollingMotion& motion, const motions::PairFit& fit) {
   return roll_with_lubrication(motion, fit, 0);
 }
 
+/// The motion of a sphere whose roughness touches the plane at the gap `motion.roughness`; with 0 it
+/// never touches.
 RollingTrajectory roll_rough(const RollingMotion& motion, const motions::PairFit& fit) {
   return roll_with_lubrication(motion, fit, motion.roughness);
 }

@@ -51,7 +51,7 @@ class BlockFactor {
   /// Sets A to 0.
   void clear();
   /// Block of A on the diagonal, to which the caller adds. After factorise(), clear() must be
-  /// called before.
+  /// called before this function is used again.
   Block& diagonal(std::size_t body) { return diagonal_[place_[body]]; }
   /// Block of A for edge number `edge` of analyse(), to which the caller adds. `from` is 0 or 1:
   /// the rows of the block belong to this body of the edge, its columns to the other one. If A is
@@ -84,9 +84,10 @@ class BlockFactor {
     std::size_t entry;  // place of its blocks in below_ and above_
     std::size_t later;  // which body of the edge is eliminated later: 0 or 1
   };
-  // A block of L in a row, which says from where on its column changes the column of this row.
+  // An entry in row j and column k. The products of this entry and of the later entries of column k
+  // are subtracted from column j.
   struct Update {
-    std::int32_t column;  // of the entry
+    std::int32_t column;  // k
     std::uint32_t entry;
   };
   struct Shared;
@@ -131,7 +132,8 @@ class BlockFactor {
 template <int D>
 class UnitMatrix {
  public:
-  /// `problem` must outlive this object, and its units, blocks and parts of rows must not change.
+  /// `problem` must outlive this object. Its units, its blocks and the coefficients of its rows
+  /// (ConstraintProblem::parts) must not change. D is the number of dimensions, 2 or 3.
   /// If `is_symmetric`, the matrix must be symmetric, and is factorised in half of the time.
   UnitMatrix(const ConstraintProblem<D>& problem, bool is_symmetric);
 

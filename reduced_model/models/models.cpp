@@ -106,7 +106,7 @@ constexpr std::array kModels = {
     Model{"inertial_rough", "with inertia and solid contact, CVODE", simulate_inertial_rough,
           nullptr, kOnRequest, kInertia, kFluid, kInertialRoughParameters, nullptr, "variable",
           !kInSweeps, !kUsualReference, check_start_outside_roughness},
-    // New models must be added here, at the end, so that the others keep their colours in the
+    // A new model stands here, at the end of the list, so that the others keep their colours in the
     // report.
 };
 

@@ -33,8 +33,8 @@ struct SwimmerRequest {
 /// before anything is written if the case is wrong or a file of the user would be replaced. Throws
 /// Error(kExternalProgram) if FreeFEM cannot be run, a row of the table fails or gnuplot fails;
 /// Error(kBadInput) if the table cannot be fitted, a stroke leaves the table or a file cannot be
-/// written; Error(kNotConverged) if the sums of a stroke or the search for the stroke of least
-/// energy do not converge; and Error(kInterrupted) after a stop.
+/// written; Error(kNotConverged) if the integrals over the time of a stroke or the search for the
+/// stroke of least energy do not converge; and Error(kInterrupted) after a stop.
 void run_swimmer(const SwimmerRequest& request);
 
 /// Writes the report again from the files that run_swimmer() wrote into `folder`, and from the
