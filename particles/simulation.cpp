@@ -209,8 +209,7 @@ ProjectionResult Simulation::project(double h, double next) {
                                      turn_mobilities_,
                                      body_steps_,
                                      &setting_.links,
-                                     link_forces_,
-                                     pool_.get()};
+                                     link_forces_};
     if (has_constraints()) projection.add_constraints(constraints);
     if (impacts<D>()) projection.follow(*impacts<D>());
     auto projected = projection.solve(setting_.solver, mean_radius_);

@@ -82,8 +82,6 @@ ThreadPool::~ThreadPool() {
   for (auto& thread : workers_->threads) thread.join();
 }
 
-std::size_t ThreadPool::threads() const { return workers_ ? workers_->threads.size() + 1 : 1; }
-
 /// Calls body(0) to body(blocks - 1), each once, on all threads, and returns when all calls have
 /// ended.
 void ThreadPool::run(std::size_t blocks, const std::function<void(std::size_t)>& body) {

@@ -35,13 +35,6 @@ class ThreadPool {
   /// work, waking a thread costs more time than the thread saves.
   static constexpr std::size_t kBlock = 16384;
 
-  /// Number of threads, >= 1, including the calling thread.
-  std::size_t threads() const;
-
-  /// Calls body(0) to body(blocks - 1), which the threads take in this order when they
-  /// are free. Throws as for_blocks().
-  void run(std::size_t blocks, const std::function<void(std::size_t)>& body);
-
   /// Calls body(begin, end) for each block of [0, count), and does not call it if count is 0. The
   /// calls run on all threads of the pool, in any order. If one throws, the first exception is
   /// thrown again when all calls have ended; a pool of one thread throws at once and leaves out the
@@ -74,6 +67,8 @@ class ThreadPool {
   }
 
  private:
+  void run(std::size_t blocks, const std::function<void(std::size_t)>& body);
+
   struct Workers;
   std::unique_ptr<Workers> workers_;  // null for one thread
 };

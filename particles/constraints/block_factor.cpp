@@ -15,9 +15,7 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <thread>
 #include <type_traits>
 #include <utility>
 
@@ -242,12 +240,14 @@ void BlockFactor<K>::analyse(std::size_t bodies, std::span<const Edge> edges, bo
   place_.resize(bodies);
   for (std::size_t k = 0; k < bodies; ++k) place_[index(order_[k])] = k;
   find_pattern(edges);
-  find_updates();
-  find_tasks();
   diagonal_.resize(bodies);
   pivots_.resize(is_symmetric ? 0 : bodies);
   below_.resize(rows_.size());
   above_.resize(is_symmetric ? 0 : rows_.size());
+  first_in_row_.resize(bodies);
+  next_in_row_.resize(bodies);
+  next_entry_.resize(bodies);
+  entry_in_row_.resize(bodies);
   permuted_.resize(bodies);
 }
 
@@ -297,167 +297,63 @@ void BlockFactor<K>::clear() {
   std::ranges::fill(above_, Block{});
 }
 
-/// Lists the entries of each row in the order of their columns. factorise_column() subtracts
-/// products in this order.
+/// Replaces the blocks of the matrix by its factors. Returns false if a block on the diagonal is
+/// singular, infinite or NaN, or, for a symmetric matrix, not positive definite.
 template <int K>
-void BlockFactor<K>::find_updates() {
-  update_offsets_.assign(bodies() + 1, 0);
-  for (const auto row : rows_) ++update_offsets_[index(row) + 1];
-  for (std::size_t j = 0; j < bodies(); ++j) update_offsets_[j + 1] += update_offsets_[j];
-  updates_.resize(rows_.size());
-  auto next = update_offsets_;
-  for (std::size_t k = 0; k < bodies(); ++k)
-    for (auto e = offsets_[k]; e < offsets_[k + 1]; ++e)
-      updates_[next[index(rows_[e])]++] = {static_cast<std::int32_t>(k),
-                                           static_cast<std::uint32_t>(e)};
-}
-
-/// Divides the columns into tasks for the threads. A subtree of the elimination tree needs no
-/// columns of other subtrees. The first tasks consist of one or several subtrees with little work.
-/// Each column above these subtrees is a task of its own, and these tasks are the last ones.
-template <int K>
-void BlockFactor<K>::find_tasks() {
-  // The work of a subtree is little if it is at most 1/kParts of the whole work. With a larger
-  // kParts fewer columns are in subtrees, and with a smaller one threads wait for the last task.
-  // The number is a free choice.
-  constexpr double kParts = 32;
-  std::vector<double> work(bodies());  // products in the columns of the subtree of each column
-  for (std::size_t j = 0; j < bodies(); ++j) {
-    for (auto u = update_offsets_[j]; u < update_offsets_[j + 1]; ++u)
-      work[j] += static_cast<double>(offsets_[index(updates_[u].column) + 1] - updates_[u].entry);
-    work[j] += static_cast<double>(offsets_[j + 1] - offsets_[j] + 1);
-  }
-  products_ = 0;
-  for (const double products : work) products_ += products;
-  const auto parent = [&](std::size_t j) {
-    return offsets_[j] < offsets_[j + 1] ? rows_[offsets_[j]] : -1;
-  };
-  for (std::size_t j = 0; j < bodies(); ++j)
-    if (parent(j) >= 0) work[index(parent(j))] += work[j];
-  const double little = products_ / kParts;
-  task_of_.assign(bodies(), -1);
-  std::int32_t tasks = 0;
-  double in_task = little;
-  for (std::size_t j = bodies(); j-- > 0;) {
-    if (work[j] > little) continue;
-    if (parent(j) >= 0 && task_of_[index(parent(j))] >= 0) {
-      task_of_[j] = task_of_[index(parent(j))];
-      continue;
-    }
-    if (tasks == 0 || in_task + work[j] > little) {
-      ++tasks;
-      in_task = 0;
-    }
-    in_task += work[j];
-    task_of_[j] = tasks - 1;
-  }
-  for (auto& task : task_of_)
-    if (task < 0) task = tasks++;
-  task_offsets_.assign(index(tasks) + 1, 0);
-  for (const auto task : task_of_) ++task_offsets_[index(task) + 1];
-  for (std::size_t t = 0; t < index(tasks); ++t) task_offsets_[t + 1] += task_offsets_[t];
-  task_columns_.resize(bodies());
-  auto next = task_offsets_;
-  for (std::size_t j = 0; j < bodies(); ++j)
-    task_columns_[next[index(task_of_[j])]++] = static_cast<std::int32_t>(j);
-}
-
-/// What the threads of a factorisation share.
-template <int K>
-struct BlockFactor<K>::Shared {
-  explicit Shared(std::size_t tasks) : done(tasks) {}
-  std::atomic<std::size_t> next{0};      // task that the next free thread takes
-  std::vector<std::atomic<int>> done;    // 1 if the task is done
-  std::atomic<bool> has_failed = false;  // a block on the diagonal is singular
-  std::atomic<int> negative = 0;         // number of threads with an odd number of changed signs
-
-  /// Waits until the task is done. Another thread has taken the task, because tasks are taken in
-  /// their order and need earlier ones only.
-  void await(std::size_t task) {
-    // A column takes microseconds. A thread therefore looks several times before it sleeps. The
-    // number is a free choice.
-    constexpr int kLooks = 100;
-    for (int look = 0; look < kLooks && done[task] == 0; ++look) std::this_thread::yield();
-    done[task].wait(0);
-  }
-  /// Marks the task as done, and wakes the threads that wait for it.
-  void finish(std::size_t task) {
-    done[task] = 1;
-    done[task].notify_all();
-  }
-};
-
-/// Replaces the blocks of the matrix by its factors. The threads of `pool` share the work on a
-/// large matrix; if `pool` is null, the calling thread works alone. Returns false if a block on the
-/// diagonal is singular, infinite or NaN, or, for a symmetric matrix, not positive definite.
-template <int K>
-bool BlockFactor<K>::factorise(ThreadPool* pool) {
-  // With more multiplications than this number, threads save more time than it takes to wake them.
-  constexpr double kManyMultiplications = 1e6;
-  const bool is_shared = pool != nullptr && products_ * K * K * K > kManyMultiplications;
-  const std::size_t threads = is_shared ? pool->threads() : 1;
-  if (entries_in_rows_.size() < threads) entries_in_rows_.resize(threads);
-  const auto tasks = task_offsets_.size() - 1;
-  Shared shared(tasks);
-  const auto work = [&](std::size_t thread) {
-    auto& entry_in_row = entries_in_rows_[thread];
-    entry_in_row.resize(bodies());
-    int sign = 1;
-    const auto take_tasks = [&] {
-      for (auto task = shared.next++; task < tasks; task = shared.next++) {
-        // After a failure tasks are passed over, so that no thread waits for ever.
-        for (auto c = task_offsets_[task]; c < task_offsets_[task + 1] && !shared.has_failed; ++c)
-          if (!factorise_column(index(task_columns_[c]), shared, entry_in_row, sign))
-            shared.has_failed = true;
-        shared.finish(task);
-      }
-      return true;
-    };
-    by_fastest_instructions<K>(take_tasks);
-    if (sign < 0) ++shared.negative;
-  };
-  if (threads == 1)
-    work(0);
-  else
-    pool->run(threads, work);
-  sign_ = shared.negative % 2 == 0 ? 1 : -1;
-  return !shared.has_failed;
+bool BlockFactor<K>::factorise() {
+  std::ranges::fill(first_in_row_, -1);
+  sign_ = 1;
+  return by_fastest_instructions<K>([this] {
+    for (std::size_t j = 0; j < order_.size(); ++j)
+      if (!factorise_column(j)) return false;
+    return true;
+  });
 }
 
 /// Computes column j of L, block j on the diagonal, and row j of U if the matrix is not symmetric.
-/// `entry_in_row` is a work array with one number for each body, whose values do not matter.
-/// Changes the sign of `sign` if the determinant of block j is negative. Returns false if block j
-/// is singular, infinite or NaN, or, for a symmetric matrix, not positive definite.
+/// Columns must be computed in their order. Returns false if block j is singular, infinite or NaN,
+/// or, for a symmetric matrix, not positive definite.
 template <int K>
-bool BlockFactor<K>::factorise_column(std::size_t j, Shared& shared,
-                                      std::vector<std::size_t>& entry_in_row, int& sign) {
+bool BlockFactor<K>::factorise_column(std::size_t j) {
   constexpr auto kSize = static_cast<std::size_t>(K);
   // The scales are those of the block of A, before products of other columns are subtracted.
   const auto scales = scales_of_rows<K>(diagonal_[j]);
-  for (auto e = offsets_[j]; e < offsets_[j + 1]; ++e) entry_in_row[index(rows_[e])] = e;
-  for (auto u = update_offsets_[j]; u < update_offsets_[j + 1]; ++u) {
-    const auto k = index(updates_[u].column);
-    const std::size_t begin = updates_[u].entry;
-    if (task_of_[k] != task_of_[j]) shared.await(index(task_of_[k]));
+  for (auto e = offsets_[j]; e < offsets_[j + 1]; ++e) entry_in_row_[index(rows_[e])] = e;
+  for (auto column = first_in_row_[j]; column >= 0;) {
+    const auto k = index(column);
+    column = next_in_row_[k];
+    const auto begin = next_entry_[k];
     const Block left = below_[begin];
     const Block right = is_symmetric_ ? transposed<K>(left) : above_[begin];
     subtract_product<K>(left, right, diagonal_[j]);
     for (auto e = begin + 1; e < offsets_[k + 1]; ++e) {
-      const auto into = entry_in_row[index(rows_[e])];
+      const auto into = entry_in_row_[index(rows_[e])];
       subtract_product<K>(below_[e], right, below_[into]);
       if (!is_symmetric_) subtract_product<K>(left, above_[e], above_[into]);
     }
+    enlist(k, begin + 1);
   }
   if (is_symmetric_) {
     if (!cholesky<K>(diagonal_[j])) return false;
     for (auto e = offsets_[j]; e < offsets_[j + 1]; ++e)
       for (std::size_t i = 0; i < kSize; ++i) substitute<K>(diagonal_[j], &below_[e][i * kSize]);
   } else {
-    if (!factorise_block<K>(scales, diagonal_[j], pivots_[j], sign)) return false;
+    if (!factorise_block<K>(scales, diagonal_[j], pivots_[j], sign_)) return false;
     for (auto e = offsets_[j]; e < offsets_[j + 1]; ++e)
       solve_block<K, kSize>(diagonal_[j], pivots_[j], above_[e].data());
   }
+  enlist(j, offsets_[j]);
   return true;
+}
+
+/// Makes `entry` the next entry of column k, and puts k into the list of its row, if it has one.
+template <int K>
+void BlockFactor<K>::enlist(std::size_t k, std::size_t entry) {
+  next_entry_[k] = entry;
+  if (entry == offsets_[k + 1]) return;
+  auto& first = first_in_row_[index(rows_[entry])];
+  next_in_row_[k] = first;
+  first = static_cast<std::int32_t>(k);
 }
 
 /// Replaces `values`, K numbers for each body in the order of the bodies, by the inverse of the

@@ -66,10 +66,8 @@ class BlockFactor {
 
   /// Replaces A by its factors. Returns false if a block on the diagonal becomes singular, infinite
   /// or NaN, or, for a symmetric A, is not positive definite; the factors are then unusable.
-  /// Returns true otherwise, also if there are no bodies. The threads of `pool` share the work on a
-  /// large matrix, with the same bits for any number of threads; null: the calling thread works
-  /// alone.
-  bool factorise(ThreadPool* pool = nullptr);
+  /// Returns true otherwise, also if there are no bodies.
+  bool factorise();
   /// Sign of the determinant of A, 1 or -1; 1 if A is symmetric. It has a meaning only after a
   /// factorise() that returned true.
   int sign_of_determinant() const { return sign_; }
@@ -84,18 +82,9 @@ class BlockFactor {
     std::size_t entry;  // place of its blocks in below_ and above_
     std::size_t later;  // which body of the edge is eliminated later: 0 or 1
   };
-  // An entry in row j and column k. The products of this entry and of the later entries of column k
-  // are subtracted from column j.
-  struct Update {
-    std::int32_t column;  // k
-    std::uint32_t entry;
-  };
-  struct Shared;
   void find_pattern(std::span<const Edge> edges);
-  void find_updates();
-  void find_tasks();
-  bool factorise_column(std::size_t j, Shared& shared, std::vector<std::size_t>& entry_in_row,
-                        int& sign);
+  bool factorise_column(std::size_t j);
+  void enlist(std::size_t k, std::size_t entry);
 
   // An entry is a block of L; columns and rows are counted by places in the order of elimination.
   std::vector<std::int32_t> order_;   // body that is eliminated at each place
@@ -108,16 +97,11 @@ class BlockFactor {
   std::vector<std::array<unsigned char, static_cast<std::size_t>(K)>> pivots_;
   std::vector<Block> below_;  // blocks of A below the diagonal, then L
   std::vector<Block> above_;  // blocks of A above the diagonal, in the order of below_; then U
-  // For factorise(): the entries of each row, with increasing columns, and the first of each row.
-  std::vector<Update> updates_;
-  std::vector<std::size_t> update_offsets_;
-  // The tasks into which threads divide the work: their columns, which increase in a task, the
-  // first of each task, and the task of each column. A task needs no columns of later tasks.
-  std::vector<std::int32_t> task_columns_, task_of_;
-  std::vector<std::size_t> task_offsets_;
-  double products_ = 0;  // number of products of blocks in a factorisation
-  // For each thread the entry of its present column in each row.
-  std::vector<std::vector<std::size_t>> entries_in_rows_;
+  // For factorise(): for each row a linked list of the columns whose next entry is in this row. -1
+  // ends a list.
+  std::vector<std::int32_t> first_in_row_, next_in_row_;
+  std::vector<std::size_t> next_entry_;    // the next entry of each column
+  std::vector<std::size_t> entry_in_row_;  // the entry of the present column in each row
   mutable std::vector<Vec> permuted_;
   bool is_symmetric_ = false;
   int sign_ = 1;
@@ -144,7 +128,7 @@ class UnitMatrix {
   /// other^T row must be added, too.
   void add_product(std::size_t b, std::size_t row, std::size_t other, double weight);
   /// Replaces the matrix by its factors. Returns false if this fails (BlockFactor::factorise()).
-  bool factorise() { return factor_.factorise(problem_.pool); }
+  bool factorise() { return factor_.factorise(); }
   /// Sign of the determinant of the matrix, 1 or -1. It has a meaning only after a factorise() that
   /// returned true.
   int sign_of_determinant() const { return factor_.sign_of_determinant(); }

@@ -23,7 +23,6 @@
 #include <span>
 #include <vector>
 
-#include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/contact/friction_law.hpp"
@@ -183,9 +182,6 @@ struct ConstraintProblem {
   /// If false, the solver replaces each given_load by the load of a first solution, and solves
   /// again.
   bool keeps_loads = false;
-  /// The threads that share the factorisations of large matrices, with the same bits for any number
-  /// of threads; null: the calling thread factorises alone.
-  ThreadPool* pool = nullptr;
 
   /// Adds a row with this offset [L], the parts `of_row`, and a guess of its impulse [M L/T].
   void add_row(double offset, std::span<const RowPart<D>> of_row, double impulse) {

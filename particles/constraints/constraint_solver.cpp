@@ -5,9 +5,9 @@
 // block is a contact or link with its rows. A residual [L] is allowed if it is at most
 // ConstraintBlock::allowed or allowed_slip, both > 0. Nothing is thrown; an unsolved problem has a
 // SolverResult::residual that is > 1 or NaN. constraint_system.cpp, impacts/ and
-// fluid/fluid_friction.cpp use this file. A change must keep that results do not depend on the
-// number of threads, which share factorisations only. Constants without another reason are free
-// choices.
+// fluid/fluid_friction.cpp use this file. A change must keep that one thread computes the
+// solution, so that results do not depend on the number of threads. Constants without another
+// reason are free choices.
 //
 // `epsilon` [1], > 0, is the parameter of a proximal step. If a row has the value v, the mobility w
 // and, before the step, the impulse `center`, its new impulse is center - v/(epsilon w), projected

@@ -43,8 +43,6 @@ struct ConstraintStep {
   /// Forces and torques of all links [M L/T^2, M L^2/T^2], in the order of State::link_forces:
   /// before solve() the first guess, after solve() the solution.
   std::span<double> link_forces;
-  /// The threads that share large factorisations; null: the calling thread works alone.
-  ThreadPool* pool = nullptr;
 };
 
 /// The contacts, rigid bodies and links of a step as one ConstraintProblem, and its solution.

@@ -158,7 +158,6 @@ void ConstraintSystem<D>::make_problem(const ContactSystem<D>& system, Island& i
   problem = {};
   problem.is_convex = is_convex_;
   problem.is_rough = is_rough;
-  problem.pool = step_.pool;
   number_units(system, island);
   for (const auto c : island.contacts)
     add_contact(system.contacts[c], c, is_rough ? roughly_allowed : slips_allowed[c], problem);

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "viscontact/particles/dual_problem/dual_problem.hpp"
-#include "viscontact/particles/vector.hpp"
 
 namespace viscontact::particles {
 
@@ -75,8 +74,7 @@ SolverResult active_set_newton(Problem& problem, Factor& factor, int max_iterati
     bool within_bounds = true;
     for (std::size_t c = 0; c < problem.count(); ++c) {
       within_bounds = within_bounds && problem.z[c] >= problem.bound[c];
-      solved.residual =
-          largest_or_nan(solved.residual, problem.residual(c, problem.z[c], gradient[c]));
+      solved.residual = std::max(solved.residual, problem.residual(c, problem.z[c], gradient[c]));
     }
     if (within_bounds && solved.residual <= 1) return solved;
   }

@@ -159,12 +159,13 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
     return found->second;
   };
   std::vector<double> xs, ys, lower_ends;
-  const auto has_curve = [&] {
-    return std::ranges::all_of(others,
-                               [&](const auto& key) { return !std::isnan(rows.value(key)); });
+  const auto has_keys = [&] {
+    return !std::isnan(rows.value(x)) && std::ranges::all_of(others, [&](const auto& key) {
+      return !std::isnan(rows.value(key));
+    });
   };
   while (rows.next()) {
-    if (!has_curve()) continue;
+    if (!has_keys()) continue;  // NaN has no place in an order
     const auto first = first_curve_of_row();
     for (std::size_t i = 0; i < places.size(); ++i) {
       const double at = rows.value(x), y = rows.value(places[i]);

@@ -144,6 +144,14 @@ TEST(RoughPlane, TendsToThePlaneAsItsRipplesVanish) {
   EXPECT_NEAR(rough.factor, bispherical_plane_factor(kGap), rough.error + 2e-8 * rough.factor);
 }
 
+TEST(RoughPlane, TendsToThePlaneAsItsRipplesBecomeLong) {
+  constexpr double kGap = 0.1;
+  const auto rough = drag("rough_plane", kGap, {1e-3, 200});
+  // Between the axis and the end of the ripples, 2 radii away, the floor falls by 2e-6, a fraction
+  // of 2e-5 of the gap.
+  EXPECT_NEAR(rough.factor, bispherical_plane_factor(kGap), rough.error + 2e-5 * rough.factor);
+}
+
 TEST(RoughPlane, NearContactIsFeltThroughItsCrest) {
   // A gap far below the amplitude, with a film over the crest on the axis alone.
   constexpr double kAmplitude = 0.02, kGap = 1e-3;

@@ -8,9 +8,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -135,77 +132,6 @@ TEST(BlockFactor, SolvesStiffContactsBesideMassesInTwoSolutions) {
 
 TEST(BlockFactor, SolvesManyBodiesInTheOrderOfNestedDissection) {
   for (const bool is_symmetric : {false, true}) expect_digits<6>(600, is_symmetric, 1);
-}
-
-/// Random matrices on a lattice in which each body is connected to the next one along each axis.
-template <int K>
-class Lattice {
- public:
-  Lattice(std::array<std::size_t, 3> size, bool is_symmetric) : is_symmetric_(is_symmetric) {
-    bodies_ = size[0] * size[1] * size[2];
-    const std::array<std::size_t, 3> steps{1, size[0], size[0] * size[1]};
-    for (std::size_t b = 0; b < bodies_; ++b)
-      for (std::size_t d = 0; d < 3; ++d)
-        if (b / steps[d] % size[d] + 1 < size[d])
-          edges_.push_back({static_cast<std::int32_t>(b), static_cast<std::int32_t>(b + steps[d])});
-    factor_.analyse(bodies_, edges_, is_symmetric);
-  }
-
-  /// The sign of the determinant and the solution for a random diagonally dominant matrix, the same
-  /// in each call. `spoilt`: a body whose block on the diagonal is no number, so that factorise()
-  /// must return false and nothing is returned; -1: none.
-  std::optional<std::vector<double>> solution(ThreadPool* pool, int spoilt = -1) {
-    Random random(1);
-    factor_.clear();
-    for (std::size_t e = 0; e < edges_.size(); ++e)
-      for (const std::size_t from : {0U, 1U})
-        if (!is_symmetric_ || factor_.is_below(e, from))
-          for (double& number : factor_.off_diagonal(e, from)) number = random.uniform(-1, 1);
-    for (std::size_t b = 0; b < bodies_; ++b)
-      for (std::size_t i = 0; i < K; ++i)
-        factor_.diagonal(b)[i * (K + 1)] = random.uniform(10, 20) * K;
-    if (spoilt >= 0)
-      factor_.diagonal(static_cast<std::size_t>(spoilt))[0] =
-          std::numeric_limits<double>::quiet_NaN();
-    if (!factor_.factorise(pool)) return std::nullopt;
-    std::vector<typename BlockFactor<K>::Vec> values(bodies_);
-    for (auto& value : values)
-      for (double& number : value) number = random.uniform(-1, 1);
-    factor_.solve(values);
-    std::vector<double> all = {static_cast<double>(factor_.sign_of_determinant())};
-    for (const auto& value : values) all.insert(all.end(), value.begin(), value.end());
-    return all;
-  }
-
-  std::size_t bodies() const { return bodies_; }
-
- private:
-  bool is_symmetric_;
-  std::size_t bodies_ = 0;
-  std::vector<std::array<std::int32_t, 2>> edges_;
-  BlockFactor<K> factor_;
-};
-
-template <int K>
-void share_among_threads(std::array<std::size_t, 3> size) {
-  for (const bool is_symmetric : {false, true}) {
-    Lattice<K> lattice(size, is_symmetric);
-    const auto alone = lattice.solution(nullptr);
-    ASSERT_TRUE(alone);
-    for (const int threads : {1, 2, 3, 5}) {
-      SCOPED_TRACE(threads);
-      ThreadPool pool(threads);
-      for (int n = 0; n < 5; ++n) EXPECT_EQ(lattice.solution(&pool), alone);
-      // No thread may wait for a task that another one gave up.
-      for (std::size_t spoilt = 0; spoilt < lattice.bodies(); spoilt += lattice.bodies() / 7)
-        EXPECT_FALSE(lattice.solution(&pool, static_cast<int>(spoilt)));
-    }
-    EXPECT_EQ(lattice.solution(nullptr), alone);
-  }
-}
-TEST(BlockFactor, HasTheSameBitsForAnyNumberOfThreads) {
-  share_among_threads<3>({40, 50, 1});
-  share_among_threads<6>({8, 9, 8});
 }
 
 TEST(BlockFactor, HasTheSameBitsInUnitsThatArePowersOfTwo) {
