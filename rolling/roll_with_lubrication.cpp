@@ -433,8 +433,8 @@ RollingTrajectory roll_smooth(const RollingMotion& motion, const motions::PairFi
   return roll_with_lubrication(motion, fit, 0);
 }
 
-/// The motion of a sphere whose roughness touches the plane at the gap `motion.roughness`; with 0 it
-/// never touches.
+/// The motion of a sphere whose roughness touches the plane at the gap `motion.roughness`; with 0
+/// it never touches.
 RollingTrajectory roll_rough(const RollingMotion& motion, const motions::PairFit& fit) {
   return roll_with_lubrication(motion, fit, motion.roughness);
 }

@@ -97,8 +97,8 @@ constexpr std::size_t kColumnsAtOnce = 16;
 /// Calls `add_row` with the fields of each row and its line. There are at most kColumnsAtOnce
 /// `names`, of which the first `required` must be in the header line. `text` is the content of the
 /// file, and `file` its name in messages. A column that is missing or whose field is empty gives no
-/// number. Throws Error(kBadInput) for the faults that the first comment of csv.cpp lists, except for
-/// a wrong number of rows.
+/// number. Throws Error(kBadInput) for the faults that the first comment of csv.cpp lists, except
+/// for a wrong number of rows.
 void read_columns(const std::string& text, const std::string& file,
                   std::span<const std::string> names, std::size_t required,
                   const std::function<void(Fields fields, int line)>& add_row) {

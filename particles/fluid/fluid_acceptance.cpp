@@ -106,8 +106,8 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
   state_.pairs = std::move(motion.contact.pairs);
   state_.walls = std::move(motion.contact.walls);
   // In a fluid with inertia the second step of a run computes the impulses of the first step again,
-  // and films absorb only the impulses of the second computation. In a case with restitution Pair::impulse is then 0, because solids
-  // rebound less in a contact that bears a load already.
+  // and films absorb only the impulses of the second computation. In a case with restitution
+  // Pair::impulse is then 0, because solids rebound less in a contact that bears a load already.
   const bool is_unloaded = setting_.laws.restitution.is_on() && is_computed_twice();
   std::size_t c = 0;
   for (auto* pairs : {&state_.pairs, &state_.walls})

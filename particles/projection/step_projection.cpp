@@ -166,8 +166,8 @@ std::vector<std::size_t> StepProjection<D>::nearly_closed(bool are_films_only) {
 /// With constraints, a pair that an arm keeps apart is marked as chosen, but gets no contact.
 template <int D>
 void StepProjection<D>::choose(const std::vector<std::size_t>& pairs) {
-  // With constraints one thread solves each island by itself. The order of the contacts of an island must
-  // therefore not depend on other islands.
+  // With constraints one thread solves each island by itself. The order of the contacts of an
+  // island must therefore not depend on other islands.
   for (const auto k : constraints_ ? pairs : interleaved(pairs)) {
     is_chosen_[k] = 1;
     if (constraints_ && constraints_->is_held_apart(pair(k))) continue;
