@@ -144,12 +144,15 @@ TEST(RoughPlane, TendsToThePlaneAsItsRipplesVanish) {
   EXPECT_NEAR(rough.factor, bispherical_plane_factor(kGap), rough.error + 2e-8 * rough.factor);
 }
 
-TEST(RoughPlane, TendsToThePlaneAsItsRipplesBecomeLong) {
-  constexpr double kGap = 0.1;
-  const auto rough = drag("rough_plane", kGap, {1e-3, 200});
-  // Between the axis and the end of the ripples, 2 radii away, the floor falls by 2e-6, a fraction
-  // of 2e-5 of the gap.
-  EXPECT_NEAR(rough.factor, bispherical_plane_factor(kGap), rough.error + 2e-5 * rough.factor);
+TEST(RoughPlane, WithLongRipplesFallsFromTheCrestToTheDepthOfItsAmplitude) {
+  // One ripple is longer than the part with ripples, which ends 2 radii from the axis. From the
+  // crest on the axis the floor falls to the flat part at the depth amplitude/(1 + steepness + ...).
+  constexpr double kGap = 0.1, kAmplitude = 1e-3;
+  for (const double wavelength : {70.0, 200.0}) {
+    const auto rough = drag("rough_plane", kGap, {kAmplitude, wavelength});
+    EXPECT_LT(rough.factor + rough.error, bispherical_plane_factor(kGap));
+    EXPECT_GT(rough.factor - rough.error, bispherical_plane_factor(kGap + kAmplitude));
+  }
 }
 
 TEST(RoughPlane, NearContactIsFeltThroughItsCrest) {
