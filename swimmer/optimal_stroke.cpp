@@ -273,8 +273,8 @@ OptimalStroke find_optimal_stroke(const Swimmer& swimmer, const OptimalStrokeReq
         "for less, begin at a shape farther from the table's borders, or make a table of more arms",
         request.displacement);
   // For fewer polynomials than `best` has, the search starts from the first polynomials of `best`.
-  // Its result does not replace `best`, because with few polynomials it may be far from the results
-  // with more polynomials.
+  // Its result does not replace `best` as the start of the next search, because with few polynomials
+  // it may be far from the results with more polynomials.
   OptimalStroke optimal;
   for (Index count = kFewestPolynomials;; count += 2) {
     count = std::min(count, request.polynomials);
@@ -296,12 +296,11 @@ OptimalStroke find_optimal_stroke(const Swimmer& swimmer, const OptimalStrokeReq
                     "Newton's method for the optimal stroke fails with {} polynomials an arm; ask "
                     "for fewer",
                     count);
-      break;
+      optimal.loop = found->loop;
+      optimal.multiplier = found->multiplier;
+      return optimal;
     }
   }
-  optimal.loop = best->loop;
-  optimal.multiplier = best->multiplier;
-  return optimal;
 }
 
 }  // namespace viscontact::swimmer

@@ -45,9 +45,7 @@ struct OptimalStroke {
   /// Derivative of the least energy by the displacement, in a period of 1 [M L/T^2], of any sign.
   double multiplier = 0;
   /// The results with rising numbers of polynomials, up to OptimalStrokeRequest::polynomials,
-  /// without those for which Newton's method failed. The last one is that of `loop`, unless fewer
-  /// than 8 polynomials were asked for: `loop` then has the 8 polynomials with which the search
-  /// began.
+  /// without those for which Newton's method failed. The last one is that of `loop`.
   std::vector<OptimalStrokeStep> convergence;
 };
 

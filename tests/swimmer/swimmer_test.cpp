@@ -162,6 +162,19 @@ TEST(OptimalStroke, ConvergesInItsPolynomialsAndSolvesEulerAndLagrangesEquation)
               1e-3);
 }
 
+TEST(OptimalStroke, HasAsManyPolynomialsAsAreAskedFor) {
+  // The search begins with 8 polynomials, also where fewer are asked for.
+  for (const Eigen::Index polynomials : {4, 5, 7, 8, 9}) {
+    SCOPED_TRACE(polynomials);
+    const auto optimal = find_optimal_stroke(swimmer(), {0.2, arms(6, 6), polynomials}, {});
+    EXPECT_EQ(optimal.loop.coefficients.cols(), polynomials);
+    EXPECT_EQ(optimal.convergence.back().polynomials, polynomials);
+    const auto sums = swim_sums(swimmer(), stroke_of(optimal.loop, 1));
+    EXPECT_NEAR(sums.displacement, 0.2, 1e-10);
+    EXPECT_NEAR(sums.energy / optimal.convergence.back().energy, 1, 1e-8);
+  }
+}
+
 TEST(OptimalStroke, NeedsLessEnergyThanSquareAndEllipseOfItsDisplacement) {
   const auto sums = swim_sums(swimmer(), square(6, 10));
   const auto optimal = find_optimal_stroke(swimmer(), {sums.displacement, arms(6, 6), 12}, {});
