@@ -64,7 +64,6 @@ std::string commented_case(std::span<const KeyTable> tables) {
   return text;
 }
 
-/// The rows as a table in Markdown.
 std::string KeyTable::markdown() const {
   std::string table = "| key | value | default | meaning |\n| --- | --- | --- | --- |\n";
   for (const auto& row : rows)

@@ -85,7 +85,6 @@ Point nearest_on_line(const std::array<Point, 2>& line, const Point& x) {
   return {line[0][0] + t * dx, line[0][1] + t * dy};
 }
 
-/// The distance of two points.
 double distance(const Point& x, const Point& y) {
   const double dx = y[0] - x[0], dy = y[1] - x[1];
   return std::sqrt(dx * dx + dy * dy);

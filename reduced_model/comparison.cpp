@@ -197,7 +197,6 @@ void fields_of(JsonFields& json, Comparison& comparison) {
   json.foreign_object("provenance");
 }
 
-/// The text of the comparison file (JSON).
 std::string write_comparison(const Comparison& comparison) {
   return JsonFields::text_of(comparison);
 }

@@ -127,7 +127,6 @@ RollingEnd end_of(const RollingTrajectory& trajectory, const RollingMotion& moti
   return end;
 }
 
-/// The names, descriptions and functions of all models.
 const std::vector<RollingModel>& rolling_models() {
   static const std::vector<RollingModel> models = {
       {"smooth", "lubrication at every gap, no solid contact", roll_smooth},

@@ -188,7 +188,6 @@ int JsonDocument::line_of(std::string path) const {
   }
 }
 
-/// Calls `read` with the value in the file at `path`.
 void read_json(const std::filesystem::path& path, const std::function<void(const Json&)>& read) {
   const auto document = JsonDocument::parse(read_file(path), path.string());
   try {

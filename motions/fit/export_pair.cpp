@@ -195,7 +195,6 @@ std::string pair_in_csv(const PairFit& fit, std::string_view source) {
   return text;
 }
 
-/// A format and the function that writes it.
 struct PairTarget {
   std::string_view name;  // as users type it; export_fit.cpp has the same names
   std::string (*write)(const PairFit& fit, std::string_view source);

@@ -313,7 +313,6 @@ void read_length_of_arm(const case_file::TomlSection& section, std::string_view 
     case_file::read_keys(table, wave_of_length_keys, length.emplace<SinusoidalLength>());
 }
 
-/// Keys of a table [[arm]].
 void arm_of_particles_keys(case_file::Keys& keys, Arm& arm, const ParticlesCase& c,
                            const ParticleIds& ids) {
   std::array<std::int32_t, 2> ends{};

@@ -212,7 +212,6 @@ struct VelocityKeys {
   std::array<bool, 4> has_side{};
 };
 
-/// Keys of the table fluid.velocity.
 void velocity_keys(case_file::Keys& keys, VelocityKeys& velocity) {
   keys.optional("shear_rate", case_file::number(velocity.shear_rate, kModerate),
                 {"s: the velocity of the walls is (s y, 0)"});
@@ -385,7 +384,6 @@ void check_inertia(case_file::Keys& keys, const Fluid& fluid, const Domain& doma
                "with fluid.density > 0 the box must have walls, or be at rest");
 }
 
-/// Keys of [fluid].
 void fluid_keys(case_file::Keys& keys, Fluid& fluid, const Domain& domain) {
   keys.required("viscosity", case_file::number(fluid.viscosity, kModeratelyPositive),
                 {"dynamic viscosity mu"});

@@ -343,7 +343,6 @@ void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
   }
 }
 
-/// Reads the case file at `path`.
 ParticlesCase read_particles_case(const fs::path& path) {
   return case_file::read_case_file<ParticlesCase>(path);
 }

@@ -138,7 +138,7 @@ std::string ParticlesSweep::case_text(std::uint64_t index) const {
   return text_for_any_folder(cases_.root_with(points_.numbers(index)), case_path());
 }
 
-/// The same for the case without varied keys.
+/// The text of a case file without varied keys, in which paths are absolute.
 std::string ParticlesSweep::base_text() const {
   return text_for_any_folder(cases_.root_with({}), case_path());
 }

@@ -99,7 +99,6 @@ void read_vector(const case_file::TomlSection& section, std::string_view key, Ve
 // Each of the next four functions returns a KeyValue, which says how the value of a key is read. A
 // KeyValue keeps references to the arguments of the function, which must outlive it.
 
-/// A constant vector of `dimension` numbers.
 case_file::KeyValue vector(Vector& place, const int& dimension) {
   return case_file::custom("a list of numbers", read_vector, place, dimension);
 }

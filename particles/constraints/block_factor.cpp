@@ -69,7 +69,6 @@ inline void subtract_product(const Block& a, const Block& b, Block& c) {
   }
 }
 
-/// The transpose of a block.
 template <int K, class Block>
 inline Block transposed(const Block& a) {
   constexpr auto k = static_cast<std::size_t>(K);
@@ -289,7 +288,6 @@ void BlockFactor<K>::find_pattern(std::span<const Edge> edges) {
   }
 }
 
-/// Sets all blocks of the matrix to 0.
 template <int K>
 void BlockFactor<K>::clear() {
   std::ranges::fill(diagonal_, Block{});

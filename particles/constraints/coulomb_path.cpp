@@ -36,7 +36,6 @@ constexpr double kOfFriction = 2;
 /// above, 0.2 took as many factorisations, and 0.5 a fifth more.
 constexpr double kNear = 0.3;
 
-/// The inner product of two vectors.
 template <std::size_t N>
 double inner(const std::array<double, N>& a, const std::array<double, N>& b) {
   double sum = 0;

@@ -57,7 +57,6 @@ std::vector<PlanePosition> positions_of(const std::vector<Plane>& planes, double
 
 namespace {
 
-/// A wall: a plane or circle at rest.
 Plane wall(const PlanePosition& place) {
   Plane plane;
   plane.start = place;

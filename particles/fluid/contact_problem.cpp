@@ -87,7 +87,7 @@ class FluidDualProblem : public DualProblem {
       set(c, contacts[c], gap_without_contact(contacts[c], conditions));
   }
 
-  /// Number of numbers in a vector y = B z.
+  /// Length of a vector y = B z.
   std::size_t displacement_count() const { return 2 * motions_; }
   /// A pool of one thread, which is enough because the solver of the fluid does most of the work.
   ThreadPool& pool() const { return pool_; }

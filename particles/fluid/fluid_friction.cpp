@@ -261,7 +261,6 @@ class FrictionSolver {
     return largest;
   }
 
-  /// The contact in which the friction acts.
   const Contact<2>& contact_of(const ContactFrictionInFluid& friction) const {
     return step_.contacts[friction.contact];
   }
@@ -292,14 +291,12 @@ class FrictionSolver {
     set_allowed(step_.contacts, conditions_);
   }
 
-  /// The present impulses.
   Impulses impulses() const {
     Impulses found;
     for (const auto& contact : step_.contacts) found.first.push_back(contact.impulse);
     for (const auto& friction : step_.frictions) found.second.push_back(friction.impulse);
     return found;
   }
-  /// Makes `found` the present impulses.
   void take(const Impulses& found) {
     for (std::size_t c = 0; c < found.first.size(); ++c) step_.contacts[c].impulse = found.first[c];
     for (std::size_t f = 0; f < found.second.size(); ++f)

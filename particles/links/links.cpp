@@ -52,7 +52,6 @@ double value_at(const SinusoidalLength& length, double t) {
   return length.mean + length.amplitude * std::sin(length.angular_frequency * t + length.phase);
 }
 
-/// The rate of the length at the time `t`.
 double rate_of(const PiecewiseLinearLength& length, double t) {
   const auto piece = piece_at(length, t);
   return piece ? piece->rate() : 0;

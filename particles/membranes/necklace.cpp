@@ -74,7 +74,6 @@ Eigen::VectorXd distances_of(const Eigen::VectorXd& necklace) {
   return distances;
 }
 
-/// The area inside the polygon.
 double area_of(const Eigen::VectorXd& necklace) {
   // Relative to the first bead, rounding errors do not grow with the distance from the origin.
   const Eigen::Vector2d first = bead(necklace, 0);

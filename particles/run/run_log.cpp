@@ -134,7 +134,6 @@ void RunLog::add_frame(const State& state, std::span<const double> link_force_er
   record_.last_frame = state.time;
 }
 
-/// Writes the flow of the last frame.
 void RunLog::add_flow(const FlowField& flow) {
   write_frame(kFlowFile, record_.frames - 1, record_.last_frame,
               write_flow(flow, case_.particles.dimension == 1));
@@ -152,7 +151,7 @@ void RunLog::write_frame(const FrameKind& kind, std::uint64_t number, double tim
   files_.at(list_of(kind)).append(pvd_line(time, name));
 }
 
-/// Returns when all that was added is on the disk.
+/// Returns when all rows and frames that were added are on the disk.
 void RunLog::sync() {
   flush_files(unflushed_);
   unflushed_.clear();

@@ -319,7 +319,6 @@ void read_phases(const case_file::TomlSection& section, std::string_view key,
   phases[1] = section.number(key, kFinite);
 }
 
-/// Declares the keys of an ellipse.
 void ellipse_keys(case_file::Keys& keys, Ellipse& ellipse, const SwimmerCase& c) {
   constexpr std::string_view kArms = "a number for each arm, or one number for all";
   keys.required("centre", case_file::custom(kArms, read_arms, ellipse.centre, c, kPositive),
