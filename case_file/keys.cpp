@@ -80,6 +80,15 @@ void Keys::required(std::string_view key, const KeyValue& value, const Help& hel
     describe(key, value, "required", help);
 }
 
+bool names_missing_key(const Error& error) {
+  return std::string_view(error.what()).find("is missing") != std::string_view::npos;
+}
+
+void refuse_unknown_keys(const TomlSection& section, const KeyTable& table) {
+  for (const auto& row : table.rows) (void)section.has(row.key);
+  section.finish();
+}
+
 /// Reads the key if the section has it, or describes it. Returns true if the key was read;
 /// otherwise its place keeps its value.
 bool Keys::optional(std::string_view key, const KeyValue& value, const Help& help) {

@@ -128,12 +128,28 @@ class Keys {
   KeyTable* table_ = nullptr;
 };
 
+/// True if the error says that a key is missing.
+bool names_missing_key(const Error& error);
+/// Throws Error(kBadInput) for a key of the section that is not in the table.
+void refuse_unknown_keys(const TomlSection& section, const KeyTable& table);
+
 /// Reads the section into `places` by its declaration. Throws Error(kBadInput) for a key that is
 /// missing, has a value that is not allowed, or is not declared.
 template <class Declaration, class... Places>
 void read_keys(const TomlSection& section, const Declaration& declaration, Places&&... places) {
   Keys keys(section);
-  declaration(keys, places...);
+  try {
+    declaration(keys, places...);
+  } catch (const Error& error) {
+    // A key that is not known may be a misspelt one, and is named before the missing one.
+    if (names_missing_key(error)) {
+      KeyTable table;
+      Keys all(table);
+      declaration(all, places...);
+      refuse_unknown_keys(section, table);
+    }
+    throw;
+  }
   section.finish();
 }
 

@@ -10,8 +10,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
@@ -318,8 +320,33 @@ std::vector<std::string> TomlSection::texts(std::string_view key) const {
   return values;
 }
 
+namespace {
+
+/// True if at most two letters must be inserted, removed or replaced to change one word into the
+/// other (Levenshtein's distance), and less than half of its letters.
+bool is_similar(std::string_view word, std::string_view other) {
+  std::vector<std::size_t> row(other.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < other.size(); ++j)
+      diagonal = std::exchange(
+          row[j + 1], std::min({row[j] + 1, row[j + 1] + 1,
+                                diagonal + (word[i] == other[j] ? std::size_t{0} : 1)}));
+  }
+  return row.back() <= 2 && 2 * row.back() < other.size();
+}
+
+}  // namespace
+
 /// The table of the key. Throws Error(kBadInput) if it is missing or no table.
 TomlSection TomlSection::section(std::string_view key) const {
+  if (!has(key) && node_->path.empty())
+    for (const auto& [name, value] : *node_->table)
+      if (value.is_table() && !node_->asked.contains(std::string(name.str())) &&
+          is_similar(name.str(), key))
+        throw_bad_input({node_->file, static_cast<int>(name.source().begin.line)},
+                        "section [{}] is not known here; section [{}] is missing", name.str(), key);
   if (!has(key))
     fail_of_section(key, node_->path.empty() ? "is missing" : "is missing; it must be a table");
   const auto* table = node_->table->get(key)->as_table();

@@ -138,7 +138,7 @@ double largest_overlap(const Setting& setting, const State& state) {
     if (!p.are_joined(pair.first, pair.second))
       smallest = std::min(
           smallest, place_of(setting, p, {pair.first, pair.second, 0, 0, 0, pair.image}, {}).gap);
-  const auto places = positions_of(obstacles_of(setting), state.time);
+  const auto places = positions_of(obstacles_of(setting, state.planes), state.time);
   for (std::size_t w = 0; w < places.size(); ++w)
     for (std::size_t k = 0; k < p.count(); ++k)
       // The circle with the radius of a particle contains the particle, so that the gap of the
@@ -168,7 +168,7 @@ double largest_gamma_error(const State& state) {
 std::vector<CurrentContact> contacts_of(const Setting& setting, const State& state) {
   std::vector<CurrentContact> contacts;
   const auto& p = state.particles;
-  const auto places = positions_of(obstacles_of(setting), state.time);
+  const auto places = positions_of(obstacles_of(setting, state.planes), state.time);
   // In a fluid contact is made at the threshold gap.
   const double touching = setting.solver.tolerance * mean_radius(p) +
                           (setting.fluid ? setting.fluid->threshold_gap : 0);
@@ -189,6 +189,7 @@ std::vector<CurrentContact> contacts_of(const Setting& setting, const State& sta
                           .friction = friction_of(setting, memory),
                           .normal_force = per_time * pair.impulse,
                           .tangential_force = per_time * memory.friction(),
+                          .solid_force = per_time * memory[Remembered::kCarried],
                           .normal = normal,
                           .branch = branch,
                           .shown = memory.shown()});

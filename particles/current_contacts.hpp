@@ -37,6 +37,9 @@ struct CurrentContact {
   /// and film together, > 0 where it pushes the bodies apart.
   double normal_force = 0;
   Vector tangential_force{};  ///< mean friction on `second` in the last step, unit of normal_force
+  /// The part of normal_force that the solids bear, and not the film, >= 0. It bounds the friction.
+  /// Always 0 in a case without friction.
+  double solid_force = 0;
   // The next members are not in VTK files.
   Vector normal{};  ///< unit normal from `first` to `second`
   /// Vector [L] to the centre of `second` from that of `first` or the nearest point of an obstacle.

@@ -19,8 +19,11 @@ template <int D>
 void Simulation::move_freely(double h, double next) {
   const auto& p = state_.particles;
   const double kick = kick_length(h);
-  displacements_.resize(p.count() * D);
-  mobilities_.resize(p.count());
+  auto entries = p.count();
+  for (auto& entry : loaded_)
+    if (entry >= 0) entry = static_cast<std::int32_t>(entries++);
+  displacements_.resize(entries * D);
+  mobilities_.resize(entries);
   pool_->for_blocks(p.count(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       mobilities_[k] = h / p.masses[k];
@@ -41,8 +44,39 @@ void Simulation::move_freely(double h, double next) {
     });
   if (p.turn()) turn_freely(h, next);
   if (!p.bodies.empty()) move_bodies_freely(h, next);
+  move_as_given(h, next);
   link_forces_ = state_.link_forces;
   link_forces_.resize(setting_.links.force_count(D), 0.0);
+}
+
+void Simulation::move_as_given(double h, double next) {
+  const auto& p = state_.particles;
+  const auto numbers = static_cast<std::size_t>(p.dimension), turns = turn_components(p.dimension);
+  for (const auto& [particle, motion] : setting_.given_motions) {
+    const auto k = index_of(particle);
+    const Vector moved = h * motion.velocity.mean(state_.time, next);
+    for (std::size_t d = 0; d < numbers; ++d) displacements_[k * numbers + d] = moved[d];
+    mobilities_[k] = 0;
+    if (!p.turn()) continue;
+    const Vector turned = h * motion.angular_velocity.mean(state_.time, next);
+    for (std::size_t i = 0; i < turns; ++i) turns_[k * turns + i] = turned[3 - turns + i];
+    turn_mobilities_[k] = 0;
+  }
+  for (std::size_t w = 0; w < loaded_.size(); ++w) {
+    if (loaded_[w] < 0) continue;
+    const auto entry = index_of(loaded_[w]);
+    const auto& load = *obstacles_[w].load;
+    const double change = kick_length(h) * mean_of(load.force, h, next)[0] / load.mass;
+    const Vector moved =
+        h * (state_.planes[w - walls_of_domain()].velocity + change) * obstacles_[w].start.normal;
+    for (std::size_t d = 0; d < numbers; ++d) displacements_[entry * numbers + d] = moved[d];
+    mobilities_[entry] = h / load.mass;
+    if (!p.turn()) continue;
+    // A plane does not turn, but its unit in the problem of a step needs a mobility. This one has
+    // the right dimension in every system of units.
+    turn_mobilities_[entry] = mobilities_[entry] / (mean_radius_ * mean_radius_);
+    for (std::size_t i = 0; i < turns; ++i) turns_[entry * turns + i] = 0;
+  }
 }
 
 /// Mean of a force or torque over the times in which it changes the velocities of this step: the
@@ -111,6 +145,7 @@ void Simulation::move_bodies_freely(double h, double next) {
 std::vector<char> Simulation::free_particles() const {
   const auto& p = state_.particles;
   std::vector<char> is_free(p.count(), 1);
+  for (const auto& [particle, motion] : setting_.given_motions) is_free[index_of(particle)] = 0;
   const auto bind = [&](std::int32_t particle) {
     if (particle < 0) return;
     is_free[index_of(particle)] = 0;
@@ -188,9 +223,9 @@ Particles Simulation::reported_particles() const {
 void Simulation::turn_freely(double h, double next) {
   const auto& p = state_.particles;
   const auto components = turn_components(p.dimension);
-  turns_.resize(p.angular_velocities.size());
-  turn_mobilities_.resize(p.count());
-  for (std::size_t k = 0; k < turns_.size(); ++k) turns_[k] = h * p.angular_velocities[k];
+  turns_.resize(mobilities_.size() * components);
+  turn_mobilities_.resize(mobilities_.size());
+  for (std::size_t k = 0; k < p.angular_velocities.size(); ++k) turns_[k] = h * p.angular_velocities[k];
   for (std::size_t k = 0; k < p.count(); ++k) turn_mobilities_[k] = h / p.inertias[k];
   for (const auto& [particle, torque] : setting_.torques) {
     const auto k = index_of(particle);

@@ -5,6 +5,8 @@
 // this order. The simulations and the files in io/ and run/ use this file.
 #include "viscontact/particles/setting.hpp"
 
+#include "viscontact/particles/state.hpp"
+
 namespace viscontact::particles {
 
 /// The periodic cell of the domain, with the velocity gradient of the linear flow at the boundary
@@ -21,6 +23,16 @@ PeriodicCell cell_of(const Setting& setting) {
 std::vector<Plane> obstacles_of(const Setting& setting) {
   auto obstacles = obstacles_of(setting.domain);
   obstacles.insert(obstacles.end(), setting.planes.begin(), setting.planes.end());
+  return obstacles;
+}
+
+std::vector<Plane> obstacles_of(const Setting& setting, std::span<const PlaneMotion> motions) {
+  auto obstacles = obstacles_of(setting);
+  const auto walls = obstacles.size() - setting.planes.size();
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    auto& plane = obstacles[walls + k];
+    plane.start.point = plane.start.point + motions[k].displacement * plane.start.normal;
+  }
   return obstacles;
 }
 

@@ -50,6 +50,8 @@ inline double largest_resolved_distance(double tolerance, double mean_radius) {
   return std::min(kFinite, tolerance * mean_radius / std::numeric_limits<double>::epsilon());
 }
 
+struct PlaneMotion;
+
 /// Motion of a driven particle, which no force changes. Either velocity is 0 after its last piece.
 struct GivenMotion {
   PiecewiseConstant velocity;          ///< velocity of the centre [L/T]
@@ -84,7 +86,7 @@ struct Setting {
   /// is in component 2, > 0 if counter-clockwise. Torques need particles that turn. A particle with
   /// a torque must not be in `given_motions`.
   std::map<std::int32_t, PiecewiseConstant> torques;
-  /// Motions of the particles that are driven through the fluid, by the number of the particle. A
+  /// Motions of the particles that are fixed or driven, by the number of the particle. A
   /// driven particle has no entry in `forces`, and gravity does not change its motion.
   std::map<std::int32_t, GivenMotion> given_motions;
   /// Forces [M L/T^2] on all particles in addition to gravity and `forces`, in the order of
@@ -126,8 +128,13 @@ inline std::span<double> added_torques_for(const Particles& particles, Setting& 
   return setting.added_torques;
 }
 
-/// All obstacles: the walls of the domain, then the planes; there may be none. In files obstacle k,
+/// All obstacles: the walls of the domain, then the planes; there may be none. Planes under a load
+/// are where they were at time 0. In files obstacle k,
 /// counted from 0, has the number -1 - k.
 std::vector<Plane> obstacles_of(const Setting& setting);
+
+/// All obstacles, with PlanePosition::point of planes under a load moved by `motions`
+/// (State::planes), so that Plane::at() gives their present places.
+std::vector<Plane> obstacles_of(const Setting& setting, std::span<const PlaneMotion> motions);
 
 }  // namespace viscontact::particles

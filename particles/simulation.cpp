@@ -10,6 +10,7 @@
 #include "viscontact/particles/simulation.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -74,6 +75,17 @@ Simulation::Simulation(Setting setting, State state, int threads)
       pool_(std::make_unique<ThreadPool>(threads)),
       obstacles_(obstacles_of(setting_)),
       grid_(setting_.time_step, setting_.scheme == Scheme::kLeapfrog, jump_times(setting_)) {
+  const auto is_loaded = [](const Plane& plane) { return plane.load.has_value(); };
+  if (std::ranges::any_of(setting_.planes, is_loaded)) {
+    state_.planes.resize(setting_.planes.size());
+    for (const auto& obstacle : obstacles_) loaded_.push_back(is_loaded(obstacle) ? 0 : -1);
+  } else {
+    state_.planes.clear();
+  }
+  place_planes();
+  if (state_.given_loads.empty())
+    for (const auto& [particle, motion] : setting_.given_motions)
+      state_.given_loads.push_back({particle});
   state_.particles.cell = cell_of(setting_.domain);
   join_neighbours(setting_.links.membranes, state_.particles);
   wrap_into_cell(state_);
@@ -161,6 +173,15 @@ void Simulation::move(double h) {
     }
   });
   if (p.turn()) turn_particles(p, turns_, h);
+  for (std::size_t w = 0; w < loaded_.size(); ++w) {
+    if (loaded_[w] < 0) continue;
+    auto& motion = state_.planes[w - walls_of_domain()];
+    const double moved = dot(obstacles_[w].start.normal,
+                             point_of(displacements_.data(), index_of(loaded_[w]), p.dimension));
+    motion.displacement += moved;
+    motion.velocity = moved / h;
+  }
+  if (!loaded_.empty()) place_planes();
   for (std::size_t b = 0; b < body_steps_.size(); ++b)
     move_body(p.bodies.bodies[b], body_steps_[b], h, p.dimension);
   if (!body_steps_.empty()) place_members(p);
@@ -183,11 +204,27 @@ ProjectionResult Simulation::project(double h, double next) {
     for (std::size_t k = begin; k < end; ++k) longest.value = std::max(longest.value, length_of(k));
     return longest;
   };
+  // The longest displacement of a plane under a load [L].
+  const auto gone_planes = [&] {
+    double gone = 0;
+    for (const auto entry : loaded_) {
+      if (entry < 0) continue;
+      const double length = norm(point_of(displacements_.data(), index_of(entry), D));
+      if (!(length <= largest))
+        throw Error(ErrorKind::kNotConverged,
+                    "a plane under a load moves by {} in the step to time {}, too far for the "
+                    "precision of a double; check its force and the time step",
+                    length, next);
+      gone = std::max(gone, length);
+    }
+    return gone;
+  };
   // Only particles closer to an obstacle than `margin` [L] are listed. Both terms of the margin are
   // free choices, because the loop below repeats the projection with a longer margin if a particle
   // moves further.
   const double longest =
-      pool_->sum_of_blocks<MaximumOfBlocks>(state_.particles.count(), longest_of).value;
+      pool_->sum_of_blocks<MaximumOfBlocks>(state_.particles.count(), longest_of).value +
+      gone_planes();
   double margin = std::max(2 * longest, mean_radius_ / 4);
   if (!neighbour_list_is_valid(state_, displacements_, *pool_)) {
     state_.skins.clear();
@@ -198,7 +235,7 @@ ProjectionResult Simulation::project(double h, double next) {
     rebuild_wall_list(state_, planes, margin, *pool_);
     find_impacts<D>(h, next);
     StepProjection<D> projection(state_, h, planes_before, planes, displacements_, mobilities_,
-                                 *pool_);
+                                 *pool_, loaded_);
     const ConstraintStep constraints{setting_.laws,
                                      obstacles_,
                                      state_.time,
@@ -214,10 +251,13 @@ ProjectionResult Simulation::project(double h, double next) {
     if (impacts<D>()) projection.follow(*impacts<D>());
     auto projected = projection.solve(setting_.solver, mean_radius_);
     double gone = 0;
-    for (const auto body : projected.bodies) gone = std::max(gone, length_of(index_of(body)));
+    for (const auto body : projected.bodies)
+      if (index_of(body) < state_.particles.count())
+        gone = std::max(gone, length_of(index_of(body)));
     if (impacts<D>())
       for (const auto body : impacts<D>()->touched())
         gone = std::max(gone, length_of(index_of(body)));
+    gone += gone_planes();
     if (gone <= margin && neighbour_list_is_valid(state_, displacements_, *pool_)) return projected;
     // The impulses moved particles further than the lists of pairs allow for, so that pairs may be
     // missing. Therefore the projection is repeated with longer lists. The loop ends because the
@@ -268,6 +308,92 @@ void Simulation::add_works_of_arms(double h) {
   }
 }
 
+void Simulation::add_given_loads(const ProjectionResult& projected, double h) {
+  if (given_impulses_.empty()) return;
+  const auto add = [&](const GivenParticleLoad& impulse) {
+    auto& sum =
+        *std::ranges::lower_bound(given_impulses_, impulse.particle, {},
+                                  &GivenParticleLoad::particle);
+    sum.force = sum.force + impulse.force;
+    sum.torque = sum.torque + impulse.torque;
+  };
+  for (const auto& impulse : projected.on_given) add(impulse);
+  if (impacts_in_plane_) std::ranges::for_each(impacts_in_plane_->on_given(), add);
+  if (impacts_in_space_) std::ranges::for_each(impacts_in_space_->on_given(), add);
+  const double kick = kick_length(h);
+  const LinkTimes times{h, kick, state_.time + h, false};
+  for (const auto& link : link_equations(setting_.links, state_.particles, times))
+    for (std::size_t r = 0; r < link.rows.size(); ++r)
+      for (const auto& part : link.rows[r].parts)
+        if (is_given(part.particle) && !part.is_turn)
+          add({part.particle, kick * link_forces_[link.first_force + r] * part.direction});
+}
+
+bool Simulation::is_given(std::int32_t body) const {
+  if (body >= 0) return setting_.given_motions.contains(body);
+  return loaded_.empty() || loaded_[static_cast<std::size_t>(-1 - body)] < 0;
+}
+
+void Simulation::refuse_meeting(double next) const {
+  if (setting_.given_motions.empty()) return;
+  const auto& p = state_.particles;
+  const auto before = positions_of(obstacles_, state_.time), after = positions_of(obstacles_, next);
+  const double tolerance = setting_.solver.tolerance * mean_radius_;
+  // Motions at one velocity leave overlaps as they are, but for rounding errors.
+  constexpr double kDeeper = 1e-3;
+  const auto moved = [&](std::int32_t k) {
+    return point_of(displacements_.data(), index_of(k), p.dimension);
+  };
+  for (const auto* pairs : {&state_.pairs, &state_.walls})
+    for (const auto& pair : *pairs) {
+      if (!is_given(pair.first) || !is_given(pair.second)) continue;
+      const auto j = index_of(pair.second);
+      double start = 0, end = 0;
+      if (pair.first < 0) {
+        start = gap(before[pair.plane()], p.position(j), p.radii[j]);
+        end = gap(after[pair.plane()], p.position(j) + moved(pair.second), p.radii[j]);
+      } else {
+        const auto i = index_of(pair.first);
+        const Vector apart = p.position(j) + shift_of(p.cell, pair.image) - p.position(i);
+        const double sum = p.radii[i] + p.radii[j];
+        start = norm(apart) - sum;
+        end = norm(apart + moved(pair.second) - moved(pair.first)) - sum;
+      }
+      if (end < -tolerance && end < start - kDeeper * tolerance)
+        throw Error(ErrorKind::kNotConverged,
+                    "the given motions contradict each other: {}, whose motions are both given, "
+                    "would overlap by {:.3g} mean radii in the step to time {}; change fixed, "
+                    "velocity_given or the velocity of the plane",
+                    name_of_pair(pair, p, setting_), -end / mean_radius_, next);
+    }
+}
+
+Simulation::Pressing Simulation::pressing(const ProjectionResult& projected, double next) const {
+  const auto before = positions_of(obstacles_, state_.time), after = positions_of(obstacles_, next);
+  std::vector<std::int32_t> planes, particles;
+  double impulse = 0;
+  const auto add = [](std::vector<std::int32_t>& list, std::int32_t number) {
+    if (std::ranges::find(list, number) == list.end()) list.push_back(number);
+  };
+  for (std::size_t f = 0; f < projected.pairs.size(); ++f) {
+    const auto& pair = *projected.pairs[f];
+    if (!(projected.impulses[f] > 0)) continue;
+    for (const auto body : {pair.first, pair.second}) {
+      if (body >= 0 ? !is_given(body) : before[pair.plane()] == after[pair.plane()]) continue;
+      impulse += projected.impulses[f];
+      if (body >= 0)
+        add(particles, state_.particles.id(index_of(body)));
+      else
+        add(planes, -body);
+    }
+  }
+  const auto listed = [](std::vector<std::int32_t>& numbers) {
+    std::ranges::sort(numbers);
+    return fmt::format("{}", fmt::join(numbers, ", "));
+  };
+  return {listed(planes), listed(particles), impulse};
+}
+
 /// Finds the blows (impacts of solids with restitution) of a part; without restitution there are
 /// none. The displacements must be those without contacts (not checked).
 template <int D>
@@ -309,6 +435,11 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
     if (pair.impulse == 0 && pair.memory != PairMemories::kNone)
       state_.memories.make(pair.memory).set_friction({});
   });
+  const auto [planes, particles, impulse] = pressing(projected, next);
+  report.given_load += impulse;
+  if (!planes.empty()) report.pressing = "planes " + planes;
+  if (!particles.empty())
+    report.pressing = (planes.empty() ? "particles " : report.pressing + " and particles ") + particles;
   take_impulses(projected);
   report.glued = remember(projected, h);
   const double kick = kick_length(h);
@@ -316,6 +447,7 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
   link_time_ += kick;
   state_.link_forces = link_forces_;
   add_works_of_arms(h);
+  add_given_loads(projected, h);
   move(h);
   if (impacts<D>()) {
     impacts<D>()->add_late_changes(state_.particles);
@@ -348,23 +480,16 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
 void Simulation::examine(const ProjectionResult& projected, double next) const {
   const auto& residuals = projected.residuals;
   refuse_deep_overlap(residuals, state_.particles, setting_, mean_radius_, next, [&] {
-    // Finds the obstacles that move in this step and push on a particle.
-    std::vector<char> presses(obstacles_.size(), 0);
-    for (std::size_t f = 0; f < projected.pairs.size(); ++f)
-      if (projected.pairs[f]->first < 0 && projected.impulses[f] > 0)
-        presses[projected.pairs[f]->plane()] = 1;
-    const auto before = positions_of(obstacles_, state_.time);
-    const auto after = positions_of(obstacles_, next);
-    std::string moving;
-    for (std::size_t w = 0; w < before.size(); ++w)
-      if (presses[w] != 0 && before[w] != after[w])
-        moving += fmt::format("{}{}", moving.empty() ? "" : ", ", w + 1);
-    return moving.empty() ? "is the time step too long for the forces?"
-                          : fmt::format(
-                                "the planes that move are {}: do they leave the "
-                                "particles too little room?",
-                                moving);
+    const auto [planes, particles, impulse] = pressing(projected, next);
+    if (planes.empty() && particles.empty())
+      return std::string("is the time step too long for the forces?");
+    return fmt::format("{}{}{}{}{}: do they leave the particles too little room?",
+                       planes.empty() ? "" : "the planes that move are ", planes,
+                       planes.empty() || particles.empty() ? "" : ", and ",
+                       particles.empty() ? "" : "the particles whose motion is given are ",
+                       particles);
   });
+  refuse_meeting(next);
   if (residuals.converged || projected.unsolved_links.empty() ||
       std::max(projected.link_residual, -residuals.smallest_gap) <= kBroken * mean_radius_)
     return;
@@ -432,6 +557,7 @@ void Simulation::advance_whole(double h, double next, StepReport& report) {
     undo_impacts();
     if (before_division_) {
       state_ = *before_division_;  // copied, so that the arrays keep their places in memory
+      place_planes();
     } else if (!saved_impulses_.empty()) {
       for_pairs([&](Pair& pair) {
         const auto saved = saved_impulses_.find(key_of(pair));
@@ -459,6 +585,9 @@ StepReport Simulation::step(double end) {
   link_impulses_.assign(setting_.links.force_count(p.dimension), 0.0);
   link_time_ = 0;
   arm_works_.assign(setting_.links.arms.size(), 0.0);
+  given_impulses_.clear();
+  for (const auto& [particle, motion] : setting_.given_motions)
+    given_impulses_.push_back({particle});
   if (p.dimension == 2)
     advance_whole<2>(interval->h, interval->end, report);
   else
@@ -476,7 +605,13 @@ StepReport Simulation::step(double end) {
   }
   for (std::size_t k = 0; k < link_impulses_.size(); ++k)
     state_.link_forces[k] = link_impulses_[k] / link_time_;
+  report.given_load /= interval->h;
   state_.blows = std::exchange(blows_, {});
+  state_.given_loads = given_impulses_;
+  for (auto& load : state_.given_loads) {
+    load.force = (1 / interval->h) * load.force;
+    load.torque = (1 / interval->h) * load.torque;
+  }
   state_.arm_powers = arm_works_;
   for (auto& power : state_.arm_powers) power /= interval->h;
   state_.earlier_step = interval->h;

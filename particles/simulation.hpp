@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
@@ -127,6 +128,22 @@ class Simulation {
     return particles::radii_of(pair, state_.particles, obstacles_);
   }
   void add_works_of_arms(double h);
+  void add_given_loads(const ProjectionResult& projected, double h);
+  void place_planes() { obstacles_ = obstacles_of(setting_, state_.planes); }
+  std::size_t walls_of_domain() const { return obstacles_.size() - setting_.planes.size(); }
+  // True for an obstacle that no force moves, and for a particle whose motion is given.
+  bool is_given(std::int32_t body) const;
+  // Throws Error(kNotConverged) if two bodies whose motions are given overlap after the part of a
+  // step that ends at `next`, and the part has made the overlap deeper.
+  void refuse_meeting(double next) const;
+  // The numbers, with commas between them, of the obstacles that move in the part of a step that
+  // ends at `next` and push on a particle, and the ids of such particles whose motion is given.
+  // `impulse` is the sum of the normal impulses of their contacts [M L/T].
+  struct Pressing {
+    std::string planes, particles;
+    double impulse = 0;
+  };
+  Pressing pressing(const ProjectionResult& projected, double next) const;
   template <class Visit>
   void for_pairs(const Visit& visit) {
     for (auto* pairs : {&state_.pairs, &state_.walls})
@@ -137,6 +154,9 @@ class Simulation {
   template <int D>
   void move_freely(double h, double next);
   void turn_freely(double h, double next);
+  // Sets displacements, turns and mobilities of particles whose motion is given, and of planes under
+  // a load.
+  void move_as_given(double h, double next);
   void move_bodies_freely(double h, double next);
   bool has_constraints() const {
     return setting_.laws.friction || !setting_.links.empty() || !state_.particles.bodies.empty();
@@ -168,8 +188,9 @@ class Simulation {
   double mean_radius_;
   double first_time_;  // time of the state that the constructor was given [T]
   std::unique_ptr<ThreadPool> pool_;
-  std::vector<double> displacements_;  // h u* (without contacts), later h v (with contacts) [L]
-  std::vector<double> mobilities_;     // h/m [T/M]
+  // Of particles, and then of planes under a load: h u* (without contacts), later h v (with
+  // contacts) [L], and h/m [T/M], which is 0 if the motion is given.
+  std::vector<double> displacements_, mobilities_;
   // If particles turn: the turns h w* [rad] without contacts, later h w with contacts, where w* and
   // w are the angular velocities; and h/I [T/(M L^2)], where I is the moment of inertia.
   std::vector<double> turns_, turn_mobilities_;
@@ -180,7 +201,14 @@ class Simulation {
   std::vector<double> link_forces_, link_impulses_;
   double link_time_ = 0;
   std::vector<double> arm_works_;  // work of each arm in the parts that are done [M L^2/T^2]
-  std::vector<Plane> obstacles_;   // walls of the domain, then planes
+  // Walls of the domain, then planes, where they are at the present time (State::planes).
+  std::vector<Plane> obstacles_;
+  // For each obstacle its entry in displacements_ and mobilities_ if it is a plane under a load, and
+  // -1 otherwise; empty without such planes. Their entries follow those of the particles.
+  std::vector<std::int32_t> loaded_;
+  // Impulses and moments on the particles whose motion is given, in the parts of the step that are
+  // done, in the order of Setting::given_motions.
+  std::vector<GivenParticleLoad> given_impulses_;
   StepGrid grid_;
   std::unique_ptr<Impacts<2>> impacts_in_plane_;
   std::unique_ptr<Impacts<3>> impacts_in_space_;

@@ -62,6 +62,21 @@ struct SourceProgress {
   bool operator==(const SourceProgress&) const = default;
 };
 
+/// How a plane under a load (PlaneLoad) moves along its normal.
+struct PlaneMotion {
+  double displacement = 0;  ///< since time 0 [L]
+  double velocity = 0;      ///< [L/T]
+  /// True if both members are equal.
+  bool operator==(const PlaneMotion&) const = default;
+};
+
+/// The force and the torque of all contacts and links on a particle whose motion is given.
+struct GivenParticleLoad {
+  std::int32_t particle = 0;  ///< its number
+  Vector force{},             ///< mean in the last step [M L/T^2]
+      torque{};               ///< about its centre [M L^2/T^2], of a disc in component 2
+};
+
 /// The state of a simulation. To begin a new one, only `particles` has to be set.
 struct State {
   Particles particles;     ///< places, sizes, masses and motions of the particles
@@ -96,6 +111,11 @@ struct State {
   /// Impulses of the blows in the last step, without a fluid. The rest of the motion does not
   /// depend on them. Restart files have them for the tables walls.csv and stress.csv.
   std::vector<BlowImpulse> blows;
+  /// The motions of Setting::planes, 0 for planes without a load; empty if no plane has a load.
+  std::vector<PlaneMotion> planes;
+  /// Loads of the particles whose motion is given, without a fluid, in the order of their numbers.
+  /// The rest of the motion does not depend on them. Empty before the first step.
+  std::vector<GivenParticleLoad> given_loads;
   // The members from here to `earlier_positions` serve simulations in a fluid only; without a fluid
   // they are empty or 0.
   /// Velocities and angular velocities in the last step [L/T, 1/T], motion_components() numbers

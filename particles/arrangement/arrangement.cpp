@@ -19,16 +19,33 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/splitmix.hpp"
+#include "viscontact/particles/domain/region.hpp"
 
 namespace viscontact::particles {
 namespace {
 
-/// The region for the centre of a particle: a disc, or a box with sides that may be periodic.
+/// The region for the centre of a particle: a disc, or a box with sides that may be periodic, on the
+/// free side of all planes.
 class Places {
  public:
-  /// `from_wall` is the least distance of the centre from a wall [L]. Throws
+  /// `from_wall` is the least distance of the centre from a wall or plane [L]. Throws
   /// std::bad_variant_access if `domain` is neither a disc nor a box.
-  Places(const Domain& domain, double from_wall) {
+  Places(const Domain& domain, std::span<const PlanePosition> planes, double from_wall) {
+    set_domain(domain, from_wall);
+    for (auto plane : planes) {
+      plane.point = plane.point + from_wall * plane.normal;
+      planes_.push_back(plane);
+      // Planes across an axis of a box make the box from which random places are taken smaller.
+      for (std::size_t d = 0; d < dimension_ && !round_; ++d) {
+        if (periods_[d] > 0) continue;
+        if (plane.normal[d] == 1) from_[d] = std::max(from_[d], plane.point[d]);
+        if (plane.normal[d] == -1) to_[d] = std::min(to_[d], plane.point[d]);
+      }
+    }
+  }
+
+ private:
+  void set_domain(const Domain& domain, double from_wall) {
     if (const auto* disc = std::get_if<DiscDomain>(&domain)) {
       radius_ = disc->radius - from_wall;
       centre_ = {disc->centre[0], disc->centre[1]};
@@ -48,13 +65,22 @@ class Places {
     }
   }
 
+ public:
   /// Number of dimensions, 2 or 3.
   std::size_t dimension() const { return dimension_; }
   /// True if the region is empty.
   bool are_empty() const {
-    for (std::size_t d = 0; d < dimension_; ++d)
+    double size = 1;
+    for (std::size_t d = 0; d < dimension_; ++d) {
       if (!(from_[d] <= to_[d])) return true;
-    return false;
+      size *= to_[d] - from_[d];
+    }
+    if (planes_.empty() || size == 0) return false;
+    // Below this fraction, random places would be found too slowly.
+    constexpr double kLeastFraction = 1e-6;
+    Domain whole = DiscDomain{centre_, radius_};
+    if (!round_) whole = BoxDomain{from_, to_, {}};
+    return measure(whole, planes_) < kLeastFraction * size;
   }
   /// Period along axis `d` [L]; 0 if the domain is not periodic along it.
   double period(std::size_t d) const { return periods_[d]; }
@@ -65,6 +91,14 @@ class Places {
 
   /// True if a centre may be at `x`.
   bool contain(const Vector& x) const {
+    for (const auto& plane : planes_)
+      if (!(dot(plane.normal, x - plane.point) >= 0)) return false;
+    return is_in_domain(x);
+  }
+  /// True if planes bound the region.
+  bool has_planes() const { return !planes_.empty(); }
+
+  bool is_in_domain(const Vector& x) const {
     if (!round_) {
       for (std::size_t d = 0; d < dimension_; ++d)
         if (!(from_[d] <= x[d] && x[d] <= to_[d])) return false;
@@ -86,15 +120,31 @@ class Places {
     return x;
   }
 
-  /// The point of the region that is nearest to `x` [L]; in a disc slightly inside its edge.
+  /// The point of the region that is nearest to `x` [L]; in a disc slightly inside its edge. With
+  /// planes, a point near that one, which may be outside the region in a corner.
   Vector nearest(Vector x) const {
+    x = nearest_in_domain(x);
+    constexpr int kRounds = 20;  // a free choice
+    for (int round = 0; round < kRounds && !contain(x); ++round) {
+      for (const auto& plane : planes_) {
+        const double height = dot(plane.normal, x - plane.point);
+        // Slightly beyond the plane, so that rounding errors do not leave the point behind it.
+        constexpr double kBeyond = 1 + 1e-6;
+        if (height < 0) x = x - kBeyond * height * plane.normal;
+      }
+      x = nearest_in_domain(x);
+    }
+    return x;
+  }
+
+  Vector nearest_in_domain(Vector x) const {
     if (!round_) {
       x = wrapped(x);
       for (std::size_t d = 0; d < dimension_; ++d)
         if (periods_[d] == 0) x[d] = std::clamp(x[d], from_[d], to_[d]);
       return x;
     }
-    if (contain(x)) return x;
+    if (is_in_domain(x)) return x;
     const double dx = x[0] - centre_[0], dy = x[1] - centre_[1];
     // 1e-12 of the radius exceeds the rounding errors, so that contain() is true of the result.
     constexpr double kInside = 1 - 1e-12;
@@ -130,6 +180,7 @@ class Places {
   std::size_t dimension_ = 2;
   double radius_ = 0;
   Vector centre_{}, from_{}, to_{}, periods_{};
+  std::vector<PlanePosition> planes_;  // moved by the least distance of the centre
 };
 
 double length_of(const Vector& x) { return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); }
@@ -236,8 +287,10 @@ class PlacedParticles {
     return false;
   }
 
-  /// True if no other particle is too close to particle `self` with its centre at `x`.
+  /// True if no other particle is too close to particle `self` with its centre at `x`, and `x` is on
+  /// the free side of all planes.
   bool is_free(const Vector& x, std::size_t self) const {
+    if (places(self).has_planes() && !places(self).contain(x)) return false;
     return !any_close(x, self, 1, [](const auto&...) { return true; });
   }
 
@@ -359,9 +412,9 @@ double size_of(const Arrangement& asked, int dimension) {
 /// first, gets a random place; particles that are too close are then pushed apart, and all are
 /// moved at random. The particles in `present` stay where they are.
 std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
-                            const Particles& present) {
+                            const Particles& present, std::span<const PlanePosition> planes) {
   const auto& radii = asked.radii;
-  const double gap = asked.smallest_gap, size = measure(domain);
+  const double gap = asked.smallest_gap, size = measure(domain, planes);
   const auto [smallest, largest] = std::ranges::minmax(radii);
   const bool are_equal = smallest == largest;
   const auto* box = std::get_if<BoxDomain>(&domain);
@@ -369,11 +422,12 @@ std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
   const auto refuse = [&](const std::string& why) {
     throw Error(ErrorKind::kBadInput,
                 "{} {} of {} with gaps of at least {} do not fit ({}); they take {:.4g} of the {} "
-                "of the domain; use fewer or smaller ones, or a smaller gap",
+                "of the {}; use fewer or smaller ones, or a smaller gap",
                 radii.size(), dimension == 2 ? "discs" : "spheres",
                 are_equal ? fmt::format("radius {}", largest)
                           : fmt::format("radii {:.6g} to {:.6g}", smallest, largest),
-                gap, why, size_of(asked, dimension) / size, dimension == 2 ? "area" : "volume");
+                gap, why, size_of(asked, dimension) / size, dimension == 2 ? "area" : "volume",
+                planes.empty() ? "domain" : "domain that the planes leave free");
   };
   // The largest particles are placed first. Particles of equal radius keep their order.
   std::vector<std::size_t> order(radii.size());
@@ -383,7 +437,7 @@ std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
   for (const auto k : order) falling.push_back(radii[k]);
   std::vector<Places> places;  // only one entry if all radii are equal
   for (std::size_t k = 0; k < (are_equal ? 1 : radii.size()); ++k)
-    places.emplace_back(domain, falling[k] + gap);
+    places.emplace_back(domain, planes, falling[k] + gap);
   if (places.front().are_empty()) refuse("the domain is narrower than one of them with its gaps");
   for (std::size_t d = 0; d < places.front().dimension(); ++d)
     if (places.front().period(d) > 0 && places.front().period(d) < 2 * largest + gap)

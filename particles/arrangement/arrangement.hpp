@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "viscontact/particles/domain/domain.hpp"
@@ -26,7 +27,8 @@ struct Arrangement {
 /// [L^3] if it is 3. Throws nothing.
 double size_of(const Arrangement& asked, int dimension);
 
-/// Places new particles in the domain, which must be a disc or a box; periodic sides are no walls.
+/// Places new particles in the domain, which must be a disc or a box, on the free side of all
+/// `planes`, which count as walls; periodic sides are no walls.
 /// They are spheres if the box has three dimensions, otherwise discs. `present` are the particles
 /// that are in the domain already and stay where they are; gaps among them are not checked. Returns
 /// the coordinates of the new centres [L], 2 or 3 for each particle, in the order of `asked.radii`.
@@ -52,6 +54,7 @@ double size_of(const Arrangement& asked, int dimension);
 /// message has the number of particles and their area or volume fraction; the caller adds file and
 /// line. Throws std::bad_variant_access if `domain` is neither a disc nor a box.
 std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
-                            const Particles& present);
+                            const Particles& present,
+                            std::span<const PlanePosition> planes = {});
 
 }  // namespace viscontact::particles

@@ -125,7 +125,7 @@ void Pouring::pour(const Setting& setting, State& state) {
   if (drawn_.empty()) return;
   auto& p = state.particles;
   const bool turns = p.turn() || setting.laws.friction.has_value();
-  const auto obstacles = positions_of(obstacles_of(setting), state.time);
+  const auto obstacles = positions_of(obstacles_of(setting, state.planes), state.time);
   for (std::size_t s = 0; s < drawn_.size(); ++s) {
     const auto& source = setting.sources[s];
     auto& count = state.sources[s].poured;

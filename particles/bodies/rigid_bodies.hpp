@@ -70,7 +70,8 @@ struct RigidBodies {
   std::size_t count() const { return bodies.size(); }  ///< number of bodies
   /// The number of the body of a particle; -1 if it belongs to none.
   std::int32_t body_of(std::int32_t particle) const {
-    return of_particle.empty() ? -1 : of_particle[static_cast<std::size_t>(particle)];
+    const auto k = static_cast<std::size_t>(particle);
+    return k < of_particle.size() ? of_particle[k] : -1;
   }
   /// True if both particles belong to one body, so that they do not touch each other. In a periodic
   /// cell neither do their images, because a body is smaller than the cell.

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "viscontact/particles/case/particles_sections.hpp"
+#include "viscontact/particles/domain/region.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -128,12 +129,14 @@ void arrangement_keys(case_file::Keys& keys, ArrangementKeys& asked, int dimensi
     if (!keys.reads() || key == fraction)
       keys.optional(key, case_file::number(asked.fraction, case_file::kFraction),
                     {key == "area_fraction"
-                         ? "in place of `count`: area of these discs over the area of the domain"
-                         : "in place of `count`: volume of these spheres over that of the domain",
+                         ? "in place of `count`: area of these discs over the area of the domain that planes "
+                           "leave free"
+                         : "in place of `count`: volume of these spheres over that of the domain "
+                           "that planes leave free",
                      "from `count`"});
   keys.optional("smallest_gap", case_file::number(asked.smallest_gap, kNotNegative),
                 {"least gap of two of the particles (also across periodic sides), of one and "
-                 "another particle, and of one and a wall",
+                 "another particle, and of one and a wall or plane",
                  "0.05 smallest radius"});
   keys.optional("seed", case_file::count(asked.seed, 0, std::numeric_limits<int>::max()),
                 {"the same seed gives the same arrangement, bit for bit on every machine"});
@@ -174,11 +177,13 @@ void read_arrangement(const case_file::TomlSection& section, ParticlesCase& c) {
   const std::string_view key = keys.count > 0     ? "count"
                                : p.dimension == 3 ? "volume_fraction"
                                                   : "area_fraction";
+  const auto planes = positions_of(c.setting.planes, 0);
   const DrawnSpecies species(keys.species, p.dimension, keys.seed);
   const auto particles =
       keys.count > 0
           ? drawn(species, keys.count)
-          : drawn_to_size(species, p.dimension, keys.fraction * measure(domain), kLargestCount + 1);
+          : drawn_to_size(species, p.dimension, keys.fraction * measure(domain, planes),
+                          kLargestCount + 1);
   section.require(particles.size() <= kLargestCount, key,
                   "makes more than {} particles of these radii; at most {} are allowed",
                   kLargestCount, kLargestCount);
@@ -187,7 +192,7 @@ void read_arrangement(const case_file::TomlSection& section, ParticlesCase& c) {
   constexpr double kGapOfRadius = 0.05;  // free; a change alters the arrangements of seeds
   if (asked.smallest_gap < 0) asked.smallest_gap = kGapOfRadius * std::ranges::min(asked.radii);
   require_ids(section, key, p, particles.size());
-  const auto centres = case_file::at_key(section, key, [&] { return arrange(asked, domain, p); });
+  const auto centres = case_file::at_key(section, key, [&] { return arrange(asked, domain, p, planes); });
 
   p.positions.insert(p.positions.end(), centres.begin(), centres.end());
   p.velocities.resize(p.positions.size());

@@ -21,7 +21,7 @@ namespace {
 
 constexpr Allowed kMassWithoutFluid = {
     [](double v) { return v >= 1 / kLargestNumber && v <= kLargestNumber; },
-    "from 1e-100 to 1e100 (0 is allowed only in a case with [fluid])"};
+    "from 1e-100 to 1e100 (0 is allowed only in a case with [fluid], or with a given motion)"};
 constexpr std::array kKeysOfRotation = {"torque", "angle", "angular_velocity", "moment_of_inertia"};
 
 /// Throws Error(kBadInput) for keys of a table [[particle]] that are not allowed in this dimension
@@ -37,9 +37,6 @@ void check_keys(const case_file::TomlSection& section, int dimension, bool in_fl
       "belongs to a plate with round ends in a fluid in the plane; this particle has none");
   section.require(!section.has("length") || !section.has("semi_axes"), "length",
                   "must be left out, because semi_axes makes this particle an ellipse");
-  for (const auto* key : {"fixed", "velocity_given"})
-    section.require(in_fluid || !section.has(key), key,
-                    "belongs to a particle in a fluid; the case has no section [fluid]");
   for (const auto* key : kKeysOfRotation)
     section.require(dimension != 1 || !section.has(key), key,
                     "must be left out, because a sphere on the axis does not turn");
@@ -107,16 +104,17 @@ void read_mass(case_file::Keys& keys, ParticleTable& p, int dimension, bool in_f
       "density", case_file::number(density, kModeratelyPositiveOr0),
       {"in place of `mass`: mass of the disc over its area, or of the sphere over its volume",
        "from `mass`"});
-  keys.require(!has_density || density > 0 || in_fluid, "density",
+  const bool may_be_0 = in_fluid || p.given.has_value();
+  keys.require(!has_density || density > 0 || may_be_0, "density",
                "is 0; a particle without a fluid must have a mass");
   keys.require(!has_density || !keys.has("mass"), "mass",
                "must be left out, because density gives the mass of this particle");
   if (has_density) p.mass = density * p.size(dimension);
   if (has_density && keys.reads()) return;
-  keys.required_if(!in_fluid, "mass",
-                   case_file::number(p.mass, in_fluid ? kModeratelyPositiveOr0 : kMassWithoutFluid),
-                   {"mass of the disc or sphere", "required; in a fluid 0",
-                    "from 1e-100 to 1e100, in a fluid also 0"});
+  keys.required_if(!may_be_0, "mass",
+                   case_file::number(p.mass, may_be_0 ? kModeratelyPositiveOr0 : kMassWithoutFluid),
+                   {"mass of the disc or sphere", "required; in a fluid, or with a given motion, 0",
+                    "from 1e-100 to 1e100, in a fluid or with a given motion also 0"});
 }
 
 /// Reads the two semi-axes [L], > 0, of an ellipse. Throws Error(kBadInput) if one of them is more
@@ -145,11 +143,10 @@ void particle_keys(case_file::Keys& keys, ParticleTable& p, const ParticlesCase&
   if (keys.reads()) check_keys(keys.section(), dimension, in_fluid);
   keys.optional(
       "fixed", case_file::custom("`true` or `false`", read_fixed),
-      {"[in a fluid](#particles-in-a-fluid): whether the particle is at rest, whatever acts on it",
-       "`false`"});
+      {"whether the particle is at rest, whatever acts on it", "`false`"});
   keys.optional("velocity_given",
                 case_file::custom("`{ value, angular_velocity }`", read_given_motion, p, c),
-                {"[in a fluid](#particles-in-a-fluid): how the particle is driven"});
+                {"how the particle is driven, whatever acts on it"});
   if (p.is_fixed) p.given.emplace();
   for (const auto* key : {"force", "torque", "velocity", "angular_velocity"})
     keys.require(
@@ -201,7 +198,8 @@ void particle_keys(case_file::Keys& keys, ParticleTable& p, const ParticlesCase&
 /// the defaults of add_rotation().
 void add_rotation_of_last(const case_file::TomlSection& section, const ParticleTable& table,
                           Particles& p) {
-  if (!p.turn() &&
+  const bool is_turned = table.given && !table.given->angular_velocity.pieces.empty();
+  if (!p.turn() && !is_turned &&
       std::ranges::none_of(kKeysOfRotation, [&](auto* key) { return section.has(key); }))
     return;
   add_rotation(p);

@@ -191,8 +191,10 @@ void solver_keys(case_file::Keys& keys, SolverSettings& settings) {
 void output_keys(case_file::Keys& keys, ParticlesCase& c) {
   keys.optional("every", case_file::number(c.frame_interval, kModeratelyPositive),
                 {"time between frames", "a hundredth of `end_time`"});
-  keys.optional("average_from", case_file::number(c.average_from, kNotNegative),
-                {"time at which the means over time in run.json and in sweeps begin"});
+  c.average_from_given =
+      keys.optional("average_from", case_file::number(c.average_from, kNotNegative),
+                    {"time at which the means over time in run.json and in sweeps begin; with it, "
+                     "run.json also has the means of contact forces"});
   keys.require(c.average_from < c.end_time, "average_from",
                "is {}; it must be earlier than end_time, {}", c.average_from, c.end_time);
   keys.optional("tables", case_file::texts(c.tables),
@@ -232,6 +234,88 @@ void plane_keys(case_file::Keys& keys, Plane& plane, const ParticlesCase& c) {
       "pivot", vector(plane.pivot, dimension),
       {"only with `angular_velocity`: the centre of rotation, which moves with the velocity",
        "`point`"});
+  load_keys(keys, plane, c);
+}
+
+constexpr int kInPlane = 2;  // with it pieces_of_turn() reads one number
+
+/// Reads a number along the normal of a plane, or a list of pieces of time with such numbers, as
+/// component 0 of vectors.
+void read_load(const case_file::TomlSection& section, std::string_view key,
+               PiecewiseConstant& place, const double& end_time) {
+  section.require(!section.is_array(key) || section.is_array_of_tables(key), key,
+                  "is a list; it must be one number, > 0 towards the particles, or a list of pieces "
+                  "{{ until, value }}");
+  pieces_of_turn(place, kInPlane, end_time).read(section, key);
+  for (auto& piece : place.pieces) piece.value = {piece.value[2], 0, 0};
+}
+
+/// Length [L] or area [L^2] of the part of a plane in the domain. Throws Error(kBadInput) unless the
+/// domain is a box and the plane parallel to sides of it, so that the size does not change while the
+/// plane moves.
+double size_in_domain(const case_file::TomlSection& section, const Plane& plane,
+                      const Domain& domain) {
+  const auto* box = std::get_if<BoxDomain>(&domain);
+  section.require(box != nullptr, "pressure",
+                  "needs the length or area of the plane, which only a [domain] with a box gives; "
+                  "the plane must have the key force in its place");
+  std::size_t along = 3;
+  for (std::size_t d = 0; d < 3; ++d)
+    if (std::abs(plane.start.normal[d]) == 1) along = d;
+  section.require(along < 3, "pressure",
+                  "belongs to a plane that is parallel to two sides of the box, because the part "
+                  "of another plane in the box changes while it moves; this plane must have the "
+                  "key force in its place");
+  double size = 1;
+  for (std::size_t d = 0; d < box->dimension(); ++d)
+    if (d != along) size *= box->to[d] - box->from[d];
+  return size;
+}
+
+/// Keys of the load of a plane: a pressure [M/(L T^2)] (with discs [M/T^2]) or a force [M L/T^2],
+/// and the mass [M].
+void load_keys(case_file::Keys& keys, Plane& plane, const ParticlesCase& c) {
+  PlaneLoad load;
+  const bool has_pressure = keys.optional(
+      "pressure", case_file::custom("a number, or pieces", read_load, load.force, c.end_time),
+      {"without a fluid: the plane [moves along its normal](particles.md#planes-under-a-load), and "
+       "this pressure on its length (discs) or area (spheres) in the box pushes it towards the "
+       "particles"});
+  keys.require(!has_pressure || !keys.has("force"), "force",
+               "must be left out, because pressure gives the force on this plane");
+  const bool has_force = keys.optional(
+      "force", case_file::custom("a number, or pieces", read_load, load.force, c.end_time),
+      {"in place of `pressure`: force along the normal, > 0 towards the particles"});
+  const bool has_load = has_pressure || has_force;
+  keys.require(has_load || !keys.has("mass"), "mass",
+               "has no effect, because the plane has neither pressure nor force; it must be left "
+               "out");
+  keys.required_if(has_load, "mass", case_file::number(load.mass, kModeratelyPositive),
+                   {"inertia of a plane with `pressure` or `force`, on which gravity does not act",
+                    "required with `pressure` or `force`"});
+  if (!has_load) return;
+  const auto& section = keys.section();
+  const std::string_view key = has_pressure ? "pressure" : "force";
+  section.require(!c.setting.fluid, key,
+                  "belongs to a plane without a fluid; in a case with [fluid] a plane moves with "
+                  "its velocity");
+  section.require(!c.setting.laws.restitution.is_on(), key,
+                  "must be left out, because the case has viscous_contact.restitution, and blows on "
+                  "a plane that moves under a load are not computed");
+  section.require(norm(plane.angular_velocity) == 0, "angular_velocity",
+                  "must be left out, because a plane with {} does not turn", key);
+  constexpr double kRounding = 1e-12;  // above the rounding errors of a unit normal
+  for (const auto& piece : plane.velocity.pieces)
+    section.require(std::abs(dot(piece.value, plane.start.normal)) <= kRounding * norm(piece.value),
+                    "velocity",
+                    "has a component along the normal, along which {} moves this plane; it must be "
+                    "parallel to the plane",
+                    key);
+  if (has_pressure) {
+    const double size = size_in_domain(section, plane, c.setting.domain);
+    for (auto& piece : load.force.pieces) piece.value = size * piece.value;
+  }
+  plane.load = std::move(load);
 }
 
 /// Throws Error(kBadInput) for a plane that is not parallel to the periods of the domain, because

@@ -34,6 +34,7 @@ struct ParticlesCase {
   double end_time = 0;                   ///< time at which the run ends [T], 1e-100 to 1e100
   double frame_interval = 0;             ///< time between outputs (frames) [T], 1e-100 to 1e100
   double average_from = 0;          ///< time at which means over time begin [T], >= 0, < end_time
+  bool average_from_given = false;  ///< true: the case has the key average_from
   std::vector<std::string> tables;  ///< names of tables that the case asks for, of kAskedTables
                                     ///< (io/contact_file.hpp)
   /// What [arrangement] asks for; nothing if the case has no such section.

@@ -181,8 +181,16 @@ void check_start(const ParticlesCase& c, const ParticleLines& lines) {
   check_radii_and_distances(c, names);
   check_domain(c, names);
   const double allowed = c.setting.solver.tolerance * mean_radius(c.particles);
+  // Without a fluid, two bodies whose motions are given make no contact, and may overlap.
+  const auto walls = obstacles_of(c.setting).size() - c.setting.planes.size();
+  const auto is_given = [&](std::int32_t body) {
+    const auto w = static_cast<std::size_t>(-1 - body);
+    return body >= 0 ? c.setting.given_motions.contains(body)
+                     : w < walls || !c.setting.planes[w - walls].load;
+  };
   for (const auto& [first, second, gap] : gaps_at_start(c, 0)) {
     if (!(gap < -allowed)) continue;
+    if (!c.setting.fluid && is_given(first) && is_given(second)) continue;
     const auto j = index_of(second);
     if (first >= 0)
       throw_bad_input(names.at(j),

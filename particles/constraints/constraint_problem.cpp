@@ -269,16 +269,20 @@ void add_contact_row(const Contact<D>& contact, const ContactTangents<D>& tangen
                      double impulse, ConstraintProblem<D>& problem) {
   const Vector normal = normal_of(contact);
   const Vector direction = k == 0 ? normal : tangents.directions[k - 1];
-  const double offset = k == 0 ? contact.gap : 0 - dot(direction, tangents.surface);
-  const RowPart<D> of_second{
-      second.unit, displacement_row<D>(direction, second.offset - tangents.second_arm * normal)};
-  if (first.unit < 0) {
-    problem.add_row(offset, std::array{of_second}, impulse);
-    return;
-  }
-  const RowPart<D> of_first{
-      first.unit, displacement_row<D>(-1 * direction, first.offset + tangents.first_arm * normal)};
-  problem.add_row(offset, std::array{of_second, of_first}, impulse);
+  double offset = k == 0 ? contact.gap : 0 - dot(direction, tangents.surface);
+  std::array<RowPart<D>, 2> parts;
+  std::size_t count = 0;
+  const auto add = [&](const ContactSide& side, const Vector& along, const Vector& arm) {
+    if (side.unit >= 0)
+      parts[count++] = {side.unit, displacement_row<D>(along, arm)};
+    else
+      offset += dot(along, side.displacement + cross(side.turn, arm));
+  };
+  add(second, direction, second.offset - tangents.second_arm * normal);
+  const bool is_along_plane = contact.loaded_plane >= 0 && k > 0;
+  add(first, is_along_plane ? Vector{} : -1 * direction,
+      first.offset + tangents.first_arm * normal);
+  problem.add_row(offset, std::span(parts).first(count), impulse);
 }
 
 template ContactTangents<2> tangents_of<2>(const Contact<2>&, const Particles&,

@@ -302,14 +302,17 @@ Motion<D> displacement_row(const Vector& direction, const Vector& arm) {
 
 /// The unit of a particle of a contact, and the place of the particle in the unit.
 struct ContactSide {
-  std::int32_t unit = -1;  ///< place in ConstraintProblem::units; -1: an obstacle
+  std::int32_t unit = -1;  ///< place in ConstraintProblem::units; -1: its motion is given
   Vector offset{};         ///< from the centre of the unit to that of the particle [L]
+  Vector displacement{},   ///< of a particle whose motion is given, in the step [L]
+      turn{};              ///< of such a particle [rad], of a disc in component 2
 };
 
 /// Adds row number `k` of a contact to `problem`, with the guess `impulse` of the impulse of the
 /// row [M L/T]. Row 0 is the gap of the contact. Row k from 1 to D - 1 is the displacement of the
 /// surface of the second particle relative to that of the first particle or obstacle, along
-/// tangents.directions[k - 1].
+/// tangents.directions[k - 1]. The unit of a plane under a load moves along its normal only. Sides
+/// without a unit add their given motions to the offset of the row.
 template <int D>
 void add_contact_row(const Contact<D>& contact, const ContactTangents<D>& tangents,
                      const ContactSide& first, const ContactSide& second, std::size_t k,

@@ -59,7 +59,7 @@ ConstraintSystem<D>::ConstraintSystem(const ConstraintStep& step, const Particle
       link_residuals_(links_.size(), 0.0),
       link_forces_(step.link_forces.begin(), step.link_forces.end()),
       first_link_forces_(link_forces_),
-      unit_of_particle_(particles.count(), -1),
+      unit_of_particle_(mobilities.size(), -1),
       unit_of_body_(particles.bodies.count(), -1),
       offsets_(particles.bodies.empty() ? 0 : particles.count()) {
   for (auto& stop : stop_equations(*step.links, particles)) {
@@ -184,6 +184,7 @@ void ConstraintSystem<D>::move_particles(const ContactSystem<D>& system, const I
   for (const auto b : island.bodies) {
     const auto particle = system.bodies()[index_of(b)];
     const auto k = index_of(particle);
+    if (is_given(particle)) continue;
     const auto motion = motion_of(unit_of_particle_[k], motions);
     Vector moved = motion.displacement;
     if (particles_.bodies.body_of(particle) >= 0)
@@ -228,8 +229,10 @@ double ConstraintSystem<D>::correct(ContactSystem<D>& system, Island& island,
     const std::size_t of_link = b++;
     if (links_[l].is_spring()) continue;
     std::vector<UnitMotion> of_units;
-    for (const auto& part : problem.parts_of(problem.blocks[of_link].row))
-      of_units.push_back(motion_of(part.unit, motions));
+    for (const auto& part : links_[l].parts())
+      of_units.push_back(is_given(part.particle)
+                             ? given_motion(part.particle)
+                             : motion_of(unit_of_particle_[index_of(part.particle)], motions));
     const auto values = values_after(links_[l], *step_.links, particles_, times_, of_units);
     for (std::size_t k = 0; k < values.size(); ++k) shift(of_link, k, values[k]);
   }
@@ -564,7 +567,7 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
     without_contacts_.resize(system.bodies().size());
     for (const auto b : island.bodies) {
       const auto unit = unit_of_particle_[index_of(system.bodies()[index_of(b)])];
-      without_contacts_[index_of(b)] = solution.motions[index_of(unit)];
+      if (unit >= 0) without_contacts_[index_of(b)] = solution.motions[index_of(unit)];
     }
   }
   if (is_rough)

@@ -37,7 +37,10 @@ struct ConstraintStep {
   bool is_first = false;             ///< true: the first step of the simulation
   double kick = 0;          ///< time for which forces act on the velocities in the step [T], > 0
   std::span<double> turns;  ///< h w of all particles [rad], 1 (discs) or 3 numbers for each
-  std::span<const double> turn_mobilities;  ///< h/I of all particles [T/(M L^2)], > 0
+  /// h/I of all particles [T/(M L^2)], > 0, or 0 if the motion is given. This and the arrays of
+  /// displacements, mobilities and turns have entries of the planes under a load after those of
+  /// the particles.
+  std::span<const double> turn_mobilities;
   std::span<BodyStep> bodies;               ///< motions of all rigid bodies
   const Links* links = nullptr;             ///< must not be null, but may contain no links
   /// Forces and torques of all links [M L/T^2, M L^2/T^2], in the order of State::link_forces:
@@ -182,7 +185,10 @@ class ConstraintSystem {
   bool is_solved(const ContactSystem<D>& system, const Island& island, bool is_rough) const;
   SolverResult solve_island(ContactSystem<D>& system, Island& island, bool is_rough,
                             double roughly_allowed, int max_iterations);
-  ContactSide side_of(std::int32_t particle) const;
+  // True if the motion of the particle is given, so that it has no unit.
+  bool is_given(std::int32_t particle) const { return !(mobilities_[index_of(particle)] > 0); }
+  UnitMotion given_motion(std::int32_t particle) const;
+  ContactSide side_of(std::int32_t entry) const;
   void number_units(const ContactSystem<D>& system, Island& island);
   void add_contact(const Contact<D>& contact, std::size_t c, double allowed_slip,
                    ConstraintProblem<D>& problem);

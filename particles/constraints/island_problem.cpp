@@ -33,6 +33,7 @@ void ConstraintSystem<D>::number_units(const ContactSystem<D>& system, Island& i
       unit_of_body_[index_of(body)] = -1;
   for (const auto b : island.bodies) {
     const auto particle = system.bodies()[index_of(b)];
+    if (is_given(particle)) continue;
     const auto body = particles_.bodies.body_of(particle);
     auto& unit = unit_of_particle_[index_of(particle)];
     unit = body < 0 ? -1 : unit_of_body_[index_of(body)];
@@ -48,12 +49,26 @@ void ConstraintSystem<D>::number_units(const ContactSystem<D>& system, Island& i
   }
 }
 
-/// The unit of a particle, and the place of the particle in it; unit -1 for an obstacle (-1).
 template <int D>
-ContactSide ConstraintSystem<D>::side_of(std::int32_t particle) const {
-  if (particle < 0) return {};
-  const auto k = index_of(particle);
-  return {unit_of_particle_[k], particles_.bodies.body_of(particle) < 0 ? Vector{} : offsets_[k]};
+UnitMotion ConstraintSystem<D>::given_motion(std::int32_t particle) const {
+  constexpr auto turns = static_cast<std::size_t>(kTurns<D>);
+  UnitMotion motion{point_of(displacements_.data(), index_of(particle), D)};
+  for (std::size_t i = 0; i < turns; ++i)
+    motion.turn[3 - turns + i] = step_.turns[index_of(particle) * turns + i];
+  return motion;
+}
+
+/// The unit of a particle or of a plane under a load, and the place of the particle in it; no unit
+/// for an obstacle (-1).
+template <int D>
+ContactSide ConstraintSystem<D>::side_of(std::int32_t entry) const {
+  if (entry < 0) return {};
+  if (is_given(entry)) {
+    const auto motion = given_motion(entry);
+    return {-1, {}, motion.displacement, motion.turn};
+  }
+  const auto k = index_of(entry);
+  return {unit_of_particle_[k], particles_.bodies.body_of(entry) < 0 ? Vector{} : offsets_[k]};
 }
 
 /// Adds the block and the rows of contact number `c` to `problem`, with its last impulses as the
@@ -78,7 +93,7 @@ void ConstraintSystem<D>::add_contact(const Contact<D>& contact, std::size_t c, 
     block.given_load = state.first_load;
   }
   problem.blocks.push_back(block);
-  const auto first = side_of(contact.first), second = side_of(contact.second);
+  const auto first = side_of(contact.first_entry()), second = side_of(contact.second);
   for (std::size_t k = 0; k < block.rows; ++k) {
     const double guess = k == 0 ? contact.impulse : dot(tangents.directions[k - 1], state.friction);
     add_contact_row(contact, tangents, first, second, k, guess, problem);
@@ -103,10 +118,14 @@ void ConstraintSystem<D>::add_link(std::size_t l, double allowed, ConstraintProb
   for (std::size_t k = 0; k < link.rows.size(); ++k) {
     const auto& equation = link.rows[k];
     std::vector<RowPart<D>> parts;
+    double offset = equation.value;
     for (const auto& part : equation.parts)
-      parts.push_back({unit_of_particle_[index_of(part.particle)], row_of<D>(part)});
+      if (is_given(part.particle))
+        offset += value_of(part, given_motion(part.particle));
+      else
+        parts.push_back({unit_of_particle_[index_of(part.particle)], row_of<D>(part)});
     const double guess = is_stop ? 0 : first_link_forces_[link.first_force + k];
-    problem.add_row(equation.value, parts, times_.kick * guess);
+    problem.add_row(offset, parts, times_.kick * guess);
   }
 }
 

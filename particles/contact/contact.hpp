@@ -2,7 +2,8 @@
 // docs/physics.md (5.1), and whether given displacements close the gap. Lengths, masses and times
 // are in any consistent units; D is the number of dimensions, 1 (spheres on an axis), 2 (discs) or
 // 3 (spheres). The number of a particle or obstacle is its place in its array, from 0. An array
-// `displacements` has D numbers [L] for each particle: its displacement in the step. Nothing is
+// `displacements` has D numbers [L] for each particle, and then for each plane under a load: its
+// displacement in the step. Nothing is
 // checked or thrown. projection/, dual_problem/, constraints/, fluid/, impacts/ and
 // current_contacts.cpp use it. A change must keep that a gap as small as its rounding error counts
 // as 0.
@@ -45,12 +46,18 @@ struct Contact {
   std::int32_t obstacle = 0;
   /// Change of the gap per impulse of this contact [T/M], > 0 in a problem to be solved. Without a
   /// fluid it is h (1/m_i + 1/m_j), with the length h of the step and the masses m of both
-  /// particles; an obstacle adds nothing.
+  /// particles; a particle whose motion is given adds nothing, and of obstacles only a plane under
+  /// a load adds something.
   double w = 0;
   /// Change of the gap per counter-clockwise turn [rad] of the first and of the second particle
   /// [L]. They are 0 except in a fluid, for particles that are not discs and at stops of hinges.
   std::array<double, 2> levers{};
+  /// Entry of a plane under a load (PlaneLoad) in the arrays of displacements and mobilities, after
+  /// those of all particles; -1 for other obstacles and for particles.
+  std::int32_t loaded_plane = -1;
 
+  /// The entry of the first body in the arrays of displacements; -1 if its motion is given.
+  std::int32_t first_entry() const { return loaded_plane >= 0 ? loaded_plane : first; }
   /// True if this is the stop of a hinge. The gap of a stop changes only by turns (`levers`).
   bool is_stop() const { return first < 0 && obstacle < 0; }
 };
@@ -113,15 +120,15 @@ Contact<D> contact_of(const Particles& p, const Pair& pair, std::span<const Plan
 }
 
 /// Linearised gap [L] after the step: Contact::gap plus the relative displacement of the two along
-/// the normal. An obstacle is taken as fixed.
+/// the normal. An obstacle without a load is taken as fixed.
 template <int D>
 double gap_after(const Contact<D>& contact, std::span<const double> displacements) {
   const double* wj = &displacements[index_of(contact.second) * D];
   double sum = contact.gap;
-  if (contact.first < 0) {
+  if (contact.first_entry() < 0) {
     for (std::size_t d = 0; d < D; ++d) sum += contact.normal[d] * wj[d];
   } else {
-    const double* wi = &displacements[index_of(contact.first) * D];
+    const double* wi = &displacements[index_of(contact.first_entry()) * D];
     for (std::size_t d = 0; d < D; ++d) sum += contact.normal[d] * (wj[d] - wi[d]);
   }
   return sum;

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -31,6 +32,14 @@ struct PlanePosition {
   bool operator==(const PlanePosition&) const = default;
 };
 
+/// What presses a plane against the particles. The plane moves along its normal with the velocity V
+/// of m dV/dt = F - N, where N is the sum of the normal forces of its contacts.
+struct PlaneLoad {
+  /// F in component 0 [M L/T^2], > 0 where it pushes the plane along its normal.
+  PiecewiseConstant force;
+  double mass = 0;  ///< m [M], > 0
+};
+
 /// A plane and its motion: it moves with `velocity` and turns about its pivot, a point that moves
 /// with the same velocity. Without friction only the motion along its normal acts on particles.
 struct Plane {
@@ -40,6 +49,10 @@ struct Plane {
   /// component may differ from 0.
   Vector angular_velocity{};
   Vector pivot{};  ///< position at time 0 of the point about which the plane turns [L]
+  /// If it is given, the plane moves along its normal as PlaneLoad says, from rest at time 0.
+  /// `velocity` must then be along the plane, and the plane must not turn. displacement(), at() and
+  /// surface_velocity() do not contain the motion along the normal, which the state has.
+  std::optional<PlaneLoad> load{};
 
   /// Position at time t >= 0 [T].
   PlanePosition at(double t) const;

@@ -47,8 +47,8 @@ void ContactSystem<D>::connect(std::int32_t first, std::int32_t second) {
 template <int D>
 void ContactSystem<D>::add(const Contact<D>& contact) {
   contacts.push_back(contact);
-  if (contact.first >= 0) number(contact.first);
-  connect(contact.first, contact.second);
+  if (contact.first_entry() >= 0) number(contact.first_entry());
+  connect(contact.first_entry(), contact.second);
 }
 
 /// The number of the body that represents the island of `body`. It is the root of a tree of bodies.

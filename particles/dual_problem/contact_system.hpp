@@ -27,8 +27,9 @@ namespace viscontact::particles {
 template <int D>
 class ContactSystem {
  public:
-  /// `displacements` holds h u* of all particles [L], D numbers for each; solve() overwrites it.
-  /// `mobilities` holds h/m of all particles [T/M], > 0. If one particle of a rigid body of
+  /// `displacements` holds h u* of all particles and then of all planes under a load [L], D numbers
+  /// for each; solve() overwrites it. `mobilities` holds h/m of the same [T/M], > 0, or 0 if the
+  /// motion is given. A plane under a load takes part like a particle. If one particle of a rigid body of
   /// `particles` takes part, all particles of this body do. The three arguments must outlive the
   /// object.
   ContactSystem(std::span<double> displacements, std::span<const double> mobilities,

@@ -30,13 +30,14 @@ MassDualProblem<D>::MassDualProblem(std::span<const Contact<D>> contacts,
       pool_(&pool) {
   const auto wall = static_cast<std::int32_t>(mobilities.size());
   for (std::size_t b = 0; b < mobilities.size(); ++b)
-    for (std::size_t d = 0; d < D; ++d) inverse_mobilities_[b * D + d] = 1 / mobilities[b];
+    for (std::size_t d = 0; d < D; ++d) 
+      inverse_mobilities_[b * D + d] = mobilities[b] > 0 ? 1 / mobilities[b] : 0;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto& contact = contacts[c];
-    const bool particles = contact.first >= 0;
+    const bool particles = contact.first_entry() >= 0;
     const auto body = [&](std::int32_t k) { return body_of.empty() ? k : body_of[index_of(k)]; };
     const auto second = body(contact.second);
-    const auto i = index_of(particles ? body(contact.first) : wall), j = index_of(second);
+    const auto i = index_of(particles ? body(contact.first_entry()) : wall), j = index_of(second);
     const double of_first = particles ? mobilities[i] : 0;
     const double root = std::sqrt(contact.w);
     rows_[c] = {static_cast<std::int32_t>(i), second, contact.normal, 1 / root, of_first / root,

@@ -38,7 +38,7 @@ class MassDualProblem : public DualProblem {
 
   /// `contacts` must have `allowed` > 0 and the `w` above. `displacements` says how far each body
   /// moves in the step without contacts [L], D numbers for each. `mobilities` holds h/m of each
-  /// body [T/M], > 0. All obstacles together are one additional body, which does not move.
+  /// body [T/M], > 0, or 0 for a body whose motion is given. All other obstacles together are one additional body, which does not move.
   /// `body_of` has the number of the body of each particle; if it is empty, particles and bodies
   /// have the same numbers. `pool` must outlive the object.
   MassDualProblem(std::span<const Contact<D>> contacts, std::span<const double> displacements,

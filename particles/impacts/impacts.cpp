@@ -95,7 +95,7 @@ Vector Impacts<D>::free_velocity(std::int32_t k) const {
 /// The mean acceleration of a particle by its forces in the step [L/T^2]; 0 for an obstacle.
 template <int D>
 Vector Impacts<D>::acceleration(std::int32_t k) const {
-  if (k < 0) return {};
+  if (is_given(k)) return {};
   return (1 / step_.kick) * (free_velocity(k) - state_.particles.velocity(index_of(k)));
 }
 
@@ -377,6 +377,7 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
 template <int D>
 void Impacts<D>::expect(std::size_t k, double from) {
   const auto& of = pair(k);
+  if (is_given(of.first) && is_given(of.second)) return;
   const std::array versions = {version(of.first), version(of.second)};
   if (!hits_of_.empty()) {
     // A pair that has been hit kMostHits times in a step, or kMostUnderLoad times if it bore a

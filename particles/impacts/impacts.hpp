@@ -40,7 +40,9 @@ struct ImpactStep {
   double kick = 0;                   ///< time for which forces act on the velocities in it [T], > 0
   double touching = 0;               ///< gaps up to this one count as closed [L], > 0
   std::span<double> displacements;   ///< h u* of all particles [L], D numbers for each
-  std::span<const double> mobilities;  ///< h/m of all particles of the mass m [T/M], > 0
+  /// h/m of all particles of the mass m [T/M], > 0, or 0 if the motion is given, at a constant
+  /// velocity in the step.
+  std::span<const double> mobilities;
   /// h w* of all particles [rad], 1 (discs) or 3 numbers for each; empty if no particle turns.
   std::span<double> turns;
   /// h/I of all particles of the moment of inertia I [T/(M L^2)], > 0; empty if no particle turns.
@@ -84,6 +86,8 @@ class Impacts {
 
   /// The contacts of all blows in which solids touched, in order of time.
   const std::vector<Rebound>& rebounds() const { return rebounds_; }
+  /// The impulses [M L/T] and moments [M L^2/T] of these blows on particles whose motion is given.
+  const std::vector<GivenParticleLoad>& on_given() const { return on_given_; }
   /// The impulses of all contacts of these blows.
   const std::vector<BlowImpulse>& impulses() const { return impulses_; }
   /// Number of iterations of the solver in all blows, >= 0.
@@ -186,6 +190,8 @@ class Impacts {
   Flight& flight(std::int32_t k);
   const Flight& flight_or_none(std::int32_t k) const;
   int version(std::int32_t k) const { return k < 0 ? 0 : flight_or_none(k).version; }
+  // True for an obstacle, and for a particle whose motion is given.
+  bool is_given(std::int32_t k) const { return k < 0 || !(step_.mobilities[index_of(k)] > 0); }
   Vector free_velocity(std::int32_t k) const;
   Vector acceleration(std::int32_t k) const;
   Vector free_spin(std::int32_t k) const;
@@ -226,6 +232,7 @@ class Impacts {
   std::vector<int> hits_of_;  // number of hits of each pair
   std::vector<Rebound> rebounds_;
   std::vector<BlowImpulse> impulses_;
+  std::vector<GivenParticleLoad> on_given_;
   int iterations_ = 0;
   bool converged_ = true;
   struct Before {

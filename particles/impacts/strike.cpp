@@ -33,7 +33,7 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
   // The unit of a particle in the problem, and the vector [L] from the centre of the unit to the
   // particle.
   const auto side_of = [&](std::int32_t k) -> ContactSide {
-    if (k < 0) return {};
+    if (is_given(k)) return {};
     const auto body = p.bodies.body_of(k);
     const auto [at, is_new] =
         numbers.try_emplace(body < 0 ? k : -1 - body, static_cast<std::int32_t>(unit_of.size()));
@@ -272,13 +272,22 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     of.impulse = impulse;
     const double after =
         (problem.rows[block.row].offset + problem.product(block.row, changes)) / step_.h;
+    // A particle whose motion is given has no part, and the first part is that of its partner.
+    const double sign = is_given(of.second) ? -1 : 1;
     Vector push{};
     for (std::size_t r = block.row; r < block.row + block.rows; ++r) {
       // The coefficients of the first part are the direction in which the second particle is
       // pushed.
       const auto& direction = problem.parts[problem.rows[r].first_part].coefficients;
-      for (std::size_t d = 0; d < D; ++d) push[d] += problem.impulses[r] * direction[d];
+      for (std::size_t d = 0; d < D; ++d) push[d] += sign * problem.impulses[r] * direction[d];
     }
+    const auto add_to_given = [&](std::int32_t k, const Vector& arm, const Vector& by) {
+      if (k >= 0 && is_given(k)) on_given_.push_back({k, by, cross(arm, by)});
+    };
+    add_to_given(of.second, -state_.particles.radii[index_of(of.second)] * hits[c].normal, push);
+    if (of.first >= 0)
+      add_to_given(of.first, state_.particles.radii[index_of(of.first)] * hits[c].normal,
+                   -1.0 * push);
     impulses_.push_back({of.first, push, hits[c].sum * hits[c].normal});
     if (phase.solid > 0)
       rebounds_.push_back({step_.begin + time, of.first, of.second, hits[c].approach, phase.solid,

@@ -41,22 +41,25 @@ void add(std::string& text, const Vector& x, int dimension) {
     (text += ',') += format_number(x[d]);
 }
 
-/// Names of the columns of the contact force, and of the history variables of the contact laws
-/// (kMemoryFields), which follow the columns of gamma, minus the impulse that the film of a contact
-/// has absorbed.
-std::string force_columns(int dimension) {
+/// Names of the columns of the contact force, of the history variables of the contact laws
+/// (kMemoryFields), and of the force that the solids bear, which follow the columns of gamma, minus
+/// the impulse that the film of a contact has absorbed.
+std::string force_columns(int dimension, bool has_friction) {
   auto text = ",normal_force" + (dimension == 1 ? "" : components("tangential_force_", dimension));
   for (const auto& field : kMemoryFields)
     if (field.is_shown) (text += ',') += field.name;
-  return text;
+  return text + (has_friction ? ",solid_force" : "");
 }
 
 /// Adds the fields of the columns of force_columns() and a line break: the normal force, > 0 if it
-/// pushes, the friction on j (or, at an obstacle, on i) [M L/T^2], and the history variables.
-void add_forces(std::string& text, const CurrentContact& contact, int dimension) {
+/// pushes, the friction on j (or, at an obstacle, on i), the history variables, and the part of the
+/// normal force that the solids bear; forces are in [M L/T^2].
+void add_forces(std::string& text, const CurrentContact& contact, int dimension,
+                bool has_friction) {
   (text += ',') += format_number(contact.normal_force);
   if (dimension > 1) add(text, contact.tangential_force, dimension);
   for (const double number : contact.shown) (text += ',') += format_number(number);
+  if (has_friction) (text += ',') += format_number(contact.solid_force);
   text += '\n';
 }
 
@@ -68,7 +71,7 @@ std::string contact_rows(const Setting& setting, const State& state, std::span<c
     const auto [i, j] = ids_of(state.particles, contact);
     fmt::format_to(std::back_inserter(text), "{},{},{},{},{}", format_number(state.time), i, j,
                    format_number(contact.gap), format_number(contact.gamma));
-    add_forces(text, contact, state.particles.dimension);
+    add_forces(text, contact, state.particles.dimension, setting.laws.friction.has_value());
   }
   return text;
 }
@@ -91,19 +94,49 @@ void for_forces(const Setting& setting, const State& state, const Visit& visit) 
     visit(blow.first, (1 / state.earlier_step) * blow.impulse, blow.branch);
 }
 
-/// The rows of walls.csv: time, the number of the obstacle (-1, -2, ...), and the components of the
-/// mean force of all contacts on it in the last step [M L/T^2].
+/// The rows of walls.csv: time, the number of the obstacle (-1, -2, ...), the components of the
+/// mean force of all contacts on it in the last step [M L/T^2], and those of its point [L] and of
+/// the velocity of this point [L/T].
 std::string wall_rows(const Setting& setting, const State& state, std::span<const double>) {
-  std::vector<Vector> forces(obstacles_of(setting).size());
-  for_forces(setting, state, [&](std::int32_t first, const Vector& force, const Vector&) {
-    if (first >= 0) return;
-    auto& sum = forces[static_cast<std::size_t>(-1 - first)];
-    sum = sum - force;
-  });
+  const auto forces = wall_forces(setting, state);
+  const auto obstacles = obstacles_of(setting, state.planes);
+  const auto walls = obstacles.size() - setting.planes.size();
   std::string text;
   for (std::size_t k = 0; k < forces.size(); ++k) {
     text += fmt::format("{},{}", format_number(state.time), -1 - static_cast<int>(k));
     add(text, forces[k], state.particles.dimension);
+    const Vector point = obstacles[k].at(state.time).point;
+    add(text, point, state.particles.dimension);
+    Vector velocity = obstacles[k].surface_velocity(point, state.time);
+    if (obstacles[k].load)
+      velocity = velocity + state.planes[k - walls].velocity * obstacles[k].start.normal;
+    add(text, velocity, state.particles.dimension);
+    text += '\n';
+  }
+  return text;
+}
+
+/// The rows of planes.csv, one for each plane under a load.
+std::string plane_rows(const Setting& setting, const State& state, std::span<const double>) {
+  const auto obstacles = obstacles_of(setting, state.planes);
+  const auto walls = obstacles.size() - setting.planes.size();
+  std::vector<double> pushes(obstacles.size());
+  for_forces(setting, state, [&](std::int32_t first, const Vector& force, const Vector&) {
+    if (first >= 0) return;
+    const auto k = static_cast<std::size_t>(-1 - first);
+    pushes[k] += dot(force, obstacles[k].start.normal);
+  });
+  std::string text;
+  for (std::size_t k = walls; k < obstacles.size(); ++k) {
+    if (!obstacles[k].load) continue;
+    const auto& motion = state.planes[k - walls];
+    const auto& force = obstacles[k].load->force;
+    const double load = state.earlier_step > 0
+                            ? force.mean(state.time - state.earlier_step, state.time)[0]
+                            : force.value(state.time)[0];
+    text += fmt::format("{},{}", format_number(state.time), -1 - static_cast<int>(k));
+    for (const double number : {motion.displacement, motion.velocity, load, pushes[k]})
+      (text += ',') += format_number(number);
     text += '\n';
   }
   return text;
@@ -113,35 +146,57 @@ std::string wall_rows(const Setting& setting, const State& state, std::span<cons
 /// ij is minus the sum of force i times branch j over all contacts, divided by the area or volume
 /// of the domain, docs/physics.md (5.19).
 std::string stress_row(const Setting& setting, const State& state, std::span<const double>) {
-  const auto n = static_cast<std::size_t>(state.particles.dimension);
-  std::array<double, 9> sums{};
-  for_forces(setting, state, [&](std::int32_t, const Vector& force, const Vector& branch) {
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = 0; j < n; ++j) sums[i * n + j] -= force[i] * branch[j];
-  });
   auto text = format_number(state.time);
-  const double size = measure(setting.domain);
-  for (std::size_t i = 0; i < n * n; ++i) (text += ',') += format_number(sums[i] / size);
+  for (const double component : contact_stress(setting, state))
+    (text += ',') += format_number(component);
   return text + "\n";
 }
 
+/// True if motion.csv has columns for the loads of particles whose motion is given.
+bool has_loads(const Setting& setting) { return !setting.fluid && !setting.given_motions.empty(); }
+
 /// The rows of motion.csv (particle_file.hpp).
-std::string motion_table_rows(const Setting&, const State& state, std::span<const double>) {
-  return motion_rows(state.time, state.particles);
+std::string motion_table_rows(const Setting& setting, const State& state,
+                              std::span<const double>) {
+  return motion_rows(state.time, state.particles,
+                     has_loads(setting) ? &state.given_loads : nullptr);
 }
 
 }  // namespace
 
+std::vector<Vector> wall_forces(const Setting& setting, const State& state) {
+  std::vector<Vector> forces(obstacles_of(setting).size());
+  for_forces(setting, state, [&](std::int32_t first, const Vector& force, const Vector&) {
+    if (first >= 0) return;
+    auto& sum = forces[static_cast<std::size_t>(-1 - first)];
+    sum = sum - force;
+  });
+  return forces;
+}
+
+std::vector<double> contact_stress(const Setting& setting, const State& state) {
+  const auto n = static_cast<std::size_t>(state.particles.dimension);
+  std::vector<double> stress(n * n);
+  for_forces(setting, state, [&](std::int32_t, const Vector& force, const Vector& branch) {
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) stress[i * n + j] -= force[i] * branch[j];
+  });
+  const double size = measure(setting.domain);
+  for (double& component : stress) component /= size;
+  return stress;
+}
+
 /// A table with a row for each contact: i,j,gap,gamma,gamma_error and the columns of
 /// force_columns(). gamma_error [M L/T], >= 0, is an estimate of the error of gamma.
-std::string write_contacts(const Particles& particles, std::span<const CurrentContact> contacts) {
+std::string write_contacts(const Particles& particles, std::span<const CurrentContact> contacts,
+                           bool has_friction) {
   auto text = fmt::format("# rows: {}\ni,j,gap,gamma,gamma_error{}\n", contacts.size(),
-                          force_columns(particles.dimension));
+                          force_columns(particles.dimension, has_friction));
   for (const auto& contact : contacts) {
     const auto [i, j] = ids_of(particles, contact);
     fmt::format_to(std::back_inserter(text), "{},{},{},{},{}", i, j, format_number(contact.gap),
                    format_number(contact.gamma), format_number(contact.gamma_error));
-    add_forces(text, contact, particles.dimension);
+    add_forces(text, contact, particles.dimension, has_friction);
   }
   return text;
 }
@@ -172,12 +227,18 @@ std::vector<TimeTable> asked_tables(const Setting& setting, const Particles& par
   for (const char i : axes_of(dimension))
     for (const char j : axes_of(dimension)) stress += fmt::format(",stress_{}{}", i, j);
   const std::array tables = {
-      TimeTable{"motion.csv", motion_header(dimension, turn), motion_table_rows},
-      TimeTable{"contacts.csv", "time,i,j,gap,gamma" + force_columns(dimension) + "\n",
+      TimeTable{"motion.csv", motion_header(dimension, turn, has_loads(setting)),
+                motion_table_rows},
+      TimeTable{"contacts.csv", "time,i,j,gap,gamma" + force_columns(dimension, setting.laws.friction.has_value()) + "\n",
                 contact_rows},
-      TimeTable{"walls.csv", "time,wall" + components("force_", dimension) + "\n", wall_rows},
+      TimeTable{"walls.csv", "time,wall" + components("force_", dimension) +
+                                  components("point_", dimension) +
+                                  components("velocity_", dimension) + "\n",
+                wall_rows},
       TimeTable{"stress.csv", "time" + stress + "\n", stress_row}};
   std::vector<TimeTable> asked;
+  if (std::ranges::any_of(setting.planes, [](const Plane& plane) { return plane.load.has_value(); }))
+    asked.push_back({kPlanesFile, kPlanesHeader, plane_rows});
   for (std::size_t k = 0; k < tables.size(); ++k)
     if ((setting.fluid && k < 2) || std::ranges::find(names, kAskedTables[k]) != names.end())
       asked.push_back(tables[k]);

@@ -75,6 +75,30 @@ std::span<const std::string_view> fluid_columns(int dimension) {
   return {};
 }
 
+/// The columns of the loads of particles whose motion is given, without a fluid.
+std::vector<std::string> load_columns(int dimension, bool turn) {
+  const std::string_view axes = dimension == 3 ? "xyz" : "xy";
+  std::vector<std::string> names;
+  for (const char axis : axes) names.push_back(fmt::format("contact_force_{}", axis));
+  if (turn && dimension == 2) names.emplace_back("contact_torque");
+  if (turn && dimension == 3)
+    for (const char axis : axes) names.push_back(fmt::format("contact_torque_{}", axis));
+  return names;
+}
+
+/// Adds the fields of load_columns() for particle `k`, which are empty if `loads` does not have it.
+void add_load(std::string& text, std::span<const GivenParticleLoad> loads, std::size_t k,
+              int dimension, bool turn) {
+  const auto particle = static_cast<std::int32_t>(k);
+  const auto load = std::ranges::lower_bound(loads, particle, {}, &GivenParticleLoad::particle);
+  const bool has_load = load != loads.end() && load->particle == particle;
+  const auto add = [&](double number) { (text += ',') += has_load ? format_number(number) : ""; };
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
+    add(has_load ? load->force[d] : 0);
+  if (!turn) return;
+  for (std::size_t d = dimension == 3 ? 0 : 2; d < 3; ++d) add(has_load ? load->torque[d] : 0);
+}
+
 enum class Sign { kAny, kNotNegative, kPositive };
 
 /// The number of a column in a row. Throws Error(kBadInput) if it is missing or has the wrong sign,
@@ -114,7 +138,10 @@ void check_header(const std::string& text, const std::string& file, const Names&
           "has a column '{}' of ellipses or plates; the particles of a file must be discs or "
           "spheres, and each ellipse or plate a table [[particle]] with semi_axes or length",
           name);
-    if (std::ranges::find(known, name) == known.end() &&
+    // The loads of an earlier run are accepted, but not used.
+    const bool is_load = !in_fluid && (name.starts_with("contact_force_") ||
+                                       name.starts_with("contact_torque"));
+    if (!is_load && std::ranges::find(known, name) == known.end() &&
         std::ranges::find(of_fluid, name) == of_fluid.end())
       throw_bad_input(
           here,
@@ -224,7 +251,8 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension, bo
 /// position, velocity, radius and mass. With `forces`, columns of fluid_columns() follow, and
 /// semi-axes [L] of ellipses and plates; fields without a value are empty. Without `forces`, the
 /// columns of turning_columns() follow if the particles turn.
-std::string write_particles(const Particles& particles, const std::optional<FluidForces>& forces) {
+std::string write_particles(const Particles& particles, const std::optional<FluidForces>& forces,
+                            std::span<const GivenParticleLoad> loads) {
   const auto d = static_cast<std::size_t>(particles.dimension);
   std::string text = fmt::format("# rows: {}\n", particles.count());
   text += d == 1   ? "id,z,vz,radius,mass"
@@ -235,6 +263,9 @@ std::string write_particles(const Particles& particles, const std::optional<Flui
   else if (particles.turn())
     for (const auto name : turning_columns(particles.dimension)) (text += ',') += name;
   if (forces && !forces->semi_axes.empty()) text += ",semi_axis_1,semi_axis_2";
+  if (!loads.empty())
+    for (const auto& name : load_columns(particles.dimension, particles.turn()))
+      (text += ',') += name;
   text += '\n';
   for (std::size_t k = 0; k < particles.count(); ++k) {
     fmt::format_to(std::back_inserter(text), "{}", particles.id(k));
@@ -263,26 +294,29 @@ std::string write_particles(const Particles& particles, const std::optional<Flui
       const std::size_t turns = d == 3 ? 3 : 1;
       for (std::size_t i = 0; i < turns; ++i) add(particles.angular_velocities[k * turns + i]);
     }
+    if (!loads.empty()) add_load(text, loads, k, particles.dimension, particles.turn());
     text += '\n';
   }
   return text;
 }
 
 /// The line with the names of the columns of motion.csv; `turn` says whether particles turn.
-std::string motion_header(int dimension, bool turn) {
-  switch (dimension) {
-    case 1:
-      return "time,id,z,vz\n";
-    case 2:
-      return turn ? "time,id,x,y,angle,vx,vy,angular_velocity\n" : "time,id,x,y,vx,vy\n";
-    default:
-      return fmt::format("time,id,x,y,z,vx,vy,vz{}\n",
-                         turn ? ",angular_velocity_x,angular_velocity_y,angular_velocity_z" : "");
-  }
+std::string motion_header(int dimension, bool turn, bool has_loads) {
+  std::string header =
+      dimension == 1
+          ? "time,id,z,vz"
+      : dimension == 2
+          ? (turn ? "time,id,x,y,angle,vx,vy,angular_velocity" : "time,id,x,y,vx,vy")
+          : fmt::format("time,id,x,y,z,vx,vy,vz{}",
+                        turn ? ",angular_velocity_x,angular_velocity_y,angular_velocity_z" : "");
+  if (has_loads)
+    for (const auto& name : load_columns(dimension, turn)) (header += ',') += name;
+  return header + "\n";
 }
 
 /// The rows of motion.csv at `time` [T], one for each particle, in the order of motion_header().
-std::string motion_rows(double time, const Particles& particles) {
+std::string motion_rows(double time, const Particles& particles,
+                        const std::vector<GivenParticleLoad>* loads) {
   const auto d = static_cast<std::size_t>(particles.dimension);
   const bool is_disc = d == 2 && particles.turn(), is_sphere = d == 3 && particles.turn();
   std::string text;
@@ -295,6 +329,7 @@ std::string motion_rows(double time, const Particles& particles) {
     if (is_disc) add(particles.angular_velocities[k]);
     for (std::size_t i = 3 * k; is_sphere && i < 3 * k + 3; ++i)
       add(particles.angular_velocities[i]);
+    if (loads != nullptr) add_load(text, *loads, k, particles.dimension, particles.turn());
     text += '\n';
   }
   return text;

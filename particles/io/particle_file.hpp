@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state.hpp"
 
 namespace viscontact::particles {
 
@@ -63,15 +64,24 @@ struct FluidForces {
 /// on an axis have fluid_force_z,fluid_force_error_estimate. Without `forces`, particles that turn
 /// have the columns angle,angular_velocity (discs) or
 /// angular_velocity_x,angular_velocity_y,angular_velocity_z.
+///
+/// With `loads`, the force and the torque of all contacts and links on the particles whose motion is
+/// given without a fluid, follow contact_force_x,contact_force_y[,contact_force_z] and, if the
+/// particles turn, contact_torque of discs or contact_torque_x,contact_torque_y,contact_torque_z.
+/// They are empty for other particles.
 std::string write_particles(const Particles& particles,
-                            const std::optional<FluidForces>& forces = {});
+                            const std::optional<FluidForces>& forces = {},
+                            std::span<const GivenParticleLoad> loads = {});
 
 /// The line with the names of the columns of motion.csv: for discs time,id,x,y,vx,vy, or
 /// time,id,x,y,angle,vx,vy,angular_velocity if they turn; for spheres in space
 /// time,id,x,y,z,vx,vy,vz and, if they turn, angular_velocity_x,angular_velocity_y,
-/// angular_velocity_z; for spheres on an axis (dimension 1) time,id,z,vz.
-std::string motion_header(int dimension, bool turn);
-/// The rows of motion.csv of all particles at `time` [T].
-std::string motion_rows(double time, const Particles& particles);
+/// angular_velocity_z; for spheres on an axis (dimension 1) time,id,z,vz. With `has_loads` the
+/// columns of the loads of write_particles() follow.
+std::string motion_header(int dimension, bool turn, bool has_loads = false);
+/// The rows of motion.csv of all particles at `time` [T]. `loads` are not null if the table has
+/// their columns.
+std::string motion_rows(double time, const Particles& particles,
+                        const std::vector<GivenParticleLoad>* loads = nullptr);
 
 }  // namespace viscontact::particles

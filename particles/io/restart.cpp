@@ -3,7 +3,7 @@
 // Error(kBadInput), which names the file, if the file cannot be read, is damaged (its hash or the
 // sizes and signs of its arrays do not fit), or has another version or byte order. Whether the file
 // fits the case is not checked, and writing throws nothing. The texts kWhat and kHash must not
-// change. Files of versions 6 to 12 must stay readable; a change of the fields of State or Pair
+// change. Files of versions 6 to 13 must stay readable; a change of the fields of State or Pair
 // (state.hpp) needs a new version. Used by run/.
 #include "viscontact/particles/io/restart.hpp"
 
@@ -26,8 +26,9 @@ namespace {
 // The versions that can be read. A file has the lowest version that can hold its state. Version 7
 // adds the memories of contact laws that have no array in version 6, version 8 the flow of a fluid
 // with inertia, version 9 the positions before the last step, for membranes, version 10
-// Pair::place, version 11 State::sources, and version 12 State::blows.
-constexpr int kFirstVersion = 6, kLastVersion = 12;
+// Pair::place, version 11 State::sources, version 12 State::blows, and version 13 State::planes and
+// State::given_loads.
+constexpr int kFirstVersion = 6, kLastVersion = 13;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
 constexpr std::string_view kOrder =
@@ -55,6 +56,9 @@ struct StoredArrays {
   // BlowImpulse has bytes without a value, which would change the hash of the file.
   std::vector<std::int32_t> blow_firsts;
   std::vector<Vector> blow_impulses, blow_branches;
+  // The members of State::given_loads, for the same reason.
+  std::vector<std::int32_t> given_particles;
+  std::vector<Vector> given_forces, given_torques;
 };
 
 /// Calls `field` for each stored field, in the order of a file of this version. Both writing and
@@ -106,6 +110,11 @@ void for_fields(State& state, Arrays& arrays, int version, Field&& field) {
   field(arrays.blow_firsts);
   field(arrays.blow_impulses);
   field(arrays.blow_branches);
+  if (version < 13) return;
+  field(state.planes);
+  field(arrays.given_particles);
+  field(arrays.given_forces);
+  field(arrays.given_torques);
 }
 
 /// Index of the first of kMemoryFields that has no array of its own in version 6.
@@ -181,6 +190,21 @@ bool take_blows(const StoredArrays& arrays, State& state) {
     state.blows.push_back(blow);
   }
   return true;
+}
+
+/// Sets State::given_loads from the arrays. Returns false if they do not fit each other or the
+/// particles.
+bool take_given_loads(const StoredArrays& arrays, State& state) {
+  const auto count = arrays.given_particles.size();
+  if (arrays.given_forces.size() != count || arrays.given_torques.size() != count) return false;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto particle = arrays.given_particles[k];
+    if (particle < 0 || index_of(particle) >= state.particles.count()) return false;
+    state.given_loads.push_back({particle, arrays.given_forces[k], arrays.given_torques[k]});
+  }
+  return std::ranges::all_of(state.planes, [](const PlaneMotion& plane) {
+    return std::isfinite(plane.displacement) && std::isfinite(plane.velocity);
+  });
 }
 
 /// Appends values to `bytes` as they are in memory. A list begins with the number of its elements,
@@ -346,8 +370,15 @@ std::string write_restart(const State& state) {
     arrays.blow_impulses.push_back(blow.impulse);
     arrays.blow_branches.push_back(blow.branch);
   }
+  for (const auto& [particle, force, torque] : state.given_loads) {
+    arrays.given_particles.push_back(particle);
+    arrays.given_forces.push_back(force);
+    arrays.given_torques.push_back(torque);
+  }
   std::string bytes;
-  const int version = !state.blows.empty()               ? 12
+  const bool has_given = !state.planes.empty() || !state.given_loads.empty();
+  const int version = has_given                          ? 13
+                      : !state.blows.empty()               ? 12
                       : !state.sources.empty()           ? 11
                       : !arrays.places.empty()           ? 10
                       : !state.earlier_positions.empty() ? 9
@@ -381,7 +412,7 @@ State read_restart(const std::filesystem::path& path) {
   const auto of_pairs = state.pairs.size(), of_all = of_pairs + state.walls.size();
   if (!reader.at_end() || (!arrays.images.empty() && arrays.images.size() != of_pairs) ||
       (!arrays.places.empty() && arrays.places.size() != of_all) || !take_memories(arrays, state) ||
-      !take_blows(arrays, state))
+      !take_blows(arrays, state) || !take_given_loads(arrays, state))
     reader.throw_damaged();
   for (std::size_t k = 0; k < arrays.images.size(); ++k) state.pairs[k].image = arrays.images[k];
   for (std::size_t k = 0; k < arrays.places.size(); ++k)

@@ -29,7 +29,7 @@ void append(std::vector<double>& values, const Vector& x, int dimension) {
 /// The cells of a frame: a vertex for each contact with an obstacle, then a line for each other
 /// contact.
 struct ContactCells {
-  std::vector<double> gaps, gammas, normal_forces, tangential_forces;
+  std::vector<double> gaps, gammas, normal_forces, tangential_forces, solid_forces;
   std::vector<std::int32_t> firsts, seconds, images, frictions;
   std::vector<ShownMemory> shown;
   PolyCells cells;
@@ -61,6 +61,7 @@ struct ContactCells {
     gammas.push_back(contact.gamma);
     normal_forces.push_back(contact.normal_force);
     append(tangential_forces, contact.tangential_force, particles.dimension);
+    solid_forces.push_back(contact.solid_force);
     const auto [first, second] = ids_of(particles, contact);
     firsts.push_back(first);
     seconds.push_back(second);
@@ -103,7 +104,7 @@ std::string point_data(AppendedData& data, const Particles& particles) {
 
 /// The content of the file of a frame. The arrays of the cells are gap, gamma, i and j (ids, j of a
 /// contact with an obstacle < 0), and normal_force, > 0 if it pushes; image in a periodic domain;
-/// and with `has_friction` friction (0: none, 1: sticks, 2: slides) and tangential_force.
+/// and with `has_friction` friction (0: none, 1: sticks, 2: slides), tangential_force and solid_force.
 std::string write_vtp(const Particles& particles, std::span<const CurrentContact> contacts,
                       bool has_friction) {
   std::vector<double> points;
@@ -126,6 +127,7 @@ std::string write_vtp(const Particles& particles, std::span<const CurrentContact
   std::size_t place = 0;
   for (const auto& field : kMemoryFields)
     if (field.is_shown) text += data.array("Float64", field.name, 1, listed.memory(place++));
+  if (has_friction) text += data.array("Float64", "solid_force", 1, listed.solid_forces);
   text += "</CellData>\n" + listed.cells.closing(data, points);
   return text + data.closing();
 }

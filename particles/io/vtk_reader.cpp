@@ -67,6 +67,7 @@ std::vector<CurrentContact> read_contacts(const AppendedReader& reader, std::int
   const auto normal_forces = numbers_or_zeros<double>(reader, "normal_force", gaps.size());
   const auto tangential_forces =
       numbers_or_zeros<double>(reader, "tangential_force", 3 * gaps.size());
+  const auto solid_forces = numbers_or_zeros<double>(reader, "solid_force", gaps.size());
   const auto memories = read_memories(reader, gaps.size());
   // Entries are indices of points, which are the numbers of particles and not their ids. A contact
   // with an obstacle is a vertex with one entry, a contact of two particles a line with two.
@@ -100,6 +101,7 @@ std::vector<CurrentContact> read_contacts(const AppendedReader& reader, std::int
                         .normal_force = normal_forces[i],
                         .tangential_force = {tangential_forces[3 * i], tangential_forces[3 * i + 1],
                                              tangential_forces[3 * i + 2]},
+                        .solid_force = solid_forces[i],
                         .shown = memories[i]});
   };
   for (std::size_t i = 0; i < pairs; ++i) add(walls + i, particle(lines[2 * i]), lines[2 * i + 1]);

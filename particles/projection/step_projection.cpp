@@ -44,7 +44,8 @@ StepProjection<D>::StepProjection(State& state, double h,
                                   std::span<const PlanePosition> planes_before,
                                   std::span<const PlanePosition> planes,
                                   std::span<double> displacements,
-                                  std::span<const double> mobilities, ThreadPool& pool)
+                                  std::span<const double> mobilities, ThreadPool& pool,
+                                  std::span<const std::int32_t> loaded)
     : state_(state),
       h_(h),
       planes_before_(planes_before),
@@ -52,6 +53,7 @@ StepProjection<D>::StepProjection(State& state, double h,
       displacements_(displacements),
       mobilities_(mobilities),
       pool_(pool),
+      loaded_(loaded),
       is_chosen_(pair_count(), 0),
       system_(displacements, mobilities, state.particles) {
   find_tangents();
@@ -122,6 +124,7 @@ Contact<D> StepProjection<D>::contact_at_end(std::size_t k) {
 template <int D>
 bool StepProjection<D>::gap_would_close(std::size_t k, double margin) {
   const auto& p = state_.particles;
+  if (!can_bear(k)) return false;
   if (pair(k).first >= 0 && cannot_close<D>(p, pair(k), displacements_, margin)) return false;
   const auto here = contact_at_start(k);
   return gap_after(with_gap_to_close(here, k), displacements_) < margin &&
@@ -136,7 +139,7 @@ std::vector<std::size_t> StepProjection<D>::closed_by_free_motion() {
   const auto in_block = [&](std::size_t begin, std::size_t end) {
     ConcatenatedBlocks<std::size_t> numbers;
     for (std::size_t k = begin; k < end; ++k)
-      if (pair(k).gamma < 0 || pair(k).impulse != 0 || gap_would_close(k, 0))
+      if (((pair(k).gamma < 0 || pair(k).impulse != 0) && can_bear(k)) || gap_would_close(k, 0))
         numbers.values.push_back(k);
     return numbers;
   };
@@ -354,7 +357,10 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     const double error = scales.of(here).allowed_gap(settings, mean_radius) / here.w;
     const bool is_error = is_convex && here.lowest == 0 && here.impulse <= error;
     result.impulses.push_back(is_error ? 0 : here.impulse);
-    if (!constraints_) continue;
+    if (!constraints_) {
+      take_given(c, {}, result);
+      continue;
+    }
     auto memory = state_.memories.of(pair(chosen_[c]).memory);
     constraints_->remember(c, memory);
     if (is_error) {
@@ -363,10 +369,38 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
       if (norm(memory.friction()) <= error) memory.set_friction({});
     }
     result.memories.push_back(memory);
+    take_given(c, memory, result);
   }
   result.bodies = system_.bodies();
   result.has_given_loads = constraints_ && constraints_->has_given_up();
   return result;
+}
+
+/// Adds the impulse of contact number `c` to ProjectionResult::on_given if the motion of one of its
+/// particles is given. `memory` has the friction.
+template <int D>
+void StepProjection<D>::take_given(std::size_t c, const PairMemory& memory,
+                                   ProjectionResult& result) {
+  const auto& here = system_.contacts[c];
+  const auto& p = state_.particles;
+  const auto is_given = [&](std::int32_t k) { return k >= 0 && !(mobilities_[index_of(k)] > 0); };
+  Vector normal{};
+  std::ranges::copy(here.normal, normal.begin());
+  const Vector on_second = result.impulses.back() * normal + memory.friction();
+  // The arms end at one point, in the ratio of the radii, as those of tangents_of().
+  const double r = p.radii[index_of(here.second)];
+  if (is_given(here.second)) {
+    const double arm =
+        here.first < 0 ? r
+                       : r * (1 + (here.gap - here.tolerated) /
+                                      (r + p.radii[index_of(here.first)]));
+    result.on_given.push_back({here.second, on_second, cross(-arm * normal, on_second)});
+  }
+  if (is_given(here.first)) {
+    const double own = p.radii[index_of(here.first)];
+    const double arm = own * (1 + (here.gap - here.tolerated) / (own + r));
+    result.on_given.push_back({here.first, -1.0 * on_second, cross(arm * normal, -1.0 * on_second)});
+  }
 }
 
 template class StepProjection<2>;
@@ -415,6 +449,7 @@ typename ResidualScales<D>::ParticleScale ResidualScales<D>::of_particle(
   const auto k = index_of(particle);
   double given = 0, change = 0;
   ParticleScale scale;
+  if (k >= state_.particles.count()) return scale;  // a plane under a load
   for (std::size_t d = 0; d < D; ++d) {
     const double before = h_ * state_.particles.velocities[k * D + d];
     const double now = displacements_[k * D + d];
@@ -422,7 +457,7 @@ typename ResidualScales<D>::ParticleScale ResidualScales<D>::of_particle(
     change += (now - before) * (now - before);
     scale.moved += std::abs(before);
   }
-  scale.impulse = std::sqrt(std::max(given, change)) / mobilities_[k];
+  if (mobilities_[k] > 0) scale.impulse = std::sqrt(std::max(given, change)) / mobilities_[k];
   return scale;
 }
 
@@ -460,7 +495,7 @@ ResidualScale ResidualScales<D>::of(std::span<const std::int32_t> particles, dou
     const auto k = index_of(particle);
     const auto body = system_.body_of(particle);
     const auto own = of_particle(particle);
-    scale.impulse = std::min(scale.impulse, own.impulse);
+    if (mobilities_[k] > 0) scale.impulse = std::min(scale.impulse, own.impulse);
     scale.rounding += mobilities_[k] * own.impulse + own.moved;
     if (body >= 0) around = std::max(around, island_impulses_[index_of(system_.island(body))]);
   }
@@ -477,7 +512,10 @@ ResidualScale ResidualScales<D>::of(std::span<const std::int32_t> particles, dou
 template <int D>
 ResidualScale ResidualScales<D>::of(const Contact<D>& contact) {
   const std::array particles{contact.first, contact.second};
-  auto scale = of(particles, contact.w, std::abs(contact.gap));
+  double length = std::abs(contact.gap);
+  if (contact.loaded_plane >= 0)
+    length += norm(point_of(displacements_.data(), index_of(contact.loaded_plane), D));
+  auto scale = of(particles, contact.w, length);
   if (!has_constraints_) return scale;
   // The errors are taken as 1 unit in the last place of the radii. Where bodies or links turn, they
   // are taken as 8 units in the last place of the radii and of the distances from the origin,

@@ -146,7 +146,11 @@ struct ProjectionResult {
   std::vector<double> impulses;
   std::vector<PairMemory> memories;  ///< new memories of `pairs`; empty without add_constraints()
   /// Numbers of the particles whose displacements solve() has changed.
+  /// Entries of planes under a load in the array of displacements may be among them.
   std::vector<std::int32_t> bodies;
+  /// The impulses [M L/T] and moments [M L^2/T] of the contacts on particles whose motion is given,
+  /// one for each such particle of a contact.
+  std::vector<GivenParticleLoad> on_given{};
 };
 
 /// Chooses pairs and solves the problem (5.4) for them and their particles. A pair is chosen if a
@@ -167,11 +171,15 @@ class StepProjection {
  public:
   /// All arguments must outlive this object. `h` must be > 0 [T]. `planes_before` and `planes` are
   /// all obstacles at the beginning and at the end of the step. `displacements` has D numbers for
-  /// each particle [L]: h u* before solve(), and h v after it. `mobilities` are h/m of each
-  /// particle of the mass m [T/M], > 0.
+  /// each particle and then for each plane under a load [L]: h u* before solve(), and h v after it.
+  /// `mobilities` are h/m of each particle or plane of the mass m [T/M], > 0, or 0 for a particle
+  /// whose motion is given. `loaded` has for each obstacle its entry in these arrays, or -1 for one
+  /// without a load; it is empty if no plane has a load. `planes` must not contain the motion of
+  /// these planes along their normals in the step.
   StepProjection(State& state, double h, std::span<const PlanePosition> planes_before,
                  std::span<const PlanePosition> planes, std::span<double> displacements,
-                 std::span<const double> mobilities, ThreadPool& pool);
+                 std::span<const double> mobilities, ThreadPool& pool,
+                 std::span<const std::int32_t> loaded = {});
   /// Makes solve() treat friction, rigid bodies and links, too. `step` must outlive this object.
   void add_constraints(const ConstraintStep& step);
   /// Makes solve() linearise contacts at the places where blows (collisions of solids, impacts/)
@@ -197,15 +205,21 @@ class StepProjection {
   // Contact of pair k with its true gap. A curved obstacle is replaced by its tangent.
   Contact<D> contact_at_start(std::size_t k) {
     const auto& p = state_.particles;
-    if (!tangents_.empty() && pair(k).first < 0)
-      return contact_of<D>(p, pair(k), tangents_[k - state_.pairs.size()]);
     if (impacts_ != nullptr && pair(k).first >= 0) return contact_at_end(k);
-    return contact_of<D>(p, pair(k), planes_);
+    auto contact = !tangents_.empty() && pair(k).first < 0
+                       ? contact_of<D>(p, pair(k), tangents_[k - state_.pairs.size()])
+                       : contact_of<D>(p, pair(k), planes_);
+    contact.loaded_plane = loaded_plane(k);
+    return contact;
+  }
+  // Contact::loaded_plane of pair k.
+  std::int32_t loaded_plane(std::size_t k) {
+    return loaded_.empty() || pair(k).first >= 0 ? -1 : loaded_[pair(k).plane()];
   }
   Contact<D> contact_at_end(std::size_t k);
   Contact<D> contact(std::size_t k) {
     auto contact = with_gap_to_close(contact_at_start(k), k);
-    contact.w = w(contact.first, contact.second);
+    contact.w = w(contact.first_entry(), contact.second);
     return contact;
   }
   // The contact `here` of pair k after resolved(). An overlap with an obstacle is tolerated only as
@@ -220,7 +234,8 @@ class StepProjection {
     }
     return resolved(here, p, pair(k), planes_, tolerated);
   }
-  // Contact::w for two particles, or for an obstacle (< 0) and a particle.
+  // Contact::w for two entries, or for an obstacle (< 0) and a particle; 0 if both motions are
+  // given.
   double w(std::int32_t first, std::int32_t second) const {
     return (first < 0 ? 0.0 : mobilities_[index_of(first)]) + mobilities_[index_of(second)];
   }
@@ -234,8 +249,15 @@ class StepProjection {
   bool gap_would_close(std::size_t k, double margin);
   // True if pair k is not chosen yet, but has a particle that the solution has moved.
   bool may_have_closed(std::size_t k) {
-    return is_chosen_[k] == 0 && (takes_part(pair(k).second) || takes_part(pair(k).first));
+    return is_chosen_[k] == 0 && (takes_part(pair(k).second) || takes_part(pair(k).first) ||
+                                  takes_part(loaded_plane(k)));
   }
+  // True if an impulse of pair k moves at least one of its bodies.
+  bool can_bear(std::size_t k) {
+    const auto first = pair(k).first < 0 ? loaded_plane(k) : pair(k).first;
+    return w(first, pair(k).second) > 0;
+  }
+  void take_given(std::size_t c, const PairMemory& memory, ProjectionResult& result);
   bool has_film(std::size_t k);
   std::vector<std::size_t> nearly_closed(bool are_films_only);
   std::vector<std::size_t> closed_by_free_motion();
@@ -259,6 +281,7 @@ class StepProjection {
   std::span<double> displacements_;
   std::span<const double> mobilities_;
   ThreadPool& pool_;
+  std::span<const std::int32_t> loaded_;
   // For each pair in state.walls the tangent of the obstacle at the place where the motion without
   // contacts ends; empty if no obstacle is curved. An impulse of this contact moves the particle
   // along the normal of the tangent, and thus exactly back onto a circle. If other contacts move it

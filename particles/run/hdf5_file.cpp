@@ -227,6 +227,7 @@ std::vector<Array> arrays_of_contacts() {
                                {"CellData", "tangential_force", "tangential_force", 3}};
   for (const auto& field : kMemoryFields)
     if (field.is_shown) arrays.push_back({"CellData", field.name, std::string(field.name), 1});
+  arrays.push_back({"CellData", "solid_force", "solid_force", 1});
   return arrays;
 }
 

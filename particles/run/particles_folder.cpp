@@ -38,7 +38,9 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StepTotals, steps, unconverged, failed, itera
                                    given_loads, seconds, peak_memory_mebibytes, fluid_seconds,
                                    unknowns, first_velocity_errors, last_velocity_errors,
                                    first_force_errors, last_force_errors, averaged_time,
-                                   mean_dissipation, mean_apparent_viscosity)
+                                   mean_dissipation, mean_apparent_viscosity, contact_time,
+                                   contact_means, jammed, first_jam, jammed_bodies, given_load,
+                                   growing)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunRecord, totals, frames, flows, last_frame, rebounds, files)
 
 namespace {
@@ -62,6 +64,16 @@ void StepTotals::add(const StepReport& report, double average_from) {
   divided += report.parts > 1 ? 1 : 0;
   unresolved += static_cast<std::int64_t>(report.unresolved);
   given_loads += report.has_given_loads ? 1 : 0;
+  // Both numbers are free choices. A load that follows a motion through a spring, or the inertia of
+  // ever more particles, grows in proportion to the time, and hence by ever smaller factors.
+  constexpr double kGrowth = 1.5;
+  constexpr int kGrowing = 10;
+  growing = given_load > 0 && report.given_load > kGrowth * given_load ? growing + 1 : 0;
+  given_load = report.given_load;
+  if (!report.pressing.empty() && (!report.converged || growing >= kGrowing) && ++jammed == 1) {
+    first_jam = report.time;
+    jammed_bodies = report.pressing;
+  }
   const auto& fluid = report.fluid;
   fluid_seconds += fluid.seconds;
   if (const double duration = report.time - std::max(last_time, average_from); duration > 0) {
@@ -81,6 +93,14 @@ void StepTotals::add(const StepReport& report, double average_from) {
   }
   last_velocity_errors = fluid.velocity_errors;
   last_force_errors = fluid.force_errors;
+}
+
+void StepTotals::add_means(const std::vector<double>& values, double duration) {
+  if (!(duration > 0)) return;
+  contact_means.resize(values.size());
+  contact_time += duration;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    contact_means[k] += (values[k] - contact_means[k]) * (duration / contact_time);
 }
 
 /// The names of the columns: numbers of steps, contacts, glued contacts (gamma < 0), iterations,
@@ -150,6 +170,42 @@ RunRecord read_record(const std::string& head, const std::filesystem::path& rest
   }
 }
 
+namespace {
+
+/// Adds the means over time of the stress, of the forces on obstacles and of the loads of particles
+/// whose motion is given, in the order in which RunLog::add_step() makes them.
+void add_contact_means(const ParticlesCase& c, const StepTotals& totals, Json& json) {
+  const auto n = static_cast<std::size_t>(c.particles.dimension);
+  std::size_t next = 0;
+  const auto row = [&](std::size_t count) {
+    Json numbers = Json::array();
+    for (std::size_t d = 0; d < count; ++d)
+      numbers.push_back(next < totals.contact_means.size() ? Json(totals.contact_means[next])
+                                                           : Json()),
+          ++next;
+    return numbers;
+  };
+  json["average_from"] = std::max(c.average_from, totals.first_time);
+  if (!std::holds_alternative<std::monostate>(c.setting.domain)) {
+    json["mean_stress"] = Json::array();
+    for (std::size_t i = 0; i < n; ++i) json["mean_stress"].push_back(row(n));
+  }
+  json["mean_wall_forces"] = Json::array();
+  for (std::size_t w = 0; w < obstacles_of(c.setting).size(); ++w)
+    json["mean_wall_forces"].push_back(row(n));
+  if (c.setting.fluid || c.setting.given_motions.empty()) return;
+  json["mean_given_loads"] = Json::array();
+  for (const auto& [particle, motion] : c.setting.given_motions) {
+    Json load;
+    load["id"] = c.particles.id(index_of(particle));
+    load["contact_force"] = row(n);
+    load["contact_torque"] = row(n == 3 ? 3 : 1);
+    json["mean_given_loads"].push_back(load);
+  }
+}
+
+}  // namespace
+
 /// The text of run.json: one JSON object with the numbers of StepTotals in their units, tolerances
 /// [1], and the last overlap [mean radii]. A number that is not known is null.
 std::string run_json(const ParticlesCase& c, const StepTotals& totals, const State& state) {
@@ -179,6 +235,9 @@ std::string run_json(const ParticlesCase& c, const StepTotals& totals, const Sta
   json["final_overlap"] = largest_overlap(c.setting, state);
   json["seconds"] = totals.seconds;
   json["peak_memory_mebibytes"] = totals.peak_memory_mebibytes;
+  json["jammed_steps"] = totals.jammed;
+  json["first_jam"] = totals.jammed > 0 ? Json(totals.first_jam) : Json();
+  if (c.average_from_given) add_contact_means(c, totals, json);
   if (c.setting.fluid) {
     const auto add_estimates = [&](const std::string& key, const RelativeErrors& first,
                                    const RelativeErrors& last) {

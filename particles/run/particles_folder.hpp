@@ -31,7 +31,7 @@ inline constexpr auto kParticleResults = std::to_array<const char*>(
      "motion.csv",  "contacts.csv",  "walls.csv",           "stress.csv",
      "flow.pvd",    "bodies.csv",    "hinges.csv",          "springs.csv",
      "arms.csv",    "membranes.csv", "links.pvd",           "rebounds.csv",
-     "probes.csv",  "particles.h5"});
+     "probes.csv",  "particles.h5",  "planes.csv"});
 
 /// A kind of file of which each frame (output time) has one. The name of a file is `begin`, "_",
 /// the number of the frame, and `end`.
@@ -107,9 +107,22 @@ struct StepTotals {
   /// FluidStepReport::apparent_viscosity [1], whose values are taken as constant over their step.
   double mean_dissipation = 0, mean_apparent_viscosity = 0;
 
+  double contact_time = 0;            ///< time over which contact_means are taken [T]
+  std::vector<double> contact_means;  ///< means over time of the values of add_means()
+
+  std::int64_t jammed = 0;    ///< number of steps in which a packing jams, see add()
+  double first_jam = 0;       ///< time at the end of the first of these steps [T]
+  std::string jammed_bodies;  ///< StepReport::pressing of that step
+  double given_load = 0;      ///< StepReport::given_load of the last step [M L/T^2]
+  int growing = 0;            ///< number of last steps in which it grew fast
+
   /// Adds a step, which must end after the steps before. The means begin at the time `average_from`
-  /// [T].
+  /// [T]. A packing jams in a step in which bodies with given motions push, if the step has not
+  /// converged, or if the load on these bodies has grown by a factor in each of several steps.
   void add(const StepReport& report, double average_from);
+  /// Adds the values of a step that has lasted `duration` [T] to contact_means. Their number must be
+  /// the same in each step.
+  void add_means(const std::vector<double>& values, double duration);
 };
 
 /// What a run has done until a state. Each file that grows during the run has an entry in `files`.

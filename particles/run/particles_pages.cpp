@@ -11,7 +11,9 @@
 #include <utility>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/text/csv.hpp"
 #include "viscontact/particles/domain/domain.hpp"
+#include "viscontact/particles/io/contact_file.hpp"
 #include "viscontact/particles/io/playback.hpp"
 #include "viscontact/particles/io/vtk.hpp"
 #include "viscontact/particles/picture/particles_picture.hpp"
@@ -54,7 +56,8 @@ Playback without_frames(const ParticlesCase& c) {
 
 /// The frame at `time` [T] in the file at `path`, without the flow. Throws Error(kBadInput) if the
 /// file has fewer particles than the case, or more particles although the case has no sources.
-Frame read_frame(double time, const fs::path& path, const ParticlesCase& c) {
+Frame read_frame(double time, const fs::path& path, const ParticlesCase& c,
+                 std::span<const PlaneMotion> motions) {
   auto content = read_vtp(path, c.particles.dimension);
   if (content.positions.size() < c.particles.positions.size() ||
       (content.positions.size() > c.particles.positions.size() && c.setting.sources.empty()))
@@ -65,9 +68,34 @@ Frame read_frame(double time, const fs::path& path, const ParticlesCase& c) {
   frame.angles.assign(content.angles.begin(), content.angles.end());
   frame.speeds.assign(content.speeds.begin(), content.speeds.end());
   frame.orientations.assign(content.orientations.begin(), content.orientations.end());
-  frame.planes = positions_of(obstacles_of(c.setting), time);
+  frame.planes = positions_of(obstacles_of(c.setting, motions), time);
   frame.contacts = std::move(content.contacts);
   return frame;
+}
+
+/// The motions of the planes under a load at the times of all frames, from planes.csv; empty if no
+/// plane has a load. Throws Error(kBadInput) if the file does not have a row for each plane and
+/// frame.
+std::vector<std::vector<PlaneMotion>> read_plane_motions(const ParticlesCase& c,
+                                                         const fs::path& folder,
+                                                         std::size_t frames) {
+  std::vector<std::vector<PlaneMotion>> motions(frames);
+  std::vector<std::size_t> loaded;
+  for (std::size_t k = 0; k < c.setting.planes.size(); ++k)
+    if (c.setting.planes[k].load) loaded.push_back(k);
+  if (loaded.empty()) return motions;
+  const auto path = folder / kPlanesFile;
+  const auto rows = read_csv<1>(path, {"displacement"}, 1).rows;
+  if (rows.size() != frames * loaded.size())
+    throw_bad_input({path.string()}, "has {} rows; it must have one for each plane and frame, {}",
+                    rows.size(), frames * loaded.size());
+  for (std::size_t f = 0; f < frames; ++f) {
+    motions[f].resize(c.setting.planes.size());
+    for (std::size_t l = 0; l < loaded.size(); ++l)
+      motions[f][loaded[l]].displacement =
+          rows[f * loaded.size() + l].fields[0].value_or(0);
+  }
+  return motions;
 }
 
 /// Reads the frames that particles.pvd in `folder` lists, and the names of the files of flows.
@@ -88,6 +116,7 @@ Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
     if (!playback.bodies.empty()) playback.bodies.resize(last.radii.size(), -1);
   }
   // A free choice: a page of 24 MB cannot show as much.
+  const auto motions = read_plane_motions(c, folder, files.size());
   constexpr std::size_t kMostBytes = std::size_t{256} << 20U;
   std::size_t every = 1, kept_bytes = 0;
   for (std::size_t f = 0; f < files.size(); ++f) {
@@ -98,7 +127,7 @@ Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
       every *= 2;
     }
     if (f % every != 0 && f + 1 != files.size()) continue;
-    frames.push_back(read_frame(files[f].first, folder / files[f].second, c));
+    frames.push_back(read_frame(files[f].first, folder / files[f].second, c, motions[f]));
     const auto& kept = frames.back();
     kept_bytes += (kept.positions.size() + kept.speeds.size() + kept.angles.size() +
                    kept.orientations.size()) *

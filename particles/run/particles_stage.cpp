@@ -111,7 +111,8 @@ class Run {
     log_.sync();
     write("final_particles.csv", TextKind::kHashComment, final_particles());
     write("final_contacts.csv", TextKind::kHashComment,
-          write_contacts(state.particles, contacts_of(case_.setting, state)));
+          write_contacts(state.particles, contacts_of(case_.setting, state),
+                         case_.setting.laws.friction.has_value()));
     write_pages(case_, folder_, provenance_);
     record = with_costs(std::move(record));
     auto json = run_json(case_, record.totals, state);
@@ -169,7 +170,8 @@ class Run {
   /// The text of final_particles.csv, with the forces of the fluid if there is a fluid.
   std::string final_particles() {
     const auto reported = simulation_.reported_particles();
-    if (!simulation_.has_fluid()) return write_particles(reported);
+    if (!simulation_.has_fluid())
+      return write_particles(reported, {}, simulation_.state().given_loads);
     const auto forces = simulation_.fluid_forces();
     const auto errors = simulation_.force_errors().of_fluid;
     return write_particles(reported, FluidForces{forces, errors, case_.setting.fluid->semi_axes});
@@ -221,11 +223,28 @@ class Run {
   terminal::ProgressTimer progress_;
 };
 
+/// Warns if particles have jammed before bodies whose motions are given.
+void warn_of_jam(const StepTotals& record) {
+  if (record.jammed > 0)
+    terminal::warn(
+        "particles: warning: the particles jam in {} steps, first at t = {:.6g}: no motion of them "
+        "gives way to the given motion of {}, so that the load on it grows without bound "
+        "(run.json: jammed_steps); let this motion end before, or give a force or pressure in its "
+        "place",
+        record.jammed, record.first_jam, record.jammed_bodies);
+}
+
 /// Says on the terminal how the run ended, after its files are written. Throws Error(kInterrupted)
 /// if the run was interrupted, Error(kNotConverged) if a step missed the tolerances by more than
 /// the factor kStillAResult (particles_folder.hpp).
 void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State& state,
                   const fs::path& folder, const StopToken& stop) {
+  const auto up = c.particles.dimension == 1 ? 0U : static_cast<unsigned>(c.particles.dimension) - 1;
+  if (c.setting.gravity[up] > 0)
+    terminal::warn(
+        "particles: warning: space.gravity points upwards (its last component, {:.6g}, is > 0); "
+        "gravity towards the floor is negative",
+        c.setting.gravity[up]);
   terminal::say(
       "particles: {} steps to t = {:.6g}, {:.3g} iterations a step, largest residual {:.2g}, "
       "largest overlap {:.2g} mean radii; {}",
@@ -248,6 +267,7 @@ void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State&
         record.given_loads, record.steps,
         c.setting.laws.friction->method == FrictionMethod::kConvex ? "the convex relaxation"
                                                                    : "Coulomb's law");
+  warn_of_jam(record);
   if (record.unresolved > 0)
     terminal::warn(
         "particles: warning: {} contacts were computed although their particles move past each "
@@ -330,7 +350,10 @@ void run_particles(const ParticlesRequest& request) {
   } catch (const Error&) {
     if (!failure) throw;
   }
-  if (failure) std::rethrow_exception(failure);
+  if (failure) {
+    warn_of_jam(log.totals());
+    std::rethrow_exception(failure);
+  }
   if (request.json) fmt::print("{}", json);
   warn_or_fail(c, log.totals(), simulation.state(), folder, request.stop);
 }

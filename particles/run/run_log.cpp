@@ -36,6 +36,22 @@ void check_frames(const fs::path& folder, const FrameKind& kind, std::uint64_t c
   }
 }
 
+/// The stress if there is a domain, the forces on obstacles, and without a fluid the forces and
+/// torques on particles whose motion is given: the values of which run.json has the means.
+std::vector<double> values_to_average(const Setting& setting, const State& state) {
+  std::vector<double> values;
+  if (!std::holds_alternative<std::monostate>(setting.domain))
+    values = contact_stress(setting, state);
+  const auto n = static_cast<std::ptrdiff_t>(state.particles.dimension);
+  for (const auto& force : wall_forces(setting, state))
+    values.insert(values.end(), force.begin(), force.begin() + n);
+  for (const auto& load : state.given_loads) {
+    values.insert(values.end(), load.force.begin(), load.force.begin() + n);
+    values.insert(values.end(), load.torque.begin() + (n == 3 ? 0 : 2), load.torque.end());
+  }
+  return values;
+}
+
 /// The name of the list of the files of a kind, such as particles.pvd.
 std::string list_of(const FrameKind& kind) { return std::string(kind.begin) + ".pvd"; }
 
@@ -104,6 +120,10 @@ void RunLog::add_step(const StepReport& report, const State& state,
   // rebound has a row.
   constexpr std::int64_t kMostRows = 1000000, kOneIn = 1000;
   constexpr std::uint64_t kMostRebounds = 1000000;
+  const double duration =
+      report.time - std::max(record_.totals.last_time, case_.average_from);
+  if (case_.average_from_given && duration > 0)
+    record_.totals.add_means(values_to_average(case_.setting, state), duration);
   record_.totals.add(report, case_.average_from);
   const auto steps = record_.totals.steps;
   if (steps <= kMostRows || steps % kOneIn == 0 || !report.converged) {

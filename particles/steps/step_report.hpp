@@ -88,6 +88,11 @@ struct StepReport {
   /// beforehand, because Coulomb's law or its convex relaxation, in which these impulses are
   /// unknown, was not solved, docs/physics.md (5.17).
   bool has_given_loads = false;
+  /// Names of the obstacles that move as given, and of the particles whose motion is given, that
+  /// push on others in the step, such as "plane -3 and particle 7"; empty if there are none. Only
+  /// without a fluid.
+  std::string pressing{};
+  double given_load = 0;  ///< sum of the normal forces on these bodies [M L/T^2], >= 0
   FluidStepReport fluid{};  ///< default values if there is no fluid
 };
 

@@ -29,8 +29,11 @@ std::vector<double> jump_times(const Setting& setting) {
   if (setting.scheme == Scheme::kLeapfrog) {
     for (const auto* map : {&setting.forces, &setting.torques})
       for (const auto& [particle, function] : *map) add(function);
+    for (const auto& plane : setting.planes)
+      if (plane.load) add(plane.load->force);
   } else if (setting.laws.restitution.is_on()) {
     for (const auto& plane : setting.planes) add(plane.velocity);
+    for (const auto& [particle, motion] : setting.given_motions) add(motion.velocity);
   }
   std::ranges::sort(times);
   times.erase(std::unique(times.begin(), times.end()), times.end());

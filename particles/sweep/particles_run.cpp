@@ -25,6 +25,7 @@
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/common/text/on_one_line.hpp"
 #include "viscontact/particles/arrangement/arrangement.hpp"
+#include "viscontact/particles/domain/region.hpp"
 #include "viscontact/particles/run/particles_stage.hpp"
 #include "viscontact/results/foreign_files.hpp"
 #include "viscontact/terminal/progress.hpp"
@@ -77,7 +78,8 @@ Values values_of(const ParticlesCase& c, const std::vector<std::string>& columns
   });
   if (c.arrangement)
     values[fraction_column(c)] =
-        size_of(*c.arrangement, c.particles.dimension) / measure(c.setting.domain);
+        size_of(*c.arrangement, c.particles.dimension) / 
+        measure(c.setting.domain, positions_of(c.setting.planes, 0));
   std::erase_if(values, [](const auto& value) { return !std::isfinite(value.second); });
   return values;
 }
