@@ -329,6 +329,14 @@ void Simulation::add_given_loads(const ProjectionResult& projected, double h) {
           add({part.particle, kick * link_forces_[link.first_force + r] * part.direction});
 }
 
+bool Simulation::has_given_motions() const {
+  return !setting_.given_motions.empty() ||
+         std::ranges::any_of(setting_.planes, [](const Plane& plane) {
+           return !plane.load &&
+                  (!plane.velocity.pieces.empty() || norm(plane.angular_velocity) > 0);
+         });
+}
+
 bool Simulation::is_given(std::int32_t body) const {
   if (body >= 0) return setting_.given_motions.contains(body);
   return loaded_.empty() || loaded_[static_cast<std::size_t>(-1 - body)] < 0;
@@ -369,6 +377,7 @@ void Simulation::refuse_meeting(double next) const {
 }
 
 Simulation::Pressing Simulation::pressing(const ProjectionResult& projected, double next) const {
+  if (!has_given_motions()) return {};
   const auto before = positions_of(obstacles_, state_.time), after = positions_of(obstacles_, next);
   std::vector<std::int32_t> planes, particles;
   double impulse = 0;
@@ -379,7 +388,12 @@ Simulation::Pressing Simulation::pressing(const ProjectionResult& projected, dou
     const auto& pair = *projected.pairs[f];
     if (!(projected.impulses[f] > 0)) continue;
     for (const auto body : {pair.first, pair.second}) {
-      if (body >= 0 ? !is_given(body) : before[pair.plane()] == after[pair.plane()]) continue;
+      if (!is_given(body)) continue;
+      const bool moves =
+          body < 0 ? before[pair.plane()] != after[pair.plane()]
+                   : !setting_.given_motions.at(body).velocity.pieces.empty() ||
+                         !setting_.given_motions.at(body).angular_velocity.pieces.empty();
+      if (!moves) continue;
       impulse += projected.impulses[f];
       if (body >= 0)
         add(particles, state_.particles.id(index_of(body)));

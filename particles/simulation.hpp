@@ -131,6 +131,8 @@ class Simulation {
   void add_given_loads(const ProjectionResult& projected, double h);
   void place_planes() { obstacles_ = obstacles_of(setting_, state_.planes); }
   std::size_t walls_of_domain() const { return obstacles_.size() - setting_.planes.size(); }
+  // True if a plane may move as given, or a particle has a given motion.
+  bool has_given_motions() const;
   // True for an obstacle that no force moves, and for a particle whose motion is given.
   bool is_given(std::int32_t body) const;
   // Throws Error(kNotConverged) if two bodies whose motions are given overlap after the part of a

@@ -192,11 +192,11 @@ py::object contacts(const PythonParticles& self) {
   columns["gap"] = column(all, [](const Contact& c) { return c.gap; });
   columns["gamma"] = column(all, [](const Contact& c) { return c.gamma; });
   columns["normal_force"] = column(all, [](const Contact& c) { return c.normal_force; });
-  columns["solid_force"] = column(all, [](const Contact& c) { return c.solid_force; });
   columns["normal"] = vectors(all, p.dimension, [](const Contact& c) { return c.normal; });
   columns["tangential_force"] =
       vectors(all, p.dimension, [](const Contact& c) { return c.tangential_force; });
   columns["branch"] = vectors(all, p.dimension, [](const Contact& c) { return c.branch; });
+  columns["solid_force"] = column(all, [](const Contact& c) { return c.solid_force; });
   return as_columns(columns);
 }
 
@@ -316,12 +316,12 @@ until      the time [T], finite; None: end_time of the case)",
 first, second      (C,) ids of both particles; at a wall or plane `first` is -1, -2, ...
 gap, gamma         (C,) [L], [M L/T]
 normal_force       (C,) mean of the last step [M L/T^2], > 0 where it pushes both apart
-solid_force        (C,) its part that the solids bear, which bounds the friction; 0 without
-                   [friction]
 normal             (C, D) unit vector from `first` to `second`
 tangential_force   (C, D) mean friction on `second` in the last step [M L/T^2]
 branch             (C, D) from the centre of `first`, or the nearest point of a wall, to that of
-                   `second` [L])")
+                   `second` [L]
+solid_force        (C,) the part of normal_force that the solids bear, which bounds the friction;
+                   0 without [friction])")
       .def_property_readonly(
           "time", [](const PythonParticles& self) { return self.state().time; }, "[T]")
       .def_property_readonly(

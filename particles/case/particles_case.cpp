@@ -210,33 +210,6 @@ void output_keys(case_file::Keys& keys, ParticlesCase& c) {
   }
 }
 
-/// Keys of a table [[plane]]: a point [L] and a normal, which becomes a unit vector; velocity [L/T]
-/// and angular velocity [1/T], and the point [L] about which the plane turns.
-void plane_keys(case_file::Keys& keys, Plane& plane, const ParticlesCase& c) {
-  const int dimension = c.particles.dimension;
-  Vector normal{};
-  keys.required("point", vector(plane.start.point, dimension), {"a point of the plane"});
-  keys.required("normal", vector(normal, dimension),
-                {"points to the side of the particles; its length is arbitrary, but not 0"});
-  const double length = norm(normal);
-  keys.require(length > 1e-100, "normal",  // 1/length must be finite; a free choice
-               "is 0; it must be a vector that points into the free side of the plane");
-  plane.start.normal = (1 / length) * normal;
-  keys.optional("velocity", pieces(plane.velocity, dimension, c.end_time), {"of the plane", "0"});
-  keys.require(dimension != 1 || !keys.has("angular_velocity"), "angular_velocity",
-               "must be left out, because a plane on an axis does not turn");
-  const bool turns = keys.optional("angular_velocity", turn(plane.angular_velocity, dimension),
-                                   {"in 2D counter-clockwise", "0"});
-  keys.require(turns || !keys.has("pivot"), "pivot",
-               "must be left out, because this plane has no angular_velocity");
-  plane.pivot = plane.start.point;
-  keys.optional(
-      "pivot", vector(plane.pivot, dimension),
-      {"only with `angular_velocity`: the centre of rotation, which moves with the velocity",
-       "`point`"});
-  load_keys(keys, plane, c);
-}
-
 constexpr int kInPlane = 2;  // with it pieces_of_turn() reads one number
 
 /// Reads a number along the normal of a plane, or a list of pieces of time with such numbers, as
@@ -316,6 +289,33 @@ void load_keys(case_file::Keys& keys, Plane& plane, const ParticlesCase& c) {
     for (auto& piece : load.force.pieces) piece.value = size * piece.value;
   }
   plane.load = std::move(load);
+}
+
+/// Keys of a table [[plane]]: a point [L] and a normal, which becomes a unit vector; velocity [L/T]
+/// and angular velocity [1/T], and the point [L] about which the plane turns.
+void plane_keys(case_file::Keys& keys, Plane& plane, const ParticlesCase& c) {
+  const int dimension = c.particles.dimension;
+  Vector normal{};
+  keys.required("point", vector(plane.start.point, dimension), {"a point of the plane"});
+  keys.required("normal", vector(normal, dimension),
+                {"points to the side of the particles; its length is arbitrary, but not 0"});
+  const double length = norm(normal);
+  keys.require(length > 1e-100, "normal",  // 1/length must be finite; a free choice
+               "is 0; it must be a vector that points into the free side of the plane");
+  plane.start.normal = (1 / length) * normal;
+  keys.optional("velocity", pieces(plane.velocity, dimension, c.end_time), {"of the plane", "0"});
+  keys.require(dimension != 1 || !keys.has("angular_velocity"), "angular_velocity",
+               "must be left out, because a plane on an axis does not turn");
+  const bool turns = keys.optional("angular_velocity", turn(plane.angular_velocity, dimension),
+                                   {"in 2D counter-clockwise", "0"});
+  keys.require(turns || !keys.has("pivot"), "pivot",
+               "must be left out, because this plane has no angular_velocity");
+  plane.pivot = plane.start.point;
+  keys.optional(
+      "pivot", vector(plane.pivot, dimension),
+      {"only with `angular_velocity`: the centre of rotation, which moves with the velocity",
+       "`point`"});
+  load_keys(keys, plane, c);
 }
 
 /// Throws Error(kBadInput) for a plane that is not parallel to the periods of the domain, because

@@ -237,6 +237,11 @@ FitFile exact_fit_file(const case_file::Case& c, const results::RunFolder& run,
 /// Chooses the fit (`request.fit`, that of the case, the exact drag, or fit.json in the folder),
 /// runs the models and writes their results.
 void simulate_stage(const case_file::Case& c, const SimulateRequest& request) {
+  if (c.gravity.value_or(0) > 0)
+    terminal::warn(
+        "simulate: warning: motion.gravity, {:.6g}, is > 0 and lifts a heavy sphere off the wall; "
+        "gravity towards the wall is negative",
+        *c.gravity);
   const results::RunFolder run{request.folder};
   (void)case_file::required_motion(c);
   fs::path path = request.fit;

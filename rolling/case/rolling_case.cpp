@@ -28,6 +28,7 @@ using lubrication::MotionKind;
 struct WeightKeys {
   std::vector<double> force;
   double weight = 0, incline = 0;
+  double gravity = 0;  // [L/T^2]
 };
 
 /// Declares the keys force, weight, gravity and incline of the section [rolling] and reads them
@@ -57,13 +58,12 @@ void weight_keys(case_file::Keys& keys, WeightKeys& given, double mass) {
                 {"weight less buoyancy, in place of `force`: the force `weight` sin(`incline`) "
                  "along the plane and -`weight` cos(`incline`) away from it",
                  "from `force` or `gravity`"});
-  double gravity = 0;
   if (keys.optional(
-          "gravity", case_file::number(gravity, kFinite),
+          "gravity", case_file::number(given.gravity, kFinite),
           {"acceleration, negative towards a plane that is level, in place of `weight`: the "
            "[weight less buoyancy](physics.md#4-motion-of-one-sphere-reduced_model) is (4.15)",
            "from `force` or `weight`"}))
-    given.weight = -mass * gravity;
+    given.weight = -mass * given.gravity;
   keys.optional("incline", case_file::number(given.incline, kAngle), {"angle of the plane"});
   keys.require(!keys.has("force") || given.force.size() == 2, "force",
                "has {} numbers; it must have two, along the plane and away from it",
@@ -101,6 +101,7 @@ void rolling_keys(case_file::Keys& keys, RollingCase& c) {
   WeightKeys force;
   weight_keys(keys, force,
               case_file::mass_less_displaced_fluid(motion.mass, c.fluid_density, c.radius));
+  c.gravity = force.gravity;
   const bool has_components = force.force.size() == 2;
   motion.force = has_components ? force.force[0] : force.weight * std::sin(force.incline);
   motion.normal_force = has_components ? force.force[1] : -force.weight * std::cos(force.incline);

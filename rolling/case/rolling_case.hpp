@@ -26,6 +26,7 @@ struct RollingCase {
       radius = 0,            ///< r of the sphere [L], > 0
       fluid_density = 0;     ///< rho_f [M/L^3], >= 0; only buoyancy depends on it
   bool has_gravity = false;  ///< true: the forces follow from gravity, less the buoyancy
+  double gravity = 0;        ///< acceleration [L/T^2] if has_gravity, < 0 towards a level plane
   /// The motion that the models compute. roughness < radius, roughness <= initial_gap, time_step <=
   /// end_time, and relative_tolerance is from 1e-13 to 0.01.
   RollingMotion motion;

@@ -116,10 +116,22 @@ TEST(ForcesOfContacts, OfAHeapCarryItsWeight) {
     for (const double m : simulation.state().particles.masses) weight += m;
     const auto rows = rows_of("walls", simulation.setting(), simulation.state());
     ASSERT_EQ(rows.size(), 1U);
-    ASSERT_EQ(rows[0].size(), 2U + static_cast<std::size_t>(dimension));
+    const auto axes = static_cast<std::size_t>(dimension);
+    ASSERT_EQ(rows[0].size(), 2 + 3 * axes);
     EXPECT_NEAR(rows[0][0], 200, 1e-9);
     EXPECT_EQ(rows[0][1], -1);
-    EXPECT_NEAR(rows[0].back(), -weight, 1e-6 * weight);
+    EXPECT_NEAR(rows[0][1 + axes], -weight, 1e-6 * weight);
+    EXPECT_EQ(rows[0][1 + 2 * axes], fall.setting.planes[0].start.point[axes - 1]);
+    EXPECT_EQ(rows[0].back(), 0);
+    // Coulomb's law holds within rounding errors, and slides reach its bound.
+    for (const auto& contact : contacts_of(simulation.setting(), simulation.state())) {
+      const double bound = 0.3 * contact.solid_force;
+      EXPECT_LE(norm(contact.tangential_force), bound * (1 + 1e-9));
+      EXPECT_LE(contact.solid_force, std::max(contact.normal_force, 0.0) * (1 + 1e-9));
+      if (contact.friction == ContactFriction::kSlides) {
+        EXPECT_GE(norm(contact.tangential_force), bound * (1 - 1e-8));
+      }
+    }
   }
 }
 
