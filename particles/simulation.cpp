@@ -172,7 +172,7 @@ void Simulation::move(double h) {
       p.velocities[k] = displacements_[k] / h;
     }
   });
-  if (p.turn()) turn_particles(p, turns_, h);
+  if (p.turn()) turn_particles(p, std::span(turns_).first(p.angular_velocities.size()), h);
   for (std::size_t w = 0; w < loaded_.size(); ++w) {
     if (loaded_[w] < 0) continue;
     auto& motion = state_.planes[w - walls_of_domain()];

@@ -149,7 +149,8 @@ RadiiOfSource radii_of(const Source& source, int dimension) {
 double largest_radius_between_walls(const Source& source, const Setting& setting) {
   double radius = std::numeric_limits<double>::infinity();
   for (const auto& obstacle : obstacles_of(setting)) {
-    if (!obstacle.velocity.pieces.empty() || norm(obstacle.angular_velocity) > 0) continue;
+    if (!obstacle.velocity.pieces.empty() || norm(obstacle.angular_velocity) > 0 || obstacle.load)
+      continue;
     Vector farthest{};  // point of the region that is farthest from the obstacle
     for (std::size_t d = 0; d < 3; ++d)
       farthest[d] = obstacle.start.is_curved()
