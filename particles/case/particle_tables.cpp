@@ -235,7 +235,7 @@ void read_particle(const case_file::TomlSection& section, ParticlesCase& c) {
   if (table.given) {
     table.velocity = at_start(table.given->velocity);
     table.angular_velocity = at_start(table.given->angular_velocity);
-    c.setting.given_motions[number] = std::move(*table.given);
+    c.setting.given_motions[number] = *table.given;
   }
   if (!table.force.pieces.empty()) c.setting.forces[number] = std::move(table.force);
   if (!table.torque.pieces.empty()) c.setting.torques[number] = std::move(table.torque);

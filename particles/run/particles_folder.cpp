@@ -70,7 +70,7 @@ void StepTotals::add(const StepReport& report, double average_from) {
   constexpr int kGrowing = 10;
   growing = given_load > 0 && report.given_load > kGrowth * given_load ? growing + 1 : 0;
   given_load = report.given_load;
-  if (!report.pressing.empty() && (!report.converged || growing >= kGrowing) && ++jammed == 1) {
+  if (!report.pressing.empty() && (report.jams || growing >= kGrowing) && ++jammed == 1) {
     first_jam = report.time;
     jammed_bodies = report.pressing;
   }

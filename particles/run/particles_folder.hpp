@@ -117,8 +117,8 @@ struct StepTotals {
   int growing = 0;            ///< number of last steps in which it grew fast
 
   /// Adds a step, which must end after the steps before. The means begin at the time `average_from`
-  /// [T]. A packing jams in a step in which bodies with given motions push, if the step has not
-  /// converged, or if the load on these bodies has grown by a factor in each of several steps.
+  /// [T]. A packing jams in a step with StepReport::jams, and in one in which bodies with given
+  /// motions push and the load on them has grown by a factor in each of several steps.
   void add(const StepReport& report, double average_from);
   /// Adds the values of a step that has lasted `duration` [T] to contact_means. Their number must be
   /// the same in each step.

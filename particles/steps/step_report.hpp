@@ -93,6 +93,9 @@ struct StepReport {
   /// without a fluid.
   std::string pressing{};
   double given_load = 0;  ///< sum of the normal forces on these bodies [M L/T^2], >= 0
+  /// True if these bodies leave the others no room: the step has not converged, and leaves overlaps
+  /// far beyond the tolerance.
+  bool jams = false;
   FluidStepReport fluid{};  ///< default values if there is no fluid
 };
 

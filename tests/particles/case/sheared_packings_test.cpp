@@ -20,7 +20,7 @@ class ShearedPackings : public ::testing::Test {
   ParticlesCase read(const std::string& contact, const std::string& sections,
                      int dimension = 2) const {
     return read_particles_case(folder_.file(
-        "case.toml", "[space]\ndimension = " + std::to_string(dimension) +
+        "case.toml", "title = \"Sheared\"\n[space]\ndimension = " + std::to_string(dimension) +
                          "\n[viscous_contact]\ntime_step = 0.1\nend_time = 1.0\n" + contact + "\n" +
                          sections));
   }
@@ -62,7 +62,7 @@ TEST_F(ShearedPackings, RefuseLoadsWithFileAndLine) {
                       const std::string& contact = "") {
     return refused(contact, kDisc + kPlane + keys + sections);
   };
-  EXPECT_THAT(of("pressure = 1.0\nmass = 1.0\n"), AllOf(HasSubstr("case.toml:13"), HasSubstr("force")));
+  EXPECT_THAT(of("pressure = 1.0\nmass = 1.0\n"), AllOf(HasSubstr("case.toml:15"), HasSubstr("force")));
   EXPECT_THAT(of("force = 1.0\n"), HasSubstr("plane[0].mass is missing"));
   EXPECT_THAT(of("mass = 1.0\n"), HasSubstr("plane[0].mass"));
   EXPECT_THAT(of("force = 1.0\nmass = 0.0\n"), HasSubstr("plane[0].mass"));
@@ -127,7 +127,7 @@ TEST_F(ShearedPackings, ArrangeParticlesOnTheFreeSideOfPlanes) {
 
 TEST_F(ShearedPackings, NameAnUnknownKeyBeforeAMissingOne) {
   EXPECT_THAT(refused("", "[[particle]]\ncentre = [0.0, 0.0]\nradus = 0.5\nmass = 1.0\n"),
-              AllOf(HasSubstr("case.toml:9"), HasSubstr("particle[0].radus is not a key")));
+              AllOf(HasSubstr("case.toml:10"), HasSubstr("particle[0].radus is not a key")));
   EXPECT_THAT(refused("", "[[particle]]\ncentre = [0.0, 0.0]\nmass = 1.0\n"),
               HasSubstr("particle[0].radius is missing"));
   EXPECT_THAT(refused("", kDisc + "[[plane]]\npoint = [0.0, 0.0]\nnormel = [0.0, 1.0]\n"),
