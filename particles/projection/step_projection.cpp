@@ -241,8 +241,9 @@ std::vector<std::size_t> StepProjection<D>::with_connected_pairs(
     return takes_part(particle) ? farthest[index_of(system_.island(system_.body_of(particle)))] : 0;
   };
   const auto may_close = [&](std::size_t k) {
-    return is_chosen_[k] == 0 && system_.gap(contact(k)) <= std::max(farthest_of(pair(k).first),
-                                                                     farthest_of(pair(k).second));
+    return is_chosen_[k] == 0 && can_bear(k) &&
+           system_.gap(contact(k)) <=
+               std::max(farthest_of(pair(k).first), farthest_of(pair(k).second));
   };
   if (!pairs_of_particles_) pairs_of_particles_.emplace(state_);
   const int depth = 1 << std::min(round - kFirstRound, kLargestDepth);

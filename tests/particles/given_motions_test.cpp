@@ -339,6 +339,23 @@ TEST(GivenMotion, MayOverlapAnotherAtTheSameVelocity) {
   EXPECT_NEAR(simulation.state().particles.position(1)[0], 2.5, 1e-12);
 }
 
+TEST(GivenMotion, OfTouchingParticlesMakesNoContactInAChain) {
+  // A driven disc closes a chain of gaps in one step, and the chain nearly reaches two touching
+  // discs that are driven at the same velocity.
+  for (const int way : {0, 1, 2}) {
+    Row row(way, 1, 7);
+    for (int k = 1; k < 8; ++k)
+      row.state.particles.positions[static_cast<std::size_t>(2 * k)] =
+          2.001 * std::min(k, 5) + (k > 5 ? 2.005 + 2 * (k - 6) : 0);
+    for (const int k : {6, 7}) row.setting.given_motions[k].velocity = constant({1, 0, 0});
+    Simulation simulation(row.setting, row.state, 1);
+    take_steps(simulation, 20);
+    for (std::size_t k = 0; k < 8; ++k)
+      EXPECT_NEAR(simulation.state().particles.velocity(k)[0], 1, 1e-9);
+    EXPECT_EQ(simulation.state().given_loads[2].force[0], 0);
+  }
+}
+
 TEST(GivenMotion, ReboundsAreThoseOfAMovingWall) {
   // v' = 2 V - v for e = 1, and the load has the impulse of the blow over the step.
   for (const int way : {0, 1}) {
