@@ -330,9 +330,9 @@ bool is_similar(std::string_view word, std::string_view other) {
   for (std::size_t i = 0; i < word.size(); ++i) {
     std::size_t diagonal = std::exchange(row[0], i + 1);
     for (std::size_t j = 0; j < other.size(); ++j)
-      diagonal = std::exchange(
-          row[j + 1], std::min({row[j] + 1, row[j + 1] + 1,
-                                diagonal + (word[i] == other[j] ? std::size_t{0} : 1)}));
+      diagonal = std::exchange(row[j + 1],
+                               std::min({row[j] + 1, row[j + 1] + 1,
+                                         diagonal + (word[i] == other[j] ? std::size_t{0} : 1)}));
   }
   return row.back() <= 2 && 2 * row.back() < other.size();
 }

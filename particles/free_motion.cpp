@@ -225,7 +225,8 @@ void Simulation::turn_freely(double h, double next) {
   const auto components = turn_components(p.dimension);
   turns_.resize(mobilities_.size() * components);
   turn_mobilities_.resize(mobilities_.size());
-  for (std::size_t k = 0; k < p.angular_velocities.size(); ++k) turns_[k] = h * p.angular_velocities[k];
+  for (std::size_t k = 0; k < p.angular_velocities.size(); ++k)
+    turns_[k] = h * p.angular_velocities[k];
   for (std::size_t k = 0; k < p.count(); ++k) turn_mobilities_[k] = h / p.inertias[k];
   for (const auto& [particle, torque] : setting_.torques) {
     const auto k = index_of(particle);

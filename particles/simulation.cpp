@@ -311,9 +311,8 @@ void Simulation::add_works_of_arms(double h) {
 void Simulation::add_given_loads(const ProjectionResult& projected, double h) {
   if (given_impulses_.empty()) return;
   const auto add = [&](const GivenParticleLoad& impulse) {
-    auto& sum =
-        *std::ranges::lower_bound(given_impulses_, impulse.particle, {},
-                                  &GivenParticleLoad::particle);
+    auto& sum = *std::ranges::lower_bound(given_impulses_, impulse.particle, {},
+                                          &GivenParticleLoad::particle);
     sum.force = sum.force + impulse.force;
     sum.torque = sum.torque + impulse.torque;
   };
@@ -389,10 +388,10 @@ Simulation::Pressing Simulation::pressing(const ProjectionResult& projected, dou
     if (!(projected.impulses[f] > 0)) continue;
     for (const auto body : {pair.first, pair.second}) {
       if (!is_given(body)) continue;
-      const bool moves =
-          body < 0 ? before[pair.plane()] != after[pair.plane()]
-                   : !setting_.given_motions.at(body).velocity.pieces.empty() ||
-                         !setting_.given_motions.at(body).angular_velocity.pieces.empty();
+      const bool moves = body < 0
+                             ? before[pair.plane()] != after[pair.plane()]
+                             : !setting_.given_motions.at(body).velocity.pieces.empty() ||
+                                   !setting_.given_motions.at(body).angular_velocity.pieces.empty();
       if (!moves) continue;
       impulse += projected.impulses[f];
       if (body >= 0)
@@ -454,13 +453,13 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
   // In mean radii, a free choice. Steps that fail for another reason, such as their friction, leave
   // overlaps of up to 3e-3 in data/cases/particles/shear_under_pressure.toml.
   constexpr double kOverlap = 0.01;
-  report.jams = report.jams || (!(planes.empty() && particles.empty()) &&
-                                !projected.residuals.converged &&
-                                -projected.residuals.smallest_gap >
-                                    kOverlap * mean_radius_);
+  report.jams =
+      report.jams || (!(planes.empty() && particles.empty()) && !projected.residuals.converged &&
+                      -projected.residuals.smallest_gap > kOverlap * mean_radius_);
   if (!planes.empty()) report.pressing = "planes " + planes;
   if (!particles.empty())
-    report.pressing = (planes.empty() ? "particles " : report.pressing + " and particles ") + particles;
+    report.pressing =
+        (planes.empty() ? "particles " : report.pressing + " and particles ") + particles;
   take_impulses(projected);
   report.glued = remember(projected, h);
   const double kick = kick_length(h);

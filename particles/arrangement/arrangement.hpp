@@ -54,7 +54,6 @@ double size_of(const Arrangement& asked, int dimension);
 /// message has the number of particles and their area or volume fraction; the caller adds file and
 /// line. Throws std::bad_variant_access if `domain` is neither a disc nor a box.
 std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
-                            const Particles& present,
-                            std::span<const PlanePosition> planes = {});
+                            const Particles& present, std::span<const PlanePosition> planes = {});
 
 }  // namespace viscontact::particles

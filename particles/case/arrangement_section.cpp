@@ -127,13 +127,14 @@ void arrangement_keys(case_file::Keys& keys, ArrangementKeys& asked, int dimensi
                    {"number of particles", "required without a fraction"});
   for (const std::string_view key : {"area_fraction", "volume_fraction"})
     if (!keys.reads() || key == fraction)
-      keys.optional(key, case_file::number(asked.fraction, case_file::kFraction),
-                    {key == "area_fraction"
-                         ? "in place of `count`: area of these discs over the area of the domain that planes "
-                           "leave free"
-                         : "in place of `count`: volume of these spheres over that of the domain "
-                           "that planes leave free",
-                     "from `count`"});
+      keys.optional(
+          key, case_file::number(asked.fraction, case_file::kFraction),
+          {key == "area_fraction"
+               ? "in place of `count`: area of these discs over the area of the domain that planes "
+                 "leave free"
+               : "in place of `count`: volume of these spheres over that of the domain "
+                 "that planes leave free",
+           "from `count`"});
   keys.optional("smallest_gap", case_file::number(asked.smallest_gap, kNotNegative),
                 {"least gap of two of the particles (also across periodic sides), of one and "
                  "another particle, and of one and a wall or plane",
@@ -180,10 +181,9 @@ void read_arrangement(const case_file::TomlSection& section, ParticlesCase& c) {
   const auto planes = positions_of(c.setting.planes, 0);
   const DrawnSpecies species(keys.species, p.dimension, keys.seed);
   const auto particles =
-      keys.count > 0
-          ? drawn(species, keys.count)
-          : drawn_to_size(species, p.dimension, keys.fraction * measure(domain, planes),
-                          kLargestCount + 1);
+      keys.count > 0 ? drawn(species, keys.count)
+                     : drawn_to_size(species, p.dimension, keys.fraction * measure(domain, planes),
+                                     kLargestCount + 1);
   section.require(particles.size() <= kLargestCount, key,
                   "makes more than {} particles of these radii; at most {} are allowed",
                   kLargestCount, kLargestCount);
@@ -192,7 +192,8 @@ void read_arrangement(const case_file::TomlSection& section, ParticlesCase& c) {
   constexpr double kGapOfRadius = 0.05;  // free; a change alters the arrangements of seeds
   if (asked.smallest_gap < 0) asked.smallest_gap = kGapOfRadius * std::ranges::min(asked.radii);
   require_ids(section, key, p, particles.size());
-  const auto centres = case_file::at_key(section, key, [&] { return arrange(asked, domain, p, planes); });
+  const auto centres =
+      case_file::at_key(section, key, [&] { return arrange(asked, domain, p, planes); });
 
   p.positions.insert(p.positions.end(), centres.begin(), centres.end());
   p.velocities.resize(p.positions.size());

@@ -141,9 +141,8 @@ void particle_keys(case_file::Keys& keys, ParticleTable& p, const ParticlesCase&
     p.is_fixed = section.truth(key);
   };
   if (keys.reads()) check_keys(keys.section(), dimension, in_fluid);
-  keys.optional(
-      "fixed", case_file::custom("`true` or `false`", read_fixed),
-      {"whether the particle is at rest, whatever acts on it", "`false`"});
+  keys.optional("fixed", case_file::custom("`true` or `false`", read_fixed),
+                {"whether the particle is at rest, whatever acts on it", "`false`"});
   keys.optional("velocity_given",
                 case_file::custom("`{ value, angular_velocity }`", read_given_motion, p, c),
                 {"how the particle is driven, whatever acts on it"});

@@ -216,9 +216,10 @@ constexpr int kInPlane = 2;  // with it pieces_of_turn() reads one number
 /// component 0 of vectors.
 void read_load(const case_file::TomlSection& section, std::string_view key,
                PiecewiseConstant& place, const double& end_time) {
-  section.require(!section.is_array(key) || section.is_array_of_tables(key), key,
-                  "is a list; it must be one number, > 0 towards the particles, or a list of pieces "
-                  "{{ until, value }}");
+  section.require(
+      !section.is_array(key) || section.is_array_of_tables(key), key,
+      "is a list; it must be one number, > 0 towards the particles, or a list of pieces "
+      "{{ until, value }}");
   pieces_of_turn(place, kInPlane, end_time).read(section, key);
   for (auto& piece : place.pieces) piece.value = {piece.value[2], 0, 0};
 }
@@ -272,9 +273,10 @@ void load_keys(case_file::Keys& keys, Plane& plane, const ParticlesCase& c) {
   section.require(!c.setting.fluid, key,
                   "belongs to a plane without a fluid; in a case with [fluid] a plane moves with "
                   "its velocity");
-  section.require(!c.setting.laws.restitution.is_on(), key,
-                  "must be left out, because the case has viscous_contact.restitution, and blows on "
-                  "a plane that moves under a load are not computed");
+  section.require(
+      !c.setting.laws.restitution.is_on(), key,
+      "must be left out, because the case has viscous_contact.restitution, and blows on "
+      "a plane that moves under a load are not computed");
   section.require(norm(plane.angular_velocity) == 0, "angular_velocity",
                   "must be left out, because a plane with {} does not turn", key);
   constexpr double kRounding = 1e-12;  // above the rounding errors of a unit normal

@@ -41,8 +41,8 @@ struct ConstraintStep {
   /// displacements, mobilities and turns have entries of the planes under a load after those of
   /// the particles.
   std::span<const double> turn_mobilities;
-  std::span<BodyStep> bodies;               ///< motions of all rigid bodies
-  const Links* links = nullptr;             ///< must not be null, but may contain no links
+  std::span<BodyStep> bodies;    ///< motions of all rigid bodies
+  const Links* links = nullptr;  ///< must not be null, but may contain no links
   /// Forces and torques of all links [M L/T^2, M L^2/T^2], in the order of State::link_forces:
   /// before solve() the first guess, after solve() the solution.
   std::span<double> link_forces;

@@ -30,7 +30,7 @@ MassDualProblem<D>::MassDualProblem(std::span<const Contact<D>> contacts,
       pool_(&pool) {
   const auto wall = static_cast<std::int32_t>(mobilities.size());
   for (std::size_t b = 0; b < mobilities.size(); ++b)
-    for (std::size_t d = 0; d < D; ++d) 
+    for (std::size_t d = 0; d < D; ++d)
       inverse_mobilities_[b * D + d] = mobilities[b] > 0 ? 1 / mobilities[b] : 0;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto& contact = contacts[c];

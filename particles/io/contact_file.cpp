@@ -156,8 +156,7 @@ std::string stress_row(const Setting& setting, const State& state, std::span<con
 bool has_loads(const Setting& setting) { return !setting.fluid && !setting.given_motions.empty(); }
 
 /// The rows of motion.csv (particle_file.hpp).
-std::string motion_table_rows(const Setting& setting, const State& state,
-                              std::span<const double>) {
+std::string motion_table_rows(const Setting& setting, const State& state, std::span<const double>) {
   return motion_rows(state.time, state.particles,
                      has_loads(setting) ? &state.given_loads : nullptr);
 }
@@ -229,15 +228,18 @@ std::vector<TimeTable> asked_tables(const Setting& setting, const Particles& par
   const std::array tables = {
       TimeTable{"motion.csv", motion_header(dimension, turn, has_loads(setting)),
                 motion_table_rows},
-      TimeTable{"contacts.csv", "time,i,j,gap,gamma" + force_columns(dimension, setting.laws.friction.has_value()) + "\n",
-                contact_rows},
-      TimeTable{"walls.csv", "time,wall" + components("force_", dimension) +
-                                  components("point_", dimension) +
-                                  components("velocity_", dimension) + "\n",
+      TimeTable{
+          "contacts.csv",
+          "time,i,j,gap,gamma" + force_columns(dimension, setting.laws.friction.has_value()) + "\n",
+          contact_rows},
+      TimeTable{"walls.csv",
+                "time,wall" + components("force_", dimension) + components("point_", dimension) +
+                    components("velocity_", dimension) + "\n",
                 wall_rows},
       TimeTable{"stress.csv", "time" + stress + "\n", stress_row}};
   std::vector<TimeTable> asked;
-  if (std::ranges::any_of(setting.planes, [](const Plane& plane) { return plane.load.has_value(); }))
+  if (std::ranges::any_of(setting.planes,
+                          [](const Plane& plane) { return plane.load.has_value(); }))
     asked.push_back({kPlanesFile, kPlanesHeader, plane_rows});
   for (std::size_t k = 0; k < tables.size(); ++k)
     if ((setting.fluid && k < 2) || std::ranges::find(names, kAskedTables[k]) != names.end())

@@ -38,8 +38,7 @@ std::string write_contacts(const Particles& particles, std::span<const CurrentCo
 /// normal since time 0 [L], and at which velocity [L/T]; its load, and the sum of the normal forces
 /// of its contacts, both means over the last step [M L/T^2].
 inline constexpr const char* kPlanesFile = "planes.csv";
-inline constexpr const char* kPlanesHeader =
-    "time,wall,displacement,velocity,load,contact_force\n";
+inline constexpr const char* kPlanesHeader = "time,wall,displacement,velocity,load,contact_force\n";
 
 /// The line with the names of the columns of rebounds.csv.
 inline constexpr const char* kReboundsHeader =

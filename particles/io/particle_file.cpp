@@ -139,8 +139,8 @@ void check_header(const std::string& text, const std::string& file, const Names&
           "spheres, and each ellipse or plate a table [[particle]] with semi_axes or length",
           name);
     // The loads of an earlier run are accepted, but not used.
-    const bool is_load = !in_fluid && (name.starts_with("contact_force_") ||
-                                       name.starts_with("contact_torque"));
+    const bool is_load =
+        !in_fluid && (name.starts_with("contact_force_") || name.starts_with("contact_torque"));
     if (!is_load && std::ranges::find(known, name) == known.end() &&
         std::ranges::find(of_fluid, name) == of_fluid.end())
       throw_bad_input(
@@ -303,8 +303,7 @@ std::string write_particles(const Particles& particles, const std::optional<Flui
 /// The line with the names of the columns of motion.csv; `turn` says whether particles turn.
 std::string motion_header(int dimension, bool turn, bool has_loads) {
   std::string header =
-      dimension == 1
-          ? "time,id,z,vz"
+      dimension == 1 ? "time,id,z,vz"
       : dimension == 2
           ? (turn ? "time,id,x,y,angle,vx,vy,angular_velocity" : "time,id,x,y,vx,vy")
           : fmt::format("time,id,x,y,z,vx,vy,vz{}",

@@ -378,7 +378,7 @@ std::string write_restart(const State& state) {
   std::string bytes;
   const bool has_given = !state.planes.empty() || !state.given_loads.empty();
   const int version = has_given                          ? 13
-                      : !state.blows.empty()               ? 12
+                      : !state.blows.empty()             ? 12
                       : !state.sources.empty()           ? 11
                       : !arrays.places.empty()           ? 10
                       : !state.earlier_positions.empty() ? 9

@@ -392,15 +392,16 @@ void StepProjection<D>::take_given(std::size_t c, const PairMemory& memory,
   const double r = p.radii[index_of(here.second)];
   if (is_given(here.second)) {
     const double arm =
-        here.first < 0 ? r
-                       : r * (1 + (here.gap - here.tolerated) /
-                                      (r + p.radii[index_of(here.first)]));
+        here.first < 0
+            ? r
+            : r * (1 + (here.gap - here.tolerated) / (r + p.radii[index_of(here.first)]));
     result.on_given.push_back({here.second, on_second, cross(-arm * normal, on_second)});
   }
   if (is_given(here.first)) {
     const double own = p.radii[index_of(here.first)];
     const double arm = own * (1 + (here.gap - here.tolerated) / (own + r));
-    result.on_given.push_back({here.first, -1.0 * on_second, cross(arm * normal, -1.0 * on_second)});
+    result.on_given.push_back(
+        {here.first, -1.0 * on_second, cross(arm * normal, -1.0 * on_second)});
   }
 }
 

@@ -249,8 +249,8 @@ class StepProjection {
   bool gap_would_close(std::size_t k, double margin);
   // True if pair k is not chosen yet, but has a particle that the solution has moved.
   bool may_have_closed(std::size_t k) {
-    return is_chosen_[k] == 0 && (takes_part(pair(k).second) || takes_part(pair(k).first) ||
-                                  takes_part(loaded_plane(k)));
+    return is_chosen_[k] == 0 &&
+           (takes_part(pair(k).second) || takes_part(pair(k).first) || takes_part(loaded_plane(k)));
   }
   // True if an impulse of pair k moves at least one of its bodies.
   bool can_bear(std::size_t k) {

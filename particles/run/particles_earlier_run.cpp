@@ -111,7 +111,8 @@ void check_same_particles(const State& state, const ParticlesCase& c, const fs::
       differs(fmt::format("a load that has moved plane {}, which has none in the case", k + 1));
   for (const auto& load : state.given_loads)
     if (!c.setting.given_motions.contains(load.particle))
-      differs(fmt::format("a given motion of particle {}", c.particles.id(index_of(load.particle))));
+      differs(
+          fmt::format("a given motion of particle {}", c.particles.id(index_of(load.particle))));
   for (const auto& film : state.walls) check_first(film.first);
   for (const auto& blow : state.blows) check_first(blow.first);
 }

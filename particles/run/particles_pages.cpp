@@ -92,8 +92,7 @@ std::vector<std::vector<PlaneMotion>> read_plane_motions(const ParticlesCase& c,
   for (std::size_t f = 0; f < frames; ++f) {
     motions[f].resize(c.setting.planes.size());
     for (std::size_t l = 0; l < loaded.size(); ++l)
-      motions[f][loaded[l]].displacement =
-          rows[f * loaded.size() + l].fields[0].value_or(0);
+      motions[f][loaded[l]].displacement = rows[f * loaded.size() + l].fields[0].value_or(0);
   }
   return motions;
 }

@@ -239,7 +239,8 @@ void warn_of_jam(const StepTotals& record) {
 /// the factor kStillAResult (particles_folder.hpp).
 void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State& state,
                   const fs::path& folder, const StopToken& stop) {
-  const auto up = c.particles.dimension == 1 ? 0U : static_cast<unsigned>(c.particles.dimension) - 1;
+  const auto up =
+      c.particles.dimension == 1 ? 0U : static_cast<unsigned>(c.particles.dimension) - 1;
   if (c.setting.gravity[up] > 0)
     terminal::warn(
         "particles: warning: space.gravity points upwards (its last component, {:.6g}, is > 0); "

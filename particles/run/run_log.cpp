@@ -120,8 +120,7 @@ void RunLog::add_step(const StepReport& report, const State& state,
   // rebound has a row.
   constexpr std::int64_t kMostRows = 1000000, kOneIn = 1000;
   constexpr std::uint64_t kMostRebounds = 1000000;
-  const double duration =
-      report.time - std::max(record_.totals.last_time, case_.average_from);
+  const double duration = report.time - std::max(record_.totals.last_time, case_.average_from);
   if (case_.average_from_given && duration > 0)
     record_.totals.add_means(values_to_average(case_.setting, state), duration);
   record_.totals.add(report, case_.average_from);

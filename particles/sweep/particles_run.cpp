@@ -77,9 +77,8 @@ Values values_of(const ParticlesCase& c, const std::vector<std::string>& columns
         if (const auto value = number_of(json[column])) values[column] = *value;
   });
   if (c.arrangement)
-    values[fraction_column(c)] =
-        size_of(*c.arrangement, c.particles.dimension) / 
-        measure(c.setting.domain, positions_of(c.setting.planes, 0));
+    values[fraction_column(c)] = size_of(*c.arrangement, c.particles.dimension) /
+                                 measure(c.setting.domain, positions_of(c.setting.planes, 0));
   std::erase_if(values, [](const auto& value) { return !std::isfinite(value.second); });
   return values;
 }

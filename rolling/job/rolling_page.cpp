@@ -122,9 +122,10 @@ std::vector<report::Plot> rolling_plots(const RollingResults& results) {
 std::vector<std::string> rolling_warnings(const RollingResults& results) {
   std::vector<std::string> warnings;
   if (results.c.gravity > 0)
-    warnings.push_back(fmt::format("rolling.gravity, {:.6g}, is > 0 and lifts a heavy sphere off "
-                                   "the plane; gravity towards the plane is negative",
-                                   results.c.gravity));
+    warnings.push_back(
+        fmt::format("rolling.gravity, {:.6g}, is > 0 and lifts a heavy sphere off "
+                    "the plane; gravity towards the plane is negative",
+                    results.c.gravity));
   const double low = results.fit.gap_interval[0];
   for (const auto& [model, rows] : results.trajectories) {
     const double thinnest = std::ranges::min_element(rows, {}, &RollingRow::gap)->gap;

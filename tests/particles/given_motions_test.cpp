@@ -86,8 +86,8 @@ TEST(LoadedPlane, RestsOnAColumnWithTheForceThatIsGiven) {
                         Piston{.count = 2, .unit = 1e6, .heavy = 1e9, .slow = 1e-4},
                         Piston{.count = 3, .mass = 1e-6}, Piston{.count = 3, .mass = 1e3}}) {
       piston.way = way;
-      SCOPED_TRACE(testing::Message() << way << ' ' << piston.dimension << ' ' << piston.count << ' '
-                                      << piston.unit << ' ' << piston.mass);
+      SCOPED_TRACE(testing::Message() << way << ' ' << piston.dimension << ' ' << piston.count
+                                      << ' ' << piston.unit << ' ' << piston.mass);
       auto setting = piston.setting();
       auto state = piston.state();
       solve_by(way, setting, state);
@@ -324,8 +324,7 @@ TEST(GivenMotion, ThatMeetsAnotherIsAnErrorThatNamesBoth) {
   row.state.particles.positions[2] = 3;
   row.setting.given_motions[1];
   Simulation simulation(row.setting, row.state, 1);
-  const auto message =
-      failure(ErrorKind::kNotConverged, [&] { run(simulation, 2); });
+  const auto message = failure(ErrorKind::kNotConverged, [&] { run(simulation, 2); });
   EXPECT_NE(message.find("particles 0 and 1"), std::string::npos) << message;
   EXPECT_NEAR(simulation.state().time, 1, 0.02);
 }
@@ -365,9 +364,8 @@ TEST(GivenMotion, ReboundsAreThoseOfAMovingWall) {
     row.setting.laws.restitution.coefficient = 1;
     Simulation simulation(row.setting, row.state, 1);
     double impulse = 0;
-    run(simulation, 2, [&](const StepReport&) {
-      impulse += 0.01 * simulation.state().given_loads[0].force[0];
-    });
+    run(simulation, 2,
+        [&](const StepReport&) { impulse += 0.01 * simulation.state().given_loads[0].force[0]; });
     EXPECT_NEAR(simulation.state().particles.velocity(1)[0], 2, 1e-9);
     EXPECT_NEAR(impulse, -2 * 3, 1e-8);
   }

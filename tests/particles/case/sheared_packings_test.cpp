@@ -42,15 +42,17 @@ TEST_F(ShearedPackings, ReadAPressureAsTheForceOnTheirPlane) {
   EXPECT_EQ(of("pressure = 2.5\nmass = 3.0\n", kBox).force.value(0.5)[0], 10);
   EXPECT_EQ(of("pressure = 2.5\nmass = 3.0\n", kBox).mass, 3);
   EXPECT_EQ(of("force = -2.5\nmass = 3.0\n", "").force.value(0.5)[0], -2.5);
-  const auto pieces = of("mass = 1.0\npressure = [ { until = 0.5, value = 1.0 }, "
-                         "{ until = 1.0, value = 2.0 } ]\n",
-                         kBox);
+  const auto pieces =
+      of("mass = 1.0\npressure = [ { until = 0.5, value = 1.0 }, "
+         "{ until = 1.0, value = 2.0 } ]\n",
+         kBox);
   EXPECT_EQ(pieces.force.value(0.2)[0], 4);
   EXPECT_EQ(pieces.force.value(0.7)[0], 8);
-  EXPECT_EQ(read("", "[domain]\nbox = { from = [0.0, 0.0, 0.0], to = [2.0, 3.0, 9.0], periodic = "
-                     "[true, true, false] }\n[[plane]]\npoint = [0.0, 0.0, 5.0]\nnormal = [0.0, "
-                     "0.0, -1.0]\npressure = 2.0\nmass = 1.0\n[[particle]]\ncentre = [1.0, 1.0, "
-                     "1.0]\nradius = 0.5\nmass = 1.0\n",
+  EXPECT_EQ(read("",
+                 "[domain]\nbox = { from = [0.0, 0.0, 0.0], to = [2.0, 3.0, 9.0], periodic = "
+                 "[true, true, false] }\n[[plane]]\npoint = [0.0, 0.0, 5.0]\nnormal = [0.0, "
+                 "0.0, -1.0]\npressure = 2.0\nmass = 1.0\n[[particle]]\ncentre = [1.0, 1.0, "
+                 "1.0]\nradius = 0.5\nmass = 1.0\n",
                  3)
                 .setting.planes.at(0)
                 .load->force.value(0)[0],
@@ -62,7 +64,8 @@ TEST_F(ShearedPackings, RefuseLoadsWithFileAndLine) {
                       const std::string& contact = "") {
     return refused(contact, kDisc + kPlane + keys + sections);
   };
-  EXPECT_THAT(of("pressure = 1.0\nmass = 1.0\n"), AllOf(HasSubstr("case.toml:15"), HasSubstr("force")));
+  EXPECT_THAT(of("pressure = 1.0\nmass = 1.0\n"),
+              AllOf(HasSubstr("case.toml:15"), HasSubstr("force")));
   EXPECT_THAT(of("force = 1.0\n"), HasSubstr("plane[0].mass is missing"));
   EXPECT_THAT(of("mass = 1.0\n"), HasSubstr("plane[0].mass"));
   EXPECT_THAT(of("force = 1.0\nmass = 0.0\n"), HasSubstr("plane[0].mass"));
@@ -76,8 +79,9 @@ TEST_F(ShearedPackings, RefuseLoadsWithFileAndLine) {
               HasSubstr("plane[0].force"));
   EXPECT_THAT(of("force = 1.0\nmass = 1.0\n", kBox + "[fluid]\nviscosity = 1.0\n"),
               HasSubstr("plane[0].force"));
-  EXPECT_THAT(refused("", kDisc + kBox + "[[plane]]\npoint = [0.0, 5.0]\nnormal = [0.1, -2.0]\n"
-                                         "pressure = 1.0\nmass = 1.0\n"),
+  EXPECT_THAT(refused("", kDisc + kBox +
+                              "[[plane]]\npoint = [0.0, 5.0]\nnormal = [0.1, -2.0]\n"
+                              "pressure = 1.0\nmass = 1.0\n"),
               AllOf(HasSubstr("plane[0].pressure"), HasSubstr("force")));
   EXPECT_THAT(refused("", kDisc + "[domain]\ndisc = { radius = 9.0 }\n" + kPlane +
                               "pressure = 1.0\nmass = 1.0\n"),
@@ -93,13 +97,15 @@ TEST_F(ShearedPackings, HaveFixedAndDrivenParticlesWithoutAFluid) {
   EXPECT_TRUE(c.particles.turn());
   EXPECT_EQ(c.particles.angular_velocities.at(2), 2);
   // Two discs overlap, whose motions are given; a free one must not.
-  EXPECT_THAT(refused("", kDisc + "[[particle]]\ncentre = [2.5, 0.5]\nradius = 0.5\nfixed = true\n"),
-              HasSubstr("overlap"));
+  EXPECT_THAT(
+      refused("", kDisc + "[[particle]]\ncentre = [2.5, 0.5]\nradius = 0.5\nfixed = true\n"),
+      HasSubstr("overlap"));
   EXPECT_THAT(refused("", kDisc + "[[particle]]\ncentre = [5.0, 0.5]\nradius = 0.5\nfixed = true\n"
                                   "[[body]]\nparticles = [0, 1]\n"),
               HasSubstr("body[0].particles"));
-  EXPECT_THAT(refused("", "[[particle]]\ncentre = [5.0, 0.5]\nradius = 0.5\nmass = 1.0\nfixed = "
-                          "true\nforce = [1.0, 0.0]\n"),
+  EXPECT_THAT(refused("",
+                      "[[particle]]\ncentre = [5.0, 0.5]\nradius = 0.5\nmass = 1.0\nfixed = "
+                      "true\nforce = [1.0, 0.0]\n"),
               HasSubstr("particle[0].force"));
 }
 
@@ -107,8 +113,9 @@ TEST_F(ShearedPackings, ArrangeParticlesOnTheFreeSideOfPlanes) {
   const std::string planes =
       "[[plane]]\npoint = [0.0, 6.0]\nnormal = [0.0, -1.0]\n"
       "[[plane]]\npoint = [0.0, 1.0]\nnormal = [1.0, 2.0]\n";
-  const auto c = read("", kBox + planes + "[arrangement]\nradius = 0.2\nmass = 1.0\narea_fraction "
-                                          "= 0.5\nseed = 3\n");
+  const auto c = read("", kBox + planes +
+                              "[arrangement]\nradius = 0.2\nmass = 1.0\narea_fraction "
+                              "= 0.5\nseed = 3\n");
   const auto obstacles = positions_of(obstacles_of(c.setting), 0);
   for (std::size_t k = 0; k < c.particles.count(); ++k)
     for (const auto& obstacle : obstacles)
@@ -119,9 +126,10 @@ TEST_F(ShearedPackings, ArrangeParticlesOnTheFreeSideOfPlanes) {
                               "[[plane]]\npoint = [0.0, 5.5]\nnormal = [0.0, 1.0]\n"
                               "[arrangement]\nradius = 0.3\nmass = 1.0\ncount = 3\n"),
               HasSubstr("do not fit"));
-  const auto round = read("", "[domain]\ndisc = { radius = 3.0 }\n[[plane]]\npoint = [0.0, 0.0]\n"
-                              "normal = [0.0, 1.0]\n[arrangement]\nradius = 0.2\nmass = 1.0\n"
-                              "count = 40\n");
+  const auto round = read("",
+                          "[domain]\ndisc = { radius = 3.0 }\n[[plane]]\npoint = [0.0, 0.0]\n"
+                          "normal = [0.0, 1.0]\n[arrangement]\nradius = 0.2\nmass = 1.0\n"
+                          "count = 40\n");
   for (std::size_t k = 0; k < 40; ++k) EXPECT_GE(round.particles.position(k)[1], 0.21 * (1 - 1e-9));
 }
 

@@ -202,10 +202,10 @@ TEST_F(RestartFile, WithListsOfOtherLengthsIsRefused) {
 }
 
 TEST_F(RestartFile, OfAnotherVersionIsRefused) {
-  for (const auto* version : {"version 13", "version :", "version 5", "version 6x"}) {
+  for (const auto* version : {"version 14", "version :", "version 5", "version 6x"}) {
     auto text = write_restart(disc_on_plane(-0.5));
     text.replace(text.find("version 6"), 9, version);
-    EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr("versions 6 to 12 can be read"));
+    EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr("versions 6 to 13 can be read"));
   }
 }
 
