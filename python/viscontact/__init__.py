@@ -13,9 +13,23 @@ ExternalProgramError, all of them Error. Ctrl-C stops every call; other threads 
 long ones. docs/python.md shows how to use the module, and docs/physics.md has the equations.
 """
 
-from ._core import (Error, ExternalProgramError, Fit, InputError, NotConvergedError, PairFit,
-                    StepReport, __version__, _tabulate, fit, fit_pair, rolling, simulate,
-                    swimmer)
+import pathlib as _pathlib
+import sys as _sys
+
+try:
+    from ._core import (Error, ExternalProgramError, Fit, InputError, NotConvergedError, PairFit,
+                        StepReport, __version__, _tabulate, fit, fit_pair, rolling, simulate,
+                        swimmer)
+except ModuleNotFoundError as problem:
+    if problem.name != f"{__name__}._core":
+        raise
+    _folder = _pathlib.Path(__file__).parent
+    _built = ", ".join(sorted(file.name for file in _folder.glob("_core.*"))) or "no library"
+    raise ImportError(
+        f"{_folder} has {_built}, but this is Python {_sys.version_info.major}."
+        f"{_sys.version_info.minor} ({_sys.executable}). The module works with the Python for which "
+        "it was built: /usr/bin/python3 of Debian, unless Python3_EXECUTABLE named another one "
+        "(docs/python.md)", name=problem.name) from None
 from .columns import Columns
 from .particles import Particles
 from .results import Folder, Frames, read

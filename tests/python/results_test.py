@@ -19,6 +19,27 @@ from cases import DATA, SOURCE
 PROGRAM = os.environ["VISCONTACT_PROGRAM"]
 
 
+class OtherPythonTest(unittest.TestCase):
+    def test_a_library_for_another_python_is_named(self):
+        package = pathlib.Path(viscontact.__file__).parent
+        with tempfile.TemporaryDirectory() as folder:
+            copy = pathlib.Path(folder) / "viscontact"
+            copy.mkdir()
+            for file in package.glob("*.py"):
+                (copy / file.name).write_bytes(file.read_bytes())
+            for library in "_core.cpython-39-x86_64-linux-gnu.so", None:
+                if library:
+                    (copy / library).touch()
+                done = subprocess.run([sys.executable, "-c", "import viscontact"], cwd=folder,
+                                      env={**os.environ, "PYTHONPATH": folder},
+                                      capture_output=True, text=True)
+                self.assertEqual(done.returncode, 1)
+                self.assertIn(f"ImportError: {copy} has {library or 'no library'}", done.stderr)
+                self.assertIn(sys.executable, done.stderr)
+                if library:
+                    (copy / library).unlink()
+
+
 class ReadTest(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

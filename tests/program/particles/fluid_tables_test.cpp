@@ -103,7 +103,8 @@ TEST_F(FluidTables, AnArmWorksAgainstDissipationAndInertia) {
       }
       SCOPED_TRACE(
           fmt::format("phase {} inertial {}: {} {}", phase, inertial, errors[0], errors[1]));
-      EXPECT_LT(std::abs(errors[0]), 0.03);
+      // Five steps in half of a period.
+      EXPECT_LT(std::abs(errors[0]), 0.07);
       EXPECT_LT(std::abs(errors[1]), 0.6 * std::abs(errors[0]));
     }
 }
@@ -177,7 +178,8 @@ TEST_F(FluidTables, ADrivenDiscGivesItsWorkToTheFluid) {
         h * sum("steps.csv", "dissipation") + column("steps.csv", "kinetic_energy_fluid").back();
     errors.push_back(work / given - 1);
   }
-  EXPECT_LT(std::abs(errors[0]), 0.06) << errors[0];
+  // Five steps; their error is of first order.
+  EXPECT_LT(std::abs(errors[0]), 0.1) << errors[0];
   EXPECT_LT(std::abs(errors[1]), 0.6 * std::abs(errors[0])) << errors[1];
 }
 
