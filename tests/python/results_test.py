@@ -173,6 +173,9 @@ class CallsTest(unittest.TestCase):
         text = (DATA / "cases/lecture.toml").read_text()
         case.write_text(text.replace('{ from = 1e-3, to = 2.0, count = 40, spacing = "log" }',
                                      "[0.5, 1.0]").replace("1e-5", "1e-3"))
+        for none in [], ():
+            with self.assertRaisesRegex(viscontact.InputError, "motions is an empty list"):
+                viscontact.tabulate(case, self.folder / "table.csv", motions=none)
         table = viscontact.tabulate(case, self.folder / "table.csv", jobs=1)
         np.testing.assert_array_equal(table.gap, [0.5, 1.0])
         shipped = viscontact.Fit(DATA / "fits/lecture.json")
