@@ -24,12 +24,11 @@ function(viscontact_library name)
   set_target_properties(${target} PROPERTIES
     EXPORT_NAME ${name} ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
   target_compile_features(${target} PUBLIC cxx_std_20)
-  if(VISCONTACT_PYTHON)
-    # The Python module is a shared library, which contains the parts. Without semantic
-    # interposition, the compiler may still expand functions of a part in place.
-    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-    target_compile_options(${target} PRIVATE -fno-semantic-interposition)
-  endif()
+  # The Python module is a shared library, which contains the parts. They are compiled for it in any
+  # case, so that VISCONTACT_PYTHON compiles nothing twice. Without semantic interposition, the
+  # compiler may still expand functions of a part in place.
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(${target} PRIVATE -fno-semantic-interposition)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${VISCONTACT_INCLUDE_FOLDER}>
                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   list(TRANSFORM arg_NEEDS PREPEND viscontact_ OUTPUT_VARIABLE parts)

@@ -102,7 +102,7 @@ struct Probe {
 struct Fluid {
   double viscosity = 0;  ///< mu [M/(L T)], > 0
   double density = 0;    ///< density of the fluid [M/L^3], >= 0; 0: Stokes flow, without inertia
-  // The members from here to `gradient_amplitude` are used only if the density is > 0.
+  // Of the members from here to `gradient_amplitude` Stokes flow has pressure_gradient only.
   Advection advection = Advection::kSemiImplicit;  ///< how velocities are carried along
   FlowStart start = FlowStart::kRest;              ///< the flow at time 0
   /// Uniform pressure gradient, x and y [M/(L^2 T^2)], which drives the fluid and also acts on

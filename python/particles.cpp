@@ -8,8 +8,7 @@
 // views stay valid: no step may move an array of the state to another place in memory.
 #include <fmt/format.h>
 
-#include <cmath>
-#include <limits>
+#include <algorithm>
 #include <optional>
 
 #include "viscontact/freefem_flow/freefem_solver.hpp"
@@ -128,11 +127,10 @@ auto view_of(Member particles::Particles::*member, bool is_flat = false) {
 /// Times that differ by less than the result [T], a millionth of the time step, count as equal.
 double tiny_time(const PythonParticles& self) { return 1e-6 * self.case_file().setting.time_step; }
 
-/// `until` [T], or `otherwise` if there is none. Throws Error(kWrongUsage) if `until` is NaN or
-/// before the present time.
-double end_of_steps(const PythonParticles& self, const std::optional<double>& until,
-                    double otherwise) {
-  if (!until) return otherwise;
+/// `until` [T], or end_time of the case if there is none. Throws Error(kWrongUsage) if `until` is
+/// NaN or before the present time.
+double end_of_steps(const PythonParticles& self, const std::optional<double>& until) {
+  if (!until) return self.case_file().end_time;
   const double now = self.state().time;
   if (!(*until >= now - tiny_time(self)))
     throw Error(ErrorKind::kWrongUsage,
@@ -140,20 +138,31 @@ double end_of_steps(const PythonParticles& self, const std::optional<double>& un
   return *until;
 }
 
+/// Computes one step, which ends at `until` [T] or at end_time of the case if it would end later.
+/// Throws Error(kWrongUsage) if there is no step left before end_time, after which the forces and
+/// given motions of the case are not defined.
 particles::StepReport step(PythonParticles& self, const std::optional<double>& until) {
-  const double end = end_of_steps(self, until, std::numeric_limits<double>::infinity());
-  return self.compute_step([&] { return self.simulation().step(end); });
+  const double end = end_of_steps(self, until), last = self.case_file().end_time;
+  if (self.is_finished() && (!until || end > self.state().time + tiny_time(self)))
+    throw Error(ErrorKind::kWrongUsage,
+                "the particles have reached end_time of the case, {}; there is no step after it, "
+                "because the forces of the case end there. A larger viscous_contact.end_time lets "
+                "them go on",
+                last);
+  return self.compute_step([&] { return self.simulation().step(std::min(end, last)); });
 }
 
 /// Makes steps until the time `until` [T], by default end_time of the case. Returns the number of
-/// steps. Throws Error(kWrongUsage) if `until` is not finite or before the present time, and the
+/// steps. Throws Error(kWrongUsage) if `until` is before the present time or after end_time, and the
 /// errors of the steps; the steps before the error are kept.
 std::int64_t run(PythonParticles& self, const std::optional<double>& until) {
-  const double end = end_of_steps(self, until, self.case_file().end_time);
+  const double end = end_of_steps(self, until), last = self.case_file().end_time;
   const double tiny = tiny_time(self);
-  if (!std::isfinite(end))
+  if (!(end <= last + tiny))
     throw Error(ErrorKind::kWrongUsage,
-                "until is {}; it must be finite, because run() ends at this time", end);
+                "until is {}; it must be at most {}, which is end_time of the case: the forces of "
+                "the case end there",
+                end, last);
   return self.compute([&](const StopToken& stop) {
     auto& simulation = self.simulation();
     const auto before = simulation.state().steps;
@@ -250,13 +259,14 @@ discs in a fluid M is a mass per length of the third dimension. No file is writt
       .def("step", &step, R"(Computes one step and returns its StepReport.
 
 until      the step ends at this time [T] if it would end later; if the time is reached, no step is
-           made. None: a whole step of the case.
+           made. None: a whole step of the case. A step ends at end_time at the latest.
 
-Raises NotConvergedError if the step cannot be computed; the state is then that before the step.)",
+Raises InputError at end_time, after which there is no step, and NotConvergedError if the step cannot
+be computed; the state is then that before the step.)",
            py::arg("until") = py::none())
       .def("run", &run, R"(Computes steps until a time and returns their number.
 
-until      the time [T], finite; None: end_time of the case)",
+until      the time [T], at most end_time of the case; None: end_time)",
            py::arg("until") = py::none())
       .def_property_readonly(
           "forces",

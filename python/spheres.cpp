@@ -30,6 +30,18 @@ namespace {
 namespace fs = std::filesystem;
 using Numbers = std::map<std::string, double>;
 
+/// Names of models; without a value those of the case.
+using GivenModels = std::optional<std::vector<std::string>>;
+
+/// The names that are given, or none. Throws Error(kWrongUsage) for an empty list.
+std::vector<std::string> names_in(const GivenModels& models) {
+  if (models && models->empty())
+    throw Error(ErrorKind::kWrongUsage,
+                "models is an empty list; it must name at least one model, or be None for those of "
+                "the case");
+  return models.value_or(std::vector<std::string>());
+}
+
 /// The case in the file at `path`, in which the value at each key of `numbers`, such as
 /// "sphere.radius", is replaced. Throws Error(kBadInput) if the file, a key or a value is wrong.
 template <class Case>
@@ -110,7 +122,8 @@ py::object columns_of(const reduced_model::Trajectory& trajectory) {
 }
 
 py::dict simulate(const fs::path& path, const std::optional<GivenFit>& given,
-                  const std::vector<std::string>& models, const Numbers& numbers) {
+                  const GivenModels& models, const Numbers& numbers) {
+  const auto names = names_in(models);
   const auto trajectories = long_call([&](const StopToken& stop) {
     const auto c = read_with<case_file::Case>(path, numbers);
     auto motion = case_file::required_motion(c);
@@ -119,7 +132,7 @@ py::dict simulate(const fs::path& path, const std::optional<GivenFit>& given,
     const auto outside = c.fit ? c.fit->outside : lubrication::OutsideInterval{};
     const lubrication::LubricationForce force(fit, outside);
     std::vector<reduced_model::Trajectory> computed;
-    for (const auto& name : pipeline::models_to_run(c, models)) {
+    for (const auto& name : pipeline::models_to_run(c, names)) {
       auto& one = computed.emplace_back(
           reduced_model::simulate(reduced_model::find_model(name), motion, force));
       if (motion.output_rows > 0)
@@ -173,13 +186,14 @@ motions::PairFit fit_of(const rolling::RollingCase& c, const std::optional<Given
 }
 
 py::dict roll(const fs::path& path, const std::optional<GivenPairFit>& given,
-              const std::vector<std::string>& models, const Numbers& numbers) {
+              const GivenModels& models, const Numbers& numbers) {
+  const auto names = names_in(models);
   std::vector<std::pair<std::string, rolling::RollingTrajectory>> trajectories;
   const auto c = long_call([&](const StopToken& stop) {
     auto read = read_with<rolling::RollingCase>(path, numbers);
     read.motion.stop = stop;
     const auto fit = fit_of(read, given);
-    for (const auto& name : models.empty() ? read.models : models) {
+    for (const auto& name : names.empty() ? read.models : names) {
       const auto& model = require_named(rolling::rolling_models(), name, "model");
       trajectories.emplace_back(name,
                                 with_place(name, [&] { return model.run(read.motion, fit); }));
@@ -293,7 +307,7 @@ void add_spheres(py::module_& module) {
 case       case file of one sphere (TOML)
 fit        Fit or path of a fit file, which is scaled to the case; None: that of the case. The force
            outside its interval is what the section [fit] of the case says
-models     names; empty: those of the case
+models     list of names; None: those of the case
 values     numbers in place of those of the case, such as {"sphere.radius": 2.0}
 
 Returns a dictionary with a table for each model, of R rows:
@@ -306,13 +320,13 @@ NaN stands where a model has no such number. Its `about` has model, steps, secon
 recovered_minimal_gap, contact_interval, solid_contact_from, rebounds, and the impulses and works of
 the budget. No file is written.)",
              py::arg("case"), py::arg("fit") = py::none(), py::kw_only(),
-             py::arg("models") = std::vector<std::string>(), py::arg("values") = Numbers());
+             py::arg("models") = py::none(), py::arg("values") = Numbers());
   module.def("rolling", &roll,
              R"(The motion of a sphere that moves along a plane and turns; see docs/motions.md.
 
 case       case file with the section [rolling] (TOML)
 fit        PairFit or path of its file, which is scaled to the case; None: that of the case
-models     "smooth", "rough", "viscous_contact"; empty: those of the case
+models     "smooth", "rough", "viscous_contact"; None: those of the case
 values     numbers in place of those of the case
 
 Returns a dictionary with a table for each model, of R rows, with the columns of the files of
@@ -321,7 +335,7 @@ angular_velocity [1/T], contact_force, friction_force [M L/T^2], and contact: 0 
 roll, 2 they slide. Its `about` has smallest_gap [L], slip [L/T] at the end, and contact_time [T], the
 first at which the solids touch. No file is written.)",
              py::arg("case"), py::arg("fit") = py::none(), py::kw_only(),
-             py::arg("models") = std::vector<std::string>(), py::arg("values") = Numbers());
+             py::arg("models") = py::none(), py::arg("values") = Numbers());
   module.def("swimmer", &swim,
              R"(The strokes of a swimmer: spheres on a line; see docs/swimmer.md.
 

@@ -102,7 +102,7 @@ class MembraneProcess : public particles::FluidSolver {
 
   SolverCommand command_;
   SolverLimits limits_;
-  std::string opening_;
+  std::string opening_, gradient_;  // the first requests; gradient_ may be empty
   particles::Domain domain_;
   double unit_;  // unit of length of the arguments in that of the case; for messages
   std::vector<Membrane> membranes_;
@@ -176,6 +176,7 @@ MembraneProcess::MembraneProcess(const particles::Fluid& fluid, const particles:
     }
   }
   opening_ = std::move(text);
+  gradient_ = gradient_request(fluid);
   start();
 }
 
@@ -186,6 +187,9 @@ void MembraneProcess::start() {
   solver_->ask("viscontact-fluid", opening_);
   solver_->expect("ready", true);
   solver_->expect("boundary");
+  if (gradient_.empty()) return;
+  solver_->ask("pressure_gradient", gradient_);
+  solver_->expect("driving");
 }
 
 /// Sends the mesh around the places of `bodies`: positions [L], 2 for each particle, angles [rad],

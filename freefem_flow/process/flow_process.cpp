@@ -109,8 +109,6 @@ FlowProcess::FlowProcess(const particles::Fluid& fluid, const particles::Domain&
   start();
 }
 
-/// Ends the process, if there is one, starts a new one, sends the opening and the probes, and notes
-/// whether the solver asks for boundaries or only for places.
 void FlowProcess::start() {
   if (solver_)
     peak_memory_of_earlier_ = std::max(peak_memory_of_earlier_, solver_->peak_memory_kb());
@@ -122,6 +120,10 @@ void FlowProcess::start() {
   const std::string wants = solver_->word();
   if (wants != "boundary" && wants != "places") solver_->refuse("'boundary' or 'places'");
   wants_boundary_ = wants == "boundary";
+  if (const auto gradient = gradient_request(fluid_); !gradient.empty()) {
+    solver_->ask("pressure_gradient", gradient);
+    solver_->expect("driving");
+  }
   if (fluid_.probes.empty()) return;
   std::string probes = fmt::format("probes {}\n", fluid_.probes.size());
   for (const auto& probe : fluid_.probes) {

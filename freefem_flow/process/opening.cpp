@@ -171,6 +171,11 @@ std::string opening(const particles::Fluid& fluid, const particles::Domain& doma
   return text;
 }
 
+std::string gradient_request(const particles::Fluid& fluid) {
+  if (fluid.has_inertia() || fluid.pressure_gradient == std::array<double, 2>{}) return "";
+  return "pressure_gradient" + words_of(fluid.pressure_gradient) + '\n';
+}
+
 /// One line for each wall, in the order of walls_of(), with its eight WallCoefficients at the time
 /// of `step`. Throws nothing if opening() accepted the arguments.
 std::string walls_at(const particles::Fluid& fluid, const particles::Domain& domain,

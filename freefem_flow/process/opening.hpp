@@ -19,6 +19,10 @@ namespace viscontact::freefem_flow {
 std::string opening(const particles::Fluid& fluid, const particles::Domain& domain,
                     std::span<const double> radii, int dimension);
 
+/// The request that tells the solver the pressure gradient that drives a Stokes flow; empty if there
+/// is none, and in a fluid with inertia, whose requests `place` have it.
+std::string gradient_request(const particles::Fluid& fluid);
+
 /// The velocities of all walls at the time of `step`, as text with one line for each wall in the
 /// order of the opening. A line has the eight numbers A0 AX AY B0 BX BY P Q of
 /// docs/fluid-solver.md. With q = 4 s (1 - s), where s goes from 0 to 1 along the side of a box,

@@ -332,8 +332,9 @@ void read_pressure_gradient(const case_file::TomlSection& section, std::string_v
   fluid.pressure_gradient = {vector[0], vector[1]};
 }
 
-/// Keys of a fluid with inertia: the density and three keys that need a density > 0.
-void inertia_keys(case_file::Keys& keys, Fluid& fluid, const Domain& domain) {
+/// Keys of a fluid with inertia, the density and two keys that need a density > 0, and the pressure
+/// gradient.
+void inertia_keys(case_file::Keys& keys, Fluid& fluid) {
   keys.optional("density", case_file::number(fluid.density, kModeratelyPositiveOr0),
                 {"rho_f of a fluid [with inertia](fluid.md#inertia-of-the-fluid); 0: Stokes flow"});
   keys.optional(
@@ -347,18 +348,48 @@ void inertia_keys(case_file::Keys& keys, Fluid& fluid, const Domain& domain) {
       case_file::one_of(fluid.start, {{"rest", FlowStart::kRest}, {"stokes", FlowStart::kStokes}}),
       {"the flow at time 0: at rest, or the Stokes flow around particles that move without "
        "inertia, and therefore must have no `velocity`"});
-  const bool has_gradient =
-      keys.optional("pressure_gradient",
-                    case_file::custom("`[NUMBER, NUMBER]`, or `{ value, period, amplitude }`",
-                                      read_pressure_gradient, fluid),
-                    {"uniform pressure gradient that is added, in a box. It drives the fluid in a "
-                     "periodic box, and acts on the particles, too. With a period it pulsates",
-                     "0"});
-  for (const auto* key : {"advection", "start", "pressure_gradient"})
+  keys.optional(
+      "pressure_gradient",
+      case_file::custom("`[NUMBER, NUMBER]`, or `{ value, period, amplitude }`",
+                        read_pressure_gradient, fluid),
+      {"uniform pressure gradient that is added. It drives the fluid, and the particles in "
+       "it, along a period of a box, or in a box with an open side. With a period it "
+       "pulsates, which needs `density`",
+       "0"});
+  for (const auto* key : {"advection", "start"})
     keys.require(fluid.density > 0 || !keys.has(key), key,
                  "has no effect on Stokes flow; fluid.density must be > 0");
-  keys.require(!has_gradient || !std::holds_alternative<CylinderDomain>(domain),
-               "pressure_gradient", "belongs to a box; it must be left out in a cylinder");
+}
+
+/// Throws Error(kBadInput) if there is a pressure gradient that moves nothing, because the pressure
+/// of closed walls or of a cell of Stokes flow balances it, or one that the solver does not know.
+void check_gradient(case_file::Keys& keys, const Fluid& fluid, const Domain& domain) {
+  constexpr auto kKey = "pressure_gradient";
+  if (!keys.reads() || !keys.has(kKey)) return;
+  const auto* box = std::get_if<BoxDomain>(&domain);
+  keys.require(
+      box != nullptr, kKey,
+      "has no effect in a closed {}, whose walls balance it; it belongs to a box, and must "
+      "be left out",
+      std::holds_alternative<CylinderDomain>(domain) ? "cylinder" : "disc");
+  keys.require(fluid.solver.empty(), kKey,
+               "is not known to fluid.solver, a program of your own; it must be left out");
+  keys.require(fluid.density > 0 || !(fluid.gradient_period > 0), kKey,
+               "depends on time, which Stokes flow does not know; fluid.density must be > 0");
+  keys.require(fluid.density > 0 || !box->periodic[0] || !box->periodic[1], kKey,
+               "has no effect on Stokes flow in a box that is periodic both ways, because the mean "
+               "velocity there is 0; it must be left out, or fluid.density be > 0");
+  const auto* sides = std::get_if<SideVelocities>(&fluid.boundary);
+  const bool is_open = sides != nullptr && std::ranges::any_of(*sides, [](const auto& side) {
+                         return side.kind == WallVelocity::Kind::kOpen;
+                       });
+  for (const std::size_t d : {0U, 1U}) {
+    const char* axis = d == 0 ? "x" : "y";
+    keys.require(is_open || box->periodic[d] || fluid.pressure_gradient[d] == 0, kKey,
+                 "is {:.6g} along {}, where it has no effect, because closed walls balance it; it "
+                 "must be 0 along {}, unless the box is periodic there or a side is open",
+                 fluid.pressure_gradient[d], axis, axis);
+  }
 }
 
 /// Throws Error(kBadInput) if velocities depend on time although the density is 0, and if a fluid
@@ -387,7 +418,7 @@ void check_inertia(case_file::Keys& keys, const Fluid& fluid, const Domain& doma
 void fluid_keys(case_file::Keys& keys, Fluid& fluid, const Domain& domain) {
   keys.required("viscosity", case_file::number(fluid.viscosity, kModeratelyPositive),
                 {"dynamic viscosity mu"});
-  inertia_keys(keys, fluid, domain);
+  inertia_keys(keys, fluid);
   keys.optional(
       "constraint",
       case_file::one_of(fluid.constraint, {{"penalty", RigidConstraint::kPenalty},
@@ -428,6 +459,7 @@ void fluid_keys(case_file::Keys& keys, Fluid& fluid, const Domain& domain) {
   keys.optional("velocity", case_file::custom("a table, see below", read_velocity, domain, fluid),
                 {"velocity of the walls", "at rest"});
   check_inertia(keys, fluid, domain);
+  check_gradient(keys, fluid, domain);
 }
 
 }  // namespace
@@ -471,28 +503,31 @@ void probe_keys(case_file::Keys& keys, Probe& probe, const Domain& domain) {
   probe.to = {to[0], to[1]};
   if (!keys.reads()) return;
   const auto* box = std::get_if<BoxDomain>(&domain);
-  // Number of the side of the box that a point is on, 0 to 3 in the order of SideVelocities; -1 if
-  // it is on none. Periodic sides do not count.
-  const auto side_of = [&](const std::array<double, 2>& x) {
+  // The walls of the box that a point is on, as bits 0 to 3 in the order of SideVelocities; a corner
+  // is on two of them. Periodic sides do not count.
+  const auto sides_of = [&](const std::array<double, 2>& x) {
+    unsigned sides = 0;
     for (std::size_t d = 0; d < 2; ++d) {
       const double length = box->to[d] - box->from[d], other = box->to[1 - d] - box->from[1 - d];
       constexpr double kRounding = 1e-9;  // far above rounding errors; a free choice
       const bool is_beside = x[1 - d] < box->from[1 - d] - kRounding * other ||
                              x[1 - d] > box->to[1 - d] + kRounding * other;
       if (box->periodic[d] || is_beside) continue;
-      if (std::abs(x[d] - box->from[d]) <= kRounding * length) return static_cast<int>(2 * d);
-      if (std::abs(x[d] - box->to[d]) <= kRounding * length) return static_cast<int>(2 * d + 1);
+      if (std::abs(x[d] - box->from[d]) <= kRounding * length) sides |= 1U << (2 * d);
+      if (std::abs(x[d] - box->to[d]) <= kRounding * length) sides |= 2U << (2 * d);
     }
-    return -1;
+    return sides;
   };
-  const auto first = side_of(probe.from), second = side_of(probe.to);
-  keys.require(first >= 0, "from", "is ({}, {}), which is on no wall of the box; it must be on one",
+  const auto first = sides_of(probe.from), second = sides_of(probe.to);
+  keys.require(first != 0, "from", "is ({}, {}), which is on no wall of the box; it must be on one",
                from[0], from[1]);
-  keys.require(second >= 0, "to", "is ({}, {}), which is on no wall of the box; it must be on one",
+  keys.require(second != 0, "to", "is ({}, {}), which is on no wall of the box; it must be on one",
                to[0], to[1]);
   keys.require(
-      first != second, "to",
-      "is on the same wall as from; the line must go across the channel, from one wall to another");
+      (first & second) == 0, "to",
+      "is ({}, {}), on the same wall as from; the line must go across the channel, from one "
+      "wall to another",
+      to[0], to[1]);
 }
 
 }  // namespace

@@ -105,27 +105,26 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
   auto& p = state_.particles;
   state_.pairs = std::move(motion.contact.pairs);
   state_.walls = std::move(motion.contact.walls);
-  // In a fluid with inertia the second step of a run computes the impulses of the first step again,
-  // and films absorb only the impulses of the second computation. In a case with restitution
-  // Pair::impulse is then 0, because solids rebound less in a contact that bears a load already.
-  const bool is_unloaded = setting_.laws.restitution.is_on() && is_computed_twice();
+  // In a fluid with inertia the second step of a run computes the forces of the first step again.
+  // Only those of the second computation count.
+  const bool counts = !is_computed_twice();
   std::size_t c = 0;
   for (auto* pairs : {&state_.pairs, &state_.walls})
     for (auto& pair : *pairs) {
       const auto& contact = motion.blow ? motion.blow->contacts[c] : motion.contact.contacts[c];
       const double share = motion.blow ? 1 : kick_length(h) / h;
       if (contact.w > 0) ++report.contacts;
-      if (contact.w > 0 && !is_computed_twice()) {
+      if (contact.w > 0 && counts) {
         pair.impulse = motion.blow ? motion.blow->absorbed[c] : share * contact.impulse;
         setting_.laws.remember(pair, state_.memories,
                                radii_in_fluid(*setting_.fluid, pair, p, obstacles_),
                                share * motion.impulse_errors[c], h);
       }
-      pair.impulse = is_unloaded ? 0 : share * contact.impulse;
+      pair.impulse = counts ? share * contact.impulse : 0;
       if (pair.gamma < 0) ++report.glued;
       ++c;
     }
-  if (setting_.laws.friction) remember_friction(motion.contact, kick_length(h) / h);
+  if (setting_.laws.friction) remember_friction(motion.contact, counts ? kick_length(h) / h : 0);
   state_.memories.keep_only(state_.pairs, state_.walls);
   rebounds_ = motion.blow ? std::move(motion.blow->rebounds) : std::vector<Rebound>{};
   move_bodies(motion, h, next);
@@ -142,6 +141,10 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
   }
   p.cell.moved_for = next;
   place_members(p);
+  if (!counts) {
+    std::ranges::fill(motion.link_forces, 0);
+    std::ranges::fill(motion.arm_powers, 0);
+  }
   state_.link_forces = std::move(motion.link_forces);
   state_.arm_powers = std::move(motion.arm_powers);
   if (!setting_.fluid->has_inertia())

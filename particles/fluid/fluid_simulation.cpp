@@ -117,6 +117,7 @@ void FluidSimulation::begin_flow(double h) {
     state_.earlier_velocities = equation.velocities();
   } else {
     state_.earlier_velocities = solver_->velocities(equation.right_side(), true);
+    first_kinetic_energy_ = solver_->quantities().kinetic_energy;
   }
   solver_->keep_flow(at_rest, state_.earlier_velocities);
   has_flow_ = true;
@@ -386,33 +387,36 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
   if (is_estimated && !setting_.fluid->has_inertia())
     estimate(equation, forces, held ? &*held : nullptr, motion);
   motion.fluid.flow_time = state_.time;
-  if (!is_computed_twice()) motion.fluid.probes = motion.quantities.probes;
-  motion.fluid.dissipation = motion.quantities.dissipation;
-  motion.fluid.apparent_viscosity = motion.quantities.apparent_viscosity;
-  if (setting_.laws.friction && motion.quantities.dissipation > 0)
+  motion.fluid.is_computed_again = is_computed_twice();
+  if (motion.fluid.is_computed_again) {
+    motion.fluid.kinetic_energy = first_kinetic_energy_;
+  } else {
+    motion.fluid.probes = motion.quantities.probes;
+    motion.fluid.dissipation = motion.quantities.dissipation;
+    motion.fluid.apparent_viscosity = motion.quantities.apparent_viscosity;
+    motion.fluid.kinetic_energy = motion.quantities.kinetic_energy;
+  }
+  if (setting_.laws.friction && motion.fluid.dissipation > 0)
     motion.fluid.apparent_viscosity *=
         1 + heat_of_friction(motion.contact, motion.moved, contact_conditions(motion.free, h)) /
-                motion.quantities.dissipation;
+                motion.fluid.dissipation;
   if (setting_.fluid->has_inertia()) report_inertia(motion);
   motion.fluid.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   return motion;
 }
 
-/// Sets the members of FluidStepReport that only a fluid with inertia has: the kinetic energy; the
-/// Courant number [1]; the largest Reynolds number [1] of a particle, from its speed and its
-/// diameter; and the sum of the forces of the fluid on driven particles [M L/T^2].
 void FluidSimulation::report_inertia(Motion& motion) const {
   const auto& fluid = *setting_.fluid;
   const auto& p = state_.particles;
   auto& report = motion.fluid;
-  report.kinetic_energy = motion.quantities.kinetic_energy;
   report.courant_number = motion.quantities.courant_number;
   for (std::size_t k = 0; k < p.count(); ++k) {
     double square = 0;
     for (std::size_t d = 0; d < layout_.directions(); ++d) {
       const auto i = k * layout_.components + d;
       square += motion.kept[i] * motion.kept[i];
-      if (setting_.given_motions.contains(static_cast<std::int32_t>(k)))
+      if (!report.is_computed_again &&
+          setting_.given_motions.contains(static_cast<std::int32_t>(k)))
         report.given_force[d] += motion.quantities.fluid_forces[i];
     }
     report.reynolds_number = std::max(report.reynolds_number, fluid.density * std::sqrt(square) *

@@ -65,8 +65,9 @@ struct ForceErrors {
 ///     U^+ = U^n + (h^n/(2 h^{n-1})) (U^n - U^{n-1}).
 ///
 /// The first step computes U^1 at x^0, and moves the particles by h (U^0 + U^1)/2. The second step
-/// computes U^1 and the impulses of contacts again, at x^1. Films do not remember the impulses of
-/// the first step, because they would otherwise absorb these impulses twice.
+/// computes U^1 and all forces again, at x^1. The state and the report of the first step have no
+/// forces, impulses and dissipation, and films absorb none of its impulses, because sums over the
+/// steps would otherwise contain them twice.
 class FluidSimulation {
  public:
   /// `setting.fluid` must have a value, and `solver` must not be null; both are not checked.
@@ -146,6 +147,7 @@ class FluidSimulation {
   void estimate(const StepEquation& equation, std::span<const double> forces,
                 const HeldMotion* held, Motion& motion);
   void keep_and_extrapolate(const StepEquation& equation, Motion& motion) const;
+  /// Sets the members of FluidStepReport that only a fluid with inertia has, but the kinetic energy.
   void report_inertia(Motion& motion) const;
   ContactConditions contact_conditions(std::span<const double> free, double h) const;
   double kick_length(double h) const;
@@ -179,8 +181,9 @@ class FluidSimulation {
   FlowQuantities quantities_;
   ForceErrors force_errors_;
   std::vector<Rebound> rebounds_;
-  bool has_flow_ = false;         // the solver has kept a flow, in a fluid with inertia
-  std::vector<double> reported_;  // Motion::reported of the last step
+  bool has_flow_ = false;            // the solver has kept a flow, in a fluid with inertia
+  double first_kinetic_energy_ = 0;  // of the fluid in the flow at the start [M L^2/T^2]
+  std::vector<double> reported_;     // Motion::reported of the last step
 };
 
 }  // namespace viscontact::particles

@@ -48,10 +48,6 @@ namespace {
 constexpr const char* kRecordOf = "# record after step ";
 }  // namespace
 
-/// Adds a step to the sums and largest values. The means over time begin at `average_from` [T]; a
-/// step counts with the part of its duration that is later. A step counts as failed if its excess
-/// (largest residual over what is allowed) is above kStillAResult. Steps must come in the order of
-/// time (not checked).
 void StepTotals::add(const StepReport& report, double average_from) {
   ++steps;
   unconverged += report.converged ? 0 : 1;
@@ -76,7 +72,8 @@ void StepTotals::add(const StepReport& report, double average_from) {
   }
   const auto& fluid = report.fluid;
   fluid_seconds += fluid.seconds;
-  if (const double duration = report.time - std::max(last_time, average_from); duration > 0) {
+  if (const double duration = report.time - std::max(last_time, average_from);
+      duration > 0 && !fluid.is_computed_again) {
     averaged_time += duration;
     // This form of the mean has no rounding error if all values are equal (Welford 1962).
     const auto include = [&](double& mean, double value) {

@@ -28,6 +28,10 @@ struct RelativeErrors {
 
 /// What is recorded of one step in a fluid.
 struct FluidStepReport {
+  /// True in the first step of a fluid with inertia, whose flow the next step computes again. The
+  /// report then has no dissipation, forces and probes, and the kinetic energy of the flow at the
+  /// start.
+  bool is_computed_again = false;
   double dissipation = 0;  ///< of the flow [M L^2/T^3], in two dimensions per length [M L/T^3]
   /// Dissipation of the flow divided by the dissipation of the flow without particles [1],
   /// docs/physics.md (6.6); 0 if the latter is 0 or unknown.
@@ -42,8 +46,7 @@ struct FluidStepReport {
   /// dimensions per length [M/T^2]: components x and y; on an axis only the first, along z.
   std::array<double, 2> given_force{};
   double flow_time = 0;  ///< time of the flow that the step has computed [T]
-  /// Flow [L^2/T] and mean pressure [M/(L T^2)] of each probe of the case at flow_time; empty if
-  /// the next step computes this flow again.
+  /// Flow [L^2/T] and mean pressure [M/(L T^2)] of each probe of the case at flow_time.
   std::vector<std::array<double, 2>> probes{};
   double seconds = 0;              ///< wall time of the step: mesh, fluid solver and contacts [s]
   RelativeErrors velocity_errors;  ///< of the velocities of the particles

@@ -13,9 +13,23 @@ ExternalProgramError, all of them Error. Ctrl-C stops every call; other threads 
 long ones. docs/python.md shows how to use the module, and docs/physics.md has the equations.
 """
 
-from ._core import (Error, ExternalProgramError, Fit, InputError, NotConvergedError, PairFit,
-                    StepReport, __version__, _tabulate, fit, fit_pair, rolling, simulate,
-                    swimmer)
+import pathlib as _pathlib
+import sys as _sys
+
+try:
+    from ._core import (Error, ExternalProgramError, Fit, InputError, NotConvergedError, PairFit,
+                        StepReport, __version__, _tabulate, fit, fit_pair, rolling, simulate,
+                        swimmer)
+except ModuleNotFoundError as problem:
+    if problem.name != f"{__name__}._core":
+        raise
+    _folder = _pathlib.Path(__file__).parent
+    _built = ", ".join(sorted(file.name for file in _folder.glob("_core.*"))) or "no library"
+    raise ImportError(
+        f"{_folder} has {_built}, but this is Python {_sys.version_info.major}."
+        f"{_sys.version_info.minor} ({_sys.executable}). The module works with the Python for which "
+        "it was built: /usr/bin/python3 of Debian, unless Python3_EXECUTABLE named another one "
+        "(docs/python.md)", name=problem.name) from None
 from .columns import Columns
 from .particles import Particles
 from .results import Folder, Frames, read
@@ -25,18 +39,23 @@ __all__ = ["Columns", "Error", "ExternalProgramError", "Fit", "Folder", "Frames"
            "rolling", "simulate", "swimmer", "tabulate", "__version__"]
 
 
-def tabulate(case, output, *, jobs=0, motions=()):
+def tabulate(case, output, *, jobs=0, motions=None):
     """Tabulates the forces on a sphere with FreeFEM, as `viscontact tabulate`.
 
     case       case file with the section [tabulation] or [swimmer] (TOML)
     output     the table to be written (CSV); for several motions a folder, in which each gets
                MOTION.csv
     jobs       number of processes of FreeFEM at once; 0: one for each core
-    motions    "approach", "slide", "roll", "spin", or "all": in place of those of the case
+    motions    "approach", "slide", "roll", "spin", or "all", or a list of them; None: those of the
+               case
 
     Finished rows are kept if the call is interrupted; the same call goes on. Returns the table as
     read() does, or for several motions a dictionary of tables by their motions.
     """
-    files = _tabulate(case, output, jobs, [motions] if isinstance(motions, str) else list(motions))
+    names = [] if motions is None else [motions] if isinstance(motions, str) else list(motions)
+    if motions is not None and not names:
+        raise InputError("motions is an empty list; it must name at least one motion, or be None for "
+                         "those of the case")
+    files = _tabulate(case, output, jobs, names)
     tables = {file.stem: read(file) for file in files}
     return tables if len(tables) > 1 else next(iter(tables.values()))

@@ -236,9 +236,31 @@ mass = 2.0
             for time in 0.5 * p.time, float("nan"):
                 with self.assertRaisesRegex(viscontact.Error, "until is .* the present time"):
                     call(time)
-        with self.assertRaisesRegex(ValueError, "until is inf; it must be finite"):
-            p.run(float("inf"))
-        self.assertEqual(p.step(until=float("inf")).parts, 1)
+
+    def test_no_step_goes_beyond_the_end_of_the_case(self):
+        # The force ends with the case. A step beyond it would take it as 0: the disc would keep its
+        # velocity.
+        force = "force = [ { until = 0.055, value = [1.0, 0.0] } ]"
+        for dimension in 2, 3:
+            text = falling(dimension, force.replace("0.0]", "0.0, 0.0]" if dimension == 3 else "0.0]"))
+            text = text.replace("end_time = 3.0", "end_time = 0.055")
+            p = self.open(text)
+            for until in 0.0551, 3.0, float("inf"):
+                with self.assertRaisesRegex(viscontact.InputError, "until is .* end_time"):
+                    p.run(until)
+            self.assertEqual(p.steps, 0)
+            while not p.finished:
+                p.step(until=float("inf"))  # the last step is cut
+            self.assertEqual((p.steps, p.time), (6, 0.055))
+            velocity = p.velocities.copy()
+            for call in p.step, lambda: p.step(1.0), lambda: p.run(1.0):
+                with self.assertRaisesRegex(viscontact.InputError, "end_time"):
+                    call()
+            self.assertEqual((p.step(until=0.055).time, p.steps), (0.055, 6))
+            np.testing.assert_array_equal(p.velocities, velocity)
+            whole = self.open(text)
+            whole.run()
+            np.testing.assert_array_equal(whole.positions, p.positions)
 
     def test_calls_from_other_threads_are_refused_during_steps(self):
         p = self.open(falling().replace("time_step = 0.01", "time_step = 1e-5"))

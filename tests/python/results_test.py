@@ -19,6 +19,27 @@ from cases import DATA, SOURCE
 PROGRAM = os.environ["VISCONTACT_PROGRAM"]
 
 
+class OtherPythonTest(unittest.TestCase):
+    def test_a_library_for_another_python_is_named(self):
+        package = pathlib.Path(viscontact.__file__).parent
+        with tempfile.TemporaryDirectory() as folder:
+            copy = pathlib.Path(folder) / "viscontact"
+            copy.mkdir()
+            for file in package.glob("*.py"):
+                (copy / file.name).write_bytes(file.read_bytes())
+            for library in "_core.cpython-39-x86_64-linux-gnu.so", None:
+                if library:
+                    (copy / library).touch()
+                done = subprocess.run([sys.executable, "-c", "import viscontact"], cwd=folder,
+                                      env={**os.environ, "PYTHONPATH": folder},
+                                      capture_output=True, text=True)
+                self.assertEqual(done.returncode, 1)
+                self.assertIn(f"ImportError: {copy} has {library or 'no library'}", done.stderr)
+                self.assertIn(sys.executable, done.stderr)
+                if library:
+                    (copy / library).unlink()
+
+
 class ReadTest(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -152,6 +173,9 @@ class CallsTest(unittest.TestCase):
         text = (DATA / "cases/lecture.toml").read_text()
         case.write_text(text.replace('{ from = 1e-3, to = 2.0, count = 40, spacing = "log" }',
                                      "[0.5, 1.0]").replace("1e-5", "1e-3"))
+        for none in [], ():
+            with self.assertRaisesRegex(viscontact.InputError, "motions is an empty list"):
+                viscontact.tabulate(case, self.folder / "table.csv", motions=none)
         table = viscontact.tabulate(case, self.folder / "table.csv", jobs=1)
         np.testing.assert_array_equal(table.gap, [0.5, 1.0])
         shipped = viscontact.Fit(DATA / "fits/lecture.json")

@@ -50,6 +50,8 @@ class SimulateTest(unittest.TestCase):
             viscontact.simulate(LECTURE)
         with self.assertRaisesRegex(viscontact.InputError, "no model is named 'x'"):
             viscontact.simulate(LECTURE, FIT, models=["x"])
+        with self.assertRaisesRegex(viscontact.InputError, "models is an empty list"):
+            viscontact.simulate(LECTURE, FIT, models=[])
         with self.assertRaises(TypeError):
             viscontact.simulate(LECTURE, 3)
 
@@ -71,6 +73,8 @@ class RollingTest(unittest.TestCase):
         self.assertEqual(motion.about["smallest_gap"], motion.gap.min())
         with self.assertRaisesRegex(viscontact.InputError, "no model is named"):
             viscontact.rolling(INCLINE, models=["x"])
+        with self.assertRaisesRegex(viscontact.InputError, "models is an empty list"):
+            viscontact.rolling(INCLINE, models=[])
 
 
 class SwimmerTest(unittest.TestCase):

@@ -53,6 +53,106 @@ TEST(Channel, WithParabolasAtBothEndsIsPoiseuilleFlow) {
   EXPECT_NEAR(flow.solver().quantities().dissipation, 256.0 / 3, 1e2 * kRounding);
 }
 
+TEST(Channel, WithAPressureGradientIsPoiseuilleFlow) {
+  // Periodic along x or y, in other units: u = G/(2 mu) (1 - s^2) at the distance s from the middle.
+  for (const std::size_t d : {0U, 1U})
+    for (const double unit : {1.0, 1e-5}) {
+      auto fluid = fluid_with(12);
+      fluid.pressure_gradient[d] = -3 / unit;
+      const std::array middle = {7 * unit, -2 * unit};
+      BoxDomain box;
+      for (const std::size_t e : {0U, 1U}) {
+        const double half = (e == d ? 2 : 1) * unit;
+        box.from[e] = middle[e] - half;
+        box.to[e] = middle[e] + half;
+      }
+      box.periodic[d] = true;
+      auto& probe = fluid.probes.emplace_back();
+      probe.name = "across";
+      probe.from = probe.to = middle;
+      probe.from[1 - d] = d == 0 ? box.from[1] : box.to[0];
+      probe.to[1 - d] = d == 0 ? box.to[1] : box.from[0];
+      PlacedFlow flow(fluid, box, {});
+      flow.velocities();
+      const auto field = flow.solver().flow();
+      ASSERT_FALSE(field.x.empty());
+      for (std::size_t i = 0; i < field.x.size(); ++i) {
+        const double s = ((d == 0 ? field.y[i] : field.x[i]) - middle[1 - d]) / unit;
+        const auto& along = d == 0 ? field.velocity_x : field.velocity_y;
+        const auto& across = d == 0 ? field.velocity_y : field.velocity_x;
+        EXPECT_NEAR(along[i] / unit, 1.5 * (1 - s * s), kRounding);
+        EXPECT_NEAR(across[i] / unit, 0, kRounding);
+        EXPECT_NEAR(field.pressure[i], field.pressure[0], 1e3 * kRounding);
+      }
+      const auto quantities = flow.solver().quantities();
+      EXPECT_NEAR(quantities.dissipation / (unit * unit), 3 * 2 * 4, 1e2 * kRounding);
+      EXPECT_NEAR(quantities.probes.at(0)[0] / (unit * unit), 2, 10 * kRounding);
+      EXPECT_EQ(quantities.apparent_viscosity, 0);
+    }
+}
+
+TEST(Channel, WithAPressureGradientCarriesParticles) {
+  constexpr double kRadius = 0.05, kGradient = 3, kLength = 4;
+  auto fluid = fluid_with(12);
+  fluid.pressure_gradient = {-kGradient, 0};
+  fluid.probes = {{"across", {0.5, -1}, {0.5, 1}}};
+  const BoxDomain box{{0, -1}, {kLength, 1}, {true, false}};
+  for (const auto constraint : kConstraints) {
+    fluid.constraint = constraint;
+    PlacedFlow free(fluid, box, {{2, 0.3, kRadius}});
+    const auto motion = free.velocities();
+    // Faxen's law in the plane: U = u + r^2/4 div grad u. The walls reflect the flow around the disc,
+    // which changes U by a part of r^2 du/dy, and by r^4 in the middle.
+    const double faxen = -kRadius * kRadius / 4 * kGradient;
+    EXPECT_NEAR(motion[0], 1.5 * (1 - 0.09) + faxen, 2e-3);
+    PlacedFlow middle(fluid, box, {{2, 0, kRadius}});
+    EXPECT_NEAR(middle.velocities()[0], 1.5 + faxen, 2e-4);
+    EXPECT_NEAR(motion[1], 0, 2e-4);
+    EXPECT_NEAR(motion[2], 1.5 * 0.3, 2e-3);
+    for (const double force : free.solver().quantities().fluid_forces) EXPECT_EQ(force, 0);
+    // The gradient gives the whole power. The flow past a fixed disc exerts a force on it.
+    PlacedFlow fixed(fluid, box, {{2, 0.3, kRadius}}, {{0, {}}});
+    fixed.velocities();
+    const auto quantities = fixed.solver().quantities();
+    const double power = kGradient * kLength * quantities.probes.at(0)[0];
+    EXPECT_NEAR(quantities.dissipation, power, 1e-3 * power);
+    EXPECT_LT(power, 0.9 * kGradient * kLength * 2);
+    EXPECT_GT(quantities.fluid_forces.at(0), 0);
+    // A disc that is driven with the velocity of the free one feels no force.
+    PlacedFlow driven(fluid, box, {{2, 0.3, kRadius}}, {{0, {motion[0], motion[1], motion[2]}}});
+    driven.velocities();
+    EXPECT_NEAR(driven.solver().quantities().fluid_forces.at(0), 0,
+                1e-5 * quantities.fluid_forces.at(0));
+  }
+}
+
+TEST(Channel, WithAPressureGradientAndAnOpenEndIsPoiseuilleFlowAwayFromTheEnds) {
+  auto fluid = fluid_with(12);
+  fluid.pressure_gradient = {-3, 0};
+  const WallVelocity open{WallVelocity::Kind::kOpen, {}};
+  fluid.boundary = SideVelocities{open, open, {}, {}};
+  PlacedFlow flow(fluid, BoxDomain{{0, -1}, {8, 1}, {}}, {});
+  flow.velocities();
+  const auto field = flow.solver().flow();
+  // Near its ends, where no shear stress acts, the flow has less resistance than between long walls.
+  double all = 0, share = 0;
+  for (std::size_t i = 0; i < field.x.size(); ++i)
+    if (std::abs(field.x[i] - 4) <= 1 && std::abs(field.y[i]) < 0.5) {
+      all += 1;
+      share += field.velocity_x[i] / (1.5 * (1 - field.y[i] * field.y[i]));
+    }
+  ASSERT_GT(all, 0);
+  share /= all;
+  EXPECT_GT(share, 1);
+  EXPECT_LT(share, 8 / (8 - 0.5));  // a quarter of the width at each end
+  for (std::size_t i = 0; i < field.x.size(); ++i) {
+    if (std::abs(field.x[i] - 4) > 1) continue;
+    // Of the difference near the ends exp(-4.2 x/H) is left (Moffatt 1964).
+    EXPECT_NEAR(field.velocity_x[i], share * 1.5 * (1 - field.y[i] * field.y[i]), 5e-3);
+    EXPECT_NEAR(field.velocity_y[i], 0, 5e-3);
+  }
+}
+
 TEST(Channel, WithAnOpenEndIsPoiseuilleFlowAwayFromIt) {
   // The shear stress of Poiseuille flow is not 0, as that of an open end, so that the flow differs
   // near the end; exp(-4.2 x/H) of the difference is left at a distance x (Moffatt 1964).

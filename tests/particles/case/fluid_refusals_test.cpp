@@ -107,6 +107,23 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"OwnSolverWithInertia", kDiscsInDisc, "viscosity = 2.0",
                 "viscosity = 2.0\ndensity = 1.0\nsolver = [\"true\"]", "solver",
                 "which computes Stokes flow; it must be left out if fluid.density is > 0"},
+        in_fluid("GradientInADisc", kDiscsInDisc, "pressure_gradient = [1.0, 0.0]",
+                 "fluid.pressure_gradient has no effect in a closed disc"),
+        in_fluid("GradientInACylinder", kSpheresOnAxis, "pressure_gradient = [1.0, 0.0]",
+                 "fluid.pressure_gradient has no effect in a closed cylinder"),
+        in_fluid("GradientInAClosedBox", kDiscsInBox, "pressure_gradient = [1.5, 0.0]",
+                 "fluid.pressure_gradient is 1.5 along x, where it has no effect"),
+        Refusal{"GradientInACellOfStokesFlow", kDiscsInBox,
+                "viscosity = 2.0\n[domain]\nbox = { from = [0.0, 0.0], to = [2.0, 6.0] }",
+                "viscosity = 2.0\npressure_gradient = [1.5, 0.0]\n[domain]\nbox = { from = [0.0, "
+                "0.0], to = [2.0, 6.0], periodic = [true, true] }",
+                "pressure_gradient", "has no effect on Stokes flow in a box that is periodic both"},
+        in_fluid("GradientThatPulsatesInStokesFlow", kDiscsInBox,
+                 "pressure_gradient = { value = [1.0, 0.0], period = 1.0, amplitude = 0.5 }",
+                 "depends on time, which Stokes flow does not know"),
+        in_fluid("GradientAndOwnSolver", kDiscsInBox,
+                 "pressure_gradient = [1.0, 0.0]\nsolver = [\"true\"]",
+                 "is not known to fluid.solver"),
         in_fluid("PeriodOfStokesFlow", kDiscsInBox,
                  "velocity = { left = { parabolic = 1.0, period = 2.0 }, right = \"open\" }",
                  "depends on time, which Stokes flow does not know"),
@@ -476,7 +493,16 @@ TEST(RefusedFluidTest, ProbesThatDoNotGoFromWallToWall) {
   expect_refused_at(with("a", "[0.5, 0.1]", "[0.5, 6.0]"), "from = [0.5, 0.1]",
                     "probe[0].from is (0.5, 0.1), which is on no wall of the box");
   expect_refused_at(with("a", "[0.5, 0.0]", "[0.7, 0.0]"), "to = [0.7, 0.0]",
-                    "probe[0].to is on the same wall as from");
+                    "probe[0].to is (0.7, 0), on the same wall as from");
+  // From corner to corner along each wall, and from a wall to its end.
+  for (const auto& [from, to] : {std::pair("[0.0, 0.0]", "[2.0, 0.0]"),
+                                 {"[2.0, 0.0]", "[2.0, 6.0]"},
+                                 {"[2.0, 6.0]", "[0.0, 6.0]"},
+                                 {"[0.0, 6.0]", "[0.0, 0.0]"},
+                                 {"[0.0, 3.0]", "[0.0, 6.0]"},
+                                 {"[0.5, 0.5]", "[0.5, 0.5]"}})
+    EXPECT_ANY_THROW((void)read_particles_text(with("a", from, to))) << from << to;
+  EXPECT_NO_THROW((void)read_particles_text(with("a", "[0.0, 0.0]", "[2.0, 6.0]")));
   expect_refused_at(with("a", "[0.5, 0.0]", "[0.5, 6.0]") +
                         "[[probe]]\nname = \"a\"\nfrom = [0.6, 0.0]\nto = [0.6, 6.0]\n",
                     "name = \"a\"\nfrom = [0.6", "is 'a', the name of another probe");

@@ -115,13 +115,28 @@ TEST(ParticlesCase, DensityGivesTheMassOfADiscWithoutAFluid) {
 
 TEST(FluidCase, ReadsAGradientThatPulsates) {
   const auto c = read_particles_text(
-      changed(changed(kDiscsInBox, "viscosity = 2.0",
+      changed(changed(changed(kDiscsInBox, "6.0] }", "6.0], periodic = [true, true] }"),
+                      "viscosity = 2.0",
                       "viscosity = 2.0\ndensity = 1.0\npressure_gradient = { value = [2.0, -1.0], "
                       "period = 4.0, amplitude = 0.5 }"),
               "radius = 0.25\n[[particle]]", "radius = 0.25\ndensity = 4.0\n[[particle]]") +
       "density = 2.0\n");
   EXPECT_THAT(c.setting.fluid->pressure_gradient_at(0), ElementsAre(2, -1));
   EXPECT_THAT(c.setting.fluid->pressure_gradient_at(1), ElementsAre(3, -1.5));
+}
+
+TEST(FluidCase, ReadsAGradientOfStokesFlowAlongAPeriodAndBesideAnOpenSide) {
+  for (const auto& [periodic, gradient, velocity] :
+       {std::array{"true, false", "[-3.0, 0.0]", ""},
+        {"false, true", "[0.0, 2.0]", ""},
+        {"false, false", "[1.0, 2.0]", "velocity = { left = \"open\" }\n"},
+        {"true, false", "[1.0, 2.0]", "velocity = { top = \"open\" }\n"},
+        {"false, false", "[0.0, 0.0]", ""}})
+    EXPECT_NO_THROW((void)read_particles_text(changed(
+        changed(kDiscsInBox, "6.0] }", std::string("6.0], periodic = [") + periodic + "] }"),
+        "viscosity = 2.0",
+        std::string("viscosity = 2.0\n") + velocity + "pressure_gradient = " + gradient)))
+        << periodic << gradient;
 }
 
 TEST(FluidCase, ReadsPlatesAndProbes) {

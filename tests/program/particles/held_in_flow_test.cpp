@@ -83,7 +83,7 @@ TEST_F(HeldInFlow, APendulumFallsAndLosesEnergyToTheFluid) {
     const double energy = kInertia * spin[n] * spin[n] / 2 + of_fluid[n] + dissipated;
     // The fluid is set in motion at once, which the first steps do not resolve.
     if (n <= 5) continue;
-    EXPECT_NEAR(energy / (-2 * kArea * (4 - 1) * 10 * y[n]), 1, 3e-3) << n;
+    EXPECT_NEAR(energy / (-2 * kArea * (4 - 1) * 10 * y[n]), 1, 5e-3) << n;
   }
   pendulum.every = 1;
   pendulum.time_step /= 2;
