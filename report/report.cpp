@@ -400,7 +400,8 @@ std::string summary(const results::RunResults& run) {
 
 /// All sections of the page (HTML) below the warnings. A section without content is left out.
 std::string sections_of(const results::RunResults& run, const Report& report) {
-  return section("Models", models_table(run) + report.figures({"thinnest_film"})) +
+  return section("Models",
+                 models_table(run) + gap_times_table(run) + report.figures({"thinnest_film"})) +
          section("Trajectories", report.figures({"gap", "gap_logarithmic", "lubrication_force",
                                                  "external_force"})) +
          section("Contact", report.figures({"gamma", "solid_force"})) +
