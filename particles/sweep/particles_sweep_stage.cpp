@@ -147,14 +147,16 @@ StepCost cost_of_steps(const ParticlesCase& c, const StartFluidSolver& start_sol
   return cost;
 }
 
-/// Moves `state` on to `time` [T] or, if that takes more than about four seconds, not so far. The
-/// steps are longer than those of the case, because only the kind of the motion matters. A step that
-/// cannot be computed ends this.
+/// Moves `state` on to `time` [T] or, if that takes more than about four seconds, not so far: a fall
+/// without contacts takes little time. The steps are longer than those of the case, because only the
+/// kind of the motion matters. A step that cannot be computed ends this.
 void move_on_roughly(const ParticlesCase& c, const StartFluidSolver& start_solver,
                      const StopToken& stop, double time, State& state) {
-  constexpr double kLongest = 4, kSteps = 100;  // [s], steps of a whole motion: free choices
+  // Seconds, and how many times as long a step is: free choices. A much longer step may take
+  // minutes, because many particles meet in it.
+  constexpr double kLongest = 4, kLonger = 4;
   auto setting = c.setting;
-  setting.time_step = std::max(setting.time_step, c.end_time / kSteps);
+  setting.time_step *= kLonger;
   const auto start = std::chrono::steady_clock::now();
   ParticleSimulation simulation(setting, std::move(state), 1, start_solver, stop);
   try {
