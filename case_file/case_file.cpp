@@ -177,6 +177,16 @@ void read_forces(const TomlSection& section, std::string_view key, Motion& motio
   for (const auto& summand : summands) motion.external_force += summand;
 }
 
+/// Reads a list of different gaps > 0.
+void read_gaps_to_reach(const TomlSection& section, std::string_view key, Motion& motion) {
+  motion.gaps_to_reach = section.numbers(key, kPositive);
+  auto sorted = motion.gaps_to_reach;
+  std::ranges::sort(sorted);
+  const auto twice = std::ranges::adjacent_find(sorted);
+  section.require(twice == sorted.end(), key, "has the gap {} twice; each gap may occur once",
+                  twice == sorted.end() ? 0 : *twice);
+}
+
 /// A list of names of models. Reading throws Error(kBadInput) if one of them is not the name of a
 /// model.
 auto models(std::vector<std::string>& place) {
@@ -217,6 +227,12 @@ void motion_keys(Keys& keys, Case& c, Motion& motion, double& time_scale) {
        "required without `gravity`",
        {},
        "[ { until = 2.0, value = -200.0 }, { until = 4.0, value = 200.0 } ]"});
+  keys.optional("time_to_gap", custom("list of numbers > 0", read_gaps_to_reach, motion),
+                {"gaps for each of which `compare` says when a model [first reaches "
+                 "it](file-formats.md#time-to-a-gap)",
+                 "none",
+                 {},
+                 "[1e-3, 1e-5]"});
   keys.optional("models", models(c.models),
                 {"the models that are run",
                  "the first six of `viscontact simulate --help`",

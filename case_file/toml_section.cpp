@@ -17,6 +17,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/common/text/utf16.hpp"
 
 namespace viscontact::case_file {
 
@@ -146,6 +147,7 @@ TomlSection::TomlSection(Node node) : node_(std::make_shared<Node>(std::move(nod
 /// The root table of a TOML text; messages call it `file`. Throws Error(kBadInput) with the line if
 /// the text is not valid TOML, or by check_dotted_keys().
 TomlSection TomlSection::parse(const std::string& text, const std::string& file) {
+  refuse_utf16(text, file);
   check_dotted_keys(text, file);
   try {
     auto root = std::make_shared<const toml::table>(toml::parse(text, file));

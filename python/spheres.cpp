@@ -104,6 +104,10 @@ py::object columns_of(const reduced_model::Trajectory& trajectory) {
   about["contact_interval"] = or_none(trajectory.contact_interval);
   about["solid_contact_from"] =
       trajectory.solid_contact_from ? py::cast(trajectory.solid_contact_from->time) : py::none();
+  py::list gap_times;
+  for (const auto& of : trajectory.gap_times)
+    gap_times.append(py::make_tuple(of.gap, or_none(of.time)));
+  about["time_to_gap"] = gap_times;
   if (trajectory.budget)
     for (const auto& entry : reduced_model::kBudgetEntries)
       about[py::str(std::string(entry.name))] = (*trajectory.budget).*entry.value;
@@ -317,7 +321,8 @@ lubrication_force, external_force   (R,) [M L/T^2]
 gamma, solid_force                  (R,) [M L/T], [M L/T^2]
 
 NaN stands where a model has no such number. Its `about` has model, steps, seconds,
-recovered_minimal_gap, contact_interval, solid_contact_from, rebounds, and the impulses and works of
+recovered_minimal_gap, contact_interval, solid_contact_from, time_to_gap (pairs of a gap and its
+first time), rebounds, and the impulses and works of
 the budget. No file is written.)",
              py::arg("case"), py::arg("fit") = py::none(), py::kw_only(),
              py::arg("models") = py::none(), py::arg("values") = Numbers());

@@ -139,6 +139,7 @@ Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
     result.recovered_minimal_gap = trajectory.recovered_minimal_gap;
     result.contact_interval = contact_interval(trajectory);
     result.solid_contact_from = trajectory.solid_contact_from;
+    result.gap_times = trajectory.gap_times;
     result.rebounds = trajectory.rebounds;
     result.budget = trajectory.budget;
     result.steps = trajectory.steps;
@@ -156,6 +157,11 @@ Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
 void fields_of(JsonFields& json, SolidTouch& touch) {
   json("time", touch.time);
   json("velocity", touch.velocity);
+}
+
+void fields_of(JsonFields& json, GapTime& of) {
+  json("gap", of.gap);
+  json("time", of.time);
 }
 
 void fields_of(JsonFields& json, Rebound& rebound) {
@@ -176,6 +182,7 @@ void fields_of(JsonFields& json, ModelComparison& model) {
   json("recovered_minimal_gap", model.recovered_minimal_gap);
   json("contact_interval", model.contact_interval);
   json("solid_contact_from", model.solid_contact_from, Absence::kAllowed);
+  json("time_to_gap", model.gap_times, Absence::kLeftOutIfEmpty);
   json("rebounds", model.rebounds, Absence::kAllowed);
   json("sup_gap_distance", model.sup_gap_distance);
   json("l1_gap_distance", model.l1_gap_distance);

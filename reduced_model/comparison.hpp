@@ -34,6 +34,8 @@ struct ModelComparison {
   /// When the solids touch for the first time; nothing if they never do, or if the model has no
   /// solids.
   std::optional<SolidTouch> solid_contact_from{};
+  /// When each gap that the case asks for (motion.time_to_gap) is first reached.
+  std::vector<GapTime> gap_times{};
   /// Impacts of the sphere on the solid wall, in order of time; only if the case has a restitution.
   std::vector<Rebound> rebounds;
   /// Impulse and work of each force; nothing in a trajectory that Viscontact did not write.

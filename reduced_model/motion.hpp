@@ -36,6 +36,8 @@ struct Motion {
   /// parameter() reads them.
   std::map<std::string_view, double> parameters{};
 
+  /// Gaps [L], > 0, for each of which a trajectory says when it is first reached.
+  std::vector<double> gaps_to_reach{};
   /// Approximate number of rows of a trajectory file (fewer_rows()), >= 2; with 0 all rows are
   /// written.
   int output_rows = 0;

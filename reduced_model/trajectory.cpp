@@ -44,6 +44,32 @@ long steps_of(const CsvComments& comments, const std::string& file) {
   return static_cast<long>(steps);
 }
 
+/// A gap [L] and its time [T], or "never", for each gap; separated by "; ".
+std::string write_gap_times(const std::vector<GapTime>& times) {
+  std::string text;
+  for (const auto& of : times)
+    text += fmt::format("{}{} {}", text.empty() ? "" : "; ", format_number(of.gap),
+                        of.time ? format_number(*of.time) : "never");
+  return text;
+}
+
+/// The opposite of write_gap_times(). Throws Error(kBadInput) for another text.
+std::vector<GapTime> read_gap_times(const std::string& text, const FilePosition& file) {
+  std::vector<GapTime> times;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, ';');) {
+    std::istringstream words(part);
+    std::string gap, time;
+    words >> gap >> time;
+    const auto number = parse_number(gap), at = parse_number(time);
+    if (!number || (!at && time != "never"))
+      throw_bad_input(file, "time_to_gap in its head has '{}'; it must be a gap and its time",
+                      part);
+    times.push_back({*number, at});
+  }
+  return times;
+}
+
 /// The rebounds as text. A rebound is five numbers, separated by blanks: time [T], velocity of
 /// approach [L/T], impulse of the solids [M L/T], velocity of rebound [L/T] and coefficient of
 /// restitution [1]. Rebounds are separated by "; ".
@@ -103,6 +129,7 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
     trajectory.contact_interval = {*from, csv_comment_number(csv.comments, kContactKeys[1], file)};
   if (const auto from = take_number(kSolidKeys[0]))
     trajectory.solid_contact_from = {*from, csv_comment_number(csv.comments, kSolidKeys[1], file)};
+  if (const auto times = take("time_to_gap")) trajectory.gap_times = read_gap_times(*times, {file});
   if (const auto rebounds = take("rebounds"))
     trajectory.rebounds = read_rebounds(*rebounds, {file});
   for (const auto& entry : kBudgetEntries)
@@ -153,6 +180,8 @@ std::string write_trajectory(const Trajectory& trajectory) {
     comments[kSolidKeys[0]] = format_number(touch->time);
     comments[kSolidKeys[1]] = format_number(touch->velocity);
   }
+  if (!trajectory.gap_times.empty())
+    comments["time_to_gap"] = write_gap_times(trajectory.gap_times);
   if (!trajectory.rebounds.empty()) comments["rebounds"] = write_rebounds(trajectory.rebounds);
   if (trajectory.budget)
     for (const auto& entry : kBudgetEntries)

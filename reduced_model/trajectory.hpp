@@ -20,6 +20,8 @@
 #include <string_view>
 #include <vector>
 
+#include "viscontact/reduced_model/gap_time.hpp"
+
 namespace viscontact::reduced_model {
 
 /// Like std::optional<double>, but no larger than a double, because millions of rows store several
@@ -152,6 +154,8 @@ struct Trajectory {
   std::optional<std::array<double, 2>> contact_interval;
   /// The first touch of the solids; nothing if they never touch or if the model has no solids.
   std::optional<SolidTouch> solid_contact_from{};
+  /// For each gap of Motion::gaps_to_reach, when it is first reached.
+  std::vector<GapTime> gap_times{};
   /// Impacts on the solids in order of time; only if the case has a restitution.
   std::vector<Rebound> rebounds;
   /// The budget; nothing if the file of the trajectory has no line of it.

@@ -21,6 +21,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/on_one_line.hpp"
 #include "viscontact/report/pictures/gnuplot.hpp"
+#include "viscontact/report/pictures/pdf.hpp"
 #include "viscontact/results/foreign_files.hpp"
 #include "viscontact/terminal/progress.hpp"
 
@@ -383,6 +384,7 @@ void Report::write(std::string_view title, const std::string& opening, const std
           uplot_script(), report_script());
   for (const auto& [plot, svg] : figures_)
     if (!svg.empty()) results::write_output(run_.plot(plot.name), TextKind::kSvg, svg, provenance);
+  for (const auto name : names_) remove_pdf_of(run_.plot(std::string(name)));
   results::write_output(run_.report(), TextKind::kHtml, page, provenance);
   for (const auto name : names_)
     if (std::ranges::none_of(figures_, [&](const Figure& figure) {

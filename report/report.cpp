@@ -178,6 +178,21 @@ std::string models_table(const results::RunResults& run) {
                                        "; each model's name leads to its trajectory");
 }
 
+/// The times at which each model first reaches the gaps that the case asks for; empty if it asks
+/// for none.
+std::string gap_times_table(const results::RunResults& run) {
+  std::string rows;
+  for (const auto& model : run.comparison.models)
+    for (const auto& of : model.gap_times)
+      rows += table_row(model_link(run, model.model), fmt::format("{:.6g}", of.gap),
+                        of.time ? fmt::format("{:.8g}", *of.time) : "never");
+  if (rows.empty()) return "";
+  return table_of(rows, headings({"model", "gap" + in_brackets(run, 0, 1, 0),
+                                  "first reached at time" + in_brackets(run, 0, 0, 1)})) +
+         source(link_to(run.folder, "comparison.json") +
+                ". In contact, the gap of a contact model is the film from gamma");
+}
+
 /// The impacts of the sphere on the plane in each model with rebounds; empty if there are none.
 std::string rebounds_table(const results::RunResults& run) {
   std::string rows;
@@ -385,7 +400,8 @@ std::string summary(const results::RunResults& run) {
 
 /// All sections of the page (HTML) below the warnings. A section without content is left out.
 std::string sections_of(const results::RunResults& run, const Report& report) {
-  return section("Models", models_table(run) + report.figures({"thinnest_film"})) +
+  return section("Models",
+                 models_table(run) + gap_times_table(run) + report.figures({"thinnest_film"})) +
          section("Trajectories", report.figures({"gap", "gap_logarithmic", "lubrication_force",
                                                  "external_force"})) +
          section("Contact", report.figures({"gamma", "solid_force"})) +

@@ -182,7 +182,7 @@ Plot plot_gaps_logarithmic(const std::vector<reduced_model::Trajectory>& traject
 /// the external force and the forces of models without contact; larger forces of contact models are
 /// cut off.
 Plot plot_lubrication_force(const std::vector<reduced_model::Trajectory>& trajectories) {
-  PlotPanel panel{"Lubrication force: that of the fluid on the sphere, > 0 away from the wall",
+  PlotPanel panel{"Force of the fluid on the sphere, > 0 away from the wall",
                   {"time t"},
                   {"lubrication force"},
                   {}};
@@ -208,7 +208,7 @@ Plot plot_lubrication_force(const std::vector<reduced_model::Trajectory>& trajec
   }
   for (const auto& curve : panel.curves)
     for (const auto& [time, force] : curve.points) is_cut = is_cut || force < low || force > high;
-  if (is_cut) panel.title += "; impacts of contact models are cut off";
+  if (is_cut) panel.title += "; impacts are cut off";
   const double margin = 0.1 * (high - low);
   if (margin > 0) {
     panel.y.low = low - margin;

@@ -148,6 +148,24 @@ std::string plot_bases(const lubrication::MotionTable& table,
   return draw_picture(format, {panel}, 860, 520, stop);  // [pixels], free choices
 }
 
+/// A line for each model with the times at which it first reaches the gaps of the case; empty if
+/// there are none. Names of models are `width` characters wide.
+std::string gap_time_table(const reduced_model::Comparison& comparison, std::size_t width) {
+  if (comparison.models.empty() || comparison.models.front().gap_times.empty()) return "";
+  constexpr std::string_view kCell = " {:>16}";
+  std::string text = fmt::format("{:<{}}", "time at which the gap first is", width);
+  for (const auto& of : comparison.models.front().gap_times)
+    text += fmt::format(kCell, fmt::format("{:.6g}", of.gap));
+  text += "\n";
+  for (const auto& model : comparison.models) {
+    text += fmt::format("{:<{}}", model.model, width);
+    for (const auto& of : model.gap_times)
+      text += fmt::format(kCell, of.time ? fmt::format("{:.8g}", *of.time) : "never");
+    text += "\n";
+  }
+  return text;
+}
+
 /// A table for the terminal with a line for each model: smallest gap [L] and its time [T], film
 /// recovered from gamma [L], interval of contact [T], and largest distance of the gap from that of
 /// the reference [L]; if solids touch in a model, also the time [T] and the velocity [L/T] of that.
@@ -180,6 +198,7 @@ std::string comparison_table(const reduced_model::Comparison& comparison) {
     text += solid_columns(touch ? fmt::format("{:.6g}", touch->time) : "-",
                           touch ? fmt::format("{:.4g}", touch->velocity) : "-");
   }
+  text += gap_time_table(comparison, width);
   for (const auto& failed : comparison.failed_models)
     text += fmt::format("{:<{}} failed: {}\n", failed.model, width, failed.reason);
   if (!comparison.units.empty()) text += fmt::format("units: {}\n", comparison.units);

@@ -40,12 +40,15 @@ double thinnest(const reduced_model::ModelComparison& model) {
   return model.recovered_minimal_gap.value_or(model.minimal_gap);
 }
 
+/// The column, after "MODEL.", of the time at which a gap [L] is first reached.
+std::string column_of_gap(double gap) { return "time_to_gap_" + format_number(gap); }
+
 /// Adds the results of a model to the row. If there is no `reference` (null), the model has no
 /// distances and no film_ratio. If the film of the reference is 0, the ratio is not finite, and its
 /// field is empty.
 void add_model(const reduced_model::ModelComparison& model,
                const reduced_model::ModelComparison* reference, RowResults& results) {
-  const auto put = [&](const char* column, double value) {
+  const auto put = [&](std::string_view column, double value) {
     results.values[fmt::format("{}.{}", model.model, column)] = value;
   };
   put("minimal_gap", model.minimal_gap);
@@ -62,6 +65,8 @@ void add_model(const reduced_model::ModelComparison& model,
     put("film_ratio", thinnest(model) / thinnest(*reference));
   }
   results.numbers[model.model + ".steps"] = model.steps;
+  for (const auto& of : model.gap_times)
+    if (of.time) put(column_of_gap(of.gap), *of.time);
   if (const auto& touch = model.solid_contact_from) {
     put("solid_contact_from", touch->time);
     put("solid_contact_velocity", touch->velocity);
@@ -81,6 +86,11 @@ void refuse_unread(const std::string& key) {
                 "of [{}] and [{}]",
                 key, fmt::join(sections, "], ["), last);
   }
+  if (key.starts_with("motion.time_to_gap"))
+    throw Error(ErrorKind::kWrongUsage,
+                "{} cannot be varied, because its gaps name columns of the sweep; list all gaps in "
+                "motion.time_to_gap",
+                key);
   if (key == "motion.rows")
     throw Error(ErrorKind::kWrongUsage,
                 "motion.rows cannot be varied, because it changes only files of trajectories, "
@@ -220,11 +230,13 @@ Study sphere_study(SpherePlan plan, const std::string& version) {
   for (const auto& model : plan.models)
     for (const auto* column : kModelColumns)
       study.results.push_back(fmt::format("{}.{}", model, column));
-  study.comments = head_of("sweep", cases.text(), plan.points, identity_of(plan), version);
+  for (const auto& model : plan.models)
+    for (const double gap : case_file::required_motion(last).gaps_to_reach)
+      study.results.push_back(fmt::format("{}.{}", model, column_of_gap(gap)));
+  study.comments = head_of("sweep", cases.text(), plan.points, identity_of(plan), version,
+                           case_file::read_case(plan.case_path).units);
   study.comments["fit"] = sha256(lubrication::write_fit(plan.fit));
   study.comments["reference"] = plan.reference;
-  if (const auto c = case_file::read_case(plan.case_path); c.units.are_said())
-    study.comments["units"] = c.units.words();
   study.comments["revision of the models"] = std::to_string(reduced_model::kModelsRevision);
   study.run = [cases, plan = std::move(plan)](std::uint64_t index, const StopToken& stop) {
     RowResults results;

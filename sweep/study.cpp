@@ -110,12 +110,14 @@ std::string Study::row(std::uint64_t index, const StopToken& stop) const {
 /// that determines the rows.
 std::map<std::string, std::string> head_of(const std::string& kind, const std::string& case_text,
                                            const Points& points, const std::string& identity,
-                                           const std::string& version) {
-  return {{"viscontact", kind},
-          {"case", sha256(case_text)},
-          {"rows", std::to_string(points.rows())},
-          {"sweep", sha256(identity)},
-          {"version of Viscontact", version}};
+                                           const std::string& version, const Units& units) {
+  std::map<std::string, std::string> head = {{"viscontact", kind},
+                                             {"case", sha256(case_text)},
+                                             {"rows", std::to_string(points.rows())},
+                                             {"sweep", sha256(identity)},
+                                             {"version of Viscontact", version}};
+  if (units.are_said()) head["units"] = units.words();
+  return head;
 }
 
 void refuse_doubles(const std::vector<std::string>& names, std::string_view kind) {

@@ -20,6 +20,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/stop_token.hpp"
+#include "viscontact/common/text/units.hpp"
 #include "viscontact/sweep/variation.hpp"
 
 namespace viscontact::sweep {
@@ -65,12 +66,13 @@ struct Study {
 };
 
 /// The comments that every study has: its kind, the hash (SHA-256) of `case_text`, the content of
-/// the case file, the number of rows, the hash of `identity`, and the version of Viscontact.
+/// the case file, the number of rows, the hash of `identity`, the version of Viscontact, and `units`
+/// unless they are empty.
 /// `identity` must be a text that contains everything else that determines the rows. Throws
 /// Error(kWrongUsage) if the grid has more than 1e12 points.
 std::map<std::string, std::string> head_of(const std::string& kind, const std::string& case_text,
                                            const Points& points, const std::string& identity,
-                                           const std::string& version);
+                                           const std::string& version, const Units& units);
 
 /// Throws Error(kWrongUsage) if a name occurs twice. `kind` is the word for such a name in the
 /// message, such as "the key".

@@ -22,10 +22,13 @@
 #include <thread>
 
 #include "viscontact/app/arguments/interrupt.hpp"
+#include "viscontact/common/files/locks.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/lubrication/terms.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/report/pictures/pdf.hpp"
+#include "viscontact/results/run_folder.hpp"
 
 namespace viscontact::app {
 namespace {
@@ -116,6 +119,18 @@ CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
                                   least, most);
   };
   return {check, ""};
+}
+
+CLI::Option* add_plots(CLI::App& command, std::string& plots) {
+  return add_value(command, "--plots", plots, "pdf",
+                   "also write each still picture as a PDF file, beside its SVG")
+      ->check(one_of({"pdf"}));
+}
+
+void make_plots(const std::string& plots, const std::string& folder) {
+  if (plots.empty()) return;
+  const LockedFolder lock(folder, results::kFolderIsLocked);
+  report::write_pdfs(folder, interrupt_token());
 }
 
 CLI::Option* add_json(CLI::App& command, bool& json) {

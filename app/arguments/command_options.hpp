@@ -78,6 +78,14 @@ void check_picture(const std::string& path);
 /// the font size is 14 by default.
 void add_picture(CLI::App& command, results::PictureRequest& picture, const std::string& help);
 
+/// Adds the option --plots, which sets `plots` to "pdf". make_plots() then obeys it.
+CLI::Option* add_plots(CLI::App& command, std::string& plots);
+
+/// Writes the PDF files that --plots asks for, in the folder of a run, which must not be locked by
+/// this process. Does nothing if `plots` is empty. Throws the errors of report::write_pdfs(), and
+/// Error(kBadInput) if another process uses the folder.
+void make_plots(const std::string& plots, const std::string& folder);
+
 /// The default of --jobs, >= 1: the number of cores, or 1 if this number is unknown.
 int default_jobs();
 

@@ -30,15 +30,18 @@ void add_case_and_folder(CLI::App& command, Request& o, const std::string& conte
   add_value(command, "-o,--output", o.folder, kFolder, "folder for " + contents)->required();
 }
 
-/// Adds the flag --json. When the command runs, it checks the name of the output folder and calls
+/// Adds the options --plots and --json. When the command runs, it checks the name of the output folder and calls
 /// `run` with the request `o`.
 template <class Request>
 void run_job(CLI::App& command, const std::shared_ptr<Request>& o, void (*run)(const Request&)) {
+  auto plots = std::make_shared<std::string>();
+  add_plots(command, *plots);
   add_json(command, o->json);
-  command.callback([o, run] {
+  command.callback([o, plots, run] {
     check_outputs({o->folder});
     o->stop = interrupt_token();
     run(*o);
+    make_plots(*plots, o->folder);
   });
 }
 

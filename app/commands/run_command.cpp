@@ -34,7 +34,7 @@ namespace viscontact::app {
 
 void add_run(CLI::App& app) {
   struct Options {
-    std::string case_file, folder;
+    std::string case_file, folder, plots;
     int jobs = default_jobs();
     bool json = false;
   };
@@ -46,12 +46,16 @@ void add_run(CLI::App& app) {
             "folder for the results; files in it that are up to date are not made again")
       ->required();
   add_jobs(*command, o->jobs, "number of FreeFEM processes at once");
+  add_plots(*command, o->plots);
   add_json(*command, o->json);
   command->callback([o] {
     check_outputs({o->folder});
     const case_file::Case c = case_file::read_case(o->case_file);
-    const LockedFolder lock(o->folder, results::kFolderIsLocked);
-    pipeline::run_stages(c, o->folder, o->jobs, o->json, interrupt_token());
+    {
+      const LockedFolder lock(o->folder, results::kFolderIsLocked);
+      pipeline::run_stages(c, o->folder, o->jobs, o->json, interrupt_token());
+    }
+    make_plots(o->plots, o->folder);
   });
 }
 
@@ -163,13 +167,18 @@ void add_report(CLI::App& app) {
   auto* command = app.add_subcommand(
       "report", "make the page and the pictures of a folder again from its other files");
   auto folder = std::make_shared<std::string>();
+  auto plots = std::make_shared<std::string>();
   add_value(*command, "DIR", *folder, kFolder,
             "folder that run, rolling, swimmer or particles wrote")
       ->required();
-  command->callback([folder] {
-    std::optional<LockedFolder> lock;
-    if (std::filesystem::is_directory(*folder)) lock.emplace(*folder, results::kFolderIsLocked);
-    report_again(*folder);
+  add_plots(*command, *plots);
+  command->callback([folder, plots] {
+    {
+      std::optional<LockedFolder> lock;
+      if (std::filesystem::is_directory(*folder)) lock.emplace(*folder, results::kFolderIsLocked);
+      report_again(*folder);
+    }
+    make_plots(*plots, *folder);
   });
 }
 

@@ -23,6 +23,7 @@
 
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/number.hpp"
+#include "viscontact/common/text/utf16.hpp"
 
 namespace viscontact {
 namespace {
@@ -31,8 +32,8 @@ constexpr std::string_view kByteOrderMark =
     "\xEF\xBB\xBF";  // some spreadsheets write it at the head
 
 /// The end of a message about missing columns: the header line of `text` in quotes, or the probable
-/// reason why its columns were not found (names in quotes, another separator, UTF-16). Empty if
-/// neither can be said.
+/// reason why its columns were not found (names in quotes, another separator). Empty if neither can
+/// be said.
 std::string hint_of_separator(const std::string& text) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
@@ -40,8 +41,6 @@ std::string hint_of_separator(const std::string& text) {
     if (line.find('"') != std::string::npos)
       return ", '" + shortened(line) + "'; the names of columns must stand without quotes";
     if (line.find(',') != std::string::npos) return ", '" + shortened(line) + "'";
-    if (line.find('\0') != std::string::npos)
-      return "; the file seems to be UTF-16, it must be UTF-8";
     if (line.find(';') != std::string::npos)
       return ", whose fields are separated by semicolons; they must be separated by commas, with "
              "decimal points";
@@ -102,6 +101,7 @@ constexpr std::size_t kColumnsAtOnce = 16;
 void read_columns(const std::string& text, const std::string& file,
                   std::span<const std::string> names, std::size_t required,
                   const std::function<void(Fields fields, int line)>& add_row) {
+  refuse_utf16(text, file);
   // The library needs kColumnsAtOnce names. The surplus ones are such that no header line can
   // contain them.
   std::array<std::string, kColumnsAtOnce> all_names;

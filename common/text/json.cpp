@@ -20,6 +20,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/common/text/utf16.hpp"
 
 namespace viscontact {
 namespace {
@@ -171,6 +172,7 @@ std::string cause_in_words(const Json::exception& error) {
 /// The values of a text and their lines; messages call the text `file`. Throws Error(kBadInput) as
 /// LineRecorder::run() does.
 JsonDocument JsonDocument::parse(const std::string& text, std::string file) {
+  refuse_utf16(text, file);
   JsonDocument document;
   LineRecorder(text, document.lines_).run(file);
   document.root_ = Json::parse(text);

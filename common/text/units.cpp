@@ -1,4 +1,4 @@
-// Composes the words of units, such as "kg m/s²", for pages, axes and tables of particles/,
+// Composes the words of units, such as "kg m/s", for pages, axes and tables of particles/,
 // report/, rolling/ and swimmer/. Nothing is converted. Powers of mass, length and time are from -9
 // to 9; another power throws std::out_of_range where a unit or dimension is written. If the case
 // does not say its units (the word for the length is empty), unit_or_dimension() writes the
@@ -6,6 +6,7 @@
 // are not checked here. A change must keep the words of files, which users' scripts read.
 #include "viscontact/common/text/units.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <sstream>
@@ -17,6 +18,20 @@ namespace viscontact {
 /// Words such as "length m, time s, mass kg"; empty if the case does not say its units.
 std::string Units::words() const {
   return are_said() ? "length " + length + ", time " + time + ", mass " + mass : "";
+}
+
+Units Units::of_words(const std::string& text) {
+  Units units;
+  const auto between = [&](std::string_view before, std::string_view after) {
+    const auto from = text.find(before);
+    if (from == std::string::npos) return std::string();
+    const auto start = from + before.size();
+    return text.substr(start, after.empty() ? after.size() - 1 : text.find(after, start) - start);
+  };
+  units.length = between("length ", ", time ");
+  units.time = between(", time ", ", mass ");
+  units.mass = between(", mass ", "");
+  return units;
 }
 
 namespace {
@@ -44,10 +59,39 @@ std::string quantity(const Units& words, std::string_view times, int mass_power,
   return (above.empty() ? "1" : above) + "/" + (factors_below > 1 ? "(" + below + ")" : below);
 }
 
+/// A unit of the SI with a name of its own.
+struct NamedUnit {
+  std::array<int, 3> powers;  ///< of kg, m and s
+  std::string_view name;
+  std::string_view dimension;  ///< as texts write it, without signs of powers
+};
+
+constexpr std::array<NamedUnit, 4> kNamedUnits = {{{{1, 1, -2}, "N", "M L/T2"},
+                                                   {{1, 2, -2}, "N m", "M L2/T2"},
+                                                   {{1, -1, -2}, "Pa", "M/(L T2)"},
+                                                   {{1, -1, -1}, "Pa s", "M/(L T)"}}};
+
+bool are_si(const Units& units) {
+  return units.mass == "kg" && units.length == "m" && units.time == "s";
+}
+
+/// The named unit of a dimension that may have superscripts of HTML; empty if there is none.
+std::string_view named_unit_of(std::string_view dimension) {
+  std::string plain(dimension);
+  for (const std::string_view mark : {"<sup>", "</sup>"})
+    for (auto at = plain.find(mark); at != std::string::npos; at = plain.find(mark))
+      plain.erase(at, mark.size());
+  const auto named = std::ranges::find(kNamedUnits, plain, &NamedUnit::dimension);
+  return named == kNamedUnits.end() ? std::string_view() : named->name;
+}
+
 }  // namespace
 
-/// The unit with these powers, such as "kg m/s²" for (1, 1, -2); empty if all powers are 0.
 std::string Units::unit_of(int mass_power, int length_power, int time_power) const {
+  if (are_si(*this))
+    for (const auto& named : kNamedUnits)
+      if (named.powers == std::array{mass_power, length_power, time_power})
+        return std::string(named.name);
   return are_said() ? quantity(*this, " ", mass_power, length_power, time_power) : "";
 }
 
@@ -78,13 +122,17 @@ std::string Units::in_brackets_of(std::string text) const {
         inside.find_first_of("MLT") != std::string_view::npos &&
         inside.find_first_not_of("MLT1234567890/() <>sup-") == std::string_view::npos;
     result += text.substr(from, open + 1 - from);
+    from = close;
+    if (const auto named = are_si(*this) ? named_unit_of(inside) : ""; !named.empty()) {
+      result += named;
+      continue;
+    }
     for (const char c : inside) {
       if (!is_dimension)
         result += c;
       else
         result += c == 'M' ? mass : c == 'L' ? length : c == 'T' ? time : std::string(1, c);
     }
-    from = close;
   }
   return result;
 }

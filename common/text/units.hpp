@@ -22,7 +22,10 @@ struct Units {
   /// The three words in the form "length m, time s, mass kg"; empty if the case does not say its
   /// units.
   std::string words() const;
-  /// The unit of the quantity with these powers, such as "kg m/s²" for (1, 1, -2). It is empty if
+  /// The units of a text that words() made; empty words for another text.
+  static Units of_words(const std::string& text);
+  /// The unit of the quantity with these powers, such as "kg m/s" for (1, 1, -1). Forces, moments,
+  /// pressures and viscosities in kg, m and s have the units N, N m, Pa and Pa s. It is empty if
   /// the case does not say its units or if all powers are 0. Powers are from -9 to 9; others throw
   /// std::out_of_range.
   std::string unit_of(int mass_power, int length_power, int time_power) const;

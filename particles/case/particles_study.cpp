@@ -129,6 +129,7 @@ ParticlesSweep::ParticlesSweep(const std::filesystem::path& case_path, sweep::Po
     throw Error(ErrorKind::kWrongUsage,
                 "there are {} draws, but arrangement.seed begins at {} and is at most {}",
                 points_.draws, points_.first_draw, kMost);
+  units_ = base.units;
   result_columns_ = columns_of(base);
   sweep::check_ends(points_, [&](const auto& numbers) { (void)cases_.with(numbers); });
 }
@@ -155,7 +156,8 @@ sweep::Study ParticlesSweep::study(const std::string& version, ParticlesRunner r
   // only in the varied numbers, which are in the file.
   return {points_, result_columns_,
           sweep::head_of("sweep of particles", read_file(case_path()), points_,
-                         identity(0, version) + identity(points_.rows() - 1, version), version),
+                         identity(0, version) + identity(points_.rows() - 1, version), version,
+                         units()),
           std::move(run)};
 }
 
@@ -165,8 +167,10 @@ std::string table_of_means(const ParticlesSweep& sweep, const std::filesystem::p
   const auto& columns = sweep.result_columns();
   const auto& points = sweep.points();
   const std::size_t keys = points.keys().size(), varied = points.variations.size();
-  std::string text = write_csv_comments(
-      {{"viscontact", "means of a sweep of particles"}, {"rows", std::to_string(points.count())}});
+  CsvComments head = {{"viscontact", "means of a sweep of particles"},
+                      {"rows", std::to_string(points.count())}};
+  if (sweep.units().are_said()) head["units"] = sweep.units().words();
+  std::string text = write_csv_comments(head);
   for (const auto& variation : points.variations) text += variation.key + ",";
   text += "draws,failed";
   for (const auto& column : columns) text += fmt::format(",{0}.mean,{0}.standard_error", column);

@@ -70,6 +70,7 @@ class ParticlesSweep {
 
   /// The CSV file of particles that the case names; empty if there is none.
   const std::filesystem::path& particles_file() const { return particles_file_; }
+  const Units& units() const { return units_; }  ///< those of the case, which may be empty
 
   /// Hash (SHA-256) of everything that determines the results of row `index`: the version of
   /// Viscontact, which is `version`, the case, and the CSV file of particles. Throws
@@ -85,6 +86,7 @@ class ParticlesSweep {
   case_file::CaseTemplate<ParticlesCase> cases_;
   sweep::Points points_;
   std::filesystem::path particles_file_;
+  Units units_;
   std::vector<std::string> result_columns_;
 };
 

@@ -18,6 +18,7 @@
 #include "viscontact/particles/io/vtk.hpp"
 #include "viscontact/particles/picture/particles_picture.hpp"
 #include "viscontact/particles/picture/scene.hpp"
+#include "viscontact/report/pictures/pdf.hpp"
 #include "viscontact/results/foreign_files.hpp"
 #include "viscontact/terminal/progress.hpp"
 
@@ -167,6 +168,7 @@ void write_pages(const ParticlesCase& c, const fs::path& folder,
   FlowFrames flows;
   results::write_output(folder / "particles.html", TextKind::kHtml,
                         particles_page(playback, c.title, &flows), provenance);
+  report::remove_pdf_of(folder / "particles.svg");
   results::write_output(folder / "particles.svg", TextKind::kSvg,
                         particles_picture(playback, c.title, kPanels, &flows), provenance);
 }

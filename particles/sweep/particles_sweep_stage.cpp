@@ -18,6 +18,7 @@
 #include <cmath>
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
@@ -107,32 +108,95 @@ std::vector<std::uint64_t> missing_rows(const ParticlesSweep& sweep, const Parti
   return missing;
 }
 
-/// Sets the computing time of a row in `run` [s], extrapolated from the first steps of the first
-/// row, which are computed for about kEnough seconds. Throws the errors of these steps.
-void measure_first_steps(const ParticlesSweep& sweep, const StartFluidSolver& start_solver,
-                         const StopToken& stop, pipeline::DryRun& run) {
-  using Clock = std::chrono::steady_clock;
-  const auto seconds_since = [](Clock::time_point time) {
-    return std::chrono::duration<double>(Clock::now() - time).count();
-  };
-  const auto c = sweep.case_of(0);
-  const auto start = Clock::now();
-  ParticleSimulation simulation(c.setting, first_state(c, ""), 1, start_solver, stop);
-  // In a fluid the first step also estimates errors, and takes several times as long as the others.
+/// Seconds since a time.
+double seconds_since(std::chrono::steady_clock::time_point time) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - time).count();
+}
+
+/// The state from which another simulation can go on.
+State saved_state(ParticleSimulation& simulation) {
+  return simulation.has_fluid() ? simulation.state_to_save() : simulation.state();
+}
+
+/// The computing time of a step of the case [s], measured at one time of the motion.
+struct StepCost {
+  double time = 0;     ///< [T]
+  double seconds = 0;  ///< mean of the steps there
+};
+
+/// Computes steps of the case from `state` for about a second, or to the end. The very first step
+/// of a motion is not in the mean, because in a fluid it also estimates errors; `first` gets its
+/// seconds. `state` gets the state after these steps.
+StepCost cost_of_steps(const ParticlesCase& c, const StartFluidSolver& start_solver,
+                       const StopToken& stop, State& state, double& first) {
+  constexpr double kEnough = 1;  // [s], a free choice; a step may take longer
+  StepCost cost{state.time, 0};
+  ParticleSimulation simulation(c.setting, std::move(state), 1, start_solver, stop);
+  auto start = std::chrono::steady_clock::now();
   simulation.step(c.end_time);
-  const double first = seconds_since(start);
-  const auto after_first = Clock::now();
-  const double tiny = 1e-6 * c.setting.time_step;
-  constexpr double kEnough = 2;  // [s], a free choice; the first step may take longer
-  while (simulation.state().time < c.end_time - tiny && seconds_since(start) < kEnough)
+  first = seconds_since(start);
+  cost.seconds = first;
+  start = std::chrono::steady_clock::now();
+  int steps = 0;
+  while (seconds_since(start) < kEnough &&
+         simulation.state().time + 1e-6 * c.setting.time_step < c.end_time) {
     simulation.step(c.end_time);
-  const auto further = simulation.state().steps - 1;
-  const double all = std::ceil(c.end_time / c.setting.time_step * (1 - 1e-9)) - 1;
-  run.seconds_per_row =
-      first + (further > 0 ? seconds_since(after_first) / static_cast<double>(further) : first) *
-                  std::max(all, 0.0);
-  run.basis = fmt::format("the first {} of {:.0f} steps of row 1, just computed", further + 1,
-                          std::max(all, 0.0) + 1);
+    cost.seconds = seconds_since(start) / ++steps;
+  }
+  state = saved_state(simulation);
+  return cost;
+}
+
+/// Moves `state` on to `time` [T] or, if that takes more than about four seconds, not so far: a fall
+/// without contacts takes little time. The steps are longer than those of the case, because only the
+/// kind of the motion matters. A step that cannot be computed ends this.
+void move_on_roughly(const ParticlesCase& c, const StartFluidSolver& start_solver,
+                     const StopToken& stop, double time, State& state) {
+  // Seconds, and how many times as long a step is: free choices. A much longer step may take
+  // minutes, because many particles meet in it.
+  constexpr double kLongest = 4, kLonger = 4;
+  auto setting = c.setting;
+  setting.time_step *= kLonger;
+  const auto start = std::chrono::steady_clock::now();
+  ParticleSimulation simulation(setting, std::move(state), 1, start_solver, stop);
+  try {
+    while (simulation.state().time < time && seconds_since(start) < kLongest) simulation.step(time);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kNotConverged) throw;
+  }
+  state = saved_state(simulation);
+  // The steps of the case continue from here.
+  state.grid_time = state.time;
+  state.grid_step = state.steps;
+}
+
+/// Sets the computing time of a row in `run` [s] from steps of the first row at the beginning, in
+/// the middle and at the end of its motion, because particles that have come together take longer
+/// than those that fall. Between these times the cost of a step is linear.
+void measure_steps(const ParticlesSweep& sweep, const StartFluidSolver& start_solver,
+                   const StopToken& stop, pipeline::DryRun& run) {
+  const auto c = sweep.case_of(0);
+  State state = first_state(c, "");
+  double first = 0, unused = 0;
+  std::vector<StepCost> costs = {cost_of_steps(c, start_solver, stop, state, first)};
+  const double last_step = c.end_time - c.setting.time_step;
+  for (const double time : {c.end_time / 2, last_step}) {
+    if (!(state.time < time)) continue;
+    move_on_roughly(c, start_solver, stop, time, state);
+    if (state.time < c.end_time)
+      costs.push_back(cost_of_steps(c, start_solver, stop, state, unused));
+  }
+  double mean = costs.front().seconds * costs.front().time / c.end_time +
+                costs.back().seconds * (1 - costs.back().time / c.end_time);
+  for (std::size_t k = 1; k < costs.size(); ++k)
+    mean += (costs[k].time - costs[k - 1].time) / c.end_time *
+            (costs[k].seconds + costs[k - 1].seconds) / 2;
+  const double all = std::max(std::ceil(c.end_time / c.setting.time_step * (1 - 1e-9)), 1.0);
+  run.seconds_per_row = first + mean * (all - 1);
+  std::vector<std::string> times;
+  for (const auto& cost : costs) times.push_back(fmt::format("{:.3g}", cost.time));
+  run.basis = fmt::format("steps of row 1 at the time{} {}, just computed, of {:.0f} steps",
+                          times.size() > 1 ? "s" : "", fmt::join(times, ", "), all);
 }
 
 }  // namespace
@@ -241,7 +305,7 @@ pipeline::DryRun dry_run(const ParticlesSweep& sweep, const std::string& output,
     run.seconds_per_row = seconds / static_cast<double>(run.finished);
     run.basis = "its finished rows";
   } else {
-    measure_first_steps(sweep, start_solver, stop, run);
+    measure_steps(sweep, start_solver, stop, run);
   }
   return run;
 }

@@ -64,8 +64,9 @@ void submit_sweep(const ParticlesSweep& sweep, const pipeline::ArrayRequest& req
 
 /// The estimate for --dry-run into the file of rows `output`: how many rows are finished, and the
 /// computing time of a row [s]. The time is the mean over the runs that have succeeded. If there
-/// are none, the first steps of the first row are computed for about two seconds (a free choice),
-/// and the time of all steps is extrapolated from them. Nothing is written. Throws Error(kBadInput)
+/// are none, steps of the first row are timed at the beginning, in the middle and at the end of its
+/// motion, for about a second each. Longer steps lead from one of these times to the next, for at
+/// most about four seconds. Nothing is written. Throws Error(kBadInput)
 /// if a file cannot be read or the case of the first row is wrong, Error(kNotConverged) if one of
 /// these steps cannot be computed, Error(kExternalProgram) if the fluid solver fails, and
 /// Error(kInterrupted) if `stop` requests a stop while that solver computes.

@@ -290,6 +290,29 @@ void check_model(const ModelChoice& choice, const Motion& motion,
   });
 }
 
+namespace {
+
+/// When the gaps are first reached; by a contact model, if it is in contact, with the film that its
+/// gamma stands for.
+std::vector<GapTime> gap_times_of(const std::vector<TrajectoryRow>& rows,
+                                  const std::vector<double>& gaps,
+                                  const std::optional<ContactModel>& contact) {
+  if (gaps.empty() || !contact) return gap_times(rows, gaps);
+  const auto film = [&](double gamma) {
+    try {
+      return contact->film_thickness ? contact->film_thickness(gamma) : contact->contact_gap;
+    } catch (const Error&) {
+      return 0.0;  // thinner than the interval of the fit or than a double
+    }
+  };
+  // Without an impulse, the film is as thick as the film law allows.
+  const double thickest = film(-std::numeric_limits<double>::min());
+  return gap_times(
+      rows, gaps, [&](const TrajectoryRow& row) { return film(*row.gamma); }, thickest);
+}
+
+}  // namespace
+
 /// Runs a model and adds its name, its budget and the computing time [s]. Messages of errors begin
 /// with the name of the model.
 Trajectory simulate(const ModelChoice& choice, const Motion& motion,
@@ -307,6 +330,10 @@ Trajectory simulate(const ModelChoice& choice, const Motion& motion,
     if (!trajectory.budget)
       trajectory.budget = budget_of_drag(trajectory.rows, motion, model.inertia);
     check_finite(trajectory);
+    trajectory.gap_times =
+        gap_times_of(trajectory.rows, own_motion.gaps_to_reach,
+                     model.contact != nullptr ? std::optional(model.contact(own_motion, own_force))
+                                              : std::nullopt);
   });
   trajectory.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -108,7 +108,12 @@ function makePanel(parent, panel, height) {
   const index = new Map(abscissae.map((value, i) => [value, i]));
   const data = [abscissae, ...panel.curves.map(curve => {
     const ys = new Array(abscissae.length).fill(undefined);
-    curve.inner.x.forEach((value, i) => { ys[index.get(value)] = curve.inner.y[i]; });
+    const places = curve.inner.x.map(value => index.get(value));
+    places.forEach((at, i) => { ys[at] = curve.inner.y[i]; });
+    // uPlot joins the points beside a run of null and undefined values unless all of them are null.
+    for (let i = 1; i < places.length; ++i)
+      if (curve.inner.y[i - 1] === null || curve.inner.y[i] === null)
+        ys.fill(null, places[i - 1] + 1, places[i]);
     return ys;
   })];
 

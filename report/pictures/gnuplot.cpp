@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "viscontact/common/system/process.hpp"
 
@@ -64,17 +65,42 @@ std::string last_part(const std::string& output) {
   return output.size() <= kLength ? output : output.substr(output.size() - kLength);
 }
 
+/// gnuplot's commands for the numbers of a linear axis with these values: as many digits as tell a
+/// tenth of the range from its neighbours. By itself gnuplot writes 0.000049 at several ticks, if
+/// values are small. Empty for values that it writes well.
+std::string number_format(std::string_view axis, const std::vector<double>& values) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const double value : values)
+    if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
+  const double size = std::max(std::abs(low), std::abs(high));
+  if (!(size < 1e-3) || size == 0 || !(high > low)) return "";
+  const int digits =
+      std::min(15, 1 + static_cast<int>(std::ceil(std::log10(10 * size / (high - low)))));
+  // A number such as 4.95e-05 at the right end needs a margin of its own.
+  return fmt::format("set format {} '%.{}g'\n{}", axis, digits,
+                     axis == "x" ? "set rmargin 5\n" : "");
+}
+
 /// gnuplot's data and commands for the panel with this index, counted from 0. A curve without
 /// points is left out.
 std::string panel_script(const Panel& panel, std::size_t index) {
   std::string script;
   for (std::size_t i = 0; i < panel.curves.size(); ++i)
     script += data_block(fmt::format("panel{}curve{}", index, i), panel.curves[i]);
-  script += fmt::format("unset logscale\nset title {}\nset xlabel {}\nset ylabel {}\n",
-                        quoted_for_gnuplot(panel.title), quoted_for_gnuplot(panel.x_label),
-                        quoted_for_gnuplot(panel.y_label));
-  if (panel.x_log) script += "set logscale x\n";
-  if (panel.y_log) script += "set logscale y\n";
+  script += fmt::format(
+      "unset logscale\nset format x\nset format y\nset title {}\nset xlabel {}\nset ylabel {}\n",
+      quoted_for_gnuplot(panel.title), quoted_for_gnuplot(panel.x_label),
+      quoted_for_gnuplot(panel.y_label));
+  std::vector<double> xs, ys;
+  for (const auto& curve : panel.curves)
+    for (const auto& [x, y] : curve.points) xs.push_back(x), ys.push_back(y);
+  if (panel.field) {
+    xs.insert(xs.end(), {panel.field->left, panel.field->right});
+    ys.insert(ys.end(), {panel.field->bottom, panel.field->top});
+    script += "set format cb\n" + number_format("cb", panel.field->values);
+  }
+  script += panel.x_log ? "set logscale x\n" : number_format("x", xs);
+  script += panel.y_log ? "set logscale y\n" : number_format("y", ys);
   for (const auto& setting : panel.settings) script += setting + "\n";
   std::string plots;
   if (panel.field) {

@@ -23,6 +23,7 @@
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/report/pictures/colours.hpp"
 #include "viscontact/report/pictures/gnuplot.hpp"
+#include "viscontact/report/pictures/sweep_axes.hpp"
 
 namespace viscontact::report {
 namespace {
@@ -35,7 +36,9 @@ class SweepRows {
  public:
   explicit SweepRows(const std::filesystem::path& path) : path_(path), file_(path) {
     std::string line;
-    while (std::getline(file_, line) && line.starts_with("#")) continue;
+    constexpr std::string_view kUnits = "# units: ";
+    while (std::getline(file_, line) && line.starts_with("#"))
+      if (line.starts_with(kUnits)) units_ = Units::of_words(line.substr(kUnits.size()));
     names_ = csv_fields(line);
   }
 
@@ -63,6 +66,8 @@ class SweepRows {
     return true;
   }
 
+  const Units& units() const { return units_; }  ///< those of the case; may be empty
+
   /// The value in the row that was read last; NaN if it is missing or not a number.
   double value(const Place& place) const {
     return place.divisor ? number(place.column) / number(*place.divisor) : number(place.column);
@@ -84,6 +89,7 @@ class SweepRows {
 
   std::filesystem::path path_;
   std::ifstream file_;
+  Units units_;
   std::vector<std::string> names_, fields_;
 };
 
@@ -127,8 +133,12 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
                                    kOrange, kSkyBlue,   kBlack};
   std::vector<SweepRows::Place> others;
   for (const auto& key : plot.others) others.push_back(rows.find(key));
-  Panel panel{"",    plot.x, plot.columns.size() == 1 ? plot.columns[0] : "",
-              false, false,  {kLegendBelow},
+  Panel panel{"",
+              axis_label(plot.x, rows.units()),
+              axis_label(plot.columns, rows.units()),
+              false,
+              false,
+              {kLegendBelow},
               {}};
   std::vector<Curve> bars;
   // The index of the first curve for each combination of values of the keys plot.others.
@@ -200,8 +210,8 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
 // logarithms.
 double scaled(double value, bool logarithmic) { return logarithmic ? std::log10(value) : value; }
 
-std::string label(const std::string& name, bool logarithmic) {
-  return logarithmic ? fmt::format("log10 {}", name) : name;
+std::string label(const std::string& name, const Units& units, bool logarithmic) {
+  return fmt::format("{}{}", logarithmic ? "log10 " : "", axis_label(name, units));
 }
 
 /// An axis of a map, with the values of its key in the unit of the key. `low` and `high` are the
@@ -294,9 +304,9 @@ std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot,
       field.values.push_back(shown);
       if (std::isfinite(shown)) low = std::min(low, shown), high = std::max(high, shown);
     }
-  Panel panel{label(plot.columns[0], logarithmic),
-              label(plot.x, horizontal.logarithmic),
-              label(plot.y, vertical.logarithmic),
+  Panel panel{label(plot.columns[0], rows.units(), logarithmic),
+              label(plot.x, rows.units(), horizontal.logarithmic),
+              label(plot.y, rows.units(), vertical.logarithmic),
               false,
               false,
               {fmt::format("set xrange [{}:{}]", field.left, field.right),

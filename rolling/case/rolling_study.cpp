@@ -134,9 +134,10 @@ sweep::Study rolling_study(RollingPlan plan, const std::string& version) {
   for (const auto& model : plan.models)
     for (const auto* column : kRollingColumns)
       study.results.push_back(fmt::format("{}.{}", model, column));
-  study.comments = sweep::head_of(
-      "sweep of a rolling sphere", cases.text(), plan.points,
-      fmt::format("{} {}", fmt::join(plan.models, ","), sweep::text_of(plan.points)), version);
+  study.comments =
+      sweep::head_of("sweep of a rolling sphere", cases.text(), plan.points,
+                     fmt::format("{} {}", fmt::join(plan.models, ","), sweep::text_of(plan.points)),
+                     version, last.units);
   study.comments["fit"] = sha256(motions::write_pair_fit(fit));
   study.run = [cases, fit, plan = std::move(plan)](std::uint64_t index, const StopToken& stop) {
     sweep::RowResults results;

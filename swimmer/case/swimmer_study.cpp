@@ -93,7 +93,8 @@ sweep::Study swimmer_study(const std::filesystem::path& case_path, sweep::Points
   std::string identity = sweep::text_of(points);
   const auto files = files_of(last);  // the first is the case, whose hash the head has
   for (std::size_t i = 1; i < files.size(); ++i) identity += read_file(files[i]);
-  study.comments = sweep::head_of("sweep of a swimmer", cases.text(), points, identity, version);
+  study.comments =
+      sweep::head_of("sweep of a swimmer", cases.text(), points, identity, version, last.units);
   study.comments["fit"] = sha256(write_resistance_fit(fit));
   study.run = [cases, points, fit](std::uint64_t index, const StopToken& stop) {
     sweep::RowResults results;

@@ -13,9 +13,11 @@ const Units kSi = {"m", "s", "kg"};
 
 TEST(UnitsOfACase, HaveTheWordsOfAQuantity) {
   EXPECT_EQ(kSi.unit_of(0, 1, 0), "m");
-  EXPECT_EQ(kSi.unit_of(1, 1, -2), "kg m/s²");
-  EXPECT_EQ(kSi.unit_of(1, -1, -1), "kg/(m s)");
-  EXPECT_EQ(kSi.unit_of(1, 2, -2), "kg m²/s²");
+  EXPECT_EQ(kSi.unit_of(1, 1, -2), "N");
+  EXPECT_EQ(kSi.unit_of(1, -1, -1), "Pa s");
+  EXPECT_EQ(kSi.unit_of(1, 1, -1), "kg m/s");
+  EXPECT_EQ((Units{"mm", "s", "kg"}.unit_of(1, 1, -2)), "kg mm/s²");
+  EXPECT_EQ(kSi.unit_of(1, 2, -2), "N m");
   EXPECT_EQ(kSi.unit_of(0, 0, -1), "1/s");
   EXPECT_EQ(kSi.words(), "length m, time s, mass kg");
   EXPECT_EQ(Units{}.unit_of(1, 1, -2), "");
@@ -32,11 +34,13 @@ TEST(UnitsOfACase, ReplaceDimensions) {
 
 TEST(UnitsOfACase, StandInBracketsInPlaceOfDimensions) {
   EXPECT_EQ(kSi.in_brackets(1, 2, -3), " [kg m²/s³]");
+  EXPECT_EQ(Units::of_words(kSi.words()).words(), kSi.words());
+  EXPECT_FALSE(Units::of_words("metres").are_said());
   EXPECT_EQ(Units{}.in_brackets(1, 2, -3), "");
-  EXPECT_EQ(kSi.unit_or_dimension(1, 1, -2), "kg m/s²");
+  EXPECT_EQ(kSi.unit_or_dimension(1, 1, -2), "N");
   EXPECT_EQ(Units{}.unit_or_dimension(1, 1, -2), "mass × length/time²");
   EXPECT_EQ(kSi.in_brackets_of("<td>gap [L]</td><td>a [M/(L T)] b [M L<sup>2</sup>] [x] [1]</td>"),
-            "<td>gap [m]</td><td>a [kg/(m s)] b [kg m<sup>2</sup>] [x] [1]</td>");
+            "<td>gap [m]</td><td>a [Pa s] b [kg m<sup>2</sup>] [x] [1]</td>");
   EXPECT_EQ(Units{}.in_brackets_of("gap [L]"), "gap [L]");
   EXPECT_EQ(kSi.in_brackets_of("open [L"), "open [L");
 }

@@ -38,6 +38,15 @@ class Csv : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(Csv, NamesUtf16) {
+  // "time,gap" with a byte order mark, as some editors save it, and without.
+  const std::string plain = "time,gap\n0,1\n";
+  std::string wide;
+  for (const char c : plain) wide += std::string(1, c) + '\0';
+  EXPECT_THAT(refusal("\xFF\xFE" + wide), HasSubstr("UTF-16"));
+  EXPECT_THAT(refusal(wide), HasSubstr("UTF-16"));
+}
+
 TEST_F(Csv, GivesCommentsNumbersAndLines) {
   const auto csv = read(
       "# viscosity: 3\n# container: 40 x 80: closed\n# no comment of ours\ntime,gap,gamma\n0,1,\n# "

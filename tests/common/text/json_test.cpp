@@ -32,6 +32,12 @@ TEST(JsonDocument, KnowsTheLineOfEveryValue) {
   EXPECT_EQ(document.root().at("a").at(1).at("b"), "two\n \" ] lines");
 }
 
+TEST(JsonDocument, NamesUtf16) {
+  const std::string wide("\xFE\xFF\0{\0}", 6);
+  EXPECT_THAT(bad_input([&] { JsonDocument::parse(wide, "f.json"); }),
+              testing::AllOf(StartsWith("f.json"), HasSubstr("UTF-16")));
+}
+
 TEST(JsonDocument, IsReadHoweverDeepItIs) {
   // Deeper than the stack of a recursive reader.
   const std::size_t depth = 1'000'000;

@@ -106,6 +106,26 @@ TEST_F(PagesAgain, OfARollingSphere) {
   colours_of(path("out/report.html"), 3);
 }
 
+// A PDF beside each picture, which a later report without --plots does not leave behind.
+TEST_F(PagesAgain, WithPdfFiles) {
+  const auto pdfs = [&] {
+    std::set<std::string> stems;
+    for (const auto& [name, text] : files_below(out()))
+      if (text.starts_with("%PDF-")) stems.insert(fs::path(name).stem());
+    return stems;
+  };
+  expect_done(run_viscontact({"rolling", kData + "cases/rolling/incline.toml", "-o", path("out"),
+                              "--plots", "pdf"}));
+  std::set<std::string> pictures;
+  for (const auto& [name, text] : pages())
+    if (name.ends_with(".svg")) pictures.insert(fs::path(name).stem());
+  EXPECT_GE(pictures.size(), 4U);
+  EXPECT_EQ(pdfs(), pictures);
+  EXPECT_THAT(read_file(path("out/plots/gap.pdf")), HasSubstr("\"command\""));  // its provenance
+  expect_done(report());
+  EXPECT_THAT(pdfs(), ::testing::IsEmpty());
+}
+
 TEST_F(PagesAgain, OfARollingSphereOfWhichAModelFailed) {
   const auto text =
       replaced(read_file(kData + "cases/rolling/incline.toml"), "../../fits", kData + "fits");

@@ -47,6 +47,19 @@ constexpr std::string_view kReader = R"JS(
       const seen = {plot: plot.name, values: [],
                     painted: described.curves.map(c => painted(c.colour)),
                     legend: rows.map(row => row.children[1].textContent)};
+      // Abscissae of other curves within an interval where a curve is interrupted: uPlot draws
+      // through those that are undefined.
+      seen.undefined = 0;
+      seen.interrupted = 0;
+      described.curves.forEach((curve, i) => {
+        const ys = u.data[i + 1], at = curve.inner.x.map(x => u.data[0].indexOf(x));
+        for (let k = 1; k < at.length; ++k)
+          if (curve.y[k - 1] === null || curve.y[k] === null) {
+            const between = ys.slice(at[k - 1] + 1, at[k]);
+            seen.interrupted += between.length;
+            seen.undefined += between.filter(y => y === undefined).length;
+          }
+      });
       send('mouseenter', 0.3, 0.5);
       for (const x of [0.25, 0.5, 0.8]) {
         send('mousemove', x, 0.5);
@@ -75,6 +88,8 @@ void expect_readable_panels(const Json& found) {
     SCOPED_TRACE(name);
     plots.insert(name);
     for (const int painted : panel["painted"]) EXPECT_GT(painted, 10);
+    EXPECT_EQ(panel["undefined"], 0);
+    if (name == "gap_logarithmic") EXPECT_GT(panel["interrupted"], 100);
     EXPECT_NE(panel["values"][0], panel["values"][1]);
     EXPECT_NE(panel["values"][1], panel["values"][2]);
     // Drawn from 0.3 to 0.6 of the width and from 0.3 to 0.7 of the height; a pixel is 0.2 % of
