@@ -109,6 +109,9 @@ struct StepResiduals {
   /// both are [L]. Returns true and sets `converged` to false if the residual is larger or not a
   /// number. A residual that is not a number leaves `largest` as it is and makes `excess` infinite.
   bool take(double residual, double allowed);
+  /// Takes the error of an impulse >= 0 into account. `allowed` > 0 is the largest error that is
+  /// allowed; both are [M L/T]. Returns true as take() does.
+  bool take_error(double error, double allowed);
   /// Takes the residual of an impulse into account. `at_work` >= 0 is the impulse at work; both are
   /// [M L/T]. If `at_work` is 0, the residual is ignored.
   void take_impulse(double residual, double at_work);
