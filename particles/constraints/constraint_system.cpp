@@ -543,6 +543,8 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
     if (n > 0 && can_use_distances(system, island)) most = std::min(most, kMostCorrected);
     solution = solve_constraints(problem, std::max(1, most));
     result.iterations += solution.result.iterations;
+    refinement.reset();
+    if (!is_rough) refinement.emplace(problem, solution);
     const auto is_exhausted = [&] {
       return result.iterations >= max_iterations + (island.has_given_up ? kMostOfGivenLoads : 0);
     };
@@ -576,10 +578,8 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
       }
       // Where friction locks particles that must move, impulses grow without bound, so that loads
       // have no meaning. This happens in every convex problem without a solution.
-      give_up(island, is_convex_, solution, result);
+      if (give_up(island, is_convex_, solution, result)) refinement.emplace(problem, solution);
     }
-    refinement.reset();
-    if (!is_rough) refinement.emplace(problem, solution);
     result.residual = solution.result.residual;
     double change = correct(system, island, solution.motions);
     if (refinement && refinement->is_done())

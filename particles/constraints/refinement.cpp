@@ -163,26 +163,26 @@ void Refinement<D>::find_products() {
       }
 }
 
-/// Computes the motions of all units and the values of all rows from impulses_.
+/// Adds the motions that impulses of all rows cause to motions_.
 template <int D>
-void Refinement<D>::evaluate() {
+void Refinement<D>::move(const std::vector<Real>& impulses) {
   constexpr auto d = static_cast<std::size_t>(D), turns = static_cast<std::size_t>(kTurns<D>);
   std::vector<RealMotion> sums(problem_.units.size(), RealMotion{});
-  for (std::size_t r = 0; r < problem_.rows.size(); ++r)
+  for (std::size_t r = 0; r < impulses.size(); ++r)
     for (const auto& [unit, coefficients] : problem_.parts_of(r))
       for (std::size_t k = 0; k < coefficients.size(); ++k)
-        sums[static_cast<std::size_t>(unit)][k] += coefficients[k] * impulses_[r];
-  motions_.resize(sums.size());
+        sums[static_cast<std::size_t>(unit)][k] += coefficients[k] * impulses[r];
   for (std::size_t u = 0; u < sums.size(); ++u) {
     const auto& unit = problem_.units[u];
-    for (std::size_t k = 0; k < d; ++k) motions_[u][k] = unit.free[k] + unit.mobility * sums[u][k];
-    for (std::size_t i = 0; i < turns; ++i) {
-      Real turn = unit.free[d + i];
+    for (std::size_t k = 0; k < d; ++k) motions_[u][k] += unit.mobility * sums[u][k];
+    for (std::size_t i = 0; i < turns; ++i)
       for (std::size_t k = 0; k < turns; ++k)
-        turn += unit.turn_mobility[i * turns + k] * sums[u][d + k];
-      motions_[u][d + i] = turn;
-    }
+        motions_[u][d + i] += unit.turn_mobility[i * turns + k] * sums[u][d + k];
   }
+}
+
+template <int D>
+void Refinement<D>::find_values() {
   values_.resize(problem_.rows.size());
   for (std::size_t r = 0; r < values_.size(); ++r) {
     values_[r] = problem_.rows[r].offset;
@@ -190,6 +190,35 @@ void Refinement<D>::evaluate() {
       for (std::size_t k = 0; k < coefficients.size(); ++k)
         values_[r] += coefficients[k] * motions_[static_cast<std::size_t>(unit)][k];
   }
+}
+
+/// Computes the motions of all units and the values of all rows from impulses_.
+template <int D>
+void Refinement<D>::evaluate() {
+  motions_.assign(problem_.units.size(), RealMotion{});
+  for (std::size_t u = 0; u < motions_.size(); ++u)
+    std::ranges::copy(problem_.units[u].free, motions_[u].begin());
+  move(impulses_);
+  find_values();
+}
+
+/// Moves the units by the rest of the error, which is too small to be added to the impulses.
+template <int D>
+void Refinement<D>::move_by_rest() {
+  std::vector<double> right(impulses_.size());
+  for (std::size_t b = 0; b < laws_.size(); ++b) {
+    const auto& law = laws_[b];
+    const std::size_t n = problem_.blocks[b].row, rows = problem_.blocks[b].rows;
+    for (std::size_t k = 0; k < rows; ++k) {
+      Real left = 0;
+      for (std::size_t l = 0; l < rows && law.is_value[k]; ++l)
+        left += law.by_value[k][l] * values_[n + l] + law.by_impulse[k][l] * impulses_[n + l];
+      right[n + k] = static_cast<double>(-left);
+    }
+  }
+  const auto rest = solved(std::move(right));
+  move({rest.begin(), rest.end()});
+  find_values();
 }
 
 /// Sets the laws of all blocks at the present impulses and values. Returns true if the factor of
@@ -407,6 +436,10 @@ bool Refinement<D>::take_over(ConstraintSolution<D>& solution) {
     }
   }
   evaluate();
+  move_by_rest();
+  double before = 0;
+  for (std::size_t b = 0; b < laws_.size(); ++b)
+    before = std::max(before, solution.residuals[b].share(problem_.blocks[b]));
   ConstraintSolution<D> refined{solution.result, {}, {}};
   refined.result.residual = 0;
   for (std::size_t b = 0; b < laws_.size(); ++b) {
@@ -414,9 +447,9 @@ bool Refinement<D>::take_over(ConstraintSolution<D>& solution) {
     std::array<double, kMostRows> v{};
     for (std::size_t k = 0; k < block.rows; ++k) v[k] = static_cast<double>(values_[block.row + k]);
     refined.residuals.push_back(
-        residual_of(block, v.data(), &impulses[block.row], &w_[block.row]));
+        residual_of(block, v.data(), &impulses[block.row], &w_[block.row], 0));
     const double share = refined.residuals.back().share(block);
-    if (!(share <= std::max(1.0, solution.residuals[b].share(block)))) return false;
+    if (!(share <= std::max(1.0, before))) return false;
     refined.result.residual = std::max(refined.result.residual, share);
   }
   for (const auto& motion : motions_) {

@@ -60,6 +60,9 @@ class Refinement {
   bool is_worth_it() const;
   void find_products();
   void evaluate();
+  void move(const std::vector<Real>& impulses);
+  void find_values();
+  void move_by_rest();
   bool find_laws();
   bool factorise();
   std::vector<double> solved(std::vector<double> right) const;
