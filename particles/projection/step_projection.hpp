@@ -159,9 +159,10 @@ struct ProjectionResult {
 /// The step has converged if each contact meets two conditions. Let d be its gap after the step
 /// (ContactSystem::gap()), p its impulse and w the change of the gap per impulse. The residual
 /// |min(d, w (p - gamma))|, without the tolerated overlap, must be at most half of
-/// SolverSettings::tolerance mean radii. The residual divided by w must be at most the fraction
-/// SolverSettings::impulse_tolerance of the impulse at work, or within rounding errors. Links must
-/// meet the same two conditions with their own residuals.
+/// SolverSettings::tolerance mean radii. The error of the impulse must be at most the fraction
+/// SolverSettings::impulse_tolerance of the impulse at work, or within rounding errors. It is the
+/// estimate of a Refinement, or, where there is none, the residual divided by w. Links must meet
+/// the same two conditions with their own residuals.
 template <int D>
 class StepProjection {
  public:
