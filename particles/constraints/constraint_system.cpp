@@ -349,8 +349,7 @@ double ConstraintSystem<D>::change_of_impulses(const Island& island,
 
 /// Sets the errors of the impulses of the island.
 template <int D>
-void ConstraintSystem<D>::take_errors(const Island& island,
-                                      const Refinement<D>* refinement) {
+void ConstraintSystem<D>::take_errors(const Island& island, const Refinement<D>* refinement) {
   std::vector<double> of_shifts, unavoidable;
   if (refinement != nullptr) {
     of_shifts = refinement->changes_by(island.shifts);

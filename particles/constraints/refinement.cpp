@@ -150,8 +150,7 @@ void Refinement<D>::find_products() {
   for (std::size_t r = 0; r < problem_.rows.size(); ++r)
     for (const auto& part : problem_.parts_of(r)) {
       const auto u = static_cast<std::size_t>(part.unit);
-      shares[u].push_back(
-          {r, &part.coefficients, problem_.units[u].moved_by(part.coefficients)});
+      shares[u].push_back({r, &part.coefficients, problem_.units[u].moved_by(part.coefficients)});
     }
   for (const auto& of_unit : shares)
     for (const auto& row : of_unit)
@@ -254,14 +253,15 @@ bool Refinement<D>::find_laws() {
         law.by_impulse[k][k] = 1;
         law.by_impulse[k][0] = static_cast<double>(-slope * along);
         for (std::size_t l = 1; block.rows == 3 && l < 3; ++l) {
-          const auto turns = static_cast<double>(
-              size / beside * ((k == l ? 1 : 0) - along * wanted[l] / beside));
+          const auto turns =
+              static_cast<double>(size / beside * ((k == l ? 1 : 0) - along * wanted[l] / beside));
           law.by_impulse[k][l] -= turns;
           law.by_value[k][l] += turns / w_[n + l];
         }
       }
     };
-    if (std::ranges::any_of(std::span(w_).subspan(n, block.rows), [](double w) { return w == 0; })) {
+    if (std::ranges::any_of(std::span(w_).subspan(n, block.rows),
+                            [](double w) { return w == 0; })) {
       for (std::size_t k = 0; k < block.rows; ++k) law.set_impulse(k, 0);
     } else if (!block.is_contact) {
       law.branch = Branch::kLink;
@@ -301,8 +301,9 @@ bool Refinement<D>::find_laws() {
         law.set_impulse(0, impulses_[n] - block.lowest);
       if (block.rows > 1) {
         const bool is_given = block.friction_bound == FrictionBound::kGiven;
-        const Real load = is_given ? Real{block.given_load}
-                                   : (is_closed ? impulses_[n] : Real{block.lowest}) - block.capacity;
+        const Real load = is_given
+                              ? Real{block.given_load}
+                              : (is_closed ? impulses_[n] : Real{block.lowest}) - block.capacity;
         const Real bound = block.friction * load;
         if (!(bound > slack)) {
           for (std::size_t k = 1; k < block.rows; ++k) law.set_impulse(k, impulses_[n + k]);

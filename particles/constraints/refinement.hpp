@@ -48,7 +48,7 @@ class Refinement {
   static constexpr std::size_t kMany = 256;
   /// Masses are called different if the largest mass that a row feels is this factor above the
   /// smallest one.
-  static constexpr double kDifferent = 10;
+  static constexpr double kDifferent = 100;
 
  private:
   using Real = long double;

@@ -28,8 +28,8 @@ bool take(double residual, const ResidualScale& scale, const SolverSettings& set
 /// that is asked for, or what rounding errors cause.
 double allowed_error(const ImpulseError& error, const ResidualScale& scale,
                      const SolverSettings& settings) {
-  return std::max({settings.impulse_tolerance * scale.impulse, error.rounding,
-                   scale.rounding / scale.w});
+  return std::max(
+      {settings.impulse_tolerance * scale.impulse, error.rounding, scale.rounding / scale.w});
 }
 
 /// Adds the residual of a gap or link [L], and the error of its impulse if it is known, to `result`.

@@ -61,7 +61,8 @@ void StepProjection<D>::refine() {
       if (contact.first < 0)
         problem.add_row(contact.gap, std::array{of_second}, contact.impulse);
       else
-        problem.add_row(contact.gap, std::array{of_second, RowPart<D>{unit(contact.first), against}},
+        problem.add_row(contact.gap,
+                        std::array{of_second, RowPart<D>{unit(contact.first), against}},
                         contact.impulse);
     }
     ConstraintSolution<D> solution;

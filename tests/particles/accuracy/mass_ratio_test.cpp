@@ -67,7 +67,8 @@ ConstraintProblem<D> random_tree(int count, double decades, const Units& in, Ran
       std::vector<RowPart<D>> parts{
           {u, displacement_row<D>(direction, kind == 0 ? Vector{} : arm)}};
       if (parent >= 0)
-        parts.push_back({parent, displacement_row<D>(-1 * direction, kind == 0 ? Vector{} : other)});
+        parts.push_back(
+            {parent, displacement_row<D>(-1 * direction, kind == 0 ? Vector{} : other)});
       problem.add_row(0, parts, 0);
     }
   }
@@ -88,7 +89,8 @@ std::vector<Quad> eliminated(const ConstraintProblem<D>& problem, double noise, 
       free.back()[k] = Quad(unit.free[k]) * (1 + Quad(noise * random.uniform(-1, 1)));
   }
   for (const auto& block : problem.blocks)
-    for (std::size_t k = 0; k < block.rows; ++k) a[block.row + k][block.row + k] += block.compliance;
+    for (std::size_t k = 0; k < block.rows; ++k)
+      a[block.row + k][block.row + k] += block.compliance;
   for (std::size_t r = 0; r < n; ++r) {
     a[r][n] -= problem.rows[r].offset;
     for (const auto& part : problem.parts_of(r)) {
@@ -167,12 +169,12 @@ TEST(MassRatio, ErrorsOfRandomTreesAreTrue) {
       compare<2>(60, decades, in, random, truth);
       compare<3>(30, decades, in, random, truth);
     }
-    SCOPED_TRACE(testing::Message() << truth.blocks << " blocks, beyond " << truth.beyond
-                                    << ", pessimistic " << truth.pessimistic << ", refined "
-                                    << truth.refined << " of " << truth.problems << ", largest "
-                                    << truth.largest);
+    SCOPED_TRACE(testing::Message()
+                 << truth.blocks << " blocks, beyond " << truth.beyond << ", pessimistic "
+                 << truth.pessimistic << ", refined " << truth.refined << " of " << truth.problems
+                 << ", largest " << truth.largest);
     EXPECT_GE(truth.refined, 99 * truth.problems / 100);
-    EXPECT_LE(100 * truth.beyond, truth.blocks);       // true in 99 %
+    EXPECT_LE(100 * truth.beyond, truth.blocks);      // true in 99 %
     EXPECT_LE(10 * truth.pessimistic, truth.blocks);  // and not far above the error
   }
 }
@@ -213,8 +215,8 @@ TEST(MassRatio, HeavyOnLightHasItsWeight) {
     for (const int dimension : {2, 3})
       for (const double ratio : {1e6, 1e9})
         for (const Units& in : {Units{}, Units{1e-5, 1e-5, 1e5}, Units{1e5, 1e5, 1e-5}}) {
-          SCOPED_TRACE(testing::Message() << what << ' ' << dimension << ' ' << ratio << ' '
-                                          << in.length);
+          SCOPED_TRACE(testing::Message()
+                       << what << ' ' << dimension << ' ' << ratio << ' ' << in.length);
           const std::vector<double> masses{1, ratio};
           auto simulation = column(dimension, masses, in, setting);
           for (int step = 0; step < 20; ++step) {
@@ -275,7 +277,7 @@ TEST(MassRatio, HingedDiscHoldsAHeavyBob) {
     SCOPED_TRACE(ratio);
     Setting setting;
     setting.gravity = {0, -9.81, 0};
-    setting.time_step = 0.001;
+    setting.time_step = 0.01;
     setting.links.hinges.push_back({});
     setting.links.hinges.back().point.particle = 0;
     setting.links.arms = {{0, 1, PiecewiseLinearLength{{{0, 3}}}}};
@@ -284,7 +286,7 @@ TEST(MassRatio, HingedDiscHoldsAHeavyBob) {
     add_particle(state, {3, 0, 0}, 0.1, ratio);
     add_rotation(state.particles);
     Simulation simulation(setting, state, 1);
-    for (int step = 0; step < 100; ++step) {
+    for (int step = 0; step < 50; ++step) {
       const auto report = simulation.step(1e300);
       EXPECT_TRUE(report.converged) << report.residual << ' ' << report.impulse_residual;
       EXPECT_NEAR(norm(simulation.state().particles.position(1)), 3, 1e-10);
