@@ -37,7 +37,9 @@ double allowed_error(const ImpulseError& error, const ResidualScale& scale,
 bool take(double residual, const ImpulseError& error, const ResidualScale& scale,
           const SolverSettings& settings, double mean_radius, ProjectionResult& result) {
   if (!(error.estimate >= 0)) return take(residual, scale, settings, mean_radius, result);
-  result.residuals.take_impulse(error.estimate, scale.impulse);
+  // Particles in touch without load have impulses that are rounding errors themselves.
+  if (error.estimate > std::max(error.rounding, scale.rounding / scale.w))
+    result.residuals.take_impulse(error.estimate, scale.impulse);
   const bool is_beyond = result.residuals.take(residual, scale.allowed_gap(settings, mean_radius));
   return result.residuals.take_error(error.estimate, allowed_error(error, scale, settings)) ||
          is_beyond;
