@@ -289,7 +289,9 @@ TEST(MassRatio, HingedDiscHoldsAHeavyBob) {
     for (int step = 0; step < 50; ++step) {
       const auto report = simulation.step(1e300);
       EXPECT_TRUE(report.converged) << report.residual << ' ' << report.impulse_residual;
-      EXPECT_NEAR(norm(simulation.state().particles.position(1)), 3, 1e-10);
+      // The hinge and the arm hold within the tolerance, in mean radii.
+      EXPECT_NEAR(norm(simulation.state().particles.position(1)), 3,
+                  setting.solver.tolerance * 0.1);
     }
   }
 }
