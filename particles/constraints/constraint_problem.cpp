@@ -134,15 +134,13 @@ std::vector<double> row_mobilities(const ConstraintProblem<D>& problem) {
 /// residual is at least the rounding error of each w p, because errors of this size cannot be
 /// avoided.
 BlockResidual residual_of(const ConstraintBlock& block, const double* v, const double* p,
-                          const double* w) {
+                          const double* w, double rounding) {
   BlockResidual residual;
-  const auto rounding = [&](std::size_t k) {
-    return std::numeric_limits<double>::epsilon() * w[k] * std::abs(p[k]);
-  };
+  const auto least = [&](std::size_t k) { return rounding * w[k] * std::abs(p[k]); };
   if (!block.is_contact) {
     for (std::size_t k = 0; k < block.rows; ++k)
       residual.normal = largest_or_nan(
-          residual.normal, std::max(std::abs(v[k] + block.compliance * p[k]), rounding(k)));
+          residual.normal, std::max(std::abs(v[k] + block.compliance * p[k]), least(k)));
     return residual;
   }
   double square = 0;
@@ -167,9 +165,9 @@ BlockResidual residual_of(const ConstraintBlock& block, const double* v, const d
     off += difference * difference;
   }
   residual.tangential = std::sqrt(off);
-  residual.normal = largest_or_nan(residual.normal, rounding(0));
+  residual.normal = largest_or_nan(residual.normal, least(0));
   for (std::size_t k = 1; k < block.rows; ++k)
-    residual.tangential = largest_or_nan(residual.tangential, rounding(k));
+    residual.tangential = largest_or_nan(residual.tangential, least(k));
   return residual;
 }
 

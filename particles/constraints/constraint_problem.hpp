@@ -20,6 +20,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -257,10 +258,12 @@ struct BlockResidual {
 /// - of a contact with kCone the normal and the tangential part of w |p - P(p - v/w)|, where P
 ///   projects impulses on the FrictionCone;
 /// - of a link the largest |v + compliance p|.
-/// The residual is at least the rounding error of w p: if impulses are so large that this error is
-/// not allowed, their rounding errors move units too far.
+/// The residual is at least w p times `rounding`, the relative rounding error of the impulses from
+/// which motions were computed: if impulses are so large that this error is not allowed, their
+/// rounding errors move units too far.
 BlockResidual residual_of(const ConstraintBlock& block, const double* v, const double* p,
-                          const double* w);
+                          const double* w,
+                          double rounding = std::numeric_limits<double>::epsilon());
 
 /// The residual of `block` [L] for the motions of all units and the impulses of the problem.
 /// `block` is a block of the problem or a copy of it with another FrictionBound.

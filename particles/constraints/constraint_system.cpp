@@ -66,6 +66,7 @@ ConstraintSystem<D>::ConstraintSystem(const ConstraintStep& step, const Particle
     links_.push_back(std::move(stop));
     link_residuals_.push_back(0);
   }
+  link_errors_.resize(links_.size());
   for (const auto& body : particles.bodies.bodies)
     for (std::size_t m = 0; m < body.members.size(); ++m)
       offsets_[index_of(body.members[m])] = present_offset(body, m, D);
@@ -335,6 +336,59 @@ void ConstraintSystem<D>::take_over(ContactSystem<D>& system, const Island& isla
   }
 }
 
+template <int D>
+double ConstraintSystem<D>::change_of_impulses(const Island& island,
+                                               const Refinement<D>& refinement) const {
+  if (std::ranges::all_of(island.shifts, [](double shift) { return shift == 0; })) return 0;
+  const auto [allowed, of_values] = errors_of_values(island);
+  const auto changes = refinement.changes_by(island.shifts);
+  const auto unavoidable = refinement.changes_by(of_values);
+  double largest = 0;
+  for (std::size_t b = 0; b < changes.size(); ++b)
+    if (changes[b] > 0)
+      largest = std::max(largest, changes[b] / std::max(allowed[b], unavoidable[b]));
+  return largest;
+}
+
+/// Sets the errors of the impulses of the island.
+template <int D>
+void ConstraintSystem<D>::take_errors(const Island& island, const Refinement<D>* refinement) {
+  std::vector<double> of_shifts, unavoidable;
+  if (refinement != nullptr) {
+    of_shifts = refinement->changes_by(island.shifts);
+    unavoidable = refinement->changes_by(errors_of_values(island).second);
+  }
+  std::size_t b = 0;
+  const auto take = [&](ImpulseError& error, double scale) {
+    error = {};
+    if (refinement != nullptr)
+      error = {scale * (refinement->error(b) + of_shifts[b]), scale * unavoidable[b]};
+    ++b;
+  };
+  for (const auto c : island.contacts) take(contact_states_[c].error, 1);
+  for (const auto l : island.links)
+    take(link_errors_[l], links_[l].is_angle() ? 1 / mean_radius_ : 1);
+}
+
+/// For each block of the island the error of its impulse that is asked for and the rounding errors
+/// of its values.
+template <int D>
+std::pair<std::vector<double>, std::vector<double>> ConstraintSystem<D>::errors_of_values(
+    const Island& island) const {
+  std::vector<double> allowed, of_values;
+  for (const auto c : island.contacts) {
+    allowed.push_back(allowed_errors[c]);
+    of_values.push_back(rounding[c]);
+  }
+  for (const auto l : island.links) {
+    const std::size_t k = contact_states_.size() + l;
+    const double length = links_[l].is_angle() ? mean_radius_ : 1;
+    allowed.push_back(allowed_errors[k] * length);
+    of_values.push_back(rounding[k] / length);
+  }
+  return {allowed, of_values};
+}
+
 /// The residual of the contact with block `b` of the island [L]. If Coulomb's law was asked for, it
 /// is the residual of this law, also if the solution has given loads.
 template <int D>
@@ -452,6 +506,7 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
   double last_change = kInfinity, gained_change = kInfinity;
   int growing = 0, gained_at = 0;
   ConstraintSolution<D> solution;
+  std::optional<Refinement<D>> refinement;
   SolverResult result;
   const auto restart = [&] {
     make_problem(system, island, is_rough, roughly_allowed);
@@ -490,6 +545,8 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
     if (n > 0 && can_use_distances(system, island)) most = std::min(most, kMostCorrected);
     solution = solve_constraints(problem, std::max(1, most));
     result.iterations += solution.result.iterations;
+    refinement.reset();
+    if (!is_rough) refinement.emplace(problem, solution);
     const auto is_exhausted = [&] {
       return result.iterations >= max_iterations + (island.has_given_up ? kMostOfGivenLoads : 0);
     };
@@ -523,10 +580,12 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
       }
       // Where friction locks particles that must move, impulses grow without bound, so that loads
       // have no meaning. This happens in every convex problem without a solution.
-      give_up(island, is_convex_, solution, result);
+      if (give_up(island, is_convex_, solution, result)) refinement.emplace(problem, solution);
     }
     result.residual = solution.result.residual;
-    const double change = correct(system, island, solution.motions);
+    double change = correct(system, island, solution.motions);
+    if (refinement && refinement->is_done())
+      change = std::max(change, change_of_impulses(island, *refinement));
     result.residual += change;
     growing = change < last_change ? 0 : growing + 1;
     const bool is_fast = change < kFast * last_change;
@@ -563,6 +622,7 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
         n > 0 && solution.result.residual <= 1 && (is_fast || !has_large_shifts(island));
   }
   take_over(system, island, solution);
+  take_errors(island, refinement && refinement->is_done() ? &*refinement : nullptr);
   if (island.contacts.empty() && result.residual <= 1) {
     without_contacts_.resize(system.bodies().size());
     for (const auto b : island.bodies) {

@@ -12,11 +12,13 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/constraints/constraint_problem.hpp"
 #include "viscontact/particles/constraints/constraint_solver.hpp"
+#include "viscontact/particles/constraints/refinement.hpp"
 #include "viscontact/particles/contact/contact_laws.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/dual_problem/contact_system.hpp"
@@ -48,6 +50,13 @@ struct ConstraintStep {
   std::span<double> link_forces;
 };
 
+/// What is known of the error of an impulse.
+struct ImpulseError {
+  /// Estimate of the error [M L/T], >= 0, by a Refinement; negative if there was none.
+  double estimate = -1;
+  double rounding = 0;  ///< error that rounding errors of gaps and lengths cause [M L/T], >= 0
+};
+
 /// The contacts, rigid bodies and links of a step as one ConstraintProblem, and its solution.
 template <int D>
 class ConstraintSystem {
@@ -77,6 +86,10 @@ class ConstraintSystem {
   /// Allowed residuals of links() [L], > 0; those of angles are multiplied by the mean radius. The
   /// caller sets them before solve().
   std::vector<double> links_allowed;
+  /// Errors of the impulses of all contacts, in the order of add(), and then of all links() that
+  /// are asked for [M L/T], >= 0, and rounding errors of their gaps and values [L]; of angles as in
+  /// links_allowed. The caller sets them before solve().
+  std::vector<double> allowed_errors, rounding;
   /// Allowed residuals of the slips, the tangential displacements of all contacts [L], > 0, in the
   /// order of add(). The caller sets them before solve().
   std::vector<double> slips_allowed;
@@ -143,6 +156,16 @@ class ConstraintSystem {
   /// Residual of link number `l` of links() in the last solution [L]; that of angles is multiplied
   /// by the mean radius.
   double link_residual(std::size_t l) const { return link_residuals_[l]; }
+  /// Error of the normal impulse of contact number `c` in the last solution.
+  const ImpulseError& impulse_error(std::size_t c) const { return contact_states_[c].error; }
+  /// Error of the impulse of link number `l` of links() in the last solution; moments of angles are
+  /// divided by the mean radius.
+  const ImpulseError& link_impulse_error(std::size_t l) const { return link_errors_[l]; }
+  /// The impulse of row `k` of link number `l` of links() [M L/T], or [M L^2/T] if it is an angle:
+  /// that of the last solution, or the first guess.
+  double link_impulse(std::size_t l, std::size_t k) const {
+    return times_.kick * link_forces_[links_[l].first_force + k];
+  }
   /// For each constraint of the last solve(), first all contacts, then all links, its violation
   /// [L], >= 0, by the motion that violates all constraints least. Violations of angles are
   /// multiplied by the mean radius. That motion has the least sum of v^2/w over the rows of rigid
@@ -177,6 +200,7 @@ class ConstraintSystem {
     double given_load = 0;  // load that bounds the friction after the island has given up [M L/T]
     bool gave_up = false, could_not_give_up = false;  // its island
     BlockResidual residual;                           // in the last solution
+    ImpulseError error;                               // in the last solution
     // ConstraintBlock::given_load in the last solution that was not rough [M L/T]; without a value
     // before.
     std::optional<double> last_load;
@@ -209,6 +233,9 @@ class ConstraintSystem {
   bool give_up(Island& island, bool have_diverged, ConstraintSolution<D>& solution,
                SolverResult& result);
   void give_loads_of_step(Island& island);
+  std::pair<std::vector<double>, std::vector<double>> errors_of_values(const Island& island) const;
+  double change_of_impulses(const Island& island, const Refinement<D>& refinement) const;
+  void take_errors(const Island& island, const Refinement<D>* refinement);
   BlockResidual residual_of_contact(const Island& island, std::size_t b,
                                     const ConstraintSolution<D>& solution) const;
   void take_over(ContactSystem<D>& system, const Island& island,
@@ -226,6 +253,7 @@ class ConstraintSystem {
   std::vector<LinkEquations> links_;
   std::vector<ContactState> contact_states_;
   std::vector<double> link_residuals_, link_forces_;
+  std::vector<ImpulseError> link_errors_;
   // Forces of links with which solutions begin, in the order of link_forces_.
   std::vector<double> first_link_forces_;
   // Motions of the unit of each body of the ContactSystem whose island was solved without contacts.

@@ -82,6 +82,8 @@ class ContactSystem {
   bool may_use_distances() const { return may_use_distances_; }  ///< false: they are forbidden
 
   const std::vector<std::int32_t>& bodies() const { return bodies_; }  ///< particle of each body
+  /// Number of bodies of the island with the root `root`, a result of island().
+  std::size_t size_of_island(std::int32_t root) const { return island_sizes_[index_of(root)]; }
   /// Number of the body that `particle` is, or -1 if the particle does not take part.
   std::int32_t body_of(std::int32_t particle) const { return body_of_[index_of(particle)]; }
   /// Displacement h u* [L] of a body: D numbers, valid until another particle takes part.

@@ -24,6 +24,27 @@ bool take(double residual, const ResidualScale& scale, const SolverSettings& set
   return result.residuals.take(residual, scale.allowed_gap(settings, mean_radius));
 }
 
+/// The largest error of an impulse that is allowed [M L/T], > 0: the fraction of the impulse at work
+/// that is asked for, or what rounding errors cause.
+double allowed_error(const ImpulseError& error, const ResidualScale& scale,
+                     const SolverSettings& settings) {
+  return std::max(
+      {settings.impulse_tolerance * scale.impulse, error.rounding, scale.rounding / scale.w});
+}
+
+/// Adds the residual of a gap or link [L], and the error of its impulse if it is known, to `result`.
+/// Returns true if one of them is larger than allowed or NaN.
+bool take(double residual, const ImpulseError& error, const ResidualScale& scale,
+          const SolverSettings& settings, double mean_radius, ProjectionResult& result) {
+  if (!(error.estimate >= 0)) return take(residual, scale, settings, mean_radius, result);
+  // Particles in touch without load have impulses that are rounding errors themselves.
+  if (error.estimate > std::max(error.rounding, scale.rounding / scale.w))
+    result.residuals.take_impulse(error.estimate, scale.impulse);
+  const bool is_beyond = result.residuals.take(residual, scale.allowed_gap(settings, mean_radius));
+  return result.residuals.take_error(error.estimate, allowed_error(error, scale, settings)) ||
+         is_beyond;
+}
+
 }  // namespace
 
 /// The scale of the residual of a link. It is the scale of a contact whose change of the gap per
@@ -65,7 +86,8 @@ void StepProjection<D>::examine_links(const SolverSettings& settings, double mea
     const double residual = constraints_->link_residual(l);
     const auto scale = scale_of_link(links[l], scales);
     result.link_residual = std::max(result.link_residual, residual);
-    if (take(residual, scale, settings, mean_radius, result)) beyond.push_back(l);
+    if (take(residual, constraints_->link_impulse_error(l), scale, settings, mean_radius, result))
+      beyond.push_back(l);
   }
   if (!beyond.empty()) name_contradictions(beyond, mean_radius, result);
 }
@@ -142,12 +164,13 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
     const double residual = constraints_
                                 ? constraints_->residual(c).normal
                                 : contact_residual(gap, here.w * (here.impulse - here.lowest));
-    take(residual, scale, settings, mean_radius, result);
+    const auto error = error_of_contact(c);
+    take(residual, error, scale, settings, mean_radius, result);
     if (constraints_)
       result.residuals.take(
           constraints_->residual(c).tangential,
           scale.allowed(settings.tolerance * mean_radius / 2, fraction_of_slips(settings)));
-    result.residuals.impulse_errors[c] = residual / scale.w;
+    result.residuals.impulse_errors[c] = error.estimate >= 0 ? error.estimate : residual / scale.w;
     result.residuals.take_gap(gap - here.tolerated, pair(chosen_[c]));
     if ((here.impulse != 0 || here.lowest < 0) &&
         turns_too_far(state_.particles, here, displacements_))

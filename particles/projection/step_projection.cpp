@@ -190,7 +190,9 @@ int StepProjection<D>::solve_contacts(bool is_rough, double length, int iteratio
                                       int max_iterations) {
   if (constraints_)
     return constraints_->solve(system_, is_rough, length / 2, max_iterations).iterations;
-  return iterations + system_.solve(is_rough, max_iterations - iterations, pool_).iterations;
+  iterations += system_.solve(is_rough, max_iterations - iterations, pool_).iterations;
+  if (!is_rough) refine();
+  return iterations;
 }
 
 /// Sets each allowed residual to half of what ResidualScale::allowed() returns. Its arguments are
@@ -201,17 +203,27 @@ template <int D>
 void StepProjection<D>::allow(double length, double fraction, double of_slips) {
   auto scales = residual_scales();
   // The other half is for rounding errors, because examine() computes residuals by other formulas.
-  if (constraints_) constraints_->slips_allowed.clear();
+  rounding_.clear();
+  if (constraints_) {
+    constraints_->slips_allowed.clear();
+    constraints_->allowed_errors.clear();
+  }
   for (auto& contact : system_.contacts) {
     const auto scale = scales.of(contact);
     contact.allowed = scale.allowed(length, fraction) / 2;
+    rounding_.push_back(scale.rounding);
+    if (constraints_) constraints_->allowed_errors.push_back(fraction * scale.impulse);
     if (constraints_) constraints_->slips_allowed.push_back(scale.allowed(length, of_slips) / 2);
   }
   if (!constraints_) return;
   constraints_->links_allowed.clear();
-  for (const auto& link : constraints_->links())
-    constraints_->links_allowed.push_back(
-        scale_of_link(link, scales).allowed(length / 2, fraction) / 2);
+  constraints_->rounding = rounding_;
+  for (const auto& link : constraints_->links()) {
+    const auto scale = scale_of_link(link, scales);
+    constraints_->links_allowed.push_back(scale.allowed(length / 2, fraction) / 2);
+    constraints_->allowed_errors.push_back(fraction * scale.impulse);
+    constraints_->rounding.push_back(scale.rounding);
+  }
 }
 
 /// Returns `pairs` and, from the third round on, also pairs that are connected with `pairs` and
@@ -415,13 +427,13 @@ template <int D>
 ResidualScales<D>::ResidualScales(const State& state, double h,
                                   std::span<const double> displacements,
                                   std::span<const double> mobilities, ContactSystem<D>& system,
-                                  bool has_constraints)
+                                  const ConstraintSystem<D>* constraints)
     : state_(state),
       h_(h),
       displacements_(displacements),
       mobilities_(mobilities),
       system_(system),
-      has_constraints_(has_constraints),
+      has_constraints_(constraints != nullptr),
       island_impulses_(system.bodies().size(), 0.0) {
   const auto& bodies = system.bodies();
   for (std::size_t b = 0; b < bodies.size(); ++b)
@@ -439,6 +451,17 @@ ResidualScales<D>::ResidualScales(const State& state, double h,
       }
     auto& of_island = island_impulses_[index_of(system.island(system.body_of(contact.second)))];
     of_island = std::max(of_island, std::sqrt(contact.w) * impulse);
+  }
+  if (constraints == nullptr) return;
+  for (std::size_t l = 0; l < constraints->links().size(); ++l) {
+    const auto& link = constraints->links()[l];
+    for (std::size_t k = 0; k < link.rows.size(); ++k)
+      for (const auto& part : link.rows[k].parts) {
+        double impulse = std::abs(constraints->link_impulse(l, k)) * norm(part.direction);
+        if (link.is_angle()) impulse /= state.particles.radii[index_of(part.particle)];
+        auto& largest = body_scales_[index_of(system.body_of(part.particle))].impulse;
+        largest = std::max(largest, impulse);
+      }
   }
 }
 

@@ -70,11 +70,11 @@ class ResidualScales {
  public:
   /// Measures the impulses at work at the present impulses of `system` and the displacements h v
   /// [L], D numbers for each particle. `mobilities` are h/m of all particles of the mass m [T/M], >
-  /// 0. `h` must be > 0 [T]. `has_constraints` is true in a step with friction, bodies or links.
+  /// 0. `h` must be > 0 [T]. `constraints` is null in a step without friction, bodies and links.
   /// The arguments must outlive this object.
   ResidualScales(const State& state, double h, std::span<const double> displacements,
                  std::span<const double> mobilities, ContactSystem<D>& system,
-                 bool has_constraints);
+                 const ConstraintSystem<D>* constraints);
 
   /// Scales of a contact or link between the particles with the numbers `particles`; negative
   /// numbers are obstacles. The particles need not be in `system`. `w` > 0 is the change of the gap
@@ -163,9 +163,10 @@ struct ProjectionResult {
 /// The step has converged if each contact meets two conditions. Let d be its gap after the step
 /// (ContactSystem::gap()), p its impulse and w the change of the gap per impulse. The residual
 /// |min(d, w (p - gamma))|, without the tolerated overlap, must be at most half of
-/// SolverSettings::tolerance mean radii. The residual divided by w must be at most the fraction
-/// SolverSettings::impulse_tolerance of the impulse at work, or within rounding errors. Links must
-/// meet the same two conditions with their own residuals.
+/// SolverSettings::tolerance mean radii. The error of the impulse must be at most the fraction
+/// SolverSettings::impulse_tolerance of the impulse at work, or within rounding errors. It is the
+/// estimate of a Refinement, or, where there is none, the residual divided by w. Links must meet
+/// the same two conditions with their own residuals.
 template <int D>
 class StepProjection {
  public:
@@ -240,7 +241,8 @@ class StepProjection {
     return (first < 0 ? 0.0 : mobilities_[index_of(first)]) + mobilities_[index_of(second)];
   }
   ResidualScales<D> residual_scales() {
-    return {state_, h_, displacements_, mobilities_, system_, constraints_.has_value()};
+    return {state_,      h_,      displacements_,
+            mobilities_, system_, constraints_ ? &*constraints_ : nullptr};
   }
   // True if the number is that of a particle in system_.
   bool takes_part(std::int32_t particle) const {
@@ -264,6 +266,9 @@ class StepProjection {
   void leave_touching(std::vector<std::size_t>& pairs, const SolverSettings& settings,
                       double mean_radius);
   void choose(const std::vector<std::size_t>& pairs);
+  void refine();
+  bool is_worth_refining(const std::vector<std::size_t>& island);
+  ImpulseError error_of_contact(std::size_t c) const;
   int solve_contacts(bool is_rough, double length, int iterations, int max_iterations);
   std::vector<std::size_t> with_connected_pairs(const std::vector<std::size_t>& pairs, int round);
   void allow(double length, double fraction, double of_slips);
@@ -297,6 +302,8 @@ class StepProjection {
   std::optional<ConstraintSystem<D>> constraints_;
   std::optional<PairsOfParticles> pairs_of_particles_;
   const Impacts<D>* impacts_ = nullptr;
+  std::vector<ImpulseError> errors_;  // of the contacts of system_, without constraints
+  std::vector<double> rounding_;      // rounding errors of the gaps of the contacts of system_ [L]
 };
 
 }  // namespace viscontact::particles

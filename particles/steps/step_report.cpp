@@ -23,6 +23,10 @@ namespace viscontact::particles {
 /// Returns true if the residual is larger or not a number.
 bool StepResiduals::take(double residual, double allowed) {
   largest = std::max(largest, residual);
+  return take_error(residual, allowed);
+}
+
+bool StepResiduals::take_error(double residual, double allowed) {
   excess = std::isnan(residual) ? std::numeric_limits<double>::infinity()
                                 : std::max(excess, residual / allowed);
   const bool beyond = !(residual <= allowed);

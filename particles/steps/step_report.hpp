@@ -69,9 +69,9 @@ struct StepReport {
   int iterations = 0;
   /// Largest residual |min(d, w (p - gamma))| of a contact, divided by the mean radius [1].
   double residual = 0;
-  /// Largest residual divided by w and by the impulse at work in the contact [1]. The impulse at
-  /// work on a particle is the largest of the impulse of forces, the change of momentum, and the
-  /// impulses of contacts in the step (docs/particles.md, "The projection").
+  /// Largest error of an impulse, divided by the impulse at work in the contact or link [1]. The
+  /// impulse at work on a particle is the largest of the impulse of forces, the change of momentum,
+  /// and the impulses of contacts and links in the step (docs/particles.md, "The projection").
   double impulse_residual = 0;
   bool converged = true;  ///< true if the residuals of all contacts and links are allowed
   /// Largest residual over what is allowed for its contact or link [1], >= 0; infinite if the step
@@ -106,20 +106,22 @@ struct StepReport {
 struct StepResiduals {
   double largest = 0;  ///< largest residual [L], >= 0
   double excess = 0;   ///< largest residual over what is allowed for its contact or link [1], >= 0
-  /// Largest residual as an impulse, divided by the impulse at work in its contact or link [1],
-  /// >= 0.
+  /// Largest error of an impulse, divided by the impulse at work in its contact or link [1], >= 0.
   double of_impulses = 0;
   double smallest_gap = 0;  ///< smallest gap d (see StepReport) [L], 0 if all are larger than 0
   Pair deepest_overlap;     ///< the pair with the smallest gap, if this is < 0
   bool converged = true;    ///< true if all residuals are allowed
-  /// Residual of each contact divided by Contact::w, the change of the gap per impulse [M L/T],
-  /// >= 0.
+  /// Estimate of the error of the impulse of each contact [M L/T], >= 0. Where it is unknown, it is
+  /// the residual divided by Contact::w, the change of the gap per impulse.
   std::vector<double> impulse_errors;
 
   /// Takes a residual >= 0 into account. `allowed` > 0 is the largest residual that is allowed;
   /// both are [L]. Returns true and sets `converged` to false if the residual is larger or not a
   /// number. A residual that is not a number leaves `largest` as it is and makes `excess` infinite.
   bool take(double residual, double allowed);
+  /// Takes the error of an impulse >= 0 into account. `allowed` > 0 is the largest error that is
+  /// allowed; both are [M L/T]. Returns true as take() does.
+  bool take_error(double error, double allowed);
   /// Takes the residual of an impulse into account. `at_work` >= 0 is the impulse at work; both are
   /// [M L/T]. If `at_work` is 0, the residual is ignored.
   void take_impulse(double residual, double at_work);
