@@ -16,8 +16,10 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <numbers>
 #include <optional>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "viscontact/common/error.hpp"
@@ -297,6 +299,27 @@ void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State&
                 c.setting.solver.impulse_tolerance, c.setting.solver.max_iterations);
 }
 
+/// Warns of a fixed mesh of many unknowns, which is as fine everywhere as on the smallest particle.
+void warn_of_fine_mesh(const ParticlesCase& c, const Particles& particles) {
+  if (!c.setting.fluid || c.setting.fluid->mesh != FluidMesh::kFixed || particles.count() == 0)
+    return;
+  constexpr double kPerTriangle = 4.6;   // unknowns of velocity and pressure, on a large mesh
+  constexpr double kManyUnknowns = 6e4;  // about ten seconds of one core for each step
+  const double edge = 2 * std::numbers::pi * std::ranges::min(particles.radii) /
+                      c.setting.fluid->edges_per_particle;
+  const auto* cylinder = std::get_if<CylinderDomain>(&c.setting.domain);
+  const double area =
+      cylinder != nullptr ? cylinder->radius * cylinder->height : measure(c.setting.domain);
+  const double unknowns = kPerTriangle * area / (std::numbers::sqrt3 / 4 * edge * edge);
+  if (unknowns < kManyUnknowns) return;
+  terminal::warn(
+      "particles: warning: the fixed mesh has about {:.2g} unknowns, which take about {:.2g} s of "
+      "one core for each step and more for estimates of errors, because all edges are as short as "
+      "those on the smallest particle; mesh = \"fitted\" needs far fewer, and half of "
+      "edges_per_particle needs a fourth",
+      unknowns, std::ceil(unknowns / 1e4));
+}
+
 /// For a run that was finished before this call: prints the messages of the call that finished it,
 /// and throws the same error.
 void tell_finished(const ParticlesCase& c, const EarlierRun& run, const fs::path& folder, bool json,
@@ -338,6 +361,7 @@ void run_particles(const ParticlesRequest& request) {
     remove_results(folder);
     log.totals().first_time = log.totals().last_time = state.time;
   }
+  warn_of_fine_mesh(c, state.particles);
   ParticleSimulation simulation(c.setting, std::move(state), request.threads, request.start_solver,
                                 request.stop);
   Run run(c, simulation, folder, provenance, log, request.stop);

@@ -1,6 +1,7 @@
 // The shipped cases of a fluid with inertia (data/cases/flow) run with FreeFEM, coarser and
 // shorter, and give the published numbers that docs/fluid.md compares with. The full cases are
 // commands of that page.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -155,6 +156,92 @@ TEST_F(FlowCase, ADiscFallsByPenaltyAndCharacteristics) {
   compute(
       with("falling_disc", {{"time_step", "0.02"}, {"end_time", "0.3"}, {"constraint", coarse}}));
   EXPECT_NEAR(column("motion.csv", "vy").back(), -5.4521, 0.06 * 5.4521);
+}
+
+constexpr auto kCharacteristics = "12\nadvection = \"characteristics\"";
+
+// semi_implicit has nearly no error in time here. Observed differences: 0.090 and 0.020.
+TEST_F(FlowCase, CharacteristicsAreOfSecondOrder) {
+  const auto drag = [&](const std::string& edges, const std::string& step) {
+    compute(with("cylinder_steady",
+                 {{"edges_per_particle", edges}, {"time_step", step}, {"end_time", "0.4"}}));
+    return 500 * column("steps.csv", "given_force_x").back();
+  };
+  const double coarse = drag(kCharacteristics, "0.04") - drag("12", "0.04"),
+               fine = drag(kCharacteristics, "0.02") - drag("12", "0.02");
+  EXPECT_LT(std::abs(coarse), 0.02 * 5.58);
+  EXPECT_GT(std::abs(coarse / fine), 3);  // 4 in theory
+}
+
+// Circular Couette flow has no inertia along its circles: the torque is 4 pi mu omega r² R²/(R² - r²).
+// In a step of 0.3 at the disc the difference along a circle is off by 0.3^4/4 of the velocity, and
+// the mesh makes 5e-4. With FreeFEM's convect() the torque was 9e-3 off.
+TEST_F(FlowCase, CharacteristicsFollowCircles) {
+  compute(R"(title = "A disc that spins in a ring"
+[space]
+dimension = 2
+[fluid]
+viscosity = 1.0
+density = 1.0
+start = "stokes"
+constraint = "rigid"
+edges_per_particle = 24
+advection = "characteristics"
+[domain]
+disc = { centre = [0.0, 0.0], radius = 2.0 }
+[viscous_contact]
+time_step = 0.3
+end_time = 3.0
+[output]
+every = 3.0
+[[particle]]
+centre = [0.0, 0.0]
+radius = 1.0
+velocity_given = { value = [0.0, 0.0], angular_velocity = 1.0 }
+)");
+  EXPECT_NEAR(column("final_particles.csv", "fluid_torque").back() / (-16 * std::numbers::pi / 3),
+              1, 2e-3);
+}
+
+// In a step of 0.25 the fluid moves by a diameter of the cylinder: c_d would be 7.5. In the step
+// that the message names it is within the 6 % that such steps of second order leave.
+TEST_F(FlowCase, CharacteristicsRefuseAStepThatIsTooLong) {
+  const auto text = [&](const std::string& edges, const std::string& step) {
+    return with("cylinder_steady",
+                {{"edges_per_particle", edges}, {"time_step", step}, {"end_time", "0.8"}});
+  };
+  const auto refused = run(put_case(text(kCharacteristics, "0.25")), out());
+  EXPECT_NE(refused.exit_status, 0);
+  const std::string named = "time_step of at most ";
+  const auto at = refused.errors.find(named);
+  ASSERT_NE(at, std::string::npos) << refused.errors;
+  const double step = std::stod(refused.errors.substr(at + named.size()));
+  EXPECT_GT(step, 0.03);
+  compute(text(kCharacteristics, fmt::format("{}", step)));
+  const double drag = column("steps.csv", "given_force_x").back();
+  compute(text("12", fmt::format("{}", step)));
+  EXPECT_NEAR(drag / column("steps.csv", "given_force_x").back(), 1, 0.06);
+}
+
+TEST_F(FlowCase, AWarningNamesAFixedMeshOfManyUnknowns) {
+  const auto result = run(put_case(R"(title = "A long box"
+[space]
+dimension = 2
+[fluid]
+viscosity = 1.0
+mesh = "fixed"
+solver = ["false"]
+[domain]
+box = { from = [0.0, 0.0], to = [10.0, 1.0] }
+[viscous_contact]
+time_step = 0.1
+end_time = 0.1
+[[particle]]
+centre = [5.0, 0.5]
+radius = 0.1
+)"),
+                          out());
+  EXPECT_THAT(result.errors, HasSubstr("the fixed mesh has about 1.6e+05 unknowns"));
 }
 
 // Computations of Koblitz et al. 2017 (depth 1.7177 and 2.239 at t = 0.1) and Uhlmann 2005.
