@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/vtk/appended_data.hpp"
+#include "viscontact/common/vtk/vtk_xml.hpp"
 #include "viscontact/particles/io/vtk.hpp"
 #include "viscontact/particles/pair_memory.hpp"
 
@@ -173,15 +173,14 @@ struct Array {
 template <class Number>
 class Arrays {
  public:
-  Arrays(const std::vector<Array>& all, const AppendedReader& first, hid_t group,
-         const fs::path& file) {
+  Arrays(const std::vector<Array>& all, const VtkReader& first, hid_t group, const fs::path& file) {
     for (const auto& array : all)
       if (first.has_array(array.section, array.name))
         arrays_.emplace_back(array, Rows<Number>(group, array.target, array.columns, file));
   }
   /// Appends the arrays of a frame. Throws Error(kBadInput) if an array is missing in the frame or
   /// does not have `count` rows.
-  void append(const AppendedReader& frame, std::size_t count) {
+  void append(const VtkReader& frame, std::size_t count) {
     for (auto& [array, rows] : arrays_) {
       const auto numbers = frame.array<Number>(array.section, array.name);
       if (numbers.size() != count * array.columns) frame.refuse();
@@ -198,14 +197,14 @@ class Arrays {
 class Table {
  public:
   Table(hid_t file_id, const char* name, const std::vector<Array>& decimal,
-        const std::vector<Array>& whole, const AppendedReader& first, const fs::path& file)
+        const std::vector<Array>& whole, const VtkReader& first, const fs::path& file)
       : group_(H5Gcreate2(file_id, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, file),
         decimal_(decimal, first, group_, file),
         whole_(whole, first, group_, file),
         begins_(group_, "begin", 1, file) {
     begins_.append({0});
   }
-  void append(const AppendedReader& frame, std::size_t count) {
+  void append(const VtkReader& frame, std::size_t count) {
     decimal_.append(frame, count);
     whole_.append(frame, count);
     end_ += static_cast<std::int64_t>(count);
@@ -236,11 +235,11 @@ void copy_frames(const ParticlesCase& c, const fs::path& folder, hid_t id, const
   const auto frames = read_pvd(folder / "particles.pvd");
   if (frames.empty()) throw_bad_input({(folder / "particles.pvd").string()}, "has no frame");
   const auto first_text = read_file(folder / frames.front().second);
-  const AppendedReader first(first_text, (folder / frames.front().second).string(), "frame");
+  const VtkReader first(first_text, (folder / frames.front().second).string(), "frame");
   const bool is_flat = c.particles.dimension < 3;  // then the angular velocity is one number
   Rows<double> times(id, "time", 1, file);
   Table particles(id, "particles",
-                  {{"Points>", "Points", "position", 3},
+                  {{"Points", "Points", "position", 3},
                    {"PointData", "velocity", "velocity", 3},
                    {"PointData", "radius", "radius", 1},
                    {"PointData", "mass", "mass", 1},
@@ -256,7 +255,7 @@ void copy_frames(const ParticlesCase& c, const fs::path& folder, hid_t id, const
                  first, file);
   for (const auto& [time, name] : frames) {
     const auto text = read_file(folder / name);
-    const AppendedReader frame(text, (folder / name).string(), "frame");
+    const VtkReader frame(text, (folder / name).string(), "frame");
     times.append({time});
     particles.append(frame, frame.array<double>("PointData", "radius").size());
     contacts.append(frame, frame.array<double>("CellData", "gap").size());
