@@ -59,9 +59,9 @@ std::optional<std::string> decode(std::string_view text) {
   std::size_t at = 0;
   for (std::size_t b = 0; b < blocks; ++b) {
     const auto compressed = header[kFixedPart + b];
-    // zlib makes nothing more than about a thousand times smaller.
-    if (compressed > data->size() - at || block_size / 2000 > compressed) return {};
     const auto size = b + 1 == blocks && last_size > 0 ? last_size : block_size;
+    // zlib makes nothing more than 1032 times smaller.
+    if (compressed > data->size() - at || size / 1032 > compressed) return {};
     const auto begin = bytes.size();
     bytes.resize(begin + size);
     if (!uncompress_block(std::string_view(*data).substr(at, compressed),
@@ -97,11 +97,11 @@ std::string vtk_array_of_bytes(const char* type, std::string_view name, int comp
     header.push_back(size);
     end += size;
   }
+  // meshio makes a column of numbers with a stated 1, and a list without it.
+  const auto stated = components == 1 ? "" : fmt::format(" NumberOfComponents=\"{}\"", components);
   return fmt::format(
-      "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">\n{}{}\n"
-      "</DataArray>\n",
-      type, name, components, to_base64(std::as_bytes(std::span(header))),
-      to_base64(std::span(data).first(end)));
+      "<DataArray type=\"{}\" Name=\"{}\"{} format=\"binary\">\n{}{}\n</DataArray>\n", type, name,
+      stated, to_base64(std::as_bytes(std::span(header))), to_base64(std::span(data).first(end)));
 }
 
 std::string PolyCells::opening(std::size_t points) const {

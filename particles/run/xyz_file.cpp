@@ -60,7 +60,7 @@ std::optional<Cell> cell_at(const ParticlesCase& c, double time, double largest_
     cell.corner[2] = -largest_radius;
     to[2] = largest_radius;
   }
-  PeriodicCell periods = c.particles.cell;
+  PeriodicCell periods = cell_of(c.setting);
   periods.moved_for = time;
   for (std::size_t d = 0; d < 3; ++d) {
     cell.periodic[d] = periods.lengths[d] > 0;

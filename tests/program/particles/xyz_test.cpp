@@ -30,7 +30,7 @@ class XyzFile : public ParticlesCommand {
   static std::string xyz_in(const fs::path& folder) {
     return results::without_provenance(read_file(folder / "particles.xyz"));
   }
-  /// A case without a fluid in space, in the plane or on an axis.
+  /// A case without a fluid, in the plane or in space.
   static std::string dry(int dimension, const std::string& sections) {
     return "title = \"A case\"\n[space]\ndimension = " + std::to_string(dimension) +
            "\n[viscous_contact]\ntime_step = 0.05\nend_time = 0.5\ngamma_min = -1.0\n"
@@ -76,13 +76,26 @@ begin = 0.15
   expect_same_numbers("T T F", "6 0 0 0 6 0 0 0 10", "0 0 -1");
 }
 
-TEST_F(XyzFile, OfSpheresOnAnAxisHasThemOnZ) {
-  expect_done(run(put_case(dry(1,
-                               "[[particle]]\ncentre = [1.0]\nradius = 1.0\nmass = 1.0\n"
-                               "velocity = [1.0]\n[[particle]]\ncentre = [3.1]\nradius = 1.0\n"
-                               "mass = 1.0\n")),
+TEST_F(XyzFile, OfASphereOnAnAxisHasItOnZ) {
+  expect_done(run(put_case(R"(title = "A sphere that falls on the axis of a cylinder"
+[space]
+dimension = "axisymmetric"
+gravity = -1.0
+[fluid]
+viscosity = 1.0
+edges_per_particle = 12
+[domain]
+cylinder = { radius = 4.0, height = 9.0 }
+[viscous_contact]
+time_step = 0.1
+end_time = 0.1
+[[particle]]
+centre = 4.0
+radius = 1.0
+mass = 1.0
+)"),
                   out(), {"--xyz"}));
-  expect_same_numbers("F F F", "", "");
+  expect_same_numbers("F F F", "8 0 0 0 8 0 0 0 9", "-4 -4 0");
 }
 
 // A shear flow of rate 1.3 in a cell of 6 x 6: after 1.5 its second edge has moved by 11.7, and so
