@@ -104,7 +104,8 @@ constexpr std::string_view kChunk{"tEXtprovenance\0", 15};
 /// The text before and after the JSON in a kind of file.
 struct Wrapping {
   std::string before, after;
-  std::string_view forbidden;  ///< characters that must not stand between `before` and `after`
+  std::string_view forbidden;   ///< characters that must not stand between `before` and `after`
+  std::string_view end = "\n";  ///< what follows `after`
 };
 
 Wrapping wrapping_of(TextKind kind) {
@@ -128,6 +129,10 @@ Wrapping wrapping_of(TextKind kind) {
       return {"% provenance: ", "", ""};
     case TextKind::kPng:
       return {std::string(kChunk), "", ""};
+    case TextKind::kXyz:
+      // The last entry of the line with the properties of the first frame. ASE and OVITO look for
+      // "=" and for quotes.
+      return {" provenance='", "'", "'=", ""};
   }
   return {};
 }
@@ -163,6 +168,8 @@ std::size_t place_in(TextKind kind, const std::string& text) {
       // The line stands behind all objects of the file, so that the table of their offsets stays
       // right.
       return text.rfind("startxref");
+    case TextKind::kXyz:
+      return text.find('\n', text.find('\n') + 1);
   }
   return 0;
 }
@@ -321,9 +328,9 @@ std::string with_provenance(TextKind kind, const std::string& text, const Proven
   if (kind == TextKind::kPng)
     return text.substr(0, kPngHeader) + png_chunk(provenance) + text.substr(kPngHeader);
   const auto place = place_in(kind, text);
-  const auto [before, after, forbidden] = wrapping_of(kind);
-  return text.substr(0, place) + before + without(forbidden, as_line(provenance)) + after + "\n" +
-         text.substr(place);
+  const auto [before, after, forbidden, end] = wrapping_of(kind);
+  return text.substr(0, place) + before + without(forbidden, as_line(provenance)) + after +
+         std::string(end) + text.substr(place);
 }
 
 std::string without_provenance(const std::string& text) {
@@ -334,10 +341,11 @@ std::string without_provenance(const std::string& text) {
   // line.
   const std::size_t more = text.starts_with(kPngSignature) ? 4 : 0;
   const auto before = std::string_view(text).substr(0, line->json);
-  for (const auto kind : {kHashComment, kJson, kSvg, kHtml, kXml, kC, kFortran, kMatlab, kPng})
-    if (const auto wrapping = wrapping_of(kind).before; before.ends_with(wrapping))
-      return text.substr(0, line->json - wrapping.size() - more) +
-             text.substr(std::min(line->end + 1 + more, text.size()));
+  for (const auto kind :
+       {kHashComment, kJson, kSvg, kHtml, kXml, kC, kFortran, kMatlab, kPng, kXyz})
+    if (const auto wrapping = wrapping_of(kind); before.ends_with(wrapping.before))
+      return text.substr(0, line->json - wrapping.before.size() - more) +
+             text.substr(std::min(line->end + wrapping.end.size() + more, text.size()));
   return text;
 }
 

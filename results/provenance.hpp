@@ -65,11 +65,11 @@ Provenance without_folders(Provenance provenance);
 
 /// `text` with the provenance as one line in it. The line is the first key of a kJson file, an
 /// element `metadata` of a kSvg file, a data script in the head of a kHtml file, a comment before
-/// the last lines of a kPdf file, a chunk of text after the header of a kPng file, and a comment at
-/// the head of any other file. `text` must be a complete file of this kind, for kJson an object
+/// the last lines of a kPdf file, a chunk of text after the header of a kPng file, an entry of the
+/// second line of a kXyz file, and a comment at the head of any other file. `text` must be a complete file of this kind, for kJson an object
 /// with at least one key (not checked). Throws std::out_of_range if `text` lacks the mark at which
 /// the line is inserted: "{" of kJson, "<svg" and ">" of kSvg, "</head>" of kHtml, "?>" of kXml,
-/// "startxref" of kPdf, or the header (33 bytes) of kPng.
+/// "startxref" of kPdf, the header (33 bytes) of kPng, or the second line of kXyz.
 std::string with_provenance(TextKind kind, const std::string& text, const Provenance& provenance);
 
 /// `text` without the line that with_provenance() inserted. It is unchanged if it has no

@@ -58,6 +58,9 @@ void add_particles(CLI::App& app) {
   command->add_flag(
       "--hdf5", o->hdf5,
       "write all frames to one file particles.h5, too; also of a run that is finished");
+  command->add_flag("--xyz", o->xyz,
+                    "write all frames to one file particles.xyz for OVITO and ASE (extended XYZ), "
+                    "too; also of a run that is finished");
   add_jobs(*command, o->threads, "number of threads; the results do not depend on it");
   run_job(*command, o, particles::run_particles);
 }

@@ -8,6 +8,18 @@ namespace viscontact {
 
 /// A kind of file, named after its format. kHashComment stands for all texts whose comment lines
 /// begin with "#": CSV, Python and scripts of gnuplot.
-enum class TextKind { kHashComment, kJson, kSvg, kHtml, kXml, kC, kFortran, kMatlab, kPdf, kPng };
+enum class TextKind {
+  kHashComment,
+  kJson,
+  kSvg,
+  kHtml,
+  kXml,
+  kC,
+  kFortran,
+  kMatlab,
+  kPdf,
+  kPng,
+  kXyz
+};
 
 }  // namespace viscontact

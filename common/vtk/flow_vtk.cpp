@@ -7,11 +7,13 @@
 // reader and users' pictures rely on them.
 #include "viscontact/common/vtk/flow_vtk.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/vtk/appended_data.hpp"
+#include "viscontact/common/vtk/vtk_xml.hpp"
 
 namespace viscontact {
 namespace {
@@ -59,8 +61,7 @@ std::string write_flow(const FlowField& flow, bool on_axis, std::string_view mor
     ends.push_back(std::ssize(nodes));
   }
   const std::vector<std::uint8_t> types(flow.triangles.size(), kQuadraticTriangle);
-  AppendedData data;
-  auto text = AppendedData::opening("UnstructuredGrid");
+  auto text = vtk_opening("UnstructuredGrid");
   text += "<UnstructuredGrid>\n";
   if (on_axis)
     text +=
@@ -69,19 +70,19 @@ std::string write_flow(const FlowField& flow, bool on_axis, std::string_view mor
   text += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", flow.x.size(),
                       flow.triangles.size());
   text += "<PointData Scalars=\"speed\" Vectors=\"velocity\">\n";
-  text +=
-      data.array("Float64", "velocity", 3, vectors_of(flow.velocity_x, flow.velocity_y, on_axis));
-  text += data.array("Float64", "pressure", 1, flow.pressure);
-  text += data.array("Float64", "speed", 1, speeds);
-  if (!more.empty()) text += data.array("Float64", more_name, 1, more);
+  text += vtk_array("velocity", 3, vectors_of(flow.velocity_x, flow.velocity_y, on_axis));
+  text += vtk_array("pressure", 1, flow.pressure);
+  text += vtk_array("speed", 1, speeds);
+  if (!more.empty()) text += vtk_array(more_name, 1, more);
   text += "</PointData>\n<Points>\n";
-  text += data.array("Float64", "Points", 3, vectors_of(flow.x, flow.y, on_axis));
+  text += vtk_array("Points", 3, vectors_of(flow.x, flow.y, on_axis));
   text += "</Points>\n<Cells>\n";
-  text += data.array("Int64", "connectivity", 1, nodes);
-  text += data.array("Int64", "offsets", 1, ends);
-  text += data.array("UInt8", "types", 1, types);
+  text += vtk_array("connectivity", 1, nodes);
+  text += vtk_array("offsets", 1, ends);
+  text += vtk_array("types", 1, types);
   text += "</Cells>\n</Piece>\n</UnstructuredGrid>\n";
-  return text + data.closing();
+  text += kVtkClosing;
+  return text;
 }
 
 /// Reads a file of write_flow(). Throws Error(kBadInput) if it cannot be read, lacks an array, has
@@ -89,9 +90,9 @@ std::string write_flow(const FlowField& flow, bool on_axis, std::string_view mor
 /// that does not exist.
 FlowField read_flow(const std::filesystem::path& path) {
   const std::string text = read_file(path);
-  const AppendedReader reader(text, path.string(), "flow");
+  const VtkReader reader(text, path.string(), "flow");
   const std::size_t second = reader.has_array("FieldData", "axisymmetric") ? 2 : 1;
-  const auto points = reader.array<double>("Points>", "Points");
+  const auto points = reader.array<double>("Points", "Points");
   const auto velocities = reader.array<double>("PointData", "velocity");
   FlowField flow;
   flow.pressure = reader.array<double>("PointData", "pressure");

@@ -13,7 +13,7 @@
 #include <cstdint>
 
 #include "viscontact/common/text/number.hpp"
-#include "viscontact/common/vtk/appended_data.hpp"
+#include "viscontact/common/vtk/vtk_xml.hpp"
 #include "viscontact/particles/membranes/membrane.hpp"
 
 namespace viscontact::particles {
@@ -234,15 +234,15 @@ std::string write_links(const Setting& setting, const State& state) {
       add_line(drawn, p, Kind::kMembrane, m, membrane.bead(k), membrane.bead(k + 1),
                force_of(state, first + static_cast<std::size_t>(k)));
   }
-  AppendedData data;
-  auto text = AppendedData::opening("PolyData");
+  auto text = vtk_opening("PolyData");
   text += drawn.cells.opening(drawn.points.size() / 3);
   text += "<CellData Scalars=\"kind\" Vectors=\"force\">\n";
-  text += data.array("Int32", "kind", 1, drawn.kinds);
-  text += data.array("Int32", "id", 1, drawn.ids);
-  text += data.array("Float64", "force", 3, drawn.forces);
-  text += "</CellData>\n" + drawn.cells.closing(data, drawn.points);
-  return text + data.closing();
+  text += vtk_array("kind", 1, drawn.kinds);
+  text += vtk_array("id", 1, drawn.ids);
+  text += vtk_array("force", 3, drawn.forces);
+  text += "</CellData>\n" + drawn.cells.closing(drawn.points);
+  text += kVtkClosing;
+  return text;
 }
 
 }  // namespace viscontact::particles

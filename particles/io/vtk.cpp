@@ -13,7 +13,7 @@
 #include <cstdint>
 
 #include "viscontact/common/text/number.hpp"
-#include "viscontact/common/vtk/appended_data.hpp"
+#include "viscontact/common/vtk/vtk_xml.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -74,7 +74,7 @@ struct ContactCells {
 /// The arrays of the points, with an entry for each particle: radius, velocity and id; mass if one
 /// is > 0; angle or orientation (a unit quaternion w, x, y, z) and angular velocity of particles
 /// that turn; and the number of the rigid body, or -1, if there are bodies.
-std::string point_data(AppendedData& data, const Particles& particles) {
+std::string point_data(const Particles& particles) {
   std::vector<double> velocities;
   std::vector<std::int32_t> ids;
   for (std::size_t k = 0; k < particles.count(); ++k) {
@@ -82,21 +82,20 @@ std::string point_data(AppendedData& data, const Particles& particles) {
     ids.push_back(particles.id(k));
   }
   std::string text = "<PointData Scalars=\"radius\" Vectors=\"velocity\">\n";
-  text += data.array("Float64", "radius", 1, particles.radii);
-  text += data.array("Float64", "velocity", 3, velocities);
-  text += data.array("Int32", "id", 1, ids);
+  text += vtk_array("radius", 1, particles.radii);
+  text += vtk_array("velocity", 3, velocities);
+  text += vtk_array("id", 1, ids);
   if (std::ranges::any_of(particles.masses, [](double mass) { return mass > 0; }))
-    text += data.array("Float64", "mass", 1, particles.masses);
+    text += vtk_array("mass", 1, particles.masses);
   if (!particles.angles.empty()) {
-    text += data.array("Float64", "angle", 1, particles.angles);
-    text += data.array("Float64", "angular_velocity", 1, particles.angular_velocities);
+    text += vtk_array("angle", 1, particles.angles);
+    text += vtk_array("angular_velocity", 1, particles.angular_velocities);
   }
   if (!particles.orientations.empty()) {
-    text += data.array("Float64", "orientation", 4, particles.orientations);
-    text += data.array("Float64", "angular_velocity", 3, particles.angular_velocities);
+    text += vtk_array("orientation", 4, particles.orientations);
+    text += vtk_array("angular_velocity", 3, particles.angular_velocities);
   }
-  if (!particles.bodies.empty())
-    text += data.array("Int32", "body", 1, particles.bodies.of_particle);
+  if (!particles.bodies.empty()) text += vtk_array("body", 1, particles.bodies.of_particle);
   return text + "</PointData>\n";
 }
 
@@ -111,25 +110,25 @@ std::string write_vtp(const Particles& particles, std::span<const CurrentContact
   for (std::size_t k = 0; k < particles.count(); ++k)
     append(points, particles.position(k), particles.dimension);
   const ContactCells listed(particles, contacts);
-  AppendedData data;
-  std::string text = AppendedData::opening("PolyData");
+  std::string text = vtk_opening("PolyData");
   text += listed.cells.opening(particles.count());
-  text += point_data(data, particles);
+  text += point_data(particles);
   text += "<CellData Scalars=\"gamma\">\n";
-  text += data.array("Float64", "gap", 1, listed.gaps);
-  text += data.array("Float64", "gamma", 1, listed.gammas);
-  text += data.array("Int32", "i", 1, listed.firsts);
-  text += data.array("Int32", "j", 1, listed.seconds);
-  if (particles.cell.is_periodic()) text += data.array("Int32", "image", 1, listed.images);
-  if (has_friction) text += data.array("Int32", "friction", 1, listed.frictions);
-  text += data.array("Float64", "normal_force", 1, listed.normal_forces);
-  if (has_friction) text += data.array("Float64", "tangential_force", 3, listed.tangential_forces);
+  text += vtk_array("gap", 1, listed.gaps);
+  text += vtk_array("gamma", 1, listed.gammas);
+  text += vtk_array("i", 1, listed.firsts);
+  text += vtk_array("j", 1, listed.seconds);
+  if (particles.cell.is_periodic()) text += vtk_array("image", 1, listed.images);
+  if (has_friction) text += vtk_array("friction", 1, listed.frictions);
+  text += vtk_array("normal_force", 1, listed.normal_forces);
+  if (has_friction) text += vtk_array("tangential_force", 3, listed.tangential_forces);
   std::size_t place = 0;
   for (const auto& field : kMemoryFields)
-    if (field.is_shown) text += data.array("Float64", field.name, 1, listed.memory(place++));
-  if (has_friction) text += data.array("Float64", "solid_force", 1, listed.solid_forces);
-  text += "</CellData>\n" + listed.cells.closing(data, points);
-  return text + data.closing();
+    if (field.is_shown) text += vtk_array(field.name, 1, listed.memory(place++));
+  if (has_friction) text += vtk_array("solid_force", 1, listed.solid_forces);
+  text += "</CellData>\n" + listed.cells.closing(points);
+  text += kVtkClosing;
+  return text;
 }
 
 /// The line of a PVD file, ParaView's list of frames, for the frame at `time` [T] in `file`.

@@ -14,7 +14,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/number.hpp"
-#include "viscontact/common/vtk/appended_data.hpp"
+#include "viscontact/common/vtk/vtk_xml.hpp"
 #include "viscontact/particles/domain/periods.hpp"
 #include "viscontact/particles/io/vtk.hpp"
 
@@ -25,8 +25,7 @@ namespace {
 /// The array `name` of the contacts with `count` numbers, or zeros if the frame has no such array.
 /// Throws Error(kBadInput) if the array has another length.
 template <class Number>
-std::vector<Number> numbers_or_zeros(const AppendedReader& reader, const char* name,
-                                     std::size_t count) {
+std::vector<Number> numbers_or_zeros(const VtkReader& reader, const char* name, std::size_t count) {
   auto numbers = reader.has_array("CellData", name) ? reader.array<Number>("CellData", name)
                                                     : std::vector<Number>(count);
   if (numbers.size() != count) reader.refuse();
@@ -36,7 +35,7 @@ std::vector<Number> numbers_or_zeros(const AppendedReader& reader, const char* n
 /// For each of `count` contacts, the numbers that contact laws remember and files show
 /// (pair_memory.hpp). Numbers that the frame does not have are 0. Throws Error(kBadInput) if an
 /// array has another length.
-std::vector<ShownMemory> read_memories(const AppendedReader& reader, std::size_t count) {
+std::vector<ShownMemory> read_memories(const VtkReader& reader, std::size_t count) {
   std::vector<ShownMemory> memories(count);
   std::size_t place = 0;
   for (const auto& field : kMemoryFields) {
@@ -58,7 +57,7 @@ std::vector<ShownMemory> read_memories(const AppendedReader& reader, std::size_t
 /// with obstacles. Arrays that frames of earlier versions lack count as zeros. Throws
 /// Error(kBadInput) if arrays have other lengths, or if a number of a particle, image or kind of
 /// friction does not exist.
-std::vector<CurrentContact> read_contacts(const AppendedReader& reader, std::int64_t particles) {
+std::vector<CurrentContact> read_contacts(const VtkReader& reader, std::int64_t particles) {
   const auto gaps = reader.array<double>("CellData", "gap");
   const auto gammas = reader.array<double>("CellData", "gamma");
   const auto partners = reader.array<std::int32_t>("CellData", "j");
@@ -119,9 +118,9 @@ std::vector<CurrentContact> read_contacts(const AppendedReader& reader, std::int
 /// it cannot be read or is not such a file.
 VtpContent read_vtp(const std::filesystem::path& path, int dimension) {
   const std::string text = read_file(path);
-  const AppendedReader reader(text, path.string(), "frame");
+  const VtkReader reader(text, path.string(), "frame");
   VtpContent content;
-  const auto points = reader.array<double>("Points>", "Points");
+  const auto points = reader.array<double>("Points", "Points");
   if (points.size() % 3 != 0) reader.refuse();
   for (std::size_t i = 0; i < points.size(); ++i)
     if (dimension == 1 ? i % 3 == 2 : i % 3 < static_cast<std::size_t>(dimension))

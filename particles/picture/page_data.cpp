@@ -7,18 +7,15 @@
 // with them, and with kLevels, kNothing, kNoArrow and kSteps in flow.js.
 #include "viscontact/particles/picture/page_data.hpp"
 
-#include <openssl/evp.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
 
+#include "viscontact/common/text/base64.hpp"
+
 namespace viscontact::particles {
 namespace {
-
-/// The number of characters that `bytes` bytes have in base64.
-constexpr std::size_t base64_size(std::size_t bytes) { return (bytes + 2) / 3 * 4; }
 
 // The script reads the numbers as little-endian.
 static_assert(std::endian::native == std::endian::little);
@@ -283,13 +280,6 @@ void append_lines(Bytes& bytes, const FlowFrame& frame, const report::Window& wi
 }
 
 }  // namespace
-
-std::string base64(const Bytes& bytes) {
-  std::string text(base64_size(bytes.size()), '\0');  // OpenSSL writes the '\0' after the text, too
-  EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()), bytes.data(),
-                  static_cast<int>(bytes.size()));
-  return text;
-}
 
 PageData page_data(const Scene& scene, const Blocks& others) {
   const auto& playback = scene.playback;

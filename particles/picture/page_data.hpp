@@ -23,10 +23,6 @@ using Bytes = std::vector<unsigned char>;
 /// The blocks of a page: the id of the HTML element that holds a block, and the content.
 using Blocks = std::vector<std::pair<const char*, Bytes>>;
 
-/// The bytes in base64 (RFC 4648); empty without bytes. There must be fewer than 2^31 bytes (not
-/// checked).
-std::string base64(const Bytes& bytes);
-
 /// The part of a motion that the page shows, and its encoding.
 struct PageData {
   std::vector<std::size_t> frames;  ///< indices in Playback::frames of the shown frames, increasing

@@ -16,6 +16,7 @@
 #include <numeric>
 #include <vector>
 
+#include "viscontact/common/text/base64.hpp"
 #include "viscontact/particles/picture/frame_picture.hpp"
 #include "viscontact/particles/picture/page_data.hpp"
 #include "viscontact/particles/picture/particles_picture.hpp"
@@ -180,7 +181,7 @@ std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& 
   for (const auto* blocks : {&data.blocks, &flow.blocks})
     for (const auto& [name, bytes] : *blocks)
       text += fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>\n", name,
-                          base64(bytes));
+                          to_base64(std::as_bytes(std::span(bytes))));
   return text;
 }
 

@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/vtk/appended_data.hpp"
+#include "viscontact/common/vtk/vtk_xml.hpp"
 #include "viscontact/particles/io/vtk.hpp"
 #include "viscontact/particles/pair_memory.hpp"
 
@@ -169,21 +169,22 @@ struct Array {
 };
 
 /// Arrays with numbers of one type, and their rows in the file. Of the arrays `all` only those are
-/// copied that the first frame has, because all frames of a run have the same arrays.
+/// copied that the last frame has: an earlier frame may lack the masses that a source adds.
 template <class Number>
 class Arrays {
  public:
-  Arrays(const std::vector<Array>& all, const AppendedReader& first, hid_t group,
-         const fs::path& file) {
+  Arrays(const std::vector<Array>& all, const VtkReader& last, hid_t group, const fs::path& file) {
     for (const auto& array : all)
-      if (first.has_array(array.section, array.name))
+      if (last.has_array(array.section, array.name))
         arrays_.emplace_back(array, Rows<Number>(group, array.target, array.columns, file));
   }
-  /// Appends the arrays of a frame. Throws Error(kBadInput) if an array is missing in the frame or
-  /// does not have `count` rows.
-  void append(const AppendedReader& frame, std::size_t count) {
+  /// Appends the arrays of a frame; an array that the frame lacks has zeros. Throws
+  /// Error(kBadInput) if an array does not have `count` rows.
+  void append(const VtkReader& frame, std::size_t count) {
     for (auto& [array, rows] : arrays_) {
-      const auto numbers = frame.array<Number>(array.section, array.name);
+      const auto numbers = frame.has_array(array.section, array.name)
+                               ? frame.array<Number>(array.section, array.name)
+                               : std::vector<Number>(count * array.columns);
       if (numbers.size() != count * array.columns) frame.refuse();
       rows.append(numbers);
     }
@@ -198,14 +199,14 @@ class Arrays {
 class Table {
  public:
   Table(hid_t file_id, const char* name, const std::vector<Array>& decimal,
-        const std::vector<Array>& whole, const AppendedReader& first, const fs::path& file)
+        const std::vector<Array>& whole, const VtkReader& last, const fs::path& file)
       : group_(H5Gcreate2(file_id, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, file),
-        decimal_(decimal, first, group_, file),
-        whole_(whole, first, group_, file),
+        decimal_(decimal, last, group_, file),
+        whole_(whole, last, group_, file),
         begins_(group_, "begin", 1, file) {
     begins_.append({0});
   }
-  void append(const AppendedReader& frame, std::size_t count) {
+  void append(const VtkReader& frame, std::size_t count) {
     decimal_.append(frame, count);
     whole_.append(frame, count);
     end_ += static_cast<std::int64_t>(count);
@@ -236,28 +237,28 @@ std::vector<Array> arrays_of_contacts() {
 void copy_frames(const ParticlesCase& c, const fs::path& folder, hid_t id, const fs::path& file) {
   const auto frames = read_pvd(folder / "particles.pvd");
   if (frames.empty()) throw_bad_input({(folder / "particles.pvd").string()}, "has no frame");
-  const auto first_text = read_file(folder / frames.front().second);
-  const AppendedReader first(first_text, (folder / frames.front().second).string(), "frame");
+  const auto last_text = read_file(folder / frames.back().second);
+  const VtkReader last(last_text, (folder / frames.back().second).string(), "frame");
   const bool is_flat = c.particles.dimension < 3;  // then the angular velocity is one number
   Rows<double> times(id, "time", 1, file);
   Table particles(id, "particles",
-                  {{"Points>", "Points", "position", 3},
+                  {{"Points", "Points", "position", 3},
                    {"PointData", "velocity", "velocity", 3},
                    {"PointData", "radius", "radius", 1},
                    {"PointData", "mass", "mass", 1},
                    {"PointData", "angle", "angle", 1},
                    {"PointData", "orientation", "orientation", 4},
                    {"PointData", "angular_velocity", "angular_velocity", is_flat ? 1U : 3U}},
-                  {{"PointData", "id", "id", 1}, {"PointData", "body", "body", 1}}, first, file);
+                  {{"PointData", "id", "id", 1}, {"PointData", "body", "body", 1}}, last, file);
   Table contacts(id, "contacts", arrays_of_contacts(),
                  {{"CellData", "i", "first", 1},
                   {"CellData", "j", "second", 1},
                   {"CellData", "image", "image", 1},
                   {"CellData", "friction", "friction", 1}},
-                 first, file);
+                 last, file);
   for (const auto& [time, name] : frames) {
     const auto text = read_file(folder / name);
-    const AppendedReader frame(text, (folder / name).string(), "frame");
+    const VtkReader frame(text, (folder / name).string(), "frame");
     times.append({time});
     particles.append(frame, frame.array<double>("PointData", "radius").size());
     contacts.append(frame, frame.array<double>("CellData", "gap").size());

@@ -31,7 +31,8 @@ inline constexpr auto kParticleResults = std::to_array<const char*>(
      "motion.csv",  "contacts.csv",  "walls.csv",           "stress.csv",
      "flow.pvd",    "bodies.csv",    "hinges.csv",          "springs.csv",
      "arms.csv",    "membranes.csv", "links.pvd",           "rebounds.csv",
-     "probes.csv",  "particles.h5",  "planes.csv",          "particles.pdf"});
+     "probes.csv",  "particles.h5",  "planes.csv",          "particles.pdf",
+     "particles.xyz"});
 
 /// A kind of file of which each frame (output time) has one. The name of a file is `begin`, "_",
 /// the number of the frame, and `end`.

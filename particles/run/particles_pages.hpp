@@ -1,5 +1,5 @@
-// Writes the page, the picture and the HDF5 file of a run of many particles from the files that the
-// run has written. Lengths [L], times [T] and velocities [L/T] are in the units of the case. The
+// Writes the page, the picture and the HDF5 and XYZ files of a run of many particles from the files
+// that the run has written. Lengths [L], times [T] and velocities [L/T] are in the units of the case. The
 // commands `particles` and `report` call these functions. They throw Error(kBadInput) if a file is
 // missing, damaged or cannot be written, and Error(kWrongUsage) if HDF5 is asked for but this
 // program was built without libhdf5. A change must keep that frames of earlier versions can be
@@ -42,5 +42,11 @@ void require_hdf5();
 /// Error(kWrongUsage) if this program was built without libhdf5.
 void write_hdf5(const ParticlesCase& c, const std::filesystem::path& folder,
                 const results::Provenance& provenance);
+
+/// Writes `folder`/particles.xyz, all frames as extended XYZ (docs/file-formats.md), as write_hdf5()
+/// writes its file. Throws Error(kBadInput) if a frame is missing or damaged, if there is no frame,
+/// or if the file cannot be written.
+void write_xyz(const ParticlesCase& c, const std::filesystem::path& folder,
+               const results::Provenance& provenance);
 
 }  // namespace viscontact::particles

@@ -329,6 +329,12 @@ void tell_finished(const ParticlesCase& c, const EarlierRun& run, const fs::path
   warn_or_fail(c, run.record.totals, run.state, folder, stop);
 }
 
+void write_files_of_all_frames(const ParticlesRequest& request, const ParticlesCase& c,
+                               const results::Provenance& provenance) {
+  if (request.hdf5) write_hdf5(c, request.folder, provenance);
+  if (request.xyz) write_xyz(c, request.folder, provenance);
+}
+
 }  // namespace
 
 /// Runs the case. Inputs are checked before a file is written. Throws the errors that the head of
@@ -348,12 +354,13 @@ void run_particles(const ParticlesRequest& request) {
   RunLog log(c, folder, provenance);
   if (const auto earlier = find_earlier_run(c, folder, provenance, log)) {
     if (is_finished(*earlier, c, tiny_time(c), folder)) {
-      if (request.hdf5) write_hdf5(c, folder, provenance);
+      write_files_of_all_frames(request, c, provenance);
       tell_finished(c, *earlier, folder, request.json, request.stop);
       return;
     }
     log.resume(earlier->record);
-    remove_file(folder / "particles.h5");  // this file would lack the new frames
+    // These files would lack the new frames.
+    for (const auto* name : {"particles.h5", "particles.xyz"}) remove_file(folder / name);
     terminal::say("particles: the run in {} continues from t = {:.6g}, after step {}",
                   folder.string(), earlier->state.time, earlier->state.steps);
     state = earlier->state;
@@ -371,7 +378,7 @@ void run_particles(const ParticlesRequest& request) {
   std::string json;
   try {
     json = run.write_results();
-    if (request.hdf5) write_hdf5(c, folder, provenance);
+    write_files_of_all_frames(request, c, provenance);
   } catch (const Error&) {
     if (!failure) throw;
   }

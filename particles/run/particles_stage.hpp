@@ -23,6 +23,7 @@ struct ParticlesRequest {
   StartFluidSolver start_solver;  ///< starts the fluid solver; needed only if the case has a fluid
   bool json = false;              ///< whether to print run.json to standard output
   bool hdf5 = false;              ///< whether to write particles.h5, also for a finished run
+  bool xyz = false;               ///< whether to write particles.xyz, also for a finished run
   StopToken stop{};               ///< if it requests a stop, the run ends after its state is saved
 };
 

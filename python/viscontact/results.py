@@ -6,12 +6,14 @@ that does not exist IndexError. Numbers are not checked. A change must keep file
 versions readable.
 """
 
+import base64
 import collections.abc
 import csv
 import json
 import pathlib
 import re
 import xml.etree.ElementTree
+import zlib
 
 import numpy
 
@@ -50,7 +52,8 @@ def read(path):
                          f"{', '.join(_READERS)}")
     try:
         return reader(path)
-    except (OSError, ValueError, KeyError, IndexError, SyntaxError) as problem:
+    except (OSError, ValueError, KeyError, IndexError, AttributeError, SyntaxError,
+            zlib.error) as problem:
         raise InputError(f"{path}: cannot be read ({problem})") from problem
 
 
@@ -149,19 +152,22 @@ def _read_pvd(path):
 
 def _read_vtk(path):
     content = path.read_bytes()
+    # Files of earlier revisions have appended raw data, which is no XML.
     mark = re.search(rb'<AppendedData encoding="raw">\s*_', content)
-    if mark is None:
-        raise ValueError("it has no raw appended data")
-    root = xml.etree.ElementTree.fromstring(content[:mark.start()] + b"</VTKFile>")
+    root = xml.etree.ElementTree.fromstring(
+        content if mark is None else content[:mark.start()] + b"</VTKFile>")
     order = "<" if root.get("byte_order") == "LittleEndian" else ">"
     size_type = numpy.dtype(order + _TYPES[root.get("header_type")])
 
-    def array(element):
+    def bytes_of(element):
+        if mark is None:
+            return _inline_bytes(element.text.strip(), size_type)
         at = mark.end() + int(element.get("offset"))
         size = int(numpy.frombuffer(content, size_type, 1, at)[0])
-        numbers = numpy.frombuffer(content, order + _TYPES[element.get("type")],
-                                   size // numpy.dtype(_TYPES[element.get("type")]).itemsize,
-                                   at + size_type.itemsize)
+        return content[at + size_type.itemsize:at + size_type.itemsize + size]
+
+    def array(element):
+        numbers = numpy.frombuffer(bytes_of(element), order + _TYPES[element.get("type")])
         components = int(element.get("NumberOfComponents", "1"))
         native = numbers.astype(numbers.dtype.newbyteorder("="))
         return native.reshape(-1, components) if components > 1 else native
@@ -178,6 +184,19 @@ def _read_vtk(path):
                                          for element in piece.iterfind(f"{kind}/DataArray")}
     points.about["cells"] = cells
     return points
+
+
+def _inline_bytes(text, size_type):
+    """The bytes of an array that VTK's format has as base64 of blocks that zlib has compressed."""
+    def in_base64(count):
+        return (count * size_type.itemsize + 2) // 3 * 4
+
+    blocks = int(numpy.frombuffer(base64.b64decode(text[:in_base64(3)]), size_type)[0])
+    begin = in_base64(3 + blocks)
+    sizes = numpy.frombuffer(base64.b64decode(text[:begin]), size_type)[3:]
+    data = base64.b64decode(text[begin:])
+    ends = numpy.cumsum(sizes, dtype=int)
+    return b"".join(zlib.decompress(data[end - int(size):end]) for end, size in zip(ends, sizes))
 
 
 _READERS = {".csv": _read_csv, ".json": _read_json, ".pvd": _read_pvd, ".vtp": _read_vtk,

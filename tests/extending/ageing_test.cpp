@@ -12,7 +12,7 @@
 #include "tests/common/temporary_folder.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/system/process.hpp"
-#include "viscontact/common/vtk/appended_data.hpp"
+#include "viscontact/common/vtk/vtk_xml.hpp"
 #include "viscontact/results/provenance.hpp"
 
 namespace viscontact {
@@ -78,8 +78,7 @@ class AgeingFilm : public ::testing::Test {
     number.insert(0, 5 - number.size(), '0');
     const auto path = out(name) / ("particles_" + number + ".vtp");
     const std::string text = read_file(path);
-    const auto values =
-        AppendedReader(text, path.string(), "frame").array<double>("CellData", array);
+    const auto values = VtkReader(text, path.string(), "frame").array<double>("CellData", array);
     EXPECT_LE(values.size(), 1U);
     return values.empty() ? std::numeric_limits<double>::quiet_NaN() : values.front();
   }

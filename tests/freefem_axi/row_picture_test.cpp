@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include "tests/common/temporary_folder.hpp"
-#include "viscontact/common/vtk/appended_data.hpp"
 #include "viscontact/common/vtk/flow_vtk.hpp"
+#include "viscontact/common/vtk/vtk_xml.hpp"
 #include "viscontact/freefem_axi/journal/freefem.hpp"
 
 namespace viscontact::freefem_axi {
@@ -82,7 +82,7 @@ TEST(RowPicture, VtkFileHasTheFlowOnTrianglesWhoseMiddlesFollowTheirSides) {
   const auto read = read_flow(folder.file("flow.vtu", text));
   EXPECT_EQ(read.velocity_x, picture.flow.velocity_x);
   EXPECT_EQ(read.pressure, picture.flow.pressure);
-  EXPECT_EQ(AppendedReader(text, "flow.vtu", "flow").array<double>("PointData", "stream_function"),
+  EXPECT_EQ(VtkReader(text, "flow.vtu", "flow").array<double>("PointData", "stream_function"),
             picture.stream_function);
   ASSERT_EQ(read.triangles, picture.flow.triangles);
   // The middles are near the means of the ends. The triangles fill the container's half-plane less

@@ -15,6 +15,7 @@ if sys.argv[1].endswith(".pvd"):
     for data in xml.parse(sys.argv[1]).getroot().iter("DataSet"):
         print(data.get("timestep"), data.get("file"))
     sys.exit()
+xml.parse(sys.argv[1])  # the file is XML
 is_flow = sys.argv[1].endswith(".vtu")
 reader = vtkXMLUnstructuredGridReader() if is_flow else vtkXMLPolyDataReader()
 reader.SetFileName(sys.argv[1])
