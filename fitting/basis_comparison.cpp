@@ -7,6 +7,8 @@
 // of the criterion cannot be compared otherwise.
 #include "viscontact/fitting/basis_comparison.hpp"
 
+#include <algorithm>
+
 #include "viscontact/common/error.hpp"
 
 namespace viscontact::fitting {
@@ -18,7 +20,12 @@ std::vector<BasisResult> compare_bases(const lubrication::MotionTable& table,
   auto bases = lubrication::all_bases();
   if (settings.basis.name == lubrication::kOwnTerms) bases.push_back(settings.basis);
   std::vector<BasisResult> results;
+  const bool has_wall =
+      lubrication::second_wall(table.geometry, table.container, table.radius).has_value();
   for (const auto& basis : bases) {
+    const bool needs_wall =
+        std::ranges::any_of(basis.terms, lubrication::needs_second_wall, &lubrication::Term::name);
+    if (needs_wall && !has_wall && basis.name != lubrication::kOwnTerms) continue;
     BasisResult result{std::string(basis.name), {}, ""};
     FitSettings one = settings;
     one.basis = basis;

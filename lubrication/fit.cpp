@@ -80,6 +80,16 @@ Fit exact_plane_fit(double viscosity, double radius) {
   return fit;
 }
 
+std::optional<SecondWall> second_wall_of(const Fit& fit) {
+  const auto wall = second_wall(fit.geometry, fit.container, fit.radius);
+  return wall && fit.gap_interval[1] < wall->largest_gap ? wall : std::nullopt;
+}
+
+double zero_of_impulse(const Fit& fit) {
+  const auto wall = second_wall_of(fit);
+  return wall && !(fit.radius < wall->largest_gap) ? wall->largest_gap / 2 : fit.radius;
+}
+
 bool is_exact_plane(const Fit& fit) { return fit.basis == kExactPlane; }
 
 /// The fit with coefficients, errors and leading coefficient multiplied by `viscosity` [M/(L T)]

@@ -18,6 +18,8 @@
 #include <string_view>
 #include <vector>
 
+#include "viscontact/lubrication/second_wall.hpp"
+
 namespace viscontact {
 
 class JsonFields;
@@ -67,10 +69,8 @@ struct WorstToEstimate {
   double ratio = 0;              ///< |relative_residual| / error estimate of this row, >= 0
 };
 
-/// Diagnostics of a fit. Relative residuals are fit/table - 1 [1]. Every row of the table of forces
-/// counts as an independent measurement. If a table has rows of one gap at several velocities,
-/// whose F/u agree because Stokes flow is linear, standard errors and leave-one-out residuals are
-/// therefore too small.
+/// Diagnostics of a fit. Relative residuals are fit/table - 1 [1]. All rows of one gap count as one
+/// measurement, because their F/u agree: Stokes flow is linear in the velocity.
 struct FitDiagnostics {
   /// Number of rows of the table of forces, outliers included.
   std::size_t rows = 0;
@@ -216,6 +216,14 @@ inline constexpr std::string_view kExactPlane = "exact_plane";
 /// A fit without terms and residuals that stands for the exact drag of a plane. Its gap_interval
 /// has no meaning. `viscosity` [M/(L T)] and `radius` [L] must be > 0, which is not checked.
 Fit exact_plane_fit(double viscosity, double radius);
+
+/// The wall opposite the neighbour that the fit's words for geometry and container name; nothing if
+/// there is none, or if a fitted gap is not below its largest gap, so that the words cannot be true.
+std::optional<SecondWall> second_wall_of(const Fit& fit);
+
+/// The gap [L] at which Gamma, the primitive of the resistance, is 0: the radius, or half of the
+/// largest gap if there is a second wall at a gap that is not greater than the radius.
+double zero_of_impulse(const Fit& fit);
 
 /// True if `fit` stands for the exact drag of a plane.
 bool is_exact_plane(const Fit& fit);
