@@ -397,7 +397,10 @@ void read_root(const TomlSection& root, Case& c) {
     c.tabulation = read_tabulation(root.section("tabulation"), c.viscosity, c.radius);
   if (root.has("fit"))
     read_keys(root.section("fit"), fit_keys, c.fit.emplace(), c.path.parent_path());
-  if (root.has("motion")) c.motion = read_motion(root, mass, c);
+  if (root.has("motion")) {
+    c.motion = read_motion(root, mass, c);
+    c.motion->fluid_density = c.fluid_density;
+  }
   if (root.has("published"))
     read_keys(root.section("published"), published_keys, c.published.emplace());
   check_exact_drag(root, c);

@@ -236,7 +236,7 @@ std::vector<KeyTable> tables_of_tabulation() {
 void fluid_keys(Keys& keys, double& viscosity, double& density) {
   viscosity_keys(keys, viscosity);
   keys.optional("density", number(density, kNotNegative),
-                {.meaning = "density rho_f; only buoyancy depends on it, and only with `gravity`",
+                {.meaning = "density rho_f, for the Reynolds number and, with `gravity`, the buoyancy",
                  .example = "0.0"});
 }
 

@@ -87,17 +87,17 @@ struct FitDiagnostics {
   /// Largest |relative residual| of the rows that are not outliers, >= 0.
   double largest_inlier_residual = 0;
   /// Root mean square and largest magnitude of the leave-one-out residuals [1]. The leave-one-out
-  /// residual of a row is its relative residual in the fit of the other rows, r_i/(1 - h_i) with
-  /// the residual r_i and the leverage h_i of row i (PRESS, Allen 1974). Nothing if the
-  /// coefficients cannot be determined without one of the rows.
+  /// residual of a row is its relative residual in the fit of the rows at other gaps, r_i/(1 - h_i)
+  /// with the residual r_i and the leverage h_i of all rows at the gap of row i (PRESS, Allen 1974).
+  /// Nothing if the coefficients cannot be determined without one of the gaps.
   std::optional<double> leave_one_out_rms{},  ///< the root mean square, >= 0
       leave_one_out_largest{};                ///< the largest magnitude, >= 0
   /// Gap [L] of the row with the residual leave_one_out_largest; nothing if leave_one_out_largest
   /// is nothing.
   std::optional<double> leave_one_out_gap{};
-  /// The inner row and the end row with the largest leave-one-out residuals. An end row is the only
-  /// row at the smallest or at the largest gap, so that the fit of the other rows extrapolates to
-  /// it. All other rows are inner rows, to which the fit of the others interpolates. The inner row
+  /// The inner row and the end row with the largest leave-one-out residuals. An end row is a row
+  /// at the smallest or at the largest gap, so that the fit of the rows at other gaps extrapolates
+  /// to it. All other rows are inner rows, to which the fit of the others interpolates. The inner row
   /// shows how large the error of the formula may be between rows. Nothing if leave_one_out_rms is
   /// nothing, or if the table has no such row.
   std::optional<LeftOutRow> left_out_inner{},  ///< the inner row
@@ -109,16 +109,17 @@ struct FitDiagnostics {
   /// outliers. Nothing if none of them has an error estimate, or if the fit file, of an earlier
   /// version, lacks it.
   std::optional<WorstToEstimate> worst_to_estimate{};
-  /// Chi-squared [1], >= 0: the sum of (relative residual/error estimate)^2 over the rows. Nothing
+  /// Chi-squared [1], >= 0: the sum over the gaps of (relative residual/error estimate)^2, of which
+  /// the mean over the rows at a gap counts. Nothing
   /// if a row has no error estimate.
   std::optional<double> chi_squared{};
-  std::size_t degrees_of_freedom = 0;  ///< rows - free_coefficients
+  std::size_t degrees_of_freedom = 0;  ///< number of different gaps - free_coefficients
   /// The cause of the residuals. It is kBasis if chi-squared of the rows that are not outliers is
   /// beyond the 99 % quantile of its distribution and rows_beyond_estimate > 0.
   Misfit misfit = Misfit::kUnknown;
   /// Akaike's information criterion with the correction for small samples (Hurvich & Tsai 1989),
   ///     n ln(sum of squares/n) + 2 K + 2 K (K + 1)/(n - K - 1),   K = free coefficients + 1,
-  /// with the number n of rows and the residuals that the fit makes small (Fit::weights). A smaller
+  /// with the number n of different gaps and the residuals that the fit makes small (Fit::weights). A smaller
   /// value is better. Only fits of the same rows with the same weights can be compared. Nothing if
   /// n <= K + 1, if all residuals are 0, or for a robust loss, whose weights depend on the fit.
   std::optional<double> information_criterion{};

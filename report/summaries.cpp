@@ -150,6 +150,21 @@ std::string plot_bases(const lubrication::MotionTable& table,
   return draw_picture(format, {panel}, 860, 520, stop);  // [pixels], free choices
 }
 
+std::string regime_in_words(const reduced_model::Comparison& comparison) {
+  const auto largest = [&](const auto number) -> std::optional<double> {
+    std::optional<double> most;
+    for (const auto& model : comparison.models)
+      if (const auto& value = model.*number; value && !(most && *most >= *value)) most = value;
+    return most;
+  };
+  const auto stokes = largest(&reduced_model::ModelComparison::stokes_number);
+  if (!stokes) return "";
+  const auto reynolds = largest(&reduced_model::ModelComparison::reynolds_number);
+  return fmt::format("largest Stokes number {:.3g}, Reynolds number {}\n", *stokes,
+                     reynolds ? fmt::format("{:.3g}", *reynolds)
+                              : "not known (it needs `density` in [fluid])");
+}
+
 /// A table for the terminal with a line for each model: smallest gap [L] and its time [T], film
 /// recovered from gamma [L], interval of contact [T], and largest distance of the gap from that of
 /// the reference [L]; if solids touch in a model, also the time [T] and the velocity [L/T] of that.
@@ -184,6 +199,7 @@ std::string comparison_table(const reduced_model::Comparison& comparison) {
   }
   for (const auto& failed : comparison.failed_models)
     text += fmt::format("{:<{}} failed: {}\n", failed.model, width, failed.reason);
+  text += regime_in_words(comparison);
   if (!comparison.units.empty()) text += fmt::format("units: {}\n", comparison.units);
   return text;
 }

@@ -160,6 +160,9 @@ std::string rolling_json(const RollingResults& results) {
               {"position", last.position}, {"angle", last.angle},
               {"velocity", last.velocity}, {"angular_velocity", last.angular_velocity},
               {"slip", end.slip},          {"contact", static_cast<int>(last.contact)}};
+    object["stokes_number"] = stokes_of(results.c, end);
+    object["reynolds_number"] = reynolds_of(results.c, end) ? Json(*reynolds_of(results.c, end))
+                                                            : Json(nullptr);
     object["contact_time"] = end.contact_time ? Json(*end.contact_time) : Json(nullptr);
   }
   if (const auto warnings = rolling_warnings(results); !warnings.empty())
@@ -203,10 +206,18 @@ bool write_trajectories(const RollingFolder& folder, const RollingResults& resul
   return wrote;
 }
 
-/// Tells the user the gap [L], velocity [L/T] and angular velocity [1/T] at the end of a motion.
-void say_end(const std::string& model, const RollingRow& last) {
+/// Tells the user the gap [L], velocity [L/T] and angular velocity [1/T] at the end of a motion, and
+/// its largest Stokes and Reynolds numbers.
+void say_end(const RollingCase& c, const std::string& model, const RollingTrajectory& rows) {
+  const auto& last = rows.back();
   terminal::say("rolling: {} ends at the gap {:.6g}, velocity {:.6g}, angular velocity {:.6g}",
                 model, last.gap, last.velocity, last.angular_velocity);
+  const auto end = end_of(rows, c.motion, c.radius);
+  const auto reynolds = reynolds_of(c, end);
+  terminal::say("rolling: {}: largest Stokes number {:.3g}, Reynolds number {}", model,
+                stokes_of(c, end),
+                reynolds ? fmt::format("{:.3g}", *reynolds)
+                         : "not known (it needs `density` in [fluid])");
 }
 
 }  // namespace
@@ -231,7 +242,7 @@ void run_rolling(const RollingRequest& request) {
   results.c.motion.stop = request.stop;
   pipeline::with_failure(rows_failed, [&] { run_models(results.c, results); });
   bool wrote = write_trajectories(folder, results, provenance);
-  for (const auto& [model, rows] : results.trajectories) say_end(model, rows.back());
+  for (const auto& [model, rows] : results.trajectories) say_end(results.c, model, rows);
   for (const auto& warning : rolling_warnings(results))
     terminal::warn("rolling: warning: " + warning);
   const auto json = rolling_json(results);
