@@ -7,8 +7,6 @@
 // of the criterion cannot be compared otherwise.
 #include "viscontact/fitting/basis_comparison.hpp"
 
-#include <algorithm>
-
 #include "viscontact/common/error.hpp"
 
 namespace viscontact::fitting {
@@ -17,15 +15,12 @@ namespace viscontact::fitting {
 /// Each result has a fit or the text of its error. The table must have a row (not checked).
 std::vector<BasisResult> compare_bases(const lubrication::MotionTable& table,
                                        const FitSettings& settings, const StopToken& stop) {
-  auto bases = lubrication::all_bases();
-  if (settings.basis.name == lubrication::kOwnTerms) bases.push_back(settings.basis);
-  std::vector<BasisResult> results;
   const bool has_wall =
       lubrication::second_wall(table.geometry, table.container, table.radius).has_value();
+  auto bases = has_wall ? lubrication::bases_beside_walls() : lubrication::all_bases();
+  if (settings.basis.name == lubrication::kOwnTerms) bases.push_back(settings.basis);
+  std::vector<BasisResult> results;
   for (const auto& basis : bases) {
-    const bool needs_wall =
-        std::ranges::any_of(basis.terms, lubrication::needs_second_wall, &lubrication::Term::name);
-    if (needs_wall && !has_wall && basis.name != lubrication::kOwnTerms) continue;
     BasisResult result{std::string(basis.name), {}, ""};
     FitSettings one = settings;
     one.basis = basis;

@@ -210,7 +210,7 @@ void fields_of(JsonFields& json, FitTerm& term) {
   json("held", term.is_fixed, kAllowed);
   if (json.reads() && !find_term(term.name))
     json.fail("name", "is '{}', which is not a term; the terms are: {}", term.name,
-              names_of(all_terms()));
+              names_of(terms_beside_walls()));
 }
 
 // The reference velocity is in [L/T], the viscosity in [M/(L T)], radius and gaps are in [L], the

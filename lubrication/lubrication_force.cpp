@@ -64,7 +64,7 @@ LubricationForce::LubricationForce(const Fit& fit, const OutsideInterval& outsid
     *this = exact_plane(fit.viscosity, fit.radius);
     return;
   }
-  weights_.assign(all_terms().size(), 0.0);
+  weights_.assign(terms_beside_walls().size(), 0.0);
   for (const auto& term : fit.terms)
     weights_[place_of(term.name)] = -term.coefficient / fit.reference_velocity;
   leading_ = weights_[place_of(kLeadingTerm)];

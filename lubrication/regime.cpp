@@ -25,14 +25,13 @@ std::optional<std::string> reynolds_warning(double reynolds) {
                 : fmt::format("a factor of {:.3g}", ratio));
 }
 
-std::optional<std::string> film_warning(double film_stokes) {
+std::optional<std::string> film_warning(double film_stokes, std::string_view remedy) {
   if (!(film_stokes < kSmallestFilmStokes)) return {};
   return fmt::format(
       "the momentum of the landing is {:.2g} of the impulse of the film: the drag before contact, "
       "which viscous contact neglects, decides when the solids touch and how thin the film gets "
-      "(10 to 18 % too early from a gap of one radius); use viscous_contact_regular_drag or a model "
-      "that resolves the drag",
-      film_stokes);
+      "(10 to 18 % too early from a gap of one radius); {}",
+      film_stokes, remedy);
 }
 
 }  // namespace viscontact::lubrication

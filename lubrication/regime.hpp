@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace viscontact::lubrication {
 
@@ -34,7 +35,8 @@ std::optional<std::string> reynolds_warning(double reynolds);
 /// Below 0.1 the inertia of the sphere changes nothing by more than 0.02 %.
 inline constexpr double kSmallestFilmStokes = 0.1;
 
-/// A sentence if `film_stokes` is below kSmallestFilmStokes, and nothing otherwise.
-std::optional<std::string> film_warning(double film_stokes);
+/// A sentence if `film_stokes` is below kSmallestFilmStokes, which ends with `remedy`; nothing
+/// otherwise.
+std::optional<std::string> film_warning(double film_stokes, std::string_view remedy);
 
 }  // namespace viscontact::lubrication

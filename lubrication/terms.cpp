@@ -46,6 +46,8 @@ constexpr std::array kTerms = {
 };
 // clang-format on
 
+constexpr std::size_t kWallTerms = 2;  // the last ones
+
 #undef FORMULA
 
 /// The text without blanks and tabs at both ends.
@@ -80,7 +82,7 @@ double sum_of(std::span<const double> weights, double gap, double largest_gap) {
   double total = 0;
   const auto add = [&]<std::size_t i>(std::integral_constant<std::size_t, i>) {
     constexpr auto at = (kTerms[i].*formula).at;
-    if (weights[i] != 0) total += weights[i] * at(gap, log_gap, to_wall, log_to_wall);
+    if (i < weights.size() && weights[i] != 0) total += weights[i] * at(gap, log_gap, to_wall, log_to_wall);
   };
   [&]<std::size_t... i>(std::index_sequence<i...>) {
     (add(std::integral_constant<std::size_t, i>()), ...);
@@ -91,7 +93,9 @@ double sum_of(std::span<const double> weights, double gap, double largest_gap) {
 
 }  // namespace
 
-std::span<const Term> all_terms() { return kTerms; }
+std::span<const Term> all_terms() { return std::span(kTerms).first(kTerms.size() - kWallTerms); }
+
+std::span<const Term> terms_beside_walls() { return kTerms; }
 
 bool needs_second_wall(std::string_view term) { return term.find('L') != term.npos; }
 
@@ -133,14 +137,22 @@ const std::vector<Basis>& all_bases() {
       make_basis("lecture", "1/q, 1, q, q^2, q^3"),
       make_basis("asymptotic", "1/q, ln q, 1, q ln q, q"),
       make_basis("asymptotic_extended", "1/q, ln q, 1, q ln q, q, q^2 ln q, q^2, q^3"),
-      make_basis("two_walls", "1/q, ln q, 1, q, q^2, 1/(L-q), ln(L-q)"),
   };
+  return bases;
+}
+
+const std::vector<Basis>& bases_beside_walls() {
+  static const std::vector<Basis> bases = [] {
+    auto all = all_bases();
+    all.push_back(make_basis("two_walls", "1/q, ln q, 1, q, q^2, 1/(L-q), ln(L-q)"));
+    return all;
+  }();
   return bases;
 }
 
 const Basis& default_basis() { return all_bases().front(); }
 
-const Basis& find_basis(std::string_view name) { return require_named(all_bases(), name, "basis"); }
+const Basis& find_basis(std::string_view name) { return require_named(bases_beside_walls(), name, "basis"); }
 
 /// The basis of the terms in `names`, separated by commas, in this order.
 Basis parse_terms(std::string_view names) {

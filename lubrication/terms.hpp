@@ -49,9 +49,12 @@ struct Term {
 /// Name of the leading term of lubrication, 1/q.
 inline constexpr std::string_view kLeadingTerm = "1/q";
 
-/// All terms: 1/q, ln q, 1, q ln q, q, q^2 ln q, q^2, q^3 ln q, q^3, q^4 ln q, q^4, 1/(L-q),
-/// ln(L-q). A new term needs only a row in the table of terms.cpp.
+/// The terms of the gap alone: 1/q, ln q, 1, q ln q, q, q^2 ln q, q^2, q^3 ln q, q^3, q^4 ln q, q^4.
+/// A new term needs only a row in the table of terms.cpp.
 std::span<const Term> all_terms();
+
+/// all_terms(), and then the terms of a second wall, 1/(L-q) and ln(L-q).
+std::span<const Term> terms_beside_walls();
 
 /// True if the term is a function of the distance L - q to the wall opposite the neighbour.
 bool needs_second_wall(std::string_view term);
@@ -63,24 +66,24 @@ std::optional<std::string> factor_of_logarithm(std::string_view term);
 /// The term with this name, or nothing if there is none. Throws nothing.
 std::optional<Term> find_term(std::string_view name);
 
-/// The sum of weight * value over all_terms() at a gap > 0. `weights` has an entry for each of
-/// these terms, in the same order (not checked); a term of weight 0 is not evaluated. The result
+/// The sum of weight * value over terms_beside_walls() at a gap > 0. `weights` has an entry for each
+/// of these terms, in the same order, or only for all_terms(); a term of weight 0 is not evaluated. The result
 /// has the dimension of a weight times that of its term. For the speed of inner loops this function
 /// and the next two compute one logarithm and call no function pointer.
 double sum_values(std::span<const double> weights, double gap, double largest_gap = kNoWall);
-/// The sum of weight * log_slope over all_terms(); arguments are those of sum_values().
+/// The sum of weight * log_slope over the same terms; arguments are those of sum_values().
 double sum_log_slopes(std::span<const double> weights, double gap, double largest_gap = kNoWall);
-/// The sum of weight * antiderivative over all_terms(); arguments are those of sum_values(). The
+/// The sum of weight * antiderivative over the same terms; arguments are those of sum_values(). The
 /// result has the dimension of sum_values() times a length.
 double sum_antiderivatives(std::span<const double> weights, double gap,
                            double largest_gap = kNoWall);
 
-/// The index, from 0, of the term in all_terms(). Throws Error(kBadInput) if no term has this name.
+/// The index, from 0, of the term in terms_beside_walls(). Throws Error(kBadInput) if no term has this name.
 std::size_t place_of(std::string_view term);
 
 /// A named list of terms.
 struct Basis {
-  std::string_view name;    ///< one of all_bases(), or kOwnTerms
+  std::string_view name;    ///< one of all_bases(), two_walls, or kOwnTerms
   std::vector<Term> terms;  ///< at least one, none of them twice
 };
 
@@ -92,14 +95,16 @@ inline constexpr std::string_view kOwnTerms = "terms";
 ///   asymptotic           1/q, ln q, 1, q ln q, q; these terms are those of the expansion near
 ///                        contact by Cox & Brenner 1967 and Cooley & O'Neill 1969
 ///   asymptotic_extended  the terms of `asymptotic`, and q^2 ln q, q^2, q^3
-///   two_walls            1/q, ln q, 1, q, q^2, 1/(L-q), ln(L-q), where the sphere has a wall on
-///                        either side, at the gaps 0 and L
 const std::vector<Basis>& all_bases();
+
+/// all_bases(), and then `two_walls` with 1/q, ln q, 1, q, q^2, 1/(L-q), ln(L-q), for a sphere that
+/// has a wall on either side, at the gaps 0 and L.
+const std::vector<Basis>& bases_beside_walls();
 
 /// The basis `lecture`, which is fitted if a user names no basis.
 const Basis& default_basis();
 
-/// The basis with this name. Throws Error(kBadInput), which lists the names, if there is none.
+/// The basis with this name in bases_beside_walls(). Throws Error(kBadInput), which lists the names, if there is none.
 const Basis& find_basis(std::string_view name);
 
 /// Makes a basis from names of terms that are separated by commas: "1/q, ln q, 1, q". Throws

@@ -269,7 +269,8 @@ std::vector<std::string> regime_warnings(const std::vector<Trajectory>& trajecto
   std::vector<std::string> warnings;
   if (const auto warning = lubrication::reynolds_warning(reynolds))
     warnings.push_back(fmt::format("{} ({})", *warning, fast));
-  if (const auto warning = lubrication::film_warning(film))
+  if (const auto warning = lubrication::film_warning(
+          film, "viscous_contact_regular_drag and the models without contact resolve the drag"))
     warnings.push_back(fmt::format("{} ({})", *warning, thin));
   return warnings;
 }

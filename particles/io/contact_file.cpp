@@ -15,6 +15,7 @@
 #include <iterator>
 
 #include "viscontact/common/text/number.hpp"
+#include "viscontact/particles/domain/bounded_region.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/io/particle_file.hpp"
 
@@ -111,7 +112,7 @@ std::string wall_rows(const Setting& setting, const State& state, std::span<cons
 
 /// The row of stress.csv: time and the components of the stress, xx, xy, ..., row by row. Component
 /// ij is minus the sum of force i times branch j over all contacts, divided by the area or volume
-/// of the domain, docs/physics.md (5.19).
+/// of the region between walls and planes, docs/physics.md (5.19).
 std::string stress_row(const Setting& setting, const State& state, std::span<const double>) {
   const auto n = static_cast<std::size_t>(state.particles.dimension);
   std::array<double, 9> sums{};
@@ -120,7 +121,8 @@ std::string stress_row(const Setting& setting, const State& state, std::span<con
       for (std::size_t j = 0; j < n; ++j) sums[i * n + j] -= force[i] * branch[j];
   });
   auto text = format_number(state.time);
-  const double size = measure(setting.domain);
+  const double size = size_of_region(setting.domain, positions_of(setting.planes, state.time),
+                                     state.particles.dimension);
   for (std::size_t i = 0; i < n * n; ++i) (text += ',') += format_number(sums[i] / size);
   return text + "\n";
 }

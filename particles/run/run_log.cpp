@@ -105,6 +105,7 @@ void RunLog::add_step(const StepReport& report, const State& state,
   constexpr std::int64_t kMostRows = 1000000, kOneIn = 1000;
   constexpr std::uint64_t kMostRebounds = 1000000;
   record_.totals.add(report, case_.average_from);
+  record_.totals.regime.add(case_, state.particles, report.glued > 0);
   const auto steps = record_.totals.steps;
   if (steps <= kMostRows || steps % kOneIn == 0 || !report.converged) {
     files_.at("steps.csv").append(step_row(state.steps, report, case_.setting.fluid));
