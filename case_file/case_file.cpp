@@ -98,9 +98,12 @@ void fit_keys(Keys& keys, FitRequest& fit, const fs::path& folder) {
       one_of(fit.outside.below, {{"lubrication_limit", BelowInterval::kLubricationLimit},
                                  {"theory_limit", BelowInterval::kTheoryLimit}}),
       {"the drag at gaps below the interval of the fit", "an error", {}, "\"lubrication_limit\""});
-  keys.optional(
-      "above", one_of(fit.outside.above, {{"stokes_limit", AboveInterval::kStokesLimit}}),
-      {"the drag at gaps above the interval of the fit", "an error", {}, "\"stokes_limit\""});
+  keys.optional("above", one_of(fit.outside.above, {{"stokes_limit", AboveInterval::kStokesLimit}}),
+                {"the drag at gaps above the interval of the fit, [up to a second "
+                 "wall](physics.md#3-the-fit-fitting) if there is one",
+                 "an error",
+                 {},
+                 "\"stokes_limit\""});
 }
 
 /// The keys of a piece of the external force: `until` [T], and `value` [M L/T^2] or a polynomial of

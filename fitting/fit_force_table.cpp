@@ -135,14 +135,15 @@ Eigen::VectorXd leverages(const Eigen::MatrixXd& matrix) {
   return q.rowwise().squaredNorm();
 }
 
-/// For each row: true if it has the smallest or the largest gap of the table. A fit without the rows
-/// of such a gap extrapolates to it; a fit without those of another gap interpolates.
+/// For each row: true if it alone has the smallest or the largest gap of the table. A fit without
+/// such a row extrapolates to its gap; a fit without any other row interpolates.
 std::vector<bool> end_rows(const lubrication::MotionTable& table) {
   const auto [smallest, largest] =
       std::ranges::minmax(table.rows, {}, &lubrication::MotionRow::gap);
   std::vector<bool> is_end;
   for (const auto& row : table.rows)
-    is_end.push_back(row.gap == smallest.gap || row.gap == largest.gap);
+    is_end.push_back((row.gap == smallest.gap || row.gap == largest.gap) &&
+                     std::ranges::count(table.rows, row.gap, &lubrication::MotionRow::gap) == 1);
   return is_end;
 }
 
@@ -152,17 +153,12 @@ void take_largest(std::optional<lubrication::LeftOutRow>& largest,
   if (!largest || row.relative_residual > largest->relative_residual) largest = row;
 }
 
-/// Sets the members of `d` that describe the residual of each row in the fit of the rows at other
-/// gaps. This residual follows from the fit of all rows: residual/(1 - leverage), with the leverage
-/// of all rows of the gap.
+/// Sets the members of `d` that describe the residual of each row in the fit of the other rows.
+/// This residual follows from the fit of all rows: residual/(1 - leverage).
 void leave_one_out(const lubrication::MotionTable& table, const FittedSystem& system,
                    lubrication::FitDiagnostics& d) {
   if (d.degrees_of_freedom == 0) return;
-  const Eigen::VectorXd of_rows = leverages(system.weighted_matrix);
-  std::map<double, double> at_gap;
-  for (Eigen::Index i = 0; i < of_rows.size(); ++i) at_gap[gap_of_row(table, i)] += of_rows(i);
-  Eigen::VectorXd leverage(of_rows.size());
-  for (Eigen::Index i = 0; i < of_rows.size(); ++i) leverage(i) = at_gap.at(gap_of_row(table, i));
+  const Eigen::VectorXd leverage = leverages(system.weighted_matrix);
   const auto is_end = end_rows(table);
   // Rounding errors of a leverage are smaller; a free choice.
   const double round_off = 100 * std::numeric_limits<double>::epsilon();
@@ -531,8 +527,8 @@ lubrication::Fit fit_force_table(const lubrication::MotionTable& table, const Fi
   const double fixed = settings.fix_leading ? fixed_leading(table, settings) : 0;
   const auto equations = assemble(table, settings, fixed);
   auto solution = solve_robust_least_squares(equations.weight.asDiagonal() * equations.terms,
-                                                   equations.weight.cwiseProduct(equations.left),
-                                                   settings.loss, stop);
+                                             equations.weight.cwiseProduct(equations.left),
+                                             settings.loss, stop);
 
   // The least squares count rows as degrees of freedom. Rows of one gap are one measurement.
   const auto columns = static_cast<double>(equations.terms.cols());

@@ -70,7 +70,8 @@ struct WorstToEstimate {
 };
 
 /// Diagnostics of a fit. Relative residuals are fit/table - 1 [1]. All rows of one gap count as one
-/// measurement, because their F/u agree: Stokes flow is linear in the velocity.
+/// measurement in degrees of freedom, standard errors, chi-squared and the information criterion,
+/// because their F/u agree: Stokes flow is linear in the velocity.
 struct FitDiagnostics {
   /// Number of rows of the table of forces, outliers included.
   std::size_t rows = 0;
@@ -87,17 +88,18 @@ struct FitDiagnostics {
   /// Largest |relative residual| of the rows that are not outliers, >= 0.
   double largest_inlier_residual = 0;
   /// Root mean square and largest magnitude of the leave-one-out residuals [1]. The leave-one-out
-  /// residual of a row is its relative residual in the fit of the rows at other gaps, r_i/(1 - h_i)
-  /// with the residual r_i and the leverage h_i of all rows at the gap of row i (PRESS, Allen 1974).
-  /// Nothing if the coefficients cannot be determined without one of the gaps.
+  /// residual of a row is its relative residual in the fit of the other rows, r_i/(1 - h_i) with
+  /// the residual r_i and the leverage h_i of row i (PRESS, Allen 1974). Nothing if the
+  /// coefficients cannot be determined without one of the rows. These residuals are too small where
+  /// a table has rows of one gap at several velocities.
   std::optional<double> leave_one_out_rms{},  ///< the root mean square, >= 0
       leave_one_out_largest{};                ///< the largest magnitude, >= 0
   /// Gap [L] of the row with the residual leave_one_out_largest; nothing if leave_one_out_largest
   /// is nothing.
   std::optional<double> leave_one_out_gap{};
-  /// The inner row and the end row with the largest leave-one-out residuals. An end row is a row
-  /// at the smallest or at the largest gap, so that the fit of the rows at other gaps extrapolates
-  /// to it. All other rows are inner rows, to which the fit of the others interpolates. The inner row
+  /// The inner row and the end row with the largest leave-one-out residuals. An end row is the only
+  /// row at the smallest or at the largest gap, so that the fit of the other rows extrapolates to
+  /// it. All other rows are inner rows, to which the fit of the others interpolates. The inner row
   /// shows how large the error of the formula may be between rows. Nothing if leave_one_out_rms is
   /// nothing, or if the table has no such row.
   std::optional<LeftOutRow> left_out_inner{},  ///< the inner row

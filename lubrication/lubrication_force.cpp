@@ -115,8 +115,7 @@ void LubricationForce::set_limits(const Fit& fit) {
 /// the first number is 0; if R is known at all larger gaps, the second one is infinite.
 std::array<double, 2> LubricationForce::interval() const {
   return {outside_.below == BelowInterval::kError ? fitted_interval_[0] : 0.0,
-          outside_.above == AboveInterval::kError ? fitted_interval_[1]
-                                                  : largest_gap_};
+          outside_.above == AboveInterval::kError ? fitted_interval_[1] : largest_gap_};
 }
 
 /// Throws Error(kBadInput) if R is not known at `gap` [L], and Error(kNotConverged) for the exact

@@ -147,7 +147,7 @@ class LubricationForce {
   std::array<double, 2> fitted_interval_;
   OutsideInterval outside_;
   LubricationLimit limit_ = {};
-  double image_ = 0;  // c [L] of AboveInterval::kStokesLimit
+  double image_ = 0;              // c [L] of AboveInterval::kStokesLimit
   double largest_gap_ = kNoWall;  // L [L] of a second wall
   double wall_leading_ = 0;       // k_L [M L/T] near the second wall
   // The sum of weight * antiderivative at zero_of_impulse() [M L/T], which is subtracted.

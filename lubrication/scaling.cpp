@@ -63,8 +63,8 @@ void scale_gaps(FitDiagnostics& d, double ratio) {
 double scale_of_term(std::string_view term, double ratio) {
   const auto power = factor_of_logarithm(term);
   const double q = 1 / ratio;  // also the distance to the second wall, which scales as the gap
-  return terms_beside_walls()[place_of(power ? std::string_view(*power) : term)].value.at(q, std::log(q), q,
-                                                                                 std::log(q));
+  return terms_beside_walls()[place_of(power ? std::string_view(*power) : term)].value.at(
+      q, std::log(q), q, std::log(q));
 }
 
 /// Returns the fit for `viscosity` mu' and `radius` r'. Coefficients, standard errors, covariance,

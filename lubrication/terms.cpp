@@ -20,11 +20,11 @@ namespace {
 
 // Makes a Formula, text and code, of one expression in q and l, so that the exported text cannot
 // differ from the code.
-#define FORMULA(expression)                                                                       \
-  Formula {                                                                                       \
-#expression,                                                                                  \
-        []([[maybe_unused]] double q, [[maybe_unused]] double l, [[maybe_unused]] double p,       \
-           [[maybe_unused]] double m) -> double { return expression; }                            \
+#define FORMULA(expression)                                                                 \
+  Formula {                                                                                 \
+#expression,                                                                            \
+        []([[maybe_unused]] double q, [[maybe_unused]] double l, [[maybe_unused]] double p, \
+           [[maybe_unused]] double m) -> double { return expression; }                      \
   }
 
 // clang-format off
@@ -82,7 +82,8 @@ double sum_of(std::span<const double> weights, double gap, double largest_gap) {
   double total = 0;
   const auto add = [&]<std::size_t i>(std::integral_constant<std::size_t, i>) {
     constexpr auto at = (kTerms[i].*formula).at;
-    if (i < weights.size() && weights[i] != 0) total += weights[i] * at(gap, log_gap, to_wall, log_to_wall);
+    if (i < weights.size() && weights[i] != 0)
+      total += weights[i] * at(gap, log_gap, to_wall, log_to_wall);
   };
   [&]<std::size_t... i>(std::index_sequence<i...>) {
     (add(std::integral_constant<std::size_t, i>()), ...);
@@ -152,7 +153,9 @@ const std::vector<Basis>& bases_beside_walls() {
 
 const Basis& default_basis() { return all_bases().front(); }
 
-const Basis& find_basis(std::string_view name) { return require_named(bases_beside_walls(), name, "basis"); }
+const Basis& find_basis(std::string_view name) {
+  return require_named(bases_beside_walls(), name, "basis");
+}
 
 /// The basis of the terms in `names`, separated by commas, in this order.
 Basis parse_terms(std::string_view names) {

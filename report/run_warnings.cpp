@@ -73,8 +73,8 @@ void add_second_wall(Warnings& warnings, const results::RunResults& run) {
   const auto wall = lubrication::second_wall_of(run.fit);
   if (!wall) return;
   for (const auto& trajectory : run.trajectories)
-    if (const auto text = reduced_model::reached_wall(trajectory, run.c.motion.value(),
-                                                      wall->largest_gap))
+    if (const auto text =
+            reduced_model::reached_wall(trajectory, run.c.motion.value(), wall->largest_gap))
       warnings.add(trajectory_name(trajectory.model), "{}: {}", trajectory.model, *text);
 }
 

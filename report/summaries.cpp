@@ -134,7 +134,8 @@ std::string plot_bases(const lubrication::MotionTable& table,
       const auto& row = table.rows[i];
       double force = 0;
       for (const auto& term : result.fit->terms)
-        force += term.coefficient * lubrication::find_term(term.name).value().value(row.gap, largest_gap);
+        force += term.coefficient *
+                 lubrication::find_term(term.name).value().value(row.gap, largest_gap);
       const double residual = std::abs(force * row.reference_velocity / u0 / row.force - 1);
       // A logarithmic axis has no zero, so a residual of 0 is not drawn.
       curve.points.emplace_back(row.gap, residual > 0 ? residual : std::nan(""));
@@ -160,9 +161,9 @@ std::string regime_in_words(const reduced_model::Comparison& comparison) {
   const auto stokes = largest(&reduced_model::ModelComparison::stokes_number);
   if (!stokes) return "";
   const auto reynolds = largest(&reduced_model::ModelComparison::reynolds_number);
-  return fmt::format("largest Stokes number {:.3g}, Reynolds number {}\n", *stokes,
-                     reynolds ? fmt::format("{:.3g}", *reynolds)
-                              : "not known (it needs `density` in [fluid])");
+  return fmt::format(
+      "largest Stokes number {:.3g}, Reynolds number {}\n", *stokes,
+      reynolds ? fmt::format("{:.3g}", *reynolds) : "not known (it needs `density` in [fluid])");
 }
 
 /// A table for the terminal with a line for each model: smallest gap [L] and its time [T], film

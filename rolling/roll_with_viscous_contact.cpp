@@ -62,9 +62,9 @@ RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
   const double gamma_min = motion.roughness > 0 ? std::min(0.0, k * std::log(motion.roughness / q0))
                                                 : -std::numeric_limits<double>::infinity();
   const int count = reduced_model::step_count(motion.end_time, motion.time_step);
-  const auto wall =
-      lubrication::second_wall_of(fit.entries.at(motions::PairEntry::kSqueeze).fit);
-  const double last = reduced_model::motion_ends_at(wall ? wall->largest_gap : lubrication::kNoWall);
+  const auto wall = lubrication::second_wall_of(fit.entries.at(motions::PairEntry::kSqueeze).fit);
+  const double last =
+      reduced_model::motion_ends_at(wall ? wall->largest_gap : lubrication::kNoWall);
   reduced_model::ContactState normal = {motion.initial_gap, motion.normal_velocity, 0};
   RollingRow row;
   row.gap = motion.initial_gap;
@@ -129,9 +129,8 @@ RollingEnd end_of(const RollingTrajectory& trajectory, const RollingMotion& moti
   end.smallest_gap = std::ranges::min_element(trajectory, {}, &RollingRow::gap)->gap;
   end.slip = end.last.velocity - motion.plane_velocity - radius * end.last.angular_velocity;
   for (const auto& row : trajectory)
-    end.largest_speed =
-        std::max(end.largest_speed,
-                 std::hypot(row.velocity - motion.plane_velocity, row.normal_velocity));
+    end.largest_speed = std::max(
+        end.largest_speed, std::hypot(row.velocity - motion.plane_velocity, row.normal_velocity));
   const auto contact = std::ranges::find_if(
       trajectory, [](const RollingRow& row) { return row.contact != SolidContact::kNone; });
   if (contact != trajectory.end()) end.contact_time = contact->time;

@@ -65,8 +65,8 @@ struct Outside {
   double k_wall = 0;                             // [M L/T]
   double k = 0, constant = 0;                    // [M L/T], [M/T]
   bool has_wall() const { return wall < lubrication::kNoWall; }
-  double stokes = 0, reflected = 0;              // [M/T], [M L/T]
-  double impulse_below = 0, impulse_above = 0;   // Gamma(q1) and Gamma(q2) [M L/T]
+  double stokes = 0, reflected = 0;             // [M/T], [M L/T]
+  double impulse_below = 0, impulse_above = 0;  // Gamma(q1) and Gamma(q2) [M L/T]
 };
 
 /// The numbers of the formulas that the user chose in `limits`, such that R is continuous at q1 and
@@ -134,9 +134,9 @@ Expressions impulse_of(const Sum& sum, const Outside& o, Literal number, std::st
                           number(o.impulse_above), number(o.stokes), number(o.reflected),
                           number(o.largest), number(o.radius), between);
   if (o.has_above && o.has_wall())
-    e.above += fmt::format(
-        "{0}({1}) * (log((({2}) - ({3}))/(({2}) - q)) - (q - ({3}))/(({2}) - ({3})))", between,
-        number(o.k_wall), number(o.wall), number(o.largest));
+    e.above +=
+        fmt::format("{0}({1}) * (log((({2}) - ({3}))/(({2}) - q)) - (q - ({3}))/(({2}) - ({3})))",
+                    between, number(o.k_wall), number(o.wall), number(o.largest));
   return e;
 }
 
@@ -163,9 +163,10 @@ std::vector<std::string> facts(const lubrication::Fit& fit, std::string_view sou
   if (outside.has_above)
     lines.emplace_back(
         outside.has_wall()
-            ? fmt::format("Above this interval R = R_S + c/(q + r) + k (1/(L - q) - 1/(L - q2)), up "
-                          "to the wall opposite at L = {}, where R is infinite.",
-                          plain(outside.wall))
+            ? fmt::format(
+                  "Above this interval R = R_S + c/(q + r) + k (1/(L - q) - 1/(L - q2)), up "
+                  "to the wall opposite at L = {}, where R is infinite.",
+                  plain(outside.wall))
             : "Above this interval R = R_S + c/(q + r), which tends to Stokes' drag R_S.");
   if (fit.diagnostics && fit.diagnostics->largest_error_estimate > 0)
     lines.push_back(fmt::format("Largest error estimate of the table: {:.3g}.",
@@ -189,9 +190,10 @@ std::string write_c_header(const lubrication::Fit& fit, std::string_view source,
         "  const double q = gap, l = log(gap);\n{}"
         "  (void)q;\n  (void)l;\n",
         name,
-        sum.needs_wall ? fmt::format("  const double p = {} - gap, m = log(p);\n  (void)p;\n  (void)m;\n",
-                                     c_literal(sum.largest_gap))
-                       : "");
+        sum.needs_wall
+            ? fmt::format("  const double p = {} - gap, m = log(p);\n  (void)p;\n  (void)m;\n",
+                          c_literal(sum.largest_gap))
+            : "");
     if (!e.below.empty())
       text +=
           fmt::format("  if (gap > 0 && gap < VISCONTACT_SMALLEST_GAP)\n    return {};\n", e.below);
@@ -242,12 +244,12 @@ std::string write_fortran(const lubrication::Fit& fit, std::string_view source,
                "    q = gap\n",
                name, sum.needs_wall ? ", p, m" : "") +
            branch("gap > 0 .and. gap < smallest_gap", e.below) +
-           branch(outside.has_wall()
-                      ? fmt::format("gap > largest_gap .and. gap < {}", fortran_literal(outside.wall))
-                      : "gap > largest_gap .and. gap <= huge(gap)",
+           branch(outside.has_wall() ? fmt::format("gap > largest_gap .and. gap < {}",
+                                                   fortran_literal(outside.wall))
+                                     : "gap > largest_gap .and. gap <= huge(gap)",
                   e.above) +
            (outside.has_above && outside.has_wall()
-                ? branch(fmt::format("gap == {}", fortran_literal(outside.wall)),
+                ? branch(fmt::format("gap >= {0} .and. gap <= {0}", fortran_literal(outside.wall)),
                          "ieee_value(answer, ieee_positive_inf)")
                 : "") +
            branch(".not. (gap >= smallest_gap .and. gap <= largest_gap)",
@@ -368,7 +370,8 @@ std::string write_matlab(const lubrication::Fit& fit, std::string_view source,
              "  f.smallest_gap = {};\n  f.largest_gap = {};\n"
              "  f.resistance = @resistance;  % R(q), > 0\n"
              "  f.impulse = @impulse;  % Gamma(q)\n"
-             "  f.force = @(gap, velocity) -resistance(gap) .* double(velocity);  % F(q, u)\nend\n\n",
+             "  f.force = @(gap, velocity) -resistance(gap) .* double(velocity);  % F(q, "
+             "u)\nend\n\n",
              plain(outside.smallest), plain(outside.largest)) +
          function("resistance", resistance_of(sum, outside, plain, kBetween)) + "\n" +
          function("impulse", impulse_of(sum, outside, plain, kBetween));
@@ -385,10 +388,11 @@ std::string write_json(const lubrication::Fit& fit, std::string_view source, con
   json["about"] = facts(fit, source, outside);
   json["formulas"] =
       sum.needs_wall
-          ? "q: gap, l: ln q, p: largest_gap - q, m: ln p; R = sum of weight * value, Gamma = sum of "
+          ? "q: gap, l: ln q, p: largest_gap - q, m: ln p; R = sum of weight * value, Gamma = sum "
+            "of "
             "weight * antiderivative - impulse_offset"
           : "q: gap, l: ln q; R = sum of weight * value, Gamma = sum of weight * antiderivative - "
-      "impulse_offset";
+            "impulse_offset";
   // Fit files have no key "interval", so that the reader of fit files refuses an export.
   json["interval"] = fit.gap_interval;
   if (outside.has_wall()) json["largest_gap"] = outside.wall;

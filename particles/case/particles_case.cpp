@@ -16,7 +16,6 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/particles/case/particles_sections.hpp"
 #include "viscontact/particles/domain/bounded_region.hpp"
-#include "viscontact/particles/domain/bounded_region.hpp"
 #include "viscontact/particles/io/contact_file.hpp"
 #include "viscontact/particles/outline.hpp"
 
@@ -314,8 +313,8 @@ void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
                                    "has 'walls', but the case has no walls and no planes");
   if (std::ranges::find(c.tables, "stress") != c.tables.end())
     root.section("output").require(
-        size_of_region(c.setting.domain, positions_of(c.setting.planes, 0),
-                       c.particles.dimension) > 0,
+        size_of_region(c.setting.domain, positions_of(c.setting.planes, 0), c.particles.dimension) >
+            0,
         "tables", "has 'stress', which needs a [domain], or planes that bound a region");
 
   const auto lines = read_particles_of_case(root, c);

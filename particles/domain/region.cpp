@@ -40,7 +40,8 @@ double size_of(const Face& face, std::size_t dimension) {
 }
 
 /// A face in `plane` that reaches `reach` [L] beyond the point of the plane nearest to `near`.
-Face wide_face(const PlanePosition& plane, const Vector& near, double reach, std::size_t dimension) {
+Face wide_face(const PlanePosition& plane, const Vector& near, double reach,
+               std::size_t dimension) {
   const auto& n = plane.normal;
   const Vector foot = near - dot(n, near - plane.point) * n;
   if (dimension == 2) {

@@ -36,10 +36,10 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ParticleRegime, reynolds, stokes, film, has_c
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StepTotals, steps, unconverged, failed, iterations,
                                    most_iterations, first_time, last_time, largest_residual,
                                    largest_overlap, largest_impulse_residual, divided, unresolved,
-                                   given_loads, regime, seconds, peak_memory_mebibytes, fluid_seconds,
-                                   unknowns, first_velocity_errors, last_velocity_errors,
-                                   first_force_errors, last_force_errors, averaged_time,
-                                   mean_dissipation, mean_apparent_viscosity)
+                                   given_loads, regime, seconds, peak_memory_mebibytes,
+                                   fluid_seconds, unknowns, first_velocity_errors,
+                                   last_velocity_errors, first_force_errors, last_force_errors,
+                                   averaged_time, mean_dissipation, mean_apparent_viscosity)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunRecord, totals, frames, flows, last_frame, rebounds, files)
 
 namespace {

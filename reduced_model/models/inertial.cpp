@@ -160,9 +160,8 @@ class InertialRun {
   /// Ends the motion in the last step of CVODE, at the time at which the sphere reaches the wall
   /// opposite.
   void end_at_wall() {
-    const double end = bisect_first_true(now_, cvode_.time(), [&](double t) {
-      return equation_.gap_of(cvode_.at(t)) >= last_gap_;
-    });
+    const double end = bisect_first_true(
+        now_, cvode_.time(), [&](double t) { return equation_.gap_of(cvode_.at(t)) >= last_gap_; });
     const auto at_wall = equation_.instant(end, last_gap_, end);
     add_rows_of_step(end, at_wall);
     if (trajectory_.rows.back().time < end) add_row(end, at_wall);

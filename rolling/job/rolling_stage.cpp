@@ -161,8 +161,8 @@ std::string rolling_json(const RollingResults& results) {
               {"velocity", last.velocity}, {"angular_velocity", last.angular_velocity},
               {"slip", end.slip},          {"contact", static_cast<int>(last.contact)}};
     object["stokes_number"] = stokes_of(results.c, end);
-    object["reynolds_number"] = reynolds_of(results.c, end) ? Json(*reynolds_of(results.c, end))
-                                                            : Json(nullptr);
+    object["reynolds_number"] =
+        reynolds_of(results.c, end) ? Json(*reynolds_of(results.c, end)) : Json(nullptr);
     object["contact_time"] = end.contact_time ? Json(*end.contact_time) : Json(nullptr);
   }
   if (const auto warnings = rolling_warnings(results); !warnings.empty())
@@ -214,10 +214,9 @@ void say_end(const RollingCase& c, const std::string& model, const RollingTrajec
                 model, last.gap, last.velocity, last.angular_velocity);
   const auto end = end_of(rows, c.motion, c.radius);
   const auto reynolds = reynolds_of(c, end);
-  terminal::say("rolling: {}: largest Stokes number {:.3g}, Reynolds number {}", model,
-                stokes_of(c, end),
-                reynolds ? fmt::format("{:.3g}", *reynolds)
-                         : "not known (it needs `density` in [fluid])");
+  terminal::say(
+      "rolling: {}: largest Stokes number {:.3g}, Reynolds number {}", model, stokes_of(c, end),
+      reynolds ? fmt::format("{:.3g}", *reynolds) : "not known (it needs `density` in [fluid])");
 }
 
 }  // namespace

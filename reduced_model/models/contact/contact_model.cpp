@@ -346,10 +346,10 @@ Trajectory run_contact_model(const Motion& motion, ContactModel model) {
   const auto kick = [&](double velocity, double push, const ContactStep& step) {
     add_to(budget, velocity, push, step);
   };
-  const double end =
-      model.drag ? run_steps(motion, model, DragAtDistance(*model.drag, model.contact_gap), turns,
-                             rebound, kick, add)
-                 : run_steps(motion, model, NoDrag(), turns, rebound, kick, add);
+  const double end = model.drag
+                         ? run_steps(motion, model, DragAtDistance(*model.drag, model.contact_gap),
+                                     turns, rebound, kick, add)
+                         : run_steps(motion, model, NoDrag(), turns, rebound, kick, add);
   trajectory.steps = static_cast<long>(trajectory.rows.size()) - 1;
   if (lowest_gamma < 0 && model.film_thickness)
     trajectory.recovered_minimal_gap = model.film_thickness(lowest_gamma);

@@ -47,9 +47,9 @@ ContactModel viscous_contact_leapfrog(const Motion& motion,
 ContactModel viscous_contact_regular_drag(const Motion& motion,
                                           const lubrication::LubricationForce& force) {
   ContactModel model = viscous_contact(motion, force);
-  model.drag = ResolvedDrag{[&force](double q) { return force.regular_resistance(q); },
-                            [&force](double q) { return force.regular_impulse(q); },
-                            force.largest_gap()};
+  model.drag =
+      ResolvedDrag{[&force](double q) { return force.regular_resistance(q); },
+                   [&force](double q) { return force.regular_impulse(q); }, force.largest_gap()};
   return model;
 }
 

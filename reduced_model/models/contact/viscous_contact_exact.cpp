@@ -202,7 +202,8 @@ Trajectory simulate_viscous_contact_exact(const Motion& motion,
       for (; next_row != times.end() && *next_row < event; ++next_row) add_row(before, *next_row);
       const bool at_row = next_row != times.end() && *next_row == event;
       if (at_row) ++next_row;
-      if (at_row || event < stop || sphere.ended() || before.contact() != sphere.contact()) add_row(sphere, event);
+      if (at_row || event < stop || sphere.ended() || before.contact() != sphere.contact())
+        add_row(sphere, event);
       const bool has_struck = sphere.rebounds().size() > before.rebounds().size();
       if ((has_struck || (sphere.contact() && !before.contact())) && !trajectory.contact_interval)
         trajectory.contact_interval = {event, event};

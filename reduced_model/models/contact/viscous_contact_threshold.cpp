@@ -39,8 +39,7 @@ ContactModel viscous_contact_threshold(const Motion& motion,
                                    : std::min(0.0, force.impulse(solid_gap) - impulse_at_contact);
   if (solid_gap > 0) model.solid_resistance = force.resistance(solid_gap);
   model.drag = ResolvedDrag{[&force](double q) { return force.resistance(q); },
-                            [&force](double q) { return force.impulse(q); },
-                            force.largest_gap()};
+                            [&force](double q) { return force.impulse(q); }, force.largest_gap()};
   model.film_thickness = [&force, impulse_at_contact](double gamma) {
     return force.gap_of_impulse(impulse_at_contact + gamma);
   };

@@ -25,8 +25,7 @@ TEST(BoundedRegion, OfPlanesAloneIsTheirPolygonOrPolyhedron) {
                                               {at(0, 2), {0, -1, 0}}};
       EXPECT_NEAR(size_of_region({}, box, 2) / (unit * unit), 6, 6 * kRounding);
       const double root = std::sqrt(0.5);
-      const std::vector<PlanePosition> triangle = {
-          box[0], box[2], {at(1, 0), {-root, -root, 0}}};
+      const std::vector<PlanePosition> triangle = {box[0], box[2], {at(1, 0), {-root, -root, 0}}};
       EXPECT_NEAR(size_of_region({}, triangle, 2) / (unit * unit), 0.5, kRounding);
       auto cuboid = box;
       cuboid.push_back({at(0, 0, 1), {0, 0, 1}});

@@ -1,4 +1,6 @@
 // Sizes of the part of a domain that planes leave free, against closed forms and random points.
+#include "viscontact/particles/domain/region.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,7 +8,6 @@
 #include <vector>
 
 #include "tests/particles/systems.hpp"
-#include "viscontact/particles/domain/region.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -28,27 +29,34 @@ TEST(Region, OfABoxHasTheAreaThatPlanesLeave) {
   EXPECT_NEAR(measure(box, std::vector<PlanePosition>{{{0, 0, 0}, {0, 1, 0}}}), 12, kRounding);
   EXPECT_NEAR(measure(box, std::vector<PlanePosition>{{{0, -1, 0}, {0, 1, 0}}}), 12, kRounding);
   EXPECT_NEAR(measure(box, std::vector<PlanePosition>{{{0, 5, 0}, {0, 1, 0}}}), 0, kRounding);
-  EXPECT_NEAR(measure(box, std::vector<PlanePosition>{{{0, 1, 0}, {0, -1, 0}}, {{0, 2, 0}, {0, 1, 0}}}), 0,
-              kRounding);
+  EXPECT_NEAR(
+      measure(box, std::vector<PlanePosition>{{{0, 1, 0}, {0, -1, 0}}, {{0, 2, 0}, {0, 1, 0}}}), 0,
+      kRounding);
 }
 
 TEST(Region, OfACuboidHasTheVolumeThatPlanesLeave) {
   const BoxDomain box{{-1, 0, 2}, {1, 3, 6}, {}};
   EXPECT_NEAR(measure(box, std::vector<PlanePosition>{{{0, 0, 5}, {0, 0, -1}}}), 18, kRounding);
   // A corner with the edges 1, 1, 1 has the volume 1/6.
-  EXPECT_NEAR(measure(box, std::vector<PlanePosition>{{{0, 0, 2}, unit({1, 1, 1})}}), 24 - 1.0 / 6, kRounding);
-  EXPECT_NEAR(measure(box, std::vector<PlanePosition>{{{0, 1.5, 4}, unit({0.3, 0.8, -1})}}), 12, kRounding);
+  EXPECT_NEAR(measure(box, std::vector<PlanePosition>{{{0, 0, 2}, unit({1, 1, 1})}}), 24 - 1.0 / 6,
+              kRounding);
+  EXPECT_NEAR(measure(box, std::vector<PlanePosition>{{{0, 1.5, 4}, unit({0.3, 0.8, -1})}}), 12,
+              kRounding);
 }
 
 TEST(Region, OfADiscIsASegment) {
   const DiscDomain disc{{1, -2, 0}, 3};
-  EXPECT_NEAR(measure(disc, std::vector<PlanePosition>{{{1, -2, 0}, unit({2, 1, 0})}}), 9 * pi / 2, kRounding * 10);
+  EXPECT_NEAR(measure(disc, std::vector<PlanePosition>{{{1, -2, 0}, unit({2, 1, 0})}}), 9 * pi / 2,
+              kRounding * 10);
   // The segment of the height 3 - 1.2 that a plane at the distance 1.2 cuts off.
   const double off = 9 * std::acos(0.4) - 1.2 * std::sqrt(9 - 1.44);
-  EXPECT_NEAR(measure(disc, std::vector<PlanePosition>{{{1, -3.2, 0}, {0, 1, 0}}}), 9 * pi - off, kRounding * 10);
-  EXPECT_NEAR(measure(disc, std::vector<PlanePosition>{{{1, -2, 0}, {0, 1, 0}}, {{1, -2, 0}, {1, 0, 0}}}),
-              9 * pi / 4, kRounding * 10);
-  EXPECT_NEAR(measure(disc, std::vector<PlanePosition>{{{1, -9, 0}, {0, 1, 0}}}), 9 * pi, kRounding * 10);
+  EXPECT_NEAR(measure(disc, std::vector<PlanePosition>{{{1, -3.2, 0}, {0, 1, 0}}}), 9 * pi - off,
+              kRounding * 10);
+  EXPECT_NEAR(
+      measure(disc, std::vector<PlanePosition>{{{1, -2, 0}, {0, 1, 0}}, {{1, -2, 0}, {1, 0, 0}}}),
+      9 * pi / 4, kRounding * 10);
+  EXPECT_NEAR(measure(disc, std::vector<PlanePosition>{{{1, -9, 0}, {0, 1, 0}}}), 9 * pi,
+              kRounding * 10);
   EXPECT_NEAR(measure(disc, std::vector<PlanePosition>{{{1, 9, 0}, {0, 1, 0}}}), 0, kRounding * 10);
 }
 
@@ -69,10 +77,9 @@ TEST(Region, OfRandomPlanesContainsItsShareOfRandomPoints) {
       for (int i = 0; i < kPoints; ++i) {
         const Vector x{random.uniform(0, 2), random.uniform(0, 3),
                        dimension == 3 ? random.uniform(0, 1.5) : 0};
-        bool is_in = !std::holds_alternative<DiscDomain>(domain) ||
-                     norm(x - Vector{1, 1.5, 0}) <= 1;
-        for (const auto& plane : planes)
-          is_in = is_in && dot(plane.normal, x - plane.point) >= 0;
+        bool is_in =
+            !std::holds_alternative<DiscDomain>(domain) || norm(x - Vector{1, 1.5, 0}) <= 1;
+        for (const auto& plane : planes) is_in = is_in && dot(plane.normal, x - plane.point) >= 0;
         inside += is_in ? 1 : 0;
       }
       const double whole = dimension == 3 ? 9 : 6;
