@@ -10,8 +10,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "viscontact/lubrication/regime.hpp"
+#include "viscontact/lubrication/stokes_drag.hpp"
 #include "viscontact/report/pictures/colours.hpp"
 
 namespace viscontact::rolling {
@@ -122,6 +124,24 @@ std::vector<report::Plot> rolling_plots(const RollingResults& results) {
 
 }  // namespace
 
+namespace {
+
+/// m |dq/dt|/|gamma_min| [1], with the largest |dq/dt| of the rows, of the model of viscous contact if
+/// the solids touch; otherwise nothing.
+std::optional<double> film_of(const RollingCase& c, const std::string& model,
+                              const RollingTrajectory& rows) {
+  const auto& motion = c.motion;
+  if (model != "viscous_contact" || !(motion.roughness > 0) ||
+      !(motion.roughness < motion.initial_gap) || !end_of(rows, motion, c.radius).contact_time)
+    return {};
+  double speed = 0;
+  for (const auto& row : rows) speed = std::max(speed, std::abs(row.normal_velocity));
+  const double k = lubrication::stokes_resistance(c.viscosity, c.radius) * c.radius;
+  return motion.mass * speed / (k * std::log(motion.initial_gap / motion.roughness));
+}
+
+}  // namespace
+
 double stokes_of(const RollingCase& c, const RollingEnd& end) {
   return lubrication::stokes_number(c.motion.mass, c.radius, end.largest_speed, c.viscosity);
 }
@@ -143,6 +163,10 @@ std::vector<std::string> rolling_warnings(const RollingResults& results) {
     const auto end = end_of(rows, results.c.motion, results.c.radius);
     if (const auto reynolds = reynolds_of(results.c, end))
       if (const auto warning = lubrication::reynolds_warning(*reynolds))
+        warnings.push_back(fmt::format("{}: {}", model, *warning));
+    if (const auto film = film_of(results.c, model, rows))
+      if (const auto warning =
+              lubrication::film_warning(*film, "the models smooth and rough resolve the drag"))
         warnings.push_back(fmt::format("{}: {}", model, *warning));
     if (rows.back().time < results.c.motion.end_time)
       warnings.push_back(fmt::format(

@@ -206,16 +206,24 @@ bool write_trajectories(const RollingFolder& folder, const RollingResults& resul
   return wrote;
 }
 
-/// Tells the user the gap [L], velocity [L/T] and angular velocity [1/T] at the end of a motion, and
-/// its largest Stokes and Reynolds numbers.
-void say_end(const RollingCase& c, const std::string& model, const RollingTrajectory& rows) {
-  const auto& last = rows.back();
+/// Tells the user the gap [L], velocity [L/T] and angular velocity [1/T] at the end of a motion.
+void say_end(const std::string& model, const RollingRow& last) {
   terminal::say("rolling: {} ends at the gap {:.6g}, velocity {:.6g}, angular velocity {:.6g}",
                 model, last.gap, last.velocity, last.angular_velocity);
-  const auto end = end_of(rows, c.motion, c.radius);
-  const auto reynolds = reynolds_of(c, end);
+}
+
+/// Tells the user the largest Stokes and Reynolds numbers of all models.
+void say_regime(const RollingResults& results) {
+  double stokes = 0;
+  std::optional<double> reynolds;
+  for (const auto& [model, rows] : results.trajectories) {
+    const auto end = end_of(rows, results.c.motion, results.c.radius);
+    stokes = std::max(stokes, stokes_of(results.c, end));
+    if (const auto number = reynolds_of(results.c, end))
+      reynolds = std::max(reynolds.value_or(0), *number);
+  }
   terminal::say(
-      "rolling: {}: largest Stokes number {:.3g}, Reynolds number {}", model, stokes_of(c, end),
+      "rolling: largest Stokes number {:.3g}, Reynolds number {}", stokes,
       reynolds ? fmt::format("{:.3g}", *reynolds) : "not known (it needs `density` in [fluid])");
 }
 
@@ -241,9 +249,10 @@ void run_rolling(const RollingRequest& request) {
   results.c.motion.stop = request.stop;
   pipeline::with_failure(rows_failed, [&] { run_models(results.c, results); });
   bool wrote = write_trajectories(folder, results, provenance);
-  for (const auto& [model, rows] : results.trajectories) say_end(results.c, model, rows);
+  for (const auto& [model, rows] : results.trajectories) say_end(model, rows.back());
   for (const auto& warning : rolling_warnings(results))
     terminal::warn("rolling: warning: " + warning);
+  say_regime(results);
   const auto json = rolling_json(results);
   if (results::write_if_changed(folder.results(), TextKind::kJson, json, provenance)) wrote = true;
   if (wrote || !report::page_is_current(folder.path, kRollingPictures))
