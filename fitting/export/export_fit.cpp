@@ -238,7 +238,7 @@ std::string write_fortran(const lubrication::Fit& fit, std::string_view source,
                                   condition, answer);
     };
     return fmt::format(
-               "  elemental function viscontact_{0}(gap) result(answer)\n"
+               "  elemental function viscontact_{}(gap) result(answer)\n"
                "    real(real64), intent(in) :: gap\n"
                "    real(real64) :: answer, q, l{}\n"
                "    q = gap\n",
