@@ -98,9 +98,12 @@ void fit_keys(Keys& keys, FitRequest& fit, const fs::path& folder) {
       one_of(fit.outside.below, {{"lubrication_limit", BelowInterval::kLubricationLimit},
                                  {"theory_limit", BelowInterval::kTheoryLimit}}),
       {"the drag at gaps below the interval of the fit", "an error", {}, "\"lubrication_limit\""});
-  keys.optional(
-      "above", one_of(fit.outside.above, {{"stokes_limit", AboveInterval::kStokesLimit}}),
-      {"the drag at gaps above the interval of the fit", "an error", {}, "\"stokes_limit\""});
+  keys.optional("above", one_of(fit.outside.above, {{"stokes_limit", AboveInterval::kStokesLimit}}),
+                {"the drag at gaps above the interval of the fit, [up to a second "
+                 "wall](physics.md#3-the-fit-fitting) if there is one",
+                 "an error",
+                 {},
+                 "\"stokes_limit\""});
 }
 
 /// The keys of a piece of the external force: `until` [T], and `value` [M L/T^2] or a polynomial of
@@ -413,7 +416,10 @@ void read_root(const TomlSection& root, Case& c) {
     c.tabulation = read_tabulation(root.section("tabulation"), c.viscosity, c.radius);
   if (root.has("fit"))
     read_keys(root.section("fit"), fit_keys, c.fit.emplace(), c.path.parent_path());
-  if (root.has("motion")) c.motion = read_motion(root, mass, c);
+  if (root.has("motion")) {
+    c.motion = read_motion(root, mass, c);
+    c.motion->fluid_density = c.fluid_density;
+  }
   if (root.has("published"))
     read_keys(root.section("published"), published_keys, c.published.emplace());
   check_exact_drag(root, c);

@@ -235,9 +235,10 @@ std::vector<KeyTable> tables_of_tabulation() {
 /// as it is.
 void fluid_keys(Keys& keys, double& viscosity, double& density) {
   viscosity_keys(keys, viscosity);
-  keys.optional("density", number(density, kNotNegative),
-                {.meaning = "density rho_f; only buoyancy depends on it, and only with `gravity`",
-                 .example = "0.0"});
+  keys.optional(
+      "density", number(density, kNotNegative),
+      {.meaning = "density rho_f, for the Reynolds number and, with `gravity`, the buoyancy",
+       .example = "0.0"});
 }
 
 /// Declares the keys of [sphere]: the radius [L], and the mass [M] or the density [M/L^3], all > 0.

@@ -15,7 +15,9 @@ namespace viscontact::fitting {
 /// Each result has a fit or the text of its error. The table must have a row (not checked).
 std::vector<BasisResult> compare_bases(const lubrication::MotionTable& table,
                                        const FitSettings& settings, const StopToken& stop) {
-  auto bases = lubrication::all_bases();
+  const bool has_wall =
+      lubrication::second_wall(table.geometry, table.container, table.radius).has_value();
+  auto bases = has_wall ? lubrication::bases_beside_walls() : lubrication::all_bases();
   if (settings.basis.name == lubrication::kOwnTerms) bases.push_back(settings.basis);
   std::vector<BasisResult> results;
   for (const auto& basis : bases) {

@@ -25,7 +25,8 @@ struct BasisResult {
   std::string failure;                    ///< what() of that Error; empty if there is a fit
 };
 
-/// Fits the table in each of all_bases(), in this order, and then in settings.basis if this is a
+/// Fits the table in each of all_bases(), or bases_beside_walls() if it has a second wall, in this
+/// order, and then in settings.basis if this is a
 /// user's list of terms. The other members of `settings` are the same for each fit. An Error of a
 /// fit is stored in its result and not thrown, except Error(kInterrupted) if `stop` requests a
 /// stop, which is checked before each fit and during a fit with a robust loss. The table must have

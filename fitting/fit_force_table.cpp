@@ -51,6 +51,20 @@ lubrication::FitDiagnostics diagnose(const lubrication::MotionTable& table,
                                      const FittedSystem& system, const lubrication::Fit& fit,
                                      lubrication::FittedShape shape);
 
+/// The gap L [L] at which the sphere touches a second wall; infinity without one.
+double largest_gap_of(const lubrication::MotionTable& table) {
+  const auto wall = lubrication::second_wall(table.geometry, table.container, table.radius);
+  return wall ? wall->largest_gap : lubrication::kNoWall;
+}
+
+/// The number of rows of the table at each of its gaps. Rows of one gap at several velocities are
+/// one measurement, because Stokes flow is linear in the velocity.
+std::map<double, std::size_t> rows_by_gap(const lubrication::MotionTable& table) {
+  std::map<double, std::size_t> rows;
+  for (const auto& row : table.rows) ++rows[row.gap];
+  return rows;
+}
+
 double gap_of_row(const lubrication::MotionTable& table, Eigen::Index row) {
   return table.rows[static_cast<std::size_t>(row)].gap;
 }
@@ -77,6 +91,7 @@ bool is_outlier(const FittedSystem& system, lubrication::Loss loss, Eigen::Index
 void compare_with_estimates(const lubrication::MotionTable& table, const FittedSystem& system,
                             lubrication::Loss loss, lubrication::FitDiagnostics& d) {
   bool every_row = true;
+  const auto rows_at = rows_by_gap(table);
   double chi_squared = 0, chi_squared_of_inliers = 0;
   std::size_t outliers = 0;
   for (Eigen::Index i = 0; i < system.relative_residual.size(); ++i) {
@@ -89,9 +104,10 @@ void compare_with_estimates(const lubrication::MotionTable& table, const FittedS
     every_row = every_row && estimate > 0;
     if (!(estimate > 0)) continue;
     const double ratio = std::abs(residual) / estimate;
-    chi_squared += ratio * ratio;
+    const double share = 1 / static_cast<double>(rows_at.at(gap_of_row(table, i)));
+    chi_squared += share * ratio * ratio;
     if (!inlier) continue;
-    chi_squared_of_inliers += ratio * ratio;
+    chi_squared_of_inliers += share * ratio * ratio;
     if (ratio > 1) ++d.rows_beyond_estimate;
     if (d.worst_to_estimate && ratio <= d.worst_to_estimate->ratio) continue;
     d.worst_to_estimate = {gap_of_row(table, i), residual, ratio};
@@ -169,9 +185,9 @@ void leave_one_out(const lubrication::MotionTable& table, const FittedSystem& sy
 /// few rows for it or if all residuals are 0.
 std::optional<double> information_criterion(const FittedSystem& system,
                                             const lubrication::FitDiagnostics& d) {
-  const auto n = static_cast<double>(d.rows);
+  const auto n = static_cast<double>(d.degrees_of_freedom + d.free_coefficients);  // of gaps
   const auto k = static_cast<double>(d.free_coefficients + 1);
-  const double squares = system.weighted_residual.squaredNorm();
+  const double squares = system.weighted_residual.squaredNorm() * n / static_cast<double>(d.rows);
   if (n <= k + 1 || !(squares > 0)) return std::nullopt;
   return n * std::log(squares / n) + 2 * k + 2 * k * (k + 1) / (n - k - 1);
 }
@@ -195,13 +211,17 @@ void warn_of_shape(const lubrication::Fit& fit, lubrication::FittedShape shape,
                    std::vector<std::string>& warnings) {
   bool positive = shape != lubrication::FittedShape::kAny,
        decreasing = shape == lubrication::FittedShape::kDrag;
+  const auto wall = lubrication::second_wall_of(fit);
+  const double largest_gap = wall ? wall->largest_gap : lubrication::kNoWall;
+  // Beyond the middle between two walls the drag grows.
+  decreasing = decreasing && !(fit.gap_interval[1] > largest_gap / 2);
   for (const double gap : lubrication::spread_gaps(fit.gap_interval)) {
     double resistance = 0, slope = 0;
     for (const auto& term : fit.terms) {
       const double coefficient = -term.coefficient / fit.reference_velocity;  // in R
       const auto found = lubrication::find_term(term.name).value();
-      resistance += coefficient * found.value(gap);
-      slope += coefficient * found.log_slope(gap);
+      resistance += coefficient * found.value(gap, largest_gap);
+      slope += coefficient * found.log_slope(gap, largest_gap);
     }
     if (positive && !(resistance > 0)) {
       warnings.push_back(fmt::format("the fitted resistance is not positive: {:.4g} at gap {:.4g}",
@@ -233,8 +253,8 @@ void warn_of_coefficients(const lubrication::Fit& fit, const FittedSystem& syste
                           std::vector<std::string>& warnings) {
   if (d.degrees_of_freedom == 0)
     warnings.emplace_back(
-        "there are as many coefficients as rows, so that the residuals and the standard errors "
-        "have no meaning");
+        "there are as many coefficients as rows at different gaps, so that the residuals and the "
+        "standard errors have no meaning");
   for (const auto& term : system.fitted_terms)
     if (!term.is_fixed && term.standard_error >= std::abs(term.coefficient) &&
         term.standard_error > 0)
@@ -266,7 +286,7 @@ lubrication::FitDiagnostics diagnose(const lubrication::MotionTable& table,
   lubrication::FitDiagnostics d;
   d.rows = table.rows.size();
   d.free_coefficients = static_cast<std::size_t>(system.weighted_matrix.cols());
-  d.degrees_of_freedom = d.rows - d.free_coefficients;
+  d.degrees_of_freedom = rows_by_gap(table).size() - d.free_coefficients;
   Eigen::Index worst = 0;
   system.relative_residual.cwiseAbs().maxCoeff(&worst);
   d.worst_gap = gap_of_row(table, worst);
@@ -329,6 +349,21 @@ double fixed_leading(const lubrication::MotionTable& table, const FitSettings& s
   return -*table.leading_coefficient * table.rows.front().reference_velocity;
 }
 
+/// Throws Error(kBadInput) if a term needs a second wall and the table has none above its gaps.
+void check_second_wall(const lubrication::MotionTable& table, const lubrication::Basis& basis) {
+  const double largest =
+      std::ranges::max_element(table.rows, {}, &lubrication::MotionRow::gap)->gap;
+  const double wall = largest_gap_of(table);
+  for (const auto& term : basis.terms)
+    if (lubrication::needs_second_wall(term.name) &&
+        !(wall < lubrication::kNoWall && largest < wall))
+      throw Error(ErrorKind::kBadInput,
+                  "the term {} needs a wall opposite, at a gap L above {}; the table's geometry is "
+                  "'{}' and its container '{}', which name none (closed cylinder, radius, height; "
+                  "or cavity, radius)",
+                  term.name, largest, table.geometry, table.container);
+}
+
 /// Throws Error(kBadInput) if the table has fewer different gaps than coefficients to fit, or fewer
 /// than two, or if the only coefficient is fixed.
 void check_gaps(const lubrication::MotionTable& table, const FitSettings& settings) {
@@ -364,15 +399,13 @@ struct Equations {
   Eigen::VectorXd weight;
 };
 
-/// If `term` is f(q) ln q and the basis contains f(q), the index of f(q) in the basis; otherwise
-/// nothing. Such a term is fitted as f(q) ln(q/r) = f(q) ln q - ln r f(q), and the coefficient of
-/// f(q) is corrected afterwards.
+/// If `term` is f ln q or ln(L-q) and the basis contains the factor f or 1, the index of this factor
+/// in the basis; otherwise nothing. Such a term is fitted with the logarithm of a length over r,
+/// and the coefficient of the factor is corrected afterwards.
 std::optional<std::size_t> partner_of(const lubrication::Term& term, const lubrication::Basis& b) {
-  constexpr std::string_view kLogarithm = "ln q";
-  if (!term.name.ends_with(kLogarithm)) return std::nullopt;
-  auto factor = term.name.substr(0, term.name.size() - kLogarithm.size());
-  factor = factor.empty() ? "1" : factor.substr(0, factor.size() - 1);
-  const auto found = std::ranges::find(b.terms, factor, &lubrication::Term::name);
+  const auto factor = lubrication::factor_of_logarithm(term.name);
+  if (!factor) return std::nullopt;
+  const auto found = std::ranges::find(b.terms, *factor, &lubrication::Term::name);
   if (found == b.terms.end()) return std::nullopt;
   return static_cast<std::size_t>(found - b.terms.begin());
 }
@@ -390,6 +423,7 @@ Equations assemble(const lubrication::MotionTable& table, const FitSettings& set
   const auto columns =
       static_cast<Eigen::Index>(settings.basis.terms.size()) - (settings.fix_leading ? 1 : 0);
   const double u0 = table.rows.front().reference_velocity;
+  const double largest_gap = largest_gap_of(table);
   Equations equations = {Eigen::VectorXd(rows), Eigen::VectorXd(rows),
                          Eigen::MatrixXd(rows, columns), Eigen::VectorXd(rows),
                          Eigen::VectorXd::Ones(rows)};
@@ -400,7 +434,9 @@ Equations assemble(const lubrication::MotionTable& table, const FitSettings& set
     for (const auto& term : settings.basis.terms) {
       // With ln(q/r) in place of ln q the condition number is the same in all units of length.
       const double unit = partner_of(term, settings.basis) ? table.radius : 1;
-      const double value = term.value.at(row.gap, std::log(row.gap / unit));
+      const double to_wall = largest_gap - row.gap;
+      const double value =
+          term.value.at(row.gap, std::log(row.gap / unit), to_wall, std::log(to_wall / unit));
       if (is_fixed(term, settings))
         equations.left(i) -= fixed * value;
       else
@@ -480,6 +516,7 @@ lubrication::Fit fit_force_table(const lubrication::MotionTable& table, const Fi
                                  const StopToken& stop) {
   check_linearity(table);
   check_gaps(table, settings);
+  check_second_wall(table, settings.basis);
   if (const auto& scales = settings.row_scales;
       !scales.empty() && (scales.size() != table.rows.size() ||
                           !std::ranges::all_of(scales, [](double scale) { return scale > 0; })))
@@ -489,9 +526,16 @@ lubrication::Fit fit_force_table(const lubrication::MotionTable& table, const Fi
         table.rows.size());
   const double fixed = settings.fix_leading ? fixed_leading(table, settings) : 0;
   const auto equations = assemble(table, settings, fixed);
-  const auto solution = solve_robust_least_squares(equations.weight.asDiagonal() * equations.terms,
-                                                   equations.weight.cwiseProduct(equations.left),
-                                                   settings.loss, stop);
+  auto solution = solve_robust_least_squares(equations.weight.asDiagonal() * equations.terms,
+                                             equations.weight.cwiseProduct(equations.left),
+                                             settings.loss, stop);
+
+  // The least squares count rows as degrees of freedom. Rows of one gap are one measurement.
+  const auto columns = static_cast<double>(equations.terms.cols());
+  const double by_rows = static_cast<double>(table.rows.size()) - columns;
+  const double by_gaps = static_cast<double>(rows_by_gap(table).size()) - columns;
+  if (by_rows > 0 && by_gaps < by_rows)
+    solution.least_squares.covariance *= by_gaps > 0 ? by_rows / by_gaps : 0;
 
   lubrication::Fit fit;
   fit.basis = settings.basis.name;

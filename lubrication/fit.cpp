@@ -80,6 +80,16 @@ Fit exact_plane_fit(double viscosity, double radius) {
   return fit;
 }
 
+std::optional<SecondWall> second_wall_of(const Fit& fit) {
+  const auto wall = second_wall(fit.geometry, fit.container, fit.radius);
+  return wall && fit.gap_interval[1] < wall->largest_gap ? wall : std::nullopt;
+}
+
+double zero_of_impulse(const Fit& fit) {
+  const auto wall = second_wall_of(fit);
+  return wall && !(fit.radius < wall->largest_gap) ? wall->largest_gap / 2 : fit.radius;
+}
+
 bool is_exact_plane(const Fit& fit) { return fit.basis == kExactPlane; }
 
 /// The fit with coefficients, errors and leading coefficient multiplied by `viscosity` [M/(L T)]
@@ -200,7 +210,7 @@ void fields_of(JsonFields& json, FitTerm& term) {
   json("held", term.is_fixed, kAllowed);
   if (json.reads() && !find_term(term.name))
     json.fail("name", "is '{}', which is not a term; the terms are: {}", term.name,
-              names_of(all_terms()));
+              names_of(terms_beside_walls()));
 }
 
 // The reference velocity is in [L/T], the viscosity in [M/(L T)], radius and gaps are in [L], the

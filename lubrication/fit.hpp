@@ -18,6 +18,8 @@
 #include <string_view>
 #include <vector>
 
+#include "viscontact/lubrication/second_wall.hpp"
+
 namespace viscontact {
 
 class JsonFields;
@@ -67,10 +69,9 @@ struct WorstToEstimate {
   double ratio = 0;              ///< |relative_residual| / error estimate of this row, >= 0
 };
 
-/// Diagnostics of a fit. Relative residuals are fit/table - 1 [1]. Every row of the table of forces
-/// counts as an independent measurement. If a table has rows of one gap at several velocities,
-/// whose F/u agree because Stokes flow is linear, standard errors and leave-one-out residuals are
-/// therefore too small.
+/// Diagnostics of a fit. Relative residuals are fit/table - 1 [1]. All rows of one gap count as one
+/// measurement in degrees of freedom, standard errors, chi-squared and the information criterion,
+/// because their F/u agree: Stokes flow is linear in the velocity.
 struct FitDiagnostics {
   /// Number of rows of the table of forces, outliers included.
   std::size_t rows = 0;
@@ -89,7 +90,8 @@ struct FitDiagnostics {
   /// Root mean square and largest magnitude of the leave-one-out residuals [1]. The leave-one-out
   /// residual of a row is its relative residual in the fit of the other rows, r_i/(1 - h_i) with
   /// the residual r_i and the leverage h_i of row i (PRESS, Allen 1974). Nothing if the
-  /// coefficients cannot be determined without one of the rows.
+  /// coefficients cannot be determined without one of the rows. These residuals are too small where
+  /// a table has rows of one gap at several velocities.
   std::optional<double> leave_one_out_rms{},  ///< the root mean square, >= 0
       leave_one_out_largest{};                ///< the largest magnitude, >= 0
   /// Gap [L] of the row with the residual leave_one_out_largest; nothing if leave_one_out_largest
@@ -109,16 +111,17 @@ struct FitDiagnostics {
   /// outliers. Nothing if none of them has an error estimate, or if the fit file, of an earlier
   /// version, lacks it.
   std::optional<WorstToEstimate> worst_to_estimate{};
-  /// Chi-squared [1], >= 0: the sum of (relative residual/error estimate)^2 over the rows. Nothing
+  /// Chi-squared [1], >= 0: the sum over the gaps of (relative residual/error estimate)^2, of which
+  /// the mean over the rows at a gap counts. Nothing
   /// if a row has no error estimate.
   std::optional<double> chi_squared{};
-  std::size_t degrees_of_freedom = 0;  ///< rows - free_coefficients
+  std::size_t degrees_of_freedom = 0;  ///< number of different gaps - free_coefficients
   /// The cause of the residuals. It is kBasis if chi-squared of the rows that are not outliers is
   /// beyond the 99 % quantile of its distribution and rows_beyond_estimate > 0.
   Misfit misfit = Misfit::kUnknown;
   /// Akaike's information criterion with the correction for small samples (Hurvich & Tsai 1989),
   ///     n ln(sum of squares/n) + 2 K + 2 K (K + 1)/(n - K - 1),   K = free coefficients + 1,
-  /// with the number n of rows and the residuals that the fit makes small (Fit::weights). A smaller
+  /// with the number n of different gaps and the residuals that the fit makes small (Fit::weights). A smaller
   /// value is better. Only fits of the same rows with the same weights can be compared. Nothing if
   /// n <= K + 1, if all residuals are 0, or for a robust loss, whose weights depend on the fit.
   std::optional<double> information_criterion{};
@@ -216,6 +219,14 @@ inline constexpr std::string_view kExactPlane = "exact_plane";
 /// A fit without terms and residuals that stands for the exact drag of a plane. Its gap_interval
 /// has no meaning. `viscosity` [M/(L T)] and `radius` [L] must be > 0, which is not checked.
 Fit exact_plane_fit(double viscosity, double radius);
+
+/// The wall opposite the neighbour that the fit's words for geometry and container name; nothing if
+/// there is none, or if a fitted gap is not below its largest gap, so that the words cannot be true.
+std::optional<SecondWall> second_wall_of(const Fit& fit);
+
+/// The gap [L] at which Gamma, the primitive of the resistance, is 0: the radius, or half of the
+/// largest gap if there is a second wall at a gap that is not greater than the radius.
+double zero_of_impulse(const Fit& fit);
 
 /// True if `fit` stands for the exact drag of a plane.
 bool is_exact_plane(const Fit& fit);

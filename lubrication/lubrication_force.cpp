@@ -7,8 +7,11 @@
 // A change must keep R and Gamma continuous at q1 and q2, where one formula replaces another one.
 #include "viscontact/lubrication/lubrication_force.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "viscontact/common/error.hpp"
@@ -38,6 +41,12 @@ LubricationForce LubricationForce::exact_plane(double viscosity, double radius) 
   return {viscosity, radius};
 }
 
+LubricationForce LubricationForce::below_wall(double largest_gap) const {
+  LubricationForce bounded = *this;
+  bounded.largest_gap_ = std::min(largest_gap_, largest_gap);
+  return bounded;
+}
+
 OutsideInterval OutsideInterval::with_limits() const {
   return {below == BelowInterval::kError ? BelowInterval::kLubricationLimit : below,
           AboveInterval::kStokesLimit};
@@ -55,13 +64,23 @@ LubricationForce::LubricationForce(const Fit& fit, const OutsideInterval& outsid
     *this = exact_plane(fit.viscosity, fit.radius);
     return;
   }
-  weights_.assign(all_terms().size(), 0.0);
+  weights_.assign(terms_beside_walls().size(), 0.0);
   for (const auto& term : fit.terms)
     weights_[place_of(term.name)] = -term.coefficient / fit.reference_velocity;
   leading_ = weights_[place_of(kLeadingTerm)];
   regular_weights_ = weights_;
   regular_weights_[place_of(kLeadingTerm)] = 0;
-  impulse_at_radius_ = sum_antiderivatives(weights_, radius_);
+  if (const auto wall = second_wall_of(fit)) {
+    largest_gap_ = wall->largest_gap;
+    wall_leading_ = wall->leading_factor * stokes_resistance(viscosity_, radius_) * radius_;
+  }
+  for (const auto& term : fit.terms)
+    if (needs_second_wall(term.name) && !(largest_gap_ < kNoWall))
+      throw Error(ErrorKind::kBadInput,
+                  "the fit has the term {}, but its words for geometry and container name no wall "
+                  "at a gap L above its interval",
+                  term.name);
+  impulse_offset_ = sum_antiderivatives(weights_, zero_of_impulse(fit), largest_gap_);
   // The models of motion invert Gamma. Its derivative, the resistance, must therefore be > 0.
   for (const double gap : spread_gaps(fitted_interval_))
     if (!(resistance(gap) > 0 && std::isfinite(resistance(gap))))
@@ -96,8 +115,7 @@ void LubricationForce::set_limits(const Fit& fit) {
 /// the first number is 0; if R is known at all larger gaps, the second one is infinite.
 std::array<double, 2> LubricationForce::interval() const {
   return {outside_.below == BelowInterval::kError ? fitted_interval_[0] : 0.0,
-          outside_.above == AboveInterval::kError ? fitted_interval_[1]
-                                                  : std::numeric_limits<double>::infinity()};
+          outside_.above == AboveInterval::kError ? fitted_interval_[1] : largest_gap_};
 }
 
 /// Throws Error(kBadInput) if R is not known at `gap` [L], and Error(kNotConverged) for the exact
@@ -105,11 +123,16 @@ std::array<double, 2> LubricationForce::interval() const {
 void LubricationForce::check_gap(double gap) const {
   const auto [smallest, largest] = fitted_interval_;
   const bool allowed =
-      gap >= smallest
+      gap >= largest_gap_ ? false
+      : gap >= smallest
           ? gap <= largest || (outside_.above != AboveInterval::kError && std::isfinite(gap))
           : outside_.below != BelowInterval::kError && gap > 0;
   if (allowed) return;
-  const char* remedy = "";
+  std::string remedy;
+  if (gap >= largest_gap_)
+    throw Error(ErrorKind::kBadInput,
+                "gap {} is not less than {}, at which the sphere touches the wall opposite", gap,
+                largest_gap_);
   if (exact_ && gap >= 0 && gap < smallest)
     throw Error(ErrorKind::kNotConverged,
                 "the film is thinner than the smallest number that a double can hold");
@@ -121,13 +144,19 @@ void LubricationForce::check_gap(double gap) const {
     remedy =
         ", or let the drag follow the lubrication limit below it (below = \"lubrication_limit\" in "
         "the section [fit] of the case)";
-  if (gap > largest)
-    remedy =
-        ", or let the drag tend to Stokes' drag above it (above = \"stokes_limit\" in the section "
-        "[fit] of the case)";
+  if (gap > largest) remedy = remedy_above();
   throw Error(ErrorKind::kBadInput,
               "gap {} is outside the fitted interval [{}, {}]; tabulate and fit further{}", gap,
               smallest, largest, remedy);
+}
+
+std::string LubricationForce::remedy_above() const {
+  return fmt::format(
+      ", or let the drag {} above it (above = \"stokes_limit\" in the section [fit] of the case)",
+      largest_gap_ < kNoWall
+          ? fmt::format("follow a limit up to the wall opposite, which is at the gap {:.6g},",
+                        largest_gap_)
+          : "tend to Stokes' drag");
 }
 
 /// The coefficient k > 0 [M L/T] of 1/q in R. Throws Error(kBadInput) if it is not positive.
@@ -155,7 +184,7 @@ double LubricationForce::regular_resistance(double gap) const {
   const double from = std::max(gap, fitted_interval_[0]);
   check_gap(from);
   if (from > fitted_interval_[1]) return resistance(from) - leading_ / from;
-  return sum_values(regular_weights_, from);
+  return sum_values(regular_weights_, from, largest_gap_);
 }
 
 /// The integral of R - k/q over gaps from 0 to `gap` >= 0 [L], in [M L/T], of any sign.
@@ -168,8 +197,8 @@ double LubricationForce::regular_impulse(double gap) const {
   check_gap(gap);
   const double to_smallest = smallest * regular_resistance(smallest);
   const double within = std::min(gap, largest);
-  const double in_interval = sum_antiderivatives(regular_weights_, within) -
-                             sum_antiderivatives(regular_weights_, smallest);
+  const double in_interval = sum_antiderivatives(regular_weights_, within, largest_gap_) -
+                             sum_antiderivatives(regular_weights_, smallest, largest_gap_);
   const double above =
       gap > largest ? impulse(gap) - impulse(largest) - leading_ * std::log(gap / largest) : 0;
   return to_smallest + in_interval + above;
@@ -188,8 +217,9 @@ double LubricationForce::resistance(double gap) const {
     return resistance;
   }
   if (gap > fitted_interval_[1])
-    return stokes_resistance(viscosity_, radius_) * (1 + image_ / (gap + radius_));
-  return sum_values(weights_, gap);
+    return stokes_resistance(viscosity_, radius_) * (1 + image_ / (gap + radius_)) +
+           wall_leading_ * (1 / (largest_gap_ - gap) - 1 / (largest_gap_ - fitted_interval_[1]));
+  return sum_values(weights_, gap, largest_gap_);
 }
 
 /// q dR/dq [M/T], of any sign.
@@ -199,8 +229,9 @@ double LubricationForce::resistance_log_slope(double gap) const {
   if (gap < fitted_interval_[0]) return -limit().k / gap;
   if (gap > fitted_interval_[1])
     return -stokes_resistance(viscosity_, radius_) * image_ * gap /
-           ((gap + radius_) * (gap + radius_));
-  return sum_log_slopes(weights_, gap);
+               ((gap + radius_) * (gap + radius_)) +
+           wall_leading_ * (gap / (largest_gap_ - gap)) / (largest_gap_ - gap);
+  return sum_log_slopes(weights_, gap, largest_gap_);
 }
 
 /// Gamma [M L/T]: the integral of R over gaps from the radius to `gap` [L]. It increases with the
@@ -212,12 +243,21 @@ double LubricationForce::impulse(double gap) const {
   if (gap < smallest)
     return impulse(smallest) + limit().k * std::log(gap / smallest) +
            limit().constant * (gap - smallest);
-  if (gap > largest)
+  if (gap > largest) {
+    double by_wall = 0;
+    if (largest_gap_ < kNoWall) {
+      const double left = largest_gap_ - largest;
+      by_wall = wall_leading_ * (std::log(left / (largest_gap_ - gap)) - (gap - largest) / left);
+    }
     return impulse(largest) +
            stokes_resistance(viscosity_, radius_) *
-               (gap - largest + image_ * std::log((gap + radius_) / (largest + radius_)));
-  return sum_antiderivatives(weights_, gap) - impulse_at_radius_;
+               (gap - largest + image_ * std::log((gap + radius_) / (largest + radius_))) +
+           by_wall;
+  }
+  return sum_antiderivatives(weights_, gap, largest_gap_) - impulse_offset_;
 }
+
+double LubricationForce::widest() const { return std::nextafter(largest_gap_, 0.0); }
 
 /// ln(q/r) [1] of two gaps q, between which lies the gap with Gamma = `impulse_wanted` [M L/T]; r
 /// is the radius. Throws Error(kBadInput) if this gap is not allowed or the impulse is not finite,
@@ -267,9 +307,9 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
   if (outside_.above == AboveInterval::kError)
     throw Error(ErrorKind::kBadInput,
                 "the gap would be wider than the fitted interval [{:.6g}, {:.6g}]; tabulate and "
-                "fit further, or let the drag tend to Stokes' drag above it (above = "
-                "\"stokes_limit\" in the section [fit] of the case)",
-                smallest, largest);
+                "fit further{}",
+                smallest, largest, remedy_above());
+  if (largest_gap_ < kNoWall) return {high, std::log(widest() / radius_)};
   // Above the interval R lies between its values at q2 and at infinity.
   const double stokes = stokes_resistance(viscosity_, radius_);
   return {high, std::log((largest + beyond / std::min(stokes, resistance(largest))) / radius_)};
@@ -284,8 +324,11 @@ double LubricationForce::gap_of_impulse(double impulse_wanted, double near) cons
   const auto [low, high] = bracket_of_impulse(impulse_wanted);
   // At an end of the interval, rounding of ln and exp may give a gap just outside it.
   const auto gap_at = [this](double log_gap) {
-    return std::clamp(radius_ * std::exp(log_gap), interval()[0], interval()[1]);
+    return std::clamp(radius_ * std::exp(log_gap), interval()[0],
+                      std::min(interval()[1], widest()));
   };
+  if (largest_gap_ < kNoWall && interval()[1] >= widest() && impulse_wanted >= impulse(widest()))
+    return widest();
   const auto excess_and_slope = [&](double s) {
     const double gap = gap_at(s);
     return std::pair(impulse(gap) - impulse_wanted, resistance(gap) * gap);

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "viscontact/lubrication/fit.hpp"
@@ -37,7 +38,9 @@ enum class AboveInterval {
   /// the radius r of the sphere, and with the c for which R is continuous at q2. So R approaches
   /// R_S as it does far from a plane (Happel & Brenner 1983, section 7-4: R_S (1 + (9/8) r/h) at
   /// the distance h of the centre). Far from a second sphere at rest R - R_S falls faster, as
-  /// 1/h^2. All other walls of a container are neglected.
+  /// 1/h^2. If there is a second wall at the gap L (second_wall.hpp), the summand
+  /// k_L (1/(L - q) - 1/(L - q2)) is added, with k_L of lubrication theory, so that R tends to
+  /// infinity there. The wall around the axis of a container is neglected.
   kStokesLimit
 };
 
@@ -46,7 +49,7 @@ struct OutsideInterval {
   BelowInterval below = BelowInterval::kError;  ///< at gaps in (0, q1)
   AboveInterval above = AboveInterval::kError;  ///< at gaps > q2
 
-  /// A copy that throws no error for a gap > 0: `below` is kLubricationLimit if it was kError, and
+  /// A copy that throws no error for a gap > 0 below a second wall: `below` is kLubricationLimit if it was kError, and
   /// `above` is kStokesLimit.
   OutsideInterval with_limits() const;
 };
@@ -69,6 +72,14 @@ class LubricationForce {
   /// checked.
   static LubricationForce exact_plane(double viscosity, double radius);
 
+  /// The same drag for gaps below `largest_gap` > 0 [L] only, at which the sphere touches a wall
+  /// that the drag neglects. The initial gap of a motion must be below it.
+  LubricationForce below_wall(double largest_gap) const;
+
+  /// The gap L [L] at which the sphere touches the wall opposite its neighbour (second_wall.hpp);
+  /// infinity without such a wall. A gap >= L throws Error(kBadInput) everywhere.
+  double largest_gap() const { return largest_gap_; }
+
   /// R(q) = -F_lub(q, u)/u [M/T], > 0. Throws Error(kNotConverged) if R is larger than the largest
   /// double, which can happen below the interval.
   double resistance(double gap) const;
@@ -84,12 +95,12 @@ class LubricationForce {
   /// regular_resistance().
   double regular_impulse(double gap) const;
 
-  /// Gamma(q) = int_r^q R(s) ds [M L/T], where r is the sphere's radius. It is computed from a
-  /// closed form and increases with q; it is < 0 for q < r. Code that
-  /// fitting/export/ writes has the same lower end r.
+  /// Gamma(q) = int_r^q R(s) ds [M L/T], where r is the sphere's radius, or zero_of_impulse() of a
+  /// fit. It is computed from a closed form and increases with q.
   double impulse(double gap) const;
 
-  /// The gap q [L] with Gamma(q) = impulse [M L/T], to round-off. Throws Error(kBadInput) if the
+  /// The gap q [L] with Gamma(q) = impulse [M L/T], to round-off, or the largest double below
+  /// largest_gap() if q is nearer to it. Throws Error(kBadInput) if the
   /// gap is outside interval() or `impulse` is not finite, and Error(kNotConverged) if the gap is
   /// too small for a double. The search begins at the gap `near` > 0 [L], which saves time if it is
   /// near the result; infinity: in the middle of the gaps that are possible.
@@ -101,8 +112,8 @@ class LubricationForce {
   double leading_coefficient() const;
 
   /// The smallest and the largest gap [L] at which the force is known. The first is 0 if
-  /// OutsideInterval::below is not kError, and the second is infinity if `above` is not kError; the
-  /// gaps 0 and infinity themselves are not accepted.
+  /// OutsideInterval::below is not kError, and the second is largest_gap() if `above` is not kError;
+  /// the gaps 0 and largest_gap() themselves are not accepted.
   std::array<double, 2> interval() const;
 
   double radius() const { return radius_; }        ///< r [L], > 0
@@ -115,6 +126,10 @@ class LubricationForce {
   };
   LubricationForce(double viscosity, double radius);
   void check_gap(double gap) const;
+  /// What a message recommends for a gap above the fitted interval.
+  std::string remedy_above() const;
+  /// The largest double below largest_gap() [L].
+  double widest() const;
   void set_limits(const Fit& fit);
   /// The constants below the interval. Throws Error(kBadInput) if the fit has no k > 0.
   LubricationLimit limit() const;
@@ -132,9 +147,11 @@ class LubricationForce {
   std::array<double, 2> fitted_interval_;
   OutsideInterval outside_;
   LubricationLimit limit_ = {};
-  double image_ = 0;  // c [L] of AboveInterval::kStokesLimit
-  // The sum of weight * antiderivative at q = r [M L/T]; it is subtracted so that Gamma(r) = 0.
-  double impulse_at_radius_ = 0;
+  double image_ = 0;              // c [L] of AboveInterval::kStokesLimit
+  double largest_gap_ = kNoWall;  // L [L] of a second wall
+  double wall_leading_ = 0;       // k_L [M L/T] near the second wall
+  // The sum of weight * antiderivative at zero_of_impulse() [M L/T], which is subtracted.
+  double impulse_offset_ = 0;
   std::array<double, 2> impulses_at_ends_{};  // of fitted_interval_
 };
 

@@ -21,15 +21,6 @@
 namespace viscontact::lubrication {
 namespace {
 
-/// The name of q^n for a term "q^n ln q", and "1" for "ln q"; nothing for other terms.
-std::optional<std::string> power_beside_logarithm(std::string_view term) {
-  constexpr std::string_view kLogarithm = "ln q";
-  if (!term.ends_with(kLogarithm)) return {};
-  term.remove_suffix(kLogarithm.size());
-  if (term.empty()) return "1";
-  return std::string(term.substr(0, term.size() - 1));  // without the blank
-}
-
 /// A matrix m: coefficient i of the scaled fit is sum_j m[i][j] * coefficient j of the given fit.
 using Mixing = std::vector<std::vector<double>>;
 
@@ -47,7 +38,7 @@ Mixing mixing_of(std::vector<FitTerm>& terms, double factor, double ratio) {
   for (std::size_t j = 0; j < old; ++j) {
     const std::string name = terms[j].name;
     const double scale = factor * scale_of_term(name, ratio);
-    const auto power = power_beside_logarithm(name);
+    const auto power = factor_of_logarithm(name);
     const std::size_t beside = power ? place(*power) : 0;
     mixing.resize(terms.size(), std::vector<double>(old, 0.0));
     mixing[j][j] += scale;
@@ -70,8 +61,10 @@ void scale_gaps(FitDiagnostics& d, double ratio) {
 
 /// Returns ratio^-n [1] for the term q^n or q^n ln q, with `ratio` = r'/r > 0 (not checked).
 double scale_of_term(std::string_view term, double ratio) {
-  const auto power = power_beside_logarithm(term);
-  return all_terms()[place_of(power ? std::string_view(*power) : term)].value(1 / ratio);
+  const auto power = factor_of_logarithm(term);
+  const double q = 1 / ratio;  // also the distance to the second wall, which scales as the gap
+  return terms_beside_walls()[place_of(power ? std::string_view(*power) : term)].value.at(
+      q, std::log(q), q, std::log(q));
 }
 
 /// Returns the fit for `viscosity` mu' and `radius` r'. Coefficients, standard errors, covariance,

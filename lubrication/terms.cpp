@@ -20,10 +20,11 @@ namespace {
 
 // Makes a Formula, text and code, of one expression in q and l, so that the exported text cannot
 // differ from the code.
-#define FORMULA(expression)                                                                       \
-  Formula {                                                                                       \
-#expression,                                                                                  \
-        []([[maybe_unused]] double q, [[maybe_unused]] double l) -> double { return expression; } \
+#define FORMULA(expression)                                                                 \
+  Formula {                                                                                 \
+#expression,                                                                            \
+        []([[maybe_unused]] double q, [[maybe_unused]] double l, [[maybe_unused]] double p, \
+           [[maybe_unused]] double m) -> double { return expression; }                      \
   }
 
 // clang-format off
@@ -40,8 +41,12 @@ constexpr std::array kTerms = {
     Term{"q^3",        FORMULA(q*q*q),   FORMULA(3.0*q*q*q),       FORMULA(q*q*q*q/4.0)},
     Term{"q^4 ln q",   FORMULA(q*q*q*q*l), FORMULA(q*q*q*q*(4.0*l + 1.0)), FORMULA(q*q*q*q*q*(5.0*l - 1.0)/25.0)},
     Term{"q^4",        FORMULA(q*q*q*q), FORMULA(4.0*q*q*q*q),     FORMULA(q*q*q*q*q/5.0)},
+    Term{"1/(L-q)",    FORMULA(1.0/p),   FORMULA(q/(p*p)),         FORMULA(0.0 - m)},
+    Term{"ln(L-q)",    FORMULA(m),       FORMULA(0.0 - q/p),       FORMULA(p*(1.0 - m))},
 };
 // clang-format on
+
+constexpr std::size_t kWallTerms = 2;  // the last ones
 
 #undef FORMULA
 
@@ -70,12 +75,15 @@ Basis make_basis(std::string_view name, std::string_view terms) {
 /// the order of kTerms; a term of weight 0 is left out. The sum has the unit of a weight times that
 /// of its formula. Each formula is known at compile time and inlined.
 template <Formula Term::*formula>
-double sum_of(std::span<const double> weights, double gap) {
+double sum_of(std::span<const double> weights, double gap, double largest_gap) {
   const double log_gap = std::log(gap);
+  const double to_wall = largest_gap - gap;
+  const double log_to_wall = largest_gap < kNoWall ? std::log(to_wall) : kNoWall;
   double total = 0;
   const auto add = [&]<std::size_t i>(std::integral_constant<std::size_t, i>) {
     constexpr auto at = (kTerms[i].*formula).at;
-    if (weights[i] != 0) total += weights[i] * at(gap, log_gap);
+    if (i < weights.size() && weights[i] != 0)
+      total += weights[i] * at(gap, log_gap, to_wall, log_to_wall);
   };
   [&]<std::size_t... i>(std::index_sequence<i...>) {
     (add(std::integral_constant<std::size_t, i>()), ...);
@@ -86,18 +94,31 @@ double sum_of(std::span<const double> weights, double gap) {
 
 }  // namespace
 
-std::span<const Term> all_terms() { return kTerms; }
+std::span<const Term> all_terms() { return std::span(kTerms).first(kTerms.size() - kWallTerms); }
 
-double sum_values(std::span<const double> weights, double gap) {
-  return sum_of<&Term::value>(weights, gap);
+std::span<const Term> terms_beside_walls() { return kTerms; }
+
+bool needs_second_wall(std::string_view term) { return term.find('L') != term.npos; }
+
+std::optional<std::string> factor_of_logarithm(std::string_view term) {
+  if (term == "ln(L-q)") return "1";
+  constexpr std::string_view kLogarithm = "ln q";
+  if (!term.ends_with(kLogarithm)) return {};
+  term.remove_suffix(kLogarithm.size());
+  if (term.empty()) return "1";
+  return std::string(term.substr(0, term.size() - 1));  // without the blank
 }
 
-double sum_log_slopes(std::span<const double> weights, double gap) {
-  return sum_of<&Term::log_slope>(weights, gap);
+double sum_values(std::span<const double> weights, double gap, double largest_gap) {
+  return sum_of<&Term::value>(weights, gap, largest_gap);
 }
 
-double sum_antiderivatives(std::span<const double> weights, double gap) {
-  return sum_of<&Term::antiderivative>(weights, gap);
+double sum_log_slopes(std::span<const double> weights, double gap, double largest_gap) {
+  return sum_of<&Term::log_slope>(weights, gap, largest_gap);
+}
+
+double sum_antiderivatives(std::span<const double> weights, double gap, double largest_gap) {
+  return sum_of<&Term::antiderivative>(weights, gap, largest_gap);
 }
 
 /// The place of the term in kTerms, from 0.
@@ -121,9 +142,20 @@ const std::vector<Basis>& all_bases() {
   return bases;
 }
 
+const std::vector<Basis>& bases_beside_walls() {
+  static const std::vector<Basis> bases = [] {
+    auto all = all_bases();
+    all.push_back(make_basis("two_walls", "1/q, ln q, 1, q, q^2, 1/(L-q), ln(L-q)"));
+    return all;
+  }();
+  return bases;
+}
+
 const Basis& default_basis() { return all_bases().front(); }
 
-const Basis& find_basis(std::string_view name) { return require_named(all_bases(), name, "basis"); }
+const Basis& find_basis(std::string_view name) {
+  return require_named(bases_beside_walls(), name, "basis");
+}
 
 /// The basis of the terms in `names`, separated by commas, in this order.
 Basis parse_terms(std::string_view names) {

@@ -7,23 +7,31 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace viscontact::lubrication {
 
-/// A function of the gap q > 0 and of its logarithm l = ln q, which is an argument so that it is
-/// computed only once for a sum of terms.
+/// The largest gap L where there is no wall opposite the neighbour.
+inline constexpr double kNoWall = std::numeric_limits<double>::infinity();
+
+/// A function of the gap q > 0, of l = ln q, of the distance p = L - q to the wall opposite the
+/// neighbour (second_wall.hpp), and of m = ln p. The logarithms are arguments so that they are
+/// computed only once for a sum of terms. Without that wall p and m are infinite.
 struct Formula {
-  /// The expression in q and l, with + - * / ( ) and numbers. Exported code of C, Fortran, Python
+  /// The expression in q, l, p and m, with + - * / ( ) and numbers. Exported code of C, Fortran, Python
   /// and MATLAB contains it. The numbers must be exact in single precision, as Fortran reads them.
   std::string_view text;
-  double (*at)(double gap, double log_gap);  ///< the value at q = gap > 0 and l = log_gap
+  double (*at)(double q, double l, double p, double m);  ///< the value
 
-  /// The value at the gap q > 0.
-  double operator()(double gap) const { return at(gap, std::log(gap)); }
+  /// The value at the gap q > 0, with a wall at the largest gap L > q.
+  double operator()(double gap, double largest_gap = kNoWall) const {
+    return at(gap, std::log(gap), largest_gap - gap, std::log(largest_gap - gap));
+  }
 };
 
 /// A function phi of the gap q > 0. Its coefficient in a force has the unit of a force [M L/T^2]
@@ -41,30 +49,41 @@ struct Term {
 /// Name of the leading term of lubrication, 1/q.
 inline constexpr std::string_view kLeadingTerm = "1/q";
 
-/// All terms: 1/q, ln q, 1, q ln q, q, q^2 ln q, q^2, q^3 ln q, q^3, q^4 ln q, q^4. A new term
-/// needs only a row in the table of terms.cpp.
+/// The terms of the gap alone: 1/q, ln q, 1, q ln q, q, q^2 ln q, q^2, q^3 ln q, q^3, q^4 ln q, q^4.
+/// A new term needs only a row in the table of terms.cpp.
 std::span<const Term> all_terms();
+
+/// all_terms(), and then the terms of a second wall, 1/(L-q) and ln(L-q).
+std::span<const Term> terms_beside_walls();
+
+/// True if the term is a function of the distance L - q to the wall opposite the neighbour.
+bool needs_second_wall(std::string_view term);
+
+/// For a term f ln q or ln(L-q) the factor of the logarithm, such as "q" or "1"; nothing for other
+/// terms.
+std::optional<std::string> factor_of_logarithm(std::string_view term);
 
 /// The term with this name, or nothing if there is none. Throws nothing.
 std::optional<Term> find_term(std::string_view name);
 
-/// The sum of weight * value over all_terms() at a gap > 0. `weights` has an entry for each of
-/// these terms, in the same order (not checked); a term of weight 0 is not evaluated. The result
+/// The sum of weight * value over terms_beside_walls() at a gap > 0. `weights` has an entry for each
+/// of these terms, in the same order, or only for all_terms(); a term of weight 0 is not evaluated. The result
 /// has the dimension of a weight times that of its term. For the speed of inner loops this function
 /// and the next two compute one logarithm and call no function pointer.
-double sum_values(std::span<const double> weights, double gap);
-/// The sum of weight * log_slope over all_terms(); arguments are those of sum_values().
-double sum_log_slopes(std::span<const double> weights, double gap);
-/// The sum of weight * antiderivative over all_terms(); arguments are those of sum_values(). The
+double sum_values(std::span<const double> weights, double gap, double largest_gap = kNoWall);
+/// The sum of weight * log_slope over the same terms; arguments are those of sum_values().
+double sum_log_slopes(std::span<const double> weights, double gap, double largest_gap = kNoWall);
+/// The sum of weight * antiderivative over the same terms; arguments are those of sum_values(). The
 /// result has the dimension of sum_values() times a length.
-double sum_antiderivatives(std::span<const double> weights, double gap);
+double sum_antiderivatives(std::span<const double> weights, double gap,
+                           double largest_gap = kNoWall);
 
-/// The index, from 0, of the term in all_terms(). Throws Error(kBadInput) if no term has this name.
+/// The index, from 0, of the term in terms_beside_walls(). Throws Error(kBadInput) if no term has this name.
 std::size_t place_of(std::string_view term);
 
 /// A named list of terms.
 struct Basis {
-  std::string_view name;    ///< one of all_bases(), or kOwnTerms
+  std::string_view name;    ///< one of all_bases(), two_walls, or kOwnTerms
   std::vector<Term> terms;  ///< at least one, none of them twice
 };
 
@@ -78,10 +97,14 @@ inline constexpr std::string_view kOwnTerms = "terms";
 ///   asymptotic_extended  the terms of `asymptotic`, and q^2 ln q, q^2, q^3
 const std::vector<Basis>& all_bases();
 
+/// all_bases(), and then `two_walls` with 1/q, ln q, 1, q, q^2, 1/(L-q), ln(L-q), for a sphere that
+/// has a wall on either side, at the gaps 0 and L.
+const std::vector<Basis>& bases_beside_walls();
+
 /// The basis `lecture`, which is fitted if a user names no basis.
 const Basis& default_basis();
 
-/// The basis with this name. Throws Error(kBadInput), which lists the names, if there is none.
+/// The basis with this name in bases_beside_walls(). Throws Error(kBadInput), which lists the names, if there is none.
 const Basis& find_basis(std::string_view name);
 
 /// Makes a basis from names of terms that are separated by commas: "1/q, ln q, 1, q". Throws

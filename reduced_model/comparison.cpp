@@ -142,6 +142,9 @@ Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
     result.gap_times = trajectory.gap_times;
     result.rebounds = trajectory.rebounds;
     result.budget = trajectory.budget;
+    result.reynolds_number = trajectory.reynolds_number;
+    result.stokes_number = trajectory.stokes_number;
+    result.film_stokes_number = trajectory.film_stokes_number;
     result.steps = trajectory.steps;
     result.seconds = trajectory.seconds;
     measure_distances(trajectory, *reference, result);
@@ -188,6 +191,9 @@ void fields_of(JsonFields& json, ModelComparison& model) {
   json("l1_gap_distance", model.l1_gap_distance);
   json("l1_velocity_distance", model.l1_velocity_distance);
   json("books", model.budget, Absence::kAllowed);
+  json("reynolds_number", model.reynolds_number, Absence::kAllowed);
+  json("stokes_number", model.stokes_number, Absence::kAllowed);
+  json("film_stokes_number", model.film_stokes_number, Absence::kAllowed);
   json("steps", model.steps);
   json("seconds", model.seconds);
 }

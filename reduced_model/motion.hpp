@@ -46,6 +46,8 @@ struct Motion {
   std::function<void(double time)> progress{};
   /// If this token requests a stop, report_progress() throws Error(kInterrupted).
   StopToken stop{};
+  /// Density of the fluid [M/L^3], >= 0; 0: not known. Only the Reynolds number depends on it.
+  double fluid_density = 0;
 
   /// The value of a parameter in its dimension. Throws Error(kBadInput) if the parameter has no
   /// value.
@@ -109,6 +111,12 @@ int step_count(double end, double step);
 inline double step_time(int index, int count, double end, double step) {
   return index == count ? end : index * step;
 }
+
+/// The gap [L] at which every model ends the motion where a wall stands opposite: 1e-9 below the gap
+/// `largest_gap` [L] at which the sphere touches it. Models that resolve the drag approach this wall
+/// without end, and doubles cannot resolve a much thinner film there; the number is a free choice.
+/// Infinity if `largest_gap` is.
+inline double motion_ends_at(double largest_gap) { return largest_gap * (1 - 1e-9); }
 
 /// The times [T] of the rows of a model without a fixed step: 0, the multiples of `parameter`, the
 /// jumps of the force or of its slope, and end_time, in increasing order. A multiple is left out if

@@ -13,10 +13,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <sstream>
 
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/common/text/number.hpp"
+#include "viscontact/lubrication/regime.hpp"
+#include "viscontact/reduced_model/motion.hpp"
 
 namespace viscontact::reduced_model {
 namespace {
@@ -27,6 +30,8 @@ const std::array<std::string, 7> kColumns = {
 // velocity [L/T] of the first touch of the solids.
 const std::array<std::string, 2> kContactKeys = {"contact_from", "contact_until"};
 const std::array<std::string, 2> kSolidKeys = {"solid_contact_from", "solid_contact_velocity"};
+const std::string kReynoldsKey = "reynolds_number", kStokesKey = "stokes_number",
+                  kFilmStokesKey = "film_stokes_number";
 constexpr std::size_t kRequiredColumns = 3;  // time, gap, velocity
 
 /// The number as text, or an empty text if the value is missing.
@@ -123,6 +128,9 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
   };
   if (const auto model = take("model")) trajectory.model = *model;
   trajectory.recovered_minimal_gap = take_number("recovered_minimal_gap");
+  trajectory.reynolds_number = take_number(kReynoldsKey);
+  trajectory.stokes_number = take_number(kStokesKey);
+  trajectory.film_stokes_number = take_number(kFilmStokesKey);
   if (take("steps")) trajectory.steps = steps_of(csv.comments, file);
   trajectory.seconds = take_number("seconds").value_or(0);
   if (const auto from = take_number(kContactKeys[0]))
@@ -173,6 +181,12 @@ std::string write_trajectory(const Trajectory& trajectory) {
   comments["seconds"] = format_number(trajectory.seconds);
   if (trajectory.recovered_minimal_gap)
     comments["recovered_minimal_gap"] = format_number(*trajectory.recovered_minimal_gap);
+  const auto add = [&](const std::string& key, const std::optional<double>& number) {
+    if (number) comments[key] = format_number(*number);
+  };
+  add(kReynoldsKey, trajectory.reynolds_number);
+  add(kStokesKey, trajectory.stokes_number);
+  add(kFilmStokesKey, trajectory.film_stokes_number);
   if (trajectory.contact_interval)
     for (std::size_t i = 0; i < kContactKeys.size(); ++i)
       comments[kContactKeys[i]] = format_number((*trajectory.contact_interval)[i]);
@@ -253,6 +267,41 @@ std::vector<TrajectoryRow> fewer_rows(const std::vector<TrajectoryRow>& rows, in
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (kept[i] != 0) result.push_back(rows[i]);
   return result;
+}
+
+std::optional<std::string> reached_wall(const Trajectory& trajectory, const Motion& motion,
+                                        double largest_gap) {
+  const auto& last = trajectory.rows.back();
+  if (!(last.time < motion.end_time && last.gap >= motion_ends_at(largest_gap))) return {};
+  return fmt::format(
+      "the sphere reaches the wall opposite, at the gap {:.6g}, at time {:.6g}; the motion ends "
+      "there",
+      largest_gap, last.time);
+}
+
+std::vector<std::string> regime_warnings(const std::vector<Trajectory>& trajectories) {
+  std::string fast, thin;  // names of models
+  double reynolds = 0, film = std::numeric_limits<double>::infinity();
+  const auto add = [](std::string& names, const std::string& name) {
+    names += (names.empty() ? "" : ", ") + name;
+  };
+  for (const auto& trajectory : trajectories) {
+    if (trajectory.reynolds_number.value_or(0) > lubrication::kLargestReynolds) {
+      add(fast, trajectory.model);
+      reynolds = std::max(reynolds, *trajectory.reynolds_number);
+    }
+    if (trajectory.film_stokes_number.value_or(film) < lubrication::kSmallestFilmStokes) {
+      add(thin, trajectory.model);
+      film = std::min(film, *trajectory.film_stokes_number);
+    }
+  }
+  std::vector<std::string> warnings;
+  if (const auto warning = lubrication::reynolds_warning(reynolds))
+    warnings.push_back(fmt::format("{} ({})", *warning, fast));
+  if (const auto warning = lubrication::film_warning(
+          film, "viscous_contact_regular_drag and the models without contact resolve the drag"))
+    warnings.push_back(fmt::format("{} ({})", *warning, thin));
+  return warnings;
 }
 
 }  // namespace viscontact::reduced_model

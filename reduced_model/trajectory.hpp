@@ -24,6 +24,8 @@
 
 namespace viscontact::reduced_model {
 
+struct Motion;
+
 /// Like std::optional<double>, but no larger than a double, because millions of rows store several
 /// of these values. NaN stands for a missing value; therefore a value must not be NaN, and sources
 /// that include this file must not be compiled with -ffast-math, which ignores NaN.
@@ -140,7 +142,7 @@ struct SolidTouch {
 /// Number of the revision of the models. Raise it when a change makes a model compute other numbers
 /// or record more of them. A run computes a stored trajectory again if the number in its head
 /// differs from this one.
-inline constexpr int kModelsRevision = 5;
+inline constexpr int kModelsRevision = 6;
 
 /// Rows in strictly increasing time, at least one, and how they were made.
 struct Trajectory {
@@ -158,6 +160,14 @@ struct Trajectory {
   std::vector<GapTime> gap_times{};
   /// Impacts on the solids in order of time; only if the case has a restitution.
   std::vector<Rebound> rebounds;
+  /// The largest Reynolds number 2 r rho_f |u|/mu of the rows; nothing if the density of the fluid is
+  /// not known, or the model has no fluid.
+  std::optional<double> reynolds_number{};
+  /// The largest Stokes number m |u|/(6 pi mu r^2) of the rows; nothing if the model has no fluid.
+  std::optional<double> stokes_number{};
+  /// The largest m |u| of the rows over the impulse that the film has absorbed, |gamma|; nothing if
+  /// there was no contact with a film, or if the model resolves the drag before contact.
+  std::optional<double> film_stokes_number{};
   /// The budget; nothing if the file of the trajectory has no line of it.
   std::optional<MomentumEnergyBudget> budget;
   long steps = 0;      ///< number of steps of the integrator, >= 0; 0 if not stated
@@ -177,6 +187,15 @@ Trajectory read_trajectory(const std::filesystem::path& path);
 
 /// The text of the trajectory file (CSV). Nothing is checked or thrown.
 std::string write_trajectory(const Trajectory& trajectory);
+
+/// If the motion ended before `motion.end_time` because the sphere reached the wall opposite, at the
+/// gap `largest_gap` [L], a sentence that says so; otherwise nothing.
+std::optional<std::string> reached_wall(const Trajectory& trajectory, const Motion& motion,
+                                        double largest_gap);
+
+/// Warnings of Reynolds and Stokes numbers at which Stokes flow or viscous contact do not hold
+/// (lubrication/regime.hpp), each with the names of the models concerned.
+std::vector<std::string> regime_warnings(const std::vector<Trajectory>& trajectories);
 
 /// About `count` >= 2 (not checked) of the rows, in their order; all rows if there are at most
 /// `count`. The result has the first row at or after each of `count` equidistant times, and the

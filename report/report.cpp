@@ -161,15 +161,18 @@ std::string models_table(const results::RunResults& run) {
                                                model.solid_contact_from->velocity)
                                  : "&ndash;",
         fmt::format("{:.3g}", model.sup_gap_distance), fmt::format("{:.3g}", model.l1_gap_distance),
-        fmt::format("{:.3g}", model.l1_velocity_distance));
+        fmt::format("{:.3g}", model.l1_velocity_distance),
+        model.reynolds_number ? fmt::format("{:.3g}", *model.reynolds_number) : "&ndash;",
+        model.stokes_number ? fmt::format("{:.3g}", *model.stokes_number) : "&ndash;");
   for (const auto& failed : run.comparison.failed_models)
-    rows += fmt::format("<tr><td>{}</td><td colspan=8>failed: {}</td></tr>\n",
+    rows += fmt::format("<tr><td>{}</td><td colspan=10>failed: {}</td></tr>\n",
                         escaped(failed.model), escaped(failed.reason));
   const auto head = fmt::format(
       "<tr><th rowspan=2>model</th><th rowspan=2>smallest gap{1}</th><th rowspan=2>at time{2}</th>"
       "<th rowspan=2>film from gamma{1}</th><th rowspan=2>in contact{2}</th>"
       "<th rowspan=2>solids touch{2}, at the velocity{3}</th>"
-      "<th colspan=3 class=group>distance to {0}</th></tr>\n{4}",
+      "<th colspan=3 class=group>distance to {0}</th><th rowspan=2>largest Reynolds number</th>"
+      "<th rowspan=2>largest Stokes number</th></tr>\n{4}",
       escaped(run.comparison.reference_model), in_brackets(run, 0, 1, 0), in_brackets(run, 0, 0, 1),
       in_brackets(run, 0, 1, -1),
       headings({"max |q &minus; q<sub>ref</sub>|", "&int; |q &minus; q<sub>ref</sub>| dt",

@@ -68,6 +68,22 @@ void add_extrapolation(Warnings& warnings, const results::RunResults& run) {
   }
 }
 
+/// Warns of motions that ended at the wall opposite.
+void add_second_wall(Warnings& warnings, const results::RunResults& run) {
+  const auto wall = lubrication::second_wall_of(run.fit);
+  if (!wall) return;
+  for (const auto& trajectory : run.trajectories)
+    if (const auto text =
+            reduced_model::reached_wall(trajectory, run.c.motion.value(), wall->largest_gap))
+      warnings.add(trajectory_name(trajectory.model), "{}: {}", trajectory.model, *text);
+}
+
+/// Warns of Reynolds and Stokes numbers at which the models do not hold.
+void add_regime(Warnings& warnings, const results::RunResults& run) {
+  for (const auto& warning : reduced_model::regime_warnings(run.trajectories))
+    warnings.add("comparison.json", "{}", warning);
+}
+
 /// Warns of models that failed and have no trajectory.
 void add_failed_models(Warnings& warnings, const results::RunResults& run) {
   for (const auto& failed : run.comparison.failed_models)
@@ -227,6 +243,8 @@ std::vector<ReportWarning> warnings_of(const results::RunResults& run) {
   add_poor_fit(warnings, run.fit);
   add_unmet_accuracy(warnings, run);
   add_passage_through_plane(warnings, run);
+  add_second_wall(warnings, run);
+  add_regime(warnings, run);
   add_roughness(warnings, run);
   add_refused_draws(warnings, run);
   add_other_origin(warnings, run);

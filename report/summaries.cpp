@@ -106,7 +106,7 @@ std::string basis_json(const std::vector<fitting::BasisResult>& results) {
 std::string plot_bases(const lubrication::MotionTable& table,
                        const std::vector<fitting::BasisResult>& results,
                        const results::PictureFormat& format, const StopToken& stop) {
-  constexpr std::array kColours = {kVermilion, kBlue, kBluishGreen, kReddishPurple};
+  constexpr std::array kColours = {kVermilion, kBlue, kBluishGreen, kReddishPurple, kOrange};
   Panel panel{"Relative residuals of the fits",
               "gap q",
               "|fit / table - 1|",
@@ -123,6 +123,8 @@ std::string plot_bases(const lubrication::MotionTable& table,
     const char* colour = kColours.at(place++ % kColours.size());
     if (!result.fit) continue;
     const double u0 = result.fit->reference_velocity;
+    const auto wall = lubrication::second_wall_of(*result.fit);
+    const double largest_gap = wall ? wall->largest_gap : lubrication::kNoWall;
     Curve curve{
         result.basis,
         fmt::format("linespoints pointtype 7 pointsize 0.45 linewidth 1.5 linecolor rgb '{}'",
@@ -132,7 +134,8 @@ std::string plot_bases(const lubrication::MotionTable& table,
       const auto& row = table.rows[i];
       double force = 0;
       for (const auto& term : result.fit->terms)
-        force += term.coefficient * lubrication::find_term(term.name).value().value(row.gap);
+        force += term.coefficient *
+                 lubrication::find_term(term.name).value().value(row.gap, largest_gap);
       const double residual = std::abs(force * row.reference_velocity / u0 / row.force - 1);
       // A logarithmic axis has no zero, so a residual of 0 is not drawn.
       curve.points.emplace_back(row.gap, residual > 0 ? residual : std::nan(""));
@@ -164,6 +167,21 @@ std::string gap_time_table(const reduced_model::Comparison& comparison, std::siz
     text += "\n";
   }
   return text;
+}
+
+std::string regime_in_words(const reduced_model::Comparison& comparison) {
+  const auto largest = [&](const auto number) -> std::optional<double> {
+    std::optional<double> most;
+    for (const auto& model : comparison.models)
+      if (const auto& value = model.*number; value && !(most && *most >= *value)) most = value;
+    return most;
+  };
+  const auto stokes = largest(&reduced_model::ModelComparison::stokes_number);
+  if (!stokes) return "";
+  const auto reynolds = largest(&reduced_model::ModelComparison::reynolds_number);
+  return fmt::format(
+      "largest Stokes number {:.3g}, Reynolds number {}\n", *stokes,
+      reynolds ? fmt::format("{:.3g}", *reynolds) : "not known (it needs `density` in [fluid])");
 }
 
 /// A table for the terminal with a line for each model: smallest gap [L] and its time [T], film
@@ -201,6 +219,7 @@ std::string comparison_table(const reduced_model::Comparison& comparison) {
   text += gap_time_table(comparison, width);
   for (const auto& failed : comparison.failed_models)
     text += fmt::format("{:<{}} failed: {}\n", failed.model, width, failed.reason);
+  text += regime_in_words(comparison);
   if (!comparison.units.empty()) text += fmt::format("units: {}\n", comparison.units);
   return text;
 }

@@ -48,10 +48,14 @@ std::string plot_bases(const lubrication::MotionTable& table,
 std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& wall,
                             const results::PictureFormat& format, const StopToken& stop = {});
 
+/// A line with the largest Stokes and Reynolds numbers of all models; empty if no trajectory states
+/// them.
+std::string regime_in_words(const reduced_model::Comparison& comparison);
+
 /// A table with a line for each model: smallest gap and its time, smallest film that is recovered
 /// from gamma (minus the impulse that the film has absorbed), times of contact, and largest
 /// distance of the gap to that of the reference model. If solids touch in a model, two more columns
-/// show the time and the velocity of the touch. A dash replaces a missing value.
+/// show the time and the velocity of the touch. The lines of regime_in_words() follow. A dash replaces a missing value.
 std::string comparison_table(const reduced_model::Comparison& comparison);
 
 }  // namespace viscontact::report

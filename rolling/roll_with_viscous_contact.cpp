@@ -15,6 +15,7 @@
 #include <numbers>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/lubrication/terms.hpp"
 #include "viscontact/reduced_model/models/contact/contact_step.hpp"
 #include "viscontact/reduced_model/motion.hpp"
 #include "viscontact/rolling/rolling_resistance.hpp"
@@ -61,6 +62,9 @@ RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
   const double gamma_min = motion.roughness > 0 ? std::min(0.0, k * std::log(motion.roughness / q0))
                                                 : -std::numeric_limits<double>::infinity();
   const int count = reduced_model::step_count(motion.end_time, motion.time_step);
+  const auto wall = lubrication::second_wall_of(fit.entries.at(motions::PairEntry::kSqueeze).fit);
+  const double last =
+      reduced_model::motion_ends_at(wall ? wall->largest_gap : lubrication::kNoWall);
   reduced_model::ContactState normal = {motion.initial_gap, motion.normal_velocity, 0};
   RollingRow row;
   row.gap = motion.initial_gap;
@@ -77,6 +81,8 @@ RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
         reduced_model::contact_step(normal, step * motion.normal_force,
                                     {motion.mass, gamma_min, step}, reduced_model::NoDrag{});
     normal = contact.state;
+    const bool ends = normal.gap >= last;  // at the wall opposite
+    if (ends) normal.gap = last;
     // In contact the gap of the row is the film thickness that gamma stands for.
     row.gap = normal.gap > 0 ? normal.gap : q0 * std::exp(normal.gamma / k);
     const ImplicitStep implicit(motion, fluid.at(std::min(row.gap, fluid.largest_gap())), radius,
@@ -109,6 +115,7 @@ RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
       throw Error(ErrorKind::kNotConverged,
                   "a number of the motion leaves the range of a double at time {:.6g}", time);
     rows.push_back(row);
+    if (ends) break;
   }
   return rows;
 }
@@ -121,6 +128,9 @@ RollingEnd end_of(const RollingTrajectory& trajectory, const RollingMotion& moti
   end.last = trajectory.back();
   end.smallest_gap = std::ranges::min_element(trajectory, {}, &RollingRow::gap)->gap;
   end.slip = end.last.velocity - motion.plane_velocity - radius * end.last.angular_velocity;
+  for (const auto& row : trajectory)
+    end.largest_speed = std::max(
+        end.largest_speed, std::hypot(row.velocity - motion.plane_velocity, row.normal_velocity));
   const auto contact = std::ranges::find_if(
       trajectory, [](const RollingRow& row) { return row.contact != SolidContact::kNone; });
   if (contact != trajectory.end()) end.contact_time = contact->time;

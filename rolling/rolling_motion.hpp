@@ -79,7 +79,8 @@ RollingTrajectory roll_rough(const RollingMotion& motion, const motions::PairFit
 /// acts only by the impulse that it absorbs, which determines its thickness. The solids touch, with
 /// friction, when the film is as thin as the roughness. The resistances along x and to rotation are
 /// those at the film thickness, or at the gap if there is no contact; above the largest gap of the
-/// fit they are those at the largest gap. The error of the trajectory is of first order in the time
+/// fit they are those at the largest gap. The motion ends with the row in which the sphere reaches a
+/// wall opposite (lubrication/second_wall.hpp). The error of the trajectory is of first order in the time
 /// step. Throws Error(kBadInput) if the fit lacks squeeze, slide, roll or slide_roll, or if there
 /// are more than 1e8 steps; Error(kNotConverged) if a number leaves the range of a double;
 /// Error(kInterrupted) after a stop.
@@ -94,6 +95,9 @@ struct RollingEnd {
   double slip = 0;
   /// Time of the first row in which the solids touch [T]; nothing if they never do.
   std::optional<double> contact_time;
+  /// The largest speed of the centre relative to the plane, which the fluid follows, in all rows
+  /// [L/T], >= 0.
+  double largest_speed = 0;
 };
 
 /// The end of `trajectory`, which must have at least one row (not checked), of a sphere of this

@@ -193,14 +193,15 @@ void add_fit(CLI::App& app) {
             "table of forces (CSV); or tables of several motions of one pair, or their folder")
       ->required();
   o->output_option = add_value(*command, "-o,--output", o->fit, kFile, "fit to write (JSON)");
-  auto* basis = add_value(*command, "--basis", o->basis, names_of(lubrication::all_bases(), "|"),
-                          "terms of the formula; of a pair: asymptotic, asymptotic_extended, "
-                          "asymptotic_cubic (default) or asymptotic_quartic")
-                    ->capture_default_str();
+  auto* basis =
+      add_value(*command, "--basis", o->basis, names_of(lubrication::bases_beside_walls(), "|"),
+                "terms of the formula; of a pair: asymptotic, asymptotic_extended, "
+                "asymptotic_cubic (default) or asymptotic_quartic")
+          ->capture_default_str();
   o->basis_option = basis;
   o->terms_option = add_value(*command, "--terms", o->terms, "TERM,...",
                               "a basis of your own: terms, separated by commas, from: " +
-                                  names_of(lubrication::all_terms()))
+                                  names_of(lubrication::terms_beside_walls()))
                         ->excludes(basis);
   o->weights_option = add_value(*command, "--weights", o->weights, "relative|absolute",
                                 "residuals: relative to the force, or absolute")

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -34,28 +35,38 @@ using Limits = lubrication::OutsideInterval;
 struct Sum {
   std::vector<WeightedTerm> terms;
   double offset = 0;
+  double largest_gap = lubrication::kNoWall;  // L [L] of a second wall
+  bool needs_wall = false;                    // true if a term is a function of L - q
 };
 
 /// The weights of a fit, -coefficient/(reference velocity), in the order of all_terms().
 /// LubricationForce adds the terms in the same order, so that the rounding errors agree.
 Sum sum_of(const lubrication::Fit& fit) {
   Sum sum;
-  for (const auto& term : lubrication::all_terms())
+  for (const auto& term : lubrication::terms_beside_walls())
     if (const auto* fitted = find_named(fit.terms, term.name); fitted != nullptr)
       sum.terms.emplace_back(-fitted->coefficient / fit.reference_velocity, term);
-  for (const auto& [weight, term] : sum.terms)
-    sum.offset += weight * term.antiderivative(fit.radius);
+  if (const auto wall = lubrication::second_wall_of(fit)) sum.largest_gap = wall->largest_gap;
+  const double zero = lubrication::zero_of_impulse(fit);
+  for (const auto& [weight, term] : sum.terms) {
+    sum.needs_wall = sum.needs_wall || lubrication::needs_second_wall(term.name);
+    sum.offset += weight * term.antiderivative(zero, sum.largest_gap);
+  }
   return sum;
 }
 
 /// The resistance outside the fitted interval [q1, q2], where the user chose a formula for it:
-/// R = k/q + constant below the interval, R = stokes + reflected/(q + r) above it.
+/// R = k/q + constant below the interval, R = stokes + reflected/(q + r) above it. With a second wall
+/// at the gap L, k_wall (1/(L - q) - 1/(L - q2)) is added above, and R is infinite at L.
 struct Outside {
   bool has_below = false, has_above = false;     // true if the user chose the formula
   double smallest = 0, largest = 0, radius = 0;  // q1, q2 and r [L]
+  double wall = lubrication::kNoWall;            // L of a second wall [L]
+  double k_wall = 0;                             // [M L/T]
   double k = 0, constant = 0;                    // [M L/T], [M/T]
-  double stokes = 0, reflected = 0;              // [M/T], [M L/T]
-  double impulse_below = 0, impulse_above = 0;   // Gamma(q1) and Gamma(q2) [M L/T]
+  bool has_wall() const { return wall < lubrication::kNoWall; }
+  double stokes = 0, reflected = 0;             // [M/T], [M L/T]
+  double impulse_below = 0, impulse_above = 0;  // Gamma(q1) and Gamma(q2) [M L/T]
 };
 
 /// The numbers of the formulas that the user chose in `limits`, such that R is continuous at q1 and
@@ -66,6 +77,11 @@ Outside outside_of(const lubrication::Fit& fit, const lubrication::OutsideInterv
   Outside outside{.smallest = smallest, .largest = largest, .radius = fit.radius};
   outside.has_below = limits.below != lubrication::BelowInterval::kError;
   outside.has_above = limits.above != lubrication::AboveInterval::kError;
+  if (const auto wall = lubrication::second_wall_of(fit)) {
+    outside.wall = wall->largest_gap;
+    outside.k_wall = wall->leading_factor *
+                     lubrication::stokes_resistance(fit.viscosity, fit.radius) * fit.radius;
+  }
   if (outside.has_below) {
     const bool is_theory = limits.below == lubrication::BelowInterval::kTheoryLimit;
     outside.k = is_theory ? fit.leading_coefficient.value() : force.leading_coefficient();
@@ -96,6 +112,9 @@ Expressions resistance_of(const Sum& sum, const Outside& o, Literal number,
   if (o.has_above)
     e.above = fmt::format("({}){}({})/(q + ({}))", number(o.stokes), between, number(o.reflected),
                           number(o.radius));
+  if (o.has_above && o.has_wall())
+    e.above += fmt::format("{0}({1}) * (1.0/(({2}) - q) - 1.0/(({2}) - ({3})))", between,
+                           number(o.k_wall), number(o.wall), number(o.largest));
   return e;
 }
 
@@ -114,6 +133,10 @@ Expressions impulse_of(const Sum& sum, const Outside& o, Literal number, std::st
     e.above = fmt::format("({0}){5}({1}) * (q - ({3})){5}({2}) * log((q + ({4}))/(({3}) + ({4})))",
                           number(o.impulse_above), number(o.stokes), number(o.reflected),
                           number(o.largest), number(o.radius), between);
+  if (o.has_above && o.has_wall())
+    e.above +=
+        fmt::format("{0}({1}) * (log((({2}) - ({3}))/(({2}) - q)) - (q - ({3}))/(({2}) - ({3})))",
+                    between, number(o.k_wall), number(o.wall), number(o.largest));
   return e;
 }
 
@@ -138,7 +161,13 @@ std::vector<std::string> facts(const lubrication::Fit& fit, std::string_view sou
   if (outside.has_below)
     lines.emplace_back("Below this interval R = k/q + constant, the lubrication limit.");
   if (outside.has_above)
-    lines.emplace_back("Above this interval R = R_S + c/(q + r), which tends to Stokes' drag R_S.");
+    lines.emplace_back(
+        outside.has_wall()
+            ? fmt::format(
+                  "Above this interval R = R_S + c/(q + r) + k (1/(L - q) - 1/(L - q2)), up "
+                  "to the wall opposite at L = {}, where R is infinite.",
+                  plain(outside.wall))
+            : "Above this interval R = R_S + c/(q + r), which tends to Stokes' drag R_S.");
   if (fit.diagnostics && fit.diagnostics->largest_error_estimate > 0)
     lines.push_back(fmt::format("Largest error estimate of the table: {:.3g}.",
                                 fit.diagnostics->largest_error_estimate));
@@ -158,15 +187,23 @@ std::string write_c_header(const lubrication::Fit& fit, std::string_view source,
   const auto function = [&](std::string_view name, const Expressions& e) {
     std::string text = fmt::format(
         "static inline double viscontact_{}(double gap) {{\n"
-        "  const double q = gap, l = log(gap);\n"
+        "  const double q = gap, l = log(gap);\n{}"
         "  (void)q;\n  (void)l;\n",
-        name);
+        name,
+        sum.needs_wall
+            ? fmt::format("  const double p = {} - gap, m = log(p);\n  (void)p;\n  (void)m;\n",
+                          c_literal(sum.largest_gap))
+            : "");
     if (!e.below.empty())
       text +=
           fmt::format("  if (gap > 0 && gap < VISCONTACT_SMALLEST_GAP)\n    return {};\n", e.below);
     if (!e.above.empty())
-      text += fmt::format("  if (gap > VISCONTACT_LARGEST_GAP && gap < HUGE_VAL)\n    return {};\n",
-                          e.above);
+      text += fmt::format(
+          "  if (gap > VISCONTACT_LARGEST_GAP && gap {})\n    return {};\n{}",
+          outside.has_wall() ? "< " + c_literal(outside.wall) : "< HUGE_VAL", e.above,
+          outside.has_wall()
+              ? fmt::format("  if (gap == {}) return HUGE_VAL;\n", c_literal(outside.wall))
+              : "");
     return text + fmt::format(
                       "  if (!(gap >= VISCONTACT_SMALLEST_GAP && gap <= VISCONTACT_LARGEST_GAP)) "
                       "return NAN;\n  return {};\n}}\n\n",
@@ -201,26 +238,38 @@ std::string write_fortran(const lubrication::Fit& fit, std::string_view source,
                                   condition, answer);
     };
     return fmt::format(
-               "  elemental function viscontact_{0}(gap) result(answer)\n"
+               "  elemental function viscontact_{}(gap) result(answer)\n"
                "    real(real64), intent(in) :: gap\n"
-               "    real(real64) :: answer, q, l\n"
+               "    real(real64) :: answer, q, l{}\n"
                "    q = gap\n",
-               name) +
+               name, sum.needs_wall ? ", p, m" : "") +
            branch("gap > 0 .and. gap < smallest_gap", e.below) +
-           branch("gap > largest_gap .and. gap <= huge(gap)", e.above) +
+           branch(outside.has_wall() ? fmt::format("gap > largest_gap .and. gap < {}",
+                                                   fortran_literal(outside.wall))
+                                     : "gap > largest_gap .and. gap <= huge(gap)",
+                  e.above) +
+           (outside.has_above && outside.has_wall()
+                ? branch(fmt::format("gap >= {0} .and. gap <= {0}", fortran_literal(outside.wall)),
+                         "ieee_value(answer, ieee_positive_inf)")
+                : "") +
            branch(".not. (gap >= smallest_gap .and. gap <= largest_gap)",
                   "ieee_value(answer, ieee_quiet_nan)") +
-           fmt::format("    l = log(gap)\n    answer = {}\n  end function\n\n", e.inside);
+           fmt::format("    l = log(gap)\n{}    answer = {}\n  end function\n\n",
+                       sum.needs_wall ? fmt::format("    p = {} - gap\n    m = log(p)\n",
+                                                    fortran_literal(sum.largest_gap))
+                                      : "",
+                       e.inside);
   };
   constexpr std::string_view kBetween = " &\n      + ";
   return commented(facts(fit, source, outside), "!") + "! At other gaps the answer is NaN.\n" +
          fmt::format(
              "module viscontact_lubrication\n"
              "  use, intrinsic :: iso_fortran_env, only: real64\n"
-             "  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan\n"
+             "  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan{}\n"
              "  implicit none\n"
              "  real(real64), parameter :: smallest_gap = {}, largest_gap = {}\n"
              "contains\n\n",
+             outside.has_above && outside.has_wall() ? ", &\n    ieee_positive_inf" : "",
              fortran_literal(fit.gap_interval[0]), fortran_literal(fit.gap_interval[1])) +
          "  ! R(q), > 0.\n" +
          function("resistance", resistance_of(sum, outside, fortran_literal, kBetween)) +
@@ -243,16 +292,26 @@ std::string write_python(const lubrication::Fit& fit, std::string_view source,
   const Outside outside = outside_of(fit, limits);
   const auto function = [&](std::string_view name, std::string_view what, const Expressions& e) {
     std::string text, tuples;
+    const std::string wall_variables =
+        sum.needs_wall ? fmt::format("    p = {} - q\n    m = log(p)\n", plain(sum.largest_gap))
+                       : "";
     const auto formula = [&](std::string_view place, std::string_view low, std::string_view high,
                              const std::string& expression) {
       if (expression.empty()) return;
       text += fmt::format("def _{0}_{1}(q, log):\n{2}    return ({3})\n\n\n", name, place,
-                          place == "inside" ? "    l = log(q)\n" : "", expression);
+                          place == "inside" ? "    l = log(q)\n" + wall_variables : "", expression);
       tuples += fmt::format("({}, {}, _{}_{}), ", low, high, name, place);
     };
     formula("inside", "SMALLEST_GAP", "LARGEST_GAP", e.inside);
     formula("below", "sys.float_info.min", "SMALLEST_GAP", e.below);
-    formula("above", "LARGEST_GAP", "sys.float_info.max", e.above);
+    if (outside.has_wall()) {
+      formula("above", "LARGEST_GAP", plain(std::nextafter(outside.wall, 0.0)), e.above);
+      // At the wall itself, in the type of the gap.
+      formula("at_wall", plain(outside.wall), plain(outside.wall),
+              e.above.empty() ? "" : "q + math.inf");
+    } else {
+      formula("above", "LARGEST_GAP", "sys.float_info.max", e.above);
+    }
     return text + fmt::format(
                       "def {0}(gap):\n"
                       "    \"\"\"{1} Raises ValueError at other gaps.\"\"\"\n"
@@ -285,12 +344,19 @@ std::string write_matlab(const lubrication::Fit& fit, std::string_view source,
                                           condition, elementwise(answer));
     };
     return fmt::format(
-        "function answer = {}(gap)\n  answer = NaN(size(gap));\n{}{}"
-        "  here = gap >= {} & gap <= {};\n  q = gap(here);\n  l = log(q);\n"
+        "function answer = {}(gap)\n  gap = double(gap);\n  answer = NaN(size(gap));\n{}{}"
+        "  here = gap >= {} & gap <= {};\n  q = gap(here);\n  l = log(q);\n{}"
         "  answer(here) = {};\nend\n",
         name, branch(fmt::format("gap > 0 & gap < {}", plain(outside.smallest)), e.below),
-        branch(fmt::format("gap > {} & gap < Inf", plain(outside.largest)), e.above),
-        plain(outside.smallest), plain(outside.largest), elementwise(e.inside));
+        branch(fmt::format("gap > {} & gap < {}", plain(outside.largest),
+                           outside.has_wall() ? plain(outside.wall) : "Inf"),
+               e.above) +
+            (outside.has_above && outside.has_wall()
+                 ? fmt::format("  answer(gap == {}) = Inf;\n", plain(outside.wall))
+                 : ""),
+        plain(outside.smallest), plain(outside.largest),
+        sum.needs_wall ? fmt::format("  p = {} - q;\n  m = log(p);\n", plain(sum.largest_gap)) : "",
+        elementwise(e.inside));
   };
   constexpr std::string_view kBetween = " ...\n      + ";
   return commented(facts(fit, source, outside), "%") +
@@ -304,7 +370,8 @@ std::string write_matlab(const lubrication::Fit& fit, std::string_view source,
              "  f.smallest_gap = {};\n  f.largest_gap = {};\n"
              "  f.resistance = @resistance;  % R(q), > 0\n"
              "  f.impulse = @impulse;  % Gamma(q)\n"
-             "  f.force = @(gap, velocity) -resistance(gap) .* velocity;  % F(q, u)\nend\n\n",
+             "  f.force = @(gap, velocity) -resistance(gap) .* double(velocity);  % F(q, "
+             "u)\nend\n\n",
              plain(outside.smallest), plain(outside.largest)) +
          function("resistance", resistance_of(sum, outside, plain, kBetween)) + "\n" +
          function("impulse", impulse_of(sum, outside, plain, kBetween));
@@ -320,10 +387,15 @@ std::string write_json(const lubrication::Fit& fit, std::string_view source, con
   nlohmann::ordered_json json;
   json["about"] = facts(fit, source, outside);
   json["formulas"] =
-      "q: gap, l: ln q; R = sum of weight * value, Gamma = sum of weight * antiderivative - "
-      "impulse_offset";
+      sum.needs_wall
+          ? "q: gap, l: ln q, p: largest_gap - q, m: ln p; R = sum of weight * value, Gamma = sum "
+            "of "
+            "weight * antiderivative - impulse_offset"
+          : "q: gap, l: ln q; R = sum of weight * value, Gamma = sum of weight * antiderivative - "
+            "impulse_offset";
   // Fit files have no key "interval", so that the reader of fit files refuses an export.
   json["interval"] = fit.gap_interval;
+  if (outside.has_wall()) json["largest_gap"] = outside.wall;
   json["radius"] = fit.radius;
   json["viscosity"] = fit.viscosity;
   json["largest_relative_residual"] = fit.largest_relative_residual;
@@ -337,10 +409,17 @@ std::string write_json(const lubrication::Fit& fit, std::string_view source, con
   if (outside.has_below)
     json["below"] = {
         {"formula", "R = k/q + constant"}, {"k", outside.k}, {"constant", outside.constant}};
-  if (outside.has_above)
+  if (outside.has_above) {
     json["above"] = {{"formula", "R = stokes + reflected/(q + radius)"},
                      {"stokes", outside.stokes},
                      {"reflected", outside.reflected}};
+    if (outside.has_wall()) {
+      json["above"]["formula"] =
+          "R = stokes + reflected/(q + radius) + wall (1/(L - q) - 1/(L - q2)), q2: end of the "
+          "interval, L: largest_gap; R is infinite at L";
+      json["above"]["wall"] = outside.k_wall;
+    }
+  }
   json["reference_velocity"] = fit.reference_velocity;
   for (const double gap : lubrication::spread_gaps(fit.gap_interval)) {
     json["samples"]["gap"].push_back(gap);

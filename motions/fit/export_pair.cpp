@@ -146,7 +146,7 @@ std::string pair_in_matlab(const PairFit& fit, std::string_view source) {
   for (const auto& [entry, one] : fit.entries) {
     text += fmt::format("  f.{0} = @{0};  % {1}\n", named(entry).name, named(entry).description);
     functions += fmt::format(
-        "\nfunction answer = {}(gap)\n  answer = NaN(size(gap));\n"
+        "\nfunction answer = {}(gap)\n  gap = double(gap);\n  answer = NaN(size(gap));\n"
         "  here = gap >= {} & gap <= {};\n  q = gap(here);\n  l = log(q);\n"
         "  answer(here) = {};\nend\n",
         named(entry).name, smallest, largest,

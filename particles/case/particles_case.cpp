@@ -15,6 +15,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/particles/case/particles_sections.hpp"
+#include "viscontact/particles/domain/bounded_region.hpp"
 #include "viscontact/particles/io/contact_file.hpp"
 #include "viscontact/particles/outline.hpp"
 
@@ -100,6 +101,13 @@ void contact_keys(case_file::Keys& keys, ParticlesCase& c) {
                "is {}, which makes {:.3g} steps to end_time; at most {:.0e} are allowed", step,
                c.end_time / step, kMostSteps);
   film_keys(keys, film, c.setting.fluid);
+  keys.optional("fluid_density", case_file::number(c.fluid_density, kModeratelyPositive),
+                {"density of the fluid, for the [Reynolds "
+                 "number](physics.md#4-motion-of-one-sphere-reduced_model) of the particles only"});
+  keys.require(!keys.has("fluid_density") || c.setting.fluid || film.viscosity, "fluid_density",
+               "has no effect, because the case has no viscosity; it must be left out");
+  keys.require(!keys.has("fluid_density") || !c.setting.fluid || !c.setting.fluid->has_inertia(),
+               "fluid_density", "must be left out, because fluid.density gives it");
   keys.optional("restitution", case_file::number(restitution.coefficient, kShare),
                 {"the coefficient e_d of [restitution](physics.md#5-many-particles-particles), "
                  "(5.15) and in a fluid (6.11), of the solids. A case with it has no arms; without "
@@ -205,8 +213,6 @@ void output_keys(case_file::Keys& keys, ParticlesCase& c) {
   for (const auto& name : c.tables) {
     keys.require(std::ranges::find(kAskedTables, name) != kAskedTables.end(), "tables",
                  "has '{}'; the tables are {}", name, fmt::join(kAskedTables, ", "));
-    keys.require(name != "stress" || !std::holds_alternative<std::monostate>(c.setting.domain),
-                 "tables", "has 'stress', which needs the area of a [domain]");
   }
 }
 
@@ -391,6 +397,11 @@ void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
   if (std::ranges::find(c.tables, "walls") != c.tables.end())
     root.section("output").require(!obstacles_of(c.setting).empty(), "tables",
                                    "has 'walls', but the case has no walls and no planes");
+  if (std::ranges::find(c.tables, "stress") != c.tables.end())
+    root.section("output").require(
+        size_of_region(c.setting.domain, positions_of(c.setting.planes, 0), c.particles.dimension) >
+            0,
+        "tables", "has 'stress', which needs a [domain], or planes that bound a region");
 
   const auto lines = read_particles_of_case(root, c);
   read_forces_by_id(root, c);

@@ -37,6 +37,8 @@ struct ParticlesCase {
   bool average_from_given = false;  ///< true: the case has the key average_from
   std::vector<std::string> tables;  ///< names of tables that the case asks for, of kAskedTables
                                     ///< (io/contact_file.hpp)
+  /// rho_f [M/L^3] of a fluid without inertia, for the Reynolds number only; 0: not known.
+  double fluid_density = 0;
   /// What [arrangement] asks for; nothing if the case has no such section.
   std::optional<Arrangement> arrangement;
   /// What the section [sweep] asks for; nothing if the case has no such section.

@@ -15,6 +15,7 @@
 #include <iterator>
 
 #include "viscontact/common/text/number.hpp"
+#include "viscontact/particles/domain/bounded_region.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/io/particle_file.hpp"
 
@@ -144,7 +145,7 @@ std::string plane_rows(const Setting& setting, const State& state, std::span<con
 
 /// The row of stress.csv: time and the components of the stress, xx, xy, ..., row by row. Component
 /// ij is minus the sum of force i times branch j over all contacts, divided by the area or volume
-/// of the domain, docs/physics.md (5.19).
+/// of the region between walls and planes, docs/physics.md (5.19).
 std::string stress_row(const Setting& setting, const State& state, std::span<const double>) {
   auto text = format_number(state.time);
   for (const double component : contact_stress(setting, state))
@@ -180,7 +181,10 @@ std::vector<double> contact_stress(const Setting& setting, const State& state) {
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j) stress[i * n + j] -= force[i] * branch[j];
   });
-  const double size = measure(setting.domain);
+  const auto obstacles = obstacles_of(setting, state.planes);
+  const auto places = positions_of(obstacles, state.time);
+  const double size = size_of_region(setting.domain, std::span(places).last(setting.planes.size()),
+                                     state.particles.dimension);
   for (double& component : stress) component /= size;
   return stress;
 }

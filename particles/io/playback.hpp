@@ -65,6 +65,7 @@ struct Playback {
   std::vector<std::int32_t> bodies{};
   /// The links; empty if there are none.
   DrawnLinks links{};
+  std::string note{};  ///< a sentence below the title of the page; may be empty
   /// Coefficient of friction, >= 0; empty: there is no friction.
   std::optional<double> friction_coefficient{};
 };

@@ -246,10 +246,12 @@ std::string particles_page(const Playback& original, const std::string& title, F
   const auto flow = flow_of_page(scene);
   const auto data = page_data(scene, flow.blocks);
   const auto words = words_for(original, data);
-  std::string page = report::page_head(title, particles_style(), false,
-                                       "<meta name=color-scheme content=\"light dark\">\n") +
-                     fmt::format("\n</head>\n<body>\n<header><h1>{}</h1>\n<p>{}</p></header>\n",
-                                 report::escaped(title), words);
+  std::string page =
+      report::page_head(title, particles_style(), false,
+                        "<meta name=color-scheme content=\"light dark\">\n") +
+      fmt::format("\n</head>\n<body>\n<header><h1>{}</h1>\n<p>{}</p>{}</header>\n",
+                  report::escaped(title), words,
+                  original.note.empty() ? "" : "<p>" + report::escaped(original.note) + "</p>");
   page += fmt::format(
       "<main>\n<div class=stage><canvas id=stage tabindex=0 role=img aria-label=\"Motion of {} The "
       "controls below choose the time.\"></canvas><output id=readout></output>"

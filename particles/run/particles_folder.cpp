@@ -32,15 +32,16 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FileEnd, bytes, last_line)
 namespace viscontact::particles {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RelativeErrors, best, of_one_mesh, of_penalty)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ParticleRegime, reynolds, stokes, film, has_contact)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StepTotals, steps, unconverged, failed, iterations,
                                    most_iterations, first_time, last_time, largest_residual,
                                    largest_overlap, largest_impulse_residual, divided, unresolved,
-                                   given_loads, seconds, peak_memory_mebibytes, fluid_seconds,
-                                   unknowns, first_velocity_errors, last_velocity_errors,
-                                   first_force_errors, last_force_errors, averaged_time,
-                                   mean_dissipation, mean_apparent_viscosity, contact_time,
-                                   contact_means, jammed, first_jam, jammed_bodies, given_load,
-                                   growing)
+                                   given_loads, regime, seconds, peak_memory_mebibytes,
+                                   fluid_seconds, unknowns, first_velocity_errors,
+                                   last_velocity_errors, first_force_errors, last_force_errors,
+                                   averaged_time, mean_dissipation, mean_apparent_viscosity,
+                                   contact_time, contact_means, jammed, first_jam, jammed_bodies,
+                                   given_load, growing)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunRecord, totals, frames, flows, last_frame, rebounds, files)
 
 namespace {
@@ -230,6 +231,10 @@ std::string run_json(const ParticlesCase& c, const StepTotals& totals, const Sta
   json["steps_with_given_loads"] = totals.given_loads;
   json["largest_overlap"] = totals.largest_overlap;
   json["final_overlap"] = largest_overlap(c.setting, state);
+  const auto known = [](double number) { return number < 0 ? Json() : Json(number); };
+  json["reynolds_number"] = known(totals.regime.reynolds);
+  json["stokes_number"] = known(totals.regime.stokes);
+  json["film_stokes_number"] = known(totals.regime.has_contact ? totals.regime.film : -1);
   json["seconds"] = totals.seconds;
   json["peak_memory_mebibytes"] = totals.peak_memory_mebibytes;
   json["jammed_steps"] = totals.jammed;

@@ -18,6 +18,7 @@
 
 #include "viscontact/common/files/growing_file.hpp"
 #include "viscontact/particles/case/particles_case.hpp"
+#include "viscontact/particles/run/particle_regime.hpp"
 #include "viscontact/particles/state.hpp"
 #include "viscontact/particles/steps/step_report.hpp"
 
@@ -95,6 +96,7 @@ struct StepTotals {
   double seconds = 0;
   /// Largest memory of earlier calls [MiB]. In a saved record it includes the call that saved it.
   double peak_memory_mebibytes = 0;
+  ParticleRegime regime;  ///< largest Reynolds and Stokes numbers
   // The following members are used in a fluid only.
   double fluid_seconds = 0;    ///< sum of FluidStepReport::seconds [s]
   std::uint64_t unknowns = 0;  ///< number of unknowns of the fluid solver in the last step

@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/io/contact_file.hpp"
@@ -152,14 +154,33 @@ Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
   return playback;
 }
 
+/// The numbers in run.json in `folder`; unknown ones if the file is missing, as after an interrupted
+/// run, or lacks them.
+ParticleRegime regime_in(const fs::path& folder) {
+  ParticleRegime regime;
+  if (!fs::is_regular_file(folder / "run.json")) return regime;
+  const auto json = nlohmann::json::parse(read_file(folder / "run.json"), nullptr, false);
+  const auto read = [&](const char* key, double& number) {
+    if (json.is_object() && json.contains(key) && json.at(key).is_number())
+      number = json.at(key).get<double>();
+  };
+  read("reynolds_number", regime.reynolds);
+  read("stokes_number", regime.stokes);
+  read("film_stokes_number", regime.film);
+  regime.has_contact = regime.film >= 0;
+  return regime;
+}
+
 }  // namespace
 
 /// Writes particles.html and particles.svg into `folder`; both get the record `provenance` of
 /// inputs and command. Throws Error(kBadInput) if a file cannot be read or written.
 void write_pages(const ParticlesCase& c, const fs::path& folder,
-                 const results::Provenance& provenance) {
+                 const results::Provenance& provenance, const ParticleRegime& regime) {
   constexpr int kPanels = 4;  // number of times that the still picture shows; free choice
-  const auto playback = read_playback(c, folder);
+  auto playback = read_playback(c, folder);
+  playback.note = in_words(regime);
+  for (const auto& warning : warnings_of(c, regime)) playback.note += ". Warning: " + warning;
   if (!std::ranges::all_of(playback.radii, [](float radius) { return std::isnormal(radius); }))
     terminal::warn(
         "particles: warning: particles.html and particles.svg show nothing, because a radius is "
@@ -183,7 +204,7 @@ void report_particles(const fs::path& folder) {
   const auto c = read_particles_case(files.front());
   files.push_back(folder / "particles.pvd");
   if (c.setting.fluid) files.push_back(folder / "flow.pvd");
-  write_pages(c, folder, results::provenance_of({files, {}}));
+  write_pages(c, folder, results::provenance_of({files, {}}), regime_in(folder));
   terminal::say("report: {0}/particles.html, {0}/particles.svg", folder.string());
 }
 

@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "viscontact/particles/case/particles_case.hpp"
+#include "viscontact/particles/run/particle_regime.hpp"
 #include "viscontact/results/provenance.hpp"
 
 namespace viscontact::particles {
@@ -17,12 +18,12 @@ namespace viscontact::particles {
 /// Writes particles.html and particles.svg from the frames (states at the output times) and flows
 /// that a run of the case `c` has written into `folder`. If all frames need more than 256 MiB of
 /// memory (a free choice), only every 2nd, 4th, ... frame and the last one are used. `provenance`,
-/// the record of inputs and command, is stored in both files. A radius that is not between 1e-37
+/// the record of inputs and command, is stored in both files. The page shows `regime` in words. A radius that is not between 1e-37
 /// and 3e38 only causes a warning, because nothing can be drawn. Throws Error(kBadInput), which
 /// names the file, if a file cannot be read or written or has other particles than the case, or if
 /// there is no frame.
 void write_pages(const ParticlesCase& c, const std::filesystem::path& folder,
-                 const results::Provenance& provenance);
+                 const results::Provenance& provenance, const ParticleRegime& regime);
 
 /// Writes particles.html and particles.svg for a run that has ended or was interrupted. The path of
 /// the case is read from particles.pvd in `folder`. Throws the errors of write_pages(), and

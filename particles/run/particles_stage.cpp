@@ -115,7 +115,7 @@ class Run {
     write("final_contacts.csv", TextKind::kHashComment,
           write_contacts(state.particles, contacts_of(case_.setting, state),
                          case_.setting.laws.friction.has_value()));
-    write_pages(case_, folder_, provenance_);
+    write_pages(case_, folder_, provenance_, record.totals.regime);
     record = with_costs(std::move(record));
     auto json = run_json(case_, record.totals, state);
     // Forces of the fluid are not in restart.bin. A run that is killed before this line computes
@@ -255,6 +255,10 @@ void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State&
       static_cast<double>(record.iterations) /
           static_cast<double>(std::max<std::int64_t>(record.steps, 1)),
       record.largest_residual, record.largest_overlap, (folder / "particles.html").string());
+  if (const auto regime = in_words(record.regime); !regime.empty())
+    terminal::say("particles: {}", regime);
+  for (const auto& warning : warnings_of(c, record.regime))
+    terminal::warn("particles: warning: {}", warning);
   if (record.unconverged > 0)
     terminal::warn(
         "particles: warning: {} of {} steps did not reach the tolerances {} and {}, {}",

@@ -17,9 +17,22 @@
 #include "viscontact/terminal/progress.hpp"
 
 namespace viscontact::pipeline {
+namespace {
+
+/// The exact drag of a plane, below the wall opposite if the case tabulates a container.
+lubrication::LubricationForce exact_drag(const case_file::Case& c) {
+  const auto exact = lubrication::LubricationForce::exact_plane(c.viscosity, c.radius);
+  if (!c.tabulation) return exact;
+  const auto wall =
+      lubrication::second_wall(freefem_axi::geometry_in_words(*c.tabulation),
+                               freefem_axi::container_in_words(*c.tabulation), c.radius);
+  return wall ? exact.below_wall(wall->largest_gap) : exact;
+}
+
+}  // namespace
 
 void check_parameters(const case_file::Case& c, const std::vector<std::string>& models) {
-  const auto exact = lubrication::LubricationForce::exact_plane(c.viscosity, c.radius);
+  const auto exact = exact_drag(c);
   with_place(c.path.string(), [&] {
     for (const auto& name : models)
       reduced_model::check_model(reduced_model::find_model(name), case_file::required_motion(c),
@@ -31,7 +44,7 @@ void check_run(const case_file::Case& c, const std::vector<std::string>& models)
   const auto& gaps = case_file::required_tabulation(c).gaps;
   const auto& request = case_file::required_fit(c);
   const auto& motion = case_file::required_motion(c);
-  const auto exact = lubrication::LubricationForce::exact_plane(c.viscosity, c.radius);
+  const auto exact = exact_drag(c);
   const std::size_t different = std::set(gaps.begin(), gaps.end()).size();
   const std::size_t terms =
       request.settings.basis.terms.size() - (request.settings.fix_leading ? 1 : 0);
@@ -74,7 +87,7 @@ void warn_of_gaps_outside(const case_file::Case& c, const std::vector<std::strin
     if (parameter.is_time_step && motion.end_time > kMostSteps * motion.parameter(parameter))
       return;
   const auto [smallest, largest] = std::ranges::minmax(tabulation.gaps);
-  const auto exact = lubrication::LubricationForce::exact_plane(c.viscosity, c.radius);
+  const auto exact = exact_drag(c);
   std::string below, above;
   double lowest = smallest, highest = largest;
   const auto add = [](std::string& names, const std::string& name) {

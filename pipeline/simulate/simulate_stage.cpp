@@ -68,9 +68,10 @@ std::string estimate_of_gaps(const reduced_model::ModelChoice& choice,
         *reached->smallest);
   if (reached->largest > high)
     text += fmt::format(
-        "; the sphere would get up to a gap of about {:.3g} (estimated by Stokes' drag): tabulate "
-        "up to there",
-        reached->largest);
+        "; the sphere would get up to a gap of about {:.3g} (estimated by {}): tabulate up to "
+        "there",
+        reached->largest,
+        lubrication::second_wall_of(fit) ? "the limit at the wall opposite" : "Stokes' drag");
   return text;
 }
 
@@ -170,6 +171,8 @@ Simulated simulate_case(const case_file::Case& c, const FitFile& fit_file,
       trajectory.provenance = simulated.made_from;
       if (c.units.are_said()) trajectory.provenance["units"] = c.units.words();
       finish(trajectory, choice, motion, force);
+      if (const auto wall = reduced_model::reached_wall(trajectory, motion, force.largest_gap()))
+        terminal::warn("simulate: warning: {}: {}", name, *wall);
       simulated.trajectories.push_back(std::move(trajectory));
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::kInterrupted) throw;
@@ -178,6 +181,8 @@ Simulated simulate_case(const case_file::Case& c, const FitFile& fit_file,
     }
   }
   terminal::clear_progress();
+  for (const auto& warning : reduced_model::regime_warnings(simulated.trajectories))
+    terminal::warn("simulate: warning: {}", warning);
   stop.throw_if_stop_requested();
   if (simulated.trajectories.empty()) throw results::error_of(simulated.failed, 0, c.path);
   simulated.uncertainty = uncertainty_of(motion, fit, outside);

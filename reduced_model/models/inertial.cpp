@@ -69,7 +69,12 @@ class InertialRun {
       while (now_ < stop_) {
         report_progress(motion_, now_);
         if (!step()) continue;
+        if (equation_.gap_of(cvode_.state()[0]) >= last_gap_) {
+          end_at_wall();
+          break;
+        }
         const auto now = instant_of(cvode_.time(), cvode_.state()[0]);
+        if (now.gap >= solid_gap_) look_at_approach(now);
         if (now.gap < solid_gap_) {
           const double impact = bisect_first_true(now_, cvode_.time(), [&](double t) {
             return equation_.gap_of(cvode_.at(t)) < solid_gap_;
@@ -91,6 +96,7 @@ class InertialRun {
           restart(InertialEquation::kTimeResolution * now_);
         }
       }
+      if (ended_) break;
       last_stop_ = stop_;
     }
     trajectory_.steps = cvode_.steps();
@@ -123,18 +129,44 @@ class InertialRun {
     equation_.add_impulse(m * (after - velocity_at_solids()));
     solid_impulse_ += m * (after - before);
     solid_work_ += m / 2 * (after - before) * (after + before);
-    if (before < 0) {
-      // `film` is the velocity that the sphere loses by the drag between the initial gap and the
-      // solids.
-      const double film = (force_.impulse(motion_.initial_gap) - force_.impulse(solid_gap_)) / m;
-      const double approach = before - film, leaving = std::max(0.0, after - film);
-      trajectory_.rebounds.push_back({now_, approach, -m * before, leaving, leaving / -approach});
-    }
+    if (before < 0) add_rebound(before, after);
     cvode_.set_state(std::array{equation_.state_of(solid_gap_)});
     if (rests_ && !leaves_solids())
       rest_until(stop_);
     else
       restart(0);
+  }
+
+  /// Records an impact at the time now_, with the velocities `before` < 0 and `after` >= 0 at the
+  /// solids. The velocity of approach is the largest one since the last rebound. That after the
+  /// impact is what the drag leaves on the way back to the gap of that velocity, (4.14). A sphere
+  /// that does not get back there does not rebound: its further impacts are not recorded.
+  void add_rebound(double before, double after) {
+    look_at_approach({solid_gap_, before, 0, 0});
+    const double drag = (force_.impulse(fastest_.gap) - force_.impulse(solid_gap_)) / motion_.mass;
+    const double approach = fastest_.velocity, leaving = std::max(0.0, after - drag);
+    if (leaving > 0 || !has_struck_)
+      trajectory_.rebounds.push_back(
+          {now_, approach, -motion_.mass * before, leaving, leaving / -approach});
+    has_struck_ = !(leaving > 0);
+    if (leaving > 0) fastest_ = {solid_gap_, 0, 0, 0};
+  }
+
+  /// Takes the state `at` for the one of fastest approach if it is faster than those before.
+  void look_at_approach(const InertialInstant& at) {
+    if (at.velocity < fastest_.velocity) fastest_ = at;
+  }
+
+  /// Ends the motion in the last step of CVODE, at the time at which the sphere reaches the wall
+  /// opposite.
+  void end_at_wall() {
+    const double end = bisect_first_true(
+        now_, cvode_.time(), [&](double t) { return equation_.gap_of(cvode_.at(t)) >= last_gap_; });
+    const auto at_wall = equation_.instant(end, last_gap_, end);
+    add_rows_of_step(end, at_wall);
+    if (trajectory_.rows.back().time < end) add_row(end, at_wall);
+    now_ = end;
+    ended_ = true;
   }
 
   /// The velocity (P - Gamma)/m [L/T] at the gap of the solids.
@@ -251,6 +283,11 @@ class InertialRun {
   const Motion& motion_;
   const lubrication::LubricationForce& force_;
   double solid_gap_;
+  double last_gap_ = motion_ends_at(force_.largest_gap());
+  bool ended_ = false;  // true after the sphere has reached the wall opposite
+  // The state of fastest approach since the last rebound.
+  InertialInstant fastest_{motion_.initial_gap, std::min(0.0, motion_.initial_velocity), 0, 0};
+  bool has_struck_ = false;                    // an impact since then is recorded
   double solid_impulse_ = 0, solid_work_ = 0;  // of the solids on the sphere
   bool rests_ = false;                         // true while the sphere rests on the solids
   InertialEquation equation_;

@@ -25,7 +25,9 @@ InertialEquation::InertialEquation(const Motion& motion, const lubrication::Lubr
       momentum_at_start_(motion.mass * motion.initial_velocity +
                          force.impulse(motion.initial_gap)) {}
 
-double InertialEquation::gap_of(double s) const { return force_.radius() * std::exp(s); }
+double InertialEquation::gap_of(double s) const {
+  return std::min(force_.radius() * std::exp(s), std::nextafter(force_.largest_gap(), 0.0));
+}
 
 double InertialEquation::state_of(double gap) const { return std::log(gap / force_.radius()); }
 

@@ -42,7 +42,7 @@ class InertialEquation {
   InertialEquation(const Motion& motion, const lubrication::LubricationForce& force,
                    double relative_tolerance);
 
-  double gap_of(double s) const;      ///< q = r e^s [L], for s [1]
+  double gap_of(double s) const;      ///< q = r e^s [L], for s [1]; below a second wall
   double state_of(double gap) const;  ///< s = ln(q/r), for q > 0 [1]
   double momentum(double t) const;    ///< P(t) [M L/T]
   /// Adds an impulse [M L/T] to P, such as the impulse of an impact, or of solids that carried the

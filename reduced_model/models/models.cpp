@@ -18,6 +18,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/named.hpp"
+#include "viscontact/lubrication/regime.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact_exact.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
@@ -61,6 +62,11 @@ Trajectory simulate_explicit_euler(const Motion& motion,
       // defined.
       const double crossing = t + q / fall * h;
       trajectory.rows.push_back({crossing, 0, u, {}, motion.external_force.value(crossing), {}});
+      break;
+    }
+    if (const double last = motion_ends_at(force.largest_gap()); q - fall >= last) {
+      const double crossing = t + (last - q) / -fall * h;
+      trajectory.rows.push_back({crossing, last, u, {}, motion.external_force.value(crossing), {}});
       break;
     }
     u += h / motion.mass * (drag + motion.external_force.mean(t, next));
@@ -132,6 +138,34 @@ MomentumEnergyBudget budget_of_drag(const std::vector<TrajectoryRow>& rows, cons
       m / 2 * (last.velocity - first.velocity) * (last.velocity + first.velocity) -
       budget.film_work;
   return budget;
+}
+
+/// Throws Error(kBadInput) if the sphere starts at or beyond the wall opposite its neighbour.
+void check_start_below_wall(const Motion& motion, const lubrication::LubricationForce& force) {
+  if (!(motion.initial_gap < motion_ends_at(force.largest_gap())))
+    throw Error(ErrorKind::kBadInput,
+                "motion.initial_gap is {}; it must be less than {}, at which the sphere touches "
+                "the wall opposite",
+                motion.initial_gap, force.largest_gap());
+}
+
+/// Sets the Reynolds and Stokes numbers of the trajectory.
+void set_regime(const ModelChoice& choice, const Motion& motion,
+                const lubrication::LubricationForce& force, Trajectory& trajectory) {
+  if (!choice.model->fluid) return;
+  double speed = 0, lowest_gamma = 0;
+  for (const auto& row : trajectory.rows) {
+    speed = std::max(speed, std::abs(row.velocity));
+    if (row.gamma) lowest_gamma = std::min(lowest_gamma, *row.gamma);
+  }
+  const double radius = force.radius(), viscosity = force.viscosity();
+  trajectory.stokes_number = lubrication::stokes_number(motion.mass, radius, speed, viscosity);
+  if (motion.fluid_density > 0)
+    trajectory.reynolds_number =
+        lubrication::reynolds_number(motion.fluid_density, radius, speed, viscosity);
+  if (lowest_gamma < 0 && choice.model->contact != nullptr &&
+      !choice.model->contact(motion, force).drag)
+    trajectory.film_stokes_number = motion.mass * speed / -lowest_gamma;
 }
 
 /// Throws Error(kNotConverged) if a number of the trajectory is not finite, or if times do not
@@ -275,6 +309,7 @@ lubrication::LubricationForce drag_of(const ModelChoice& choice,
                                       const lubrication::LubricationForce& force) {
   return choice.exact_drag
              ? lubrication::LubricationForce::exact_plane(force.viscosity(), force.radius())
+                   .below_wall(force.largest_gap())
              : force;
 }
 
@@ -286,6 +321,7 @@ void check_model(const ModelChoice& choice, const Motion& motion,
     for (const auto& parameter : choice.model->parameters)
       if (parameter.is_time_step) (void)step_count(motion.end_time, motion.parameter(parameter));
     if (choice.model->check != nullptr) choice.model->check(motion);
+    check_start_below_wall(motion, force);
     if (choice.model->contact != nullptr) (void)contact_model_of(choice, motion, force);
   });
 }
@@ -323,6 +359,7 @@ Trajectory simulate(const ModelChoice& choice, const Motion& motion,
     const Model& model = *choice.model;
     const Motion own_motion = motion_of(choice, motion);
     const lubrication::LubricationForce own_force = drag_of(choice, force);
+    check_start_below_wall(own_motion, own_force);
     trajectory = model.simulate != nullptr
                      ? model.simulate(own_motion, own_force)
                      : run_contact_model(model.contact, own_motion, own_force);
@@ -334,6 +371,7 @@ Trajectory simulate(const ModelChoice& choice, const Motion& motion,
         gap_times_of(trajectory.rows, own_motion.gaps_to_reach,
                      model.contact != nullptr ? std::optional(model.contact(own_motion, own_force))
                                               : std::nullopt);
+    set_regime(choice, own_motion, own_force, trajectory);
   });
   trajectory.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -10,7 +10,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "viscontact/lubrication/regime.hpp"
+#include "viscontact/lubrication/stokes_drag.hpp"
 #include "viscontact/report/pictures/colours.hpp"
 
 namespace viscontact::rolling {
@@ -59,19 +62,23 @@ const char* contact_in_words(SolidContact contact) {
 std::string end_table(const RollingResults& results) {
   std::string rows =
       "<tr><th>model</th><th>gap [L]</th><th>velocity [L/T]</th><th>angular velocity [1/T]</th>"
-      "<th>slip over velocity</th><th>solid contact</th></tr>\n";
+      "<th>slip over velocity</th><th>solid contact</th><th>largest Reynolds number</th>"
+      "<th>largest Stokes number</th></tr>\n";
   for (const auto& [model, trajectory] : results.trajectories) {
     const auto& last = trajectory.back();
     const double move = last.velocity - results.c.motion.plane_velocity;
     const double slip = move - results.c.radius * last.angular_velocity;
+    const auto end = end_of(trajectory, results.c.motion, results.c.radius);
+    const auto reynolds = reynolds_of(results.c, end);
     rows += fmt::format(
         "<tr><td>{}</td><td>{:.6g}</td><td>{:.8g}</td><td>{:.8g}</td><td>{}</td><td>{}</td>"
-        "</tr>\n",
+        "<td>{}</td><td>{:.3g}</td></tr>\n",
         model, last.gap, last.velocity, last.angular_velocity,
-        move == 0 ? "" : fmt::format("{:.5g}", slip / move), contact_in_words(last.contact));
+        move == 0 ? "" : fmt::format("{:.5g}", slip / move), contact_in_words(last.contact),
+        reynolds ? fmt::format("{:.3g}", *reynolds) : "&ndash;", stokes_of(results.c, end));
   }
   for (const auto& model : results.failed)
-    rows += fmt::format("<tr><td>{}</td><td colspan=5>failed: {}</td></tr>\n", model.model,
+    rows += fmt::format("<tr><td>{}</td><td colspan=7>failed: {}</td></tr>\n", model.model,
                         report::escaped(model.reason));
   return report::table_of(rows);
 }
@@ -117,8 +124,33 @@ std::vector<report::Plot> rolling_plots(const RollingResults& results) {
 
 }  // namespace
 
-/// A sentence if gravity is directed away from the plane, and one for each model whose smallest gap
-/// [L] is below the gaps of the fit.
+namespace {
+
+/// m |dq/dt|/|gamma_min| [1], with the largest |dq/dt| of the rows, of the model of viscous contact if
+/// the solids touch; otherwise nothing.
+std::optional<double> film_of(const RollingCase& c, const std::string& model,
+                              const RollingTrajectory& rows) {
+  const auto& motion = c.motion;
+  if (model != "viscous_contact" || !(motion.roughness > 0) ||
+      !(motion.roughness < motion.initial_gap) || !end_of(rows, motion, c.radius).contact_time)
+    return {};
+  double speed = 0;
+  for (const auto& row : rows) speed = std::max(speed, std::abs(row.normal_velocity));
+  const double k = lubrication::stokes_resistance(c.viscosity, c.radius) * c.radius;
+  return motion.mass * speed / (k * std::log(motion.initial_gap / motion.roughness));
+}
+
+}  // namespace
+
+double stokes_of(const RollingCase& c, const RollingEnd& end) {
+  return lubrication::stokes_number(c.motion.mass, c.radius, end.largest_speed, c.viscosity);
+}
+
+std::optional<double> reynolds_of(const RollingCase& c, const RollingEnd& end) {
+  if (!(c.fluid_density > 0)) return {};
+  return lubrication::reynolds_number(c.fluid_density, c.radius, end.largest_speed, c.viscosity);
+}
+
 std::vector<std::string> rolling_warnings(const RollingResults& results) {
   std::vector<std::string> warnings;
   if (results.c.gravity > 0)
@@ -131,6 +163,19 @@ std::vector<std::string> rolling_warnings(const RollingResults& results) {
     const double thinnest = std::ranges::min_element(rows, {}, &RollingRow::gap)->gap;
     // The relative rounding error of the gap of a sphere that rests at the smallest fitted gap.
     constexpr double kRounding = 1e-9;
+    const auto end = end_of(rows, results.c.motion, results.c.radius);
+    if (const auto reynolds = reynolds_of(results.c, end))
+      if (const auto warning = lubrication::reynolds_warning(*reynolds))
+        warnings.push_back(fmt::format("{}: {}", model, *warning));
+    if (const auto film = film_of(results.c, model, rows))
+      if (const auto warning =
+              lubrication::film_warning(*film, "the models smooth and rough resolve the drag"))
+        warnings.push_back(fmt::format("{}: {}", model, *warning));
+    if (rows.back().time < results.c.motion.end_time)
+      warnings.push_back(fmt::format(
+          "{}: the sphere reaches the wall opposite, at the gap {:.6g}, at time {:.6g}; the motion "
+          "ends there",
+          model, end.last.gap, end.last.time));
     if (thinnest < (1 - kRounding) * low)
       warnings.push_back(fmt::format(
           "Extrapolation: {} gets down to a gap of {:.4g}, below the smallest fitted gap, {:.4g}",

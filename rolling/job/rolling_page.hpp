@@ -31,7 +31,14 @@ struct RollingResults {
   std::vector<results::FailedModel> failed;  ///< models without a trajectory
 };
 
-/// A sentence for each model whose gap gets below the smallest gap of the fit, where the formula of
+/// The largest Stokes number m u/(6 pi mu r^2) of a motion, with the speed u of the centre relative
+/// to the plane.
+double stokes_of(const RollingCase& c, const RollingEnd& end);
+/// The largest Reynolds number 2 r rho_f u/mu; nothing if the case gives no density of the fluid.
+std::optional<double> reynolds_of(const RollingCase& c, const RollingEnd& end);
+
+/// A sentence for each model whose Reynolds number is too large for Stokes flow, whose motion ends
+/// at the wall opposite, or whose gap gets below the smallest gap of the fit, where the formula of
 /// the fit is continued although no row of a table supports it. The list is empty if there is no
 /// such model.
 std::vector<std::string> rolling_warnings(const RollingResults& results);

@@ -160,6 +160,9 @@ std::string rolling_json(const RollingResults& results) {
               {"position", last.position}, {"angle", last.angle},
               {"velocity", last.velocity}, {"angular_velocity", last.angular_velocity},
               {"slip", end.slip},          {"contact", static_cast<int>(last.contact)}};
+    object["stokes_number"] = stokes_of(results.c, end);
+    object["reynolds_number"] =
+        reynolds_of(results.c, end) ? Json(*reynolds_of(results.c, end)) : Json(nullptr);
     object["contact_time"] = end.contact_time ? Json(*end.contact_time) : Json(nullptr);
   }
   if (const auto warnings = rolling_warnings(results); !warnings.empty())
@@ -209,6 +212,21 @@ void say_end(const std::string& model, const RollingRow& last) {
                 model, last.gap, last.velocity, last.angular_velocity);
 }
 
+/// Tells the user the largest Stokes and Reynolds numbers of all models.
+void say_regime(const RollingResults& results) {
+  double stokes = 0;
+  std::optional<double> reynolds;
+  for (const auto& [model, rows] : results.trajectories) {
+    const auto end = end_of(rows, results.c.motion, results.c.radius);
+    stokes = std::max(stokes, stokes_of(results.c, end));
+    if (const auto number = reynolds_of(results.c, end))
+      reynolds = std::max(reynolds.value_or(0), *number);
+  }
+  terminal::say(
+      "rolling: largest Stokes number {:.3g}, Reynolds number {}", stokes,
+      reynolds ? fmt::format("{:.3g}", *reynolds) : "not known (it needs `density` in [fluid])");
+}
+
 }  // namespace
 
 /// Runs all stages, into request.folder. Files that are up to date are left as they are. Errors of
@@ -234,6 +252,7 @@ void run_rolling(const RollingRequest& request) {
   for (const auto& [model, rows] : results.trajectories) say_end(model, rows.back());
   for (const auto& warning : rolling_warnings(results))
     terminal::warn("rolling: warning: " + warning);
+  say_regime(results);
   const auto json = rolling_json(results);
   if (results::write_if_changed(folder.results(), TextKind::kJson, json, provenance)) wrote = true;
   if (wrote || !report::page_is_current(folder.path, kRollingPictures))

@@ -7,6 +7,7 @@
 
 #include "tests/common/failure.hpp"
 #include "tests/fitting/samples.hpp"
+#include "viscontact/fitting/basis_comparison.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/motion_table.hpp"
@@ -280,6 +281,52 @@ TEST(Warnings, SayThatTheResistanceIsNotPositive) {
   settings.weights = lubrication::Weights::kAbsolute;
   EXPECT_THAT(diagnostics_of(table, settings).warnings,
               ::testing::Contains(HasSubstr("not positive")));
+}
+
+TEST(DegreesOfFreedom, CountGapsAndNotRows) {
+  // Rows of the same gaps at other velocities say nothing new, because the flow is linear: neither
+  // standard errors nor any other measure of the fit depend on them.
+  const auto gaps = log_spaced(1e-3, 1, 9);
+  for (const auto* basis : {"lecture", "asymptotic"}) {
+    const auto one = fit_force_table(exact_drag_table(gaps, {-1}, 3, 1), settings_of(basis));
+    const auto more =
+        fit_force_table(exact_drag_table(gaps, {-1, 2, -0.3}, 3, 1), settings_of(basis));
+    const auto &a = *one.diagnostics, &b = *more.diagnostics;
+    EXPECT_EQ(a.degrees_of_freedom, 4U);
+    EXPECT_EQ(b.degrees_of_freedom, 4U);
+    // Residuals of 1e-5 have 1e-10 of their digits left.
+    EXPECT_NEAR(b.information_criterion.value() / a.information_criterion.value(), 1, 1e-8);
+    for (std::size_t i = 0; i < one.terms.size(); ++i)
+      EXPECT_NEAR(more.terms[i].standard_error / one.terms[i].standard_error, 1, 1e-8) << i;
+  }
+}
+
+TEST(Warnings, SayThatTwoVelocitiesAddNoDegreeOfFreedom) {
+  auto settings = settings_of("lecture");
+  settings.basis = lubrication::parse_terms("1/q, ln q, 1");
+  const auto fit = fit_force_table(exact_drag_table({0.01, 0.1, 1}, {-1, -2}, 3, 1), settings);
+  EXPECT_EQ(fit.diagnostics->degrees_of_freedom, 0U);
+  EXPECT_THAT(fit.diagnostics->warnings, ::testing::Contains(HasSubstr("as many coefficients")));
+  for (const auto& term : fit.terms) EXPECT_EQ(term.standard_error, 0);
+}
+
+TEST(TwoWalls, AreFittedFromOneToTheOther) {
+  // A drag that is singular at both walls, as between the floor and the lid of a cylinder.
+  auto table = exact_drag_table(log_spaced(1e-2, 3.96, 24), {-1}, 3, 1);
+  table.geometry = "plane";
+  table.container = "closed cylinder, radius 20, height 6";
+  for (auto& row : table.rows)
+    row.force += 6 * std::numbers::pi * 3 * (brenner_drag_factor(4 - row.gap) - 1);
+  const auto fit = fit_force_table(table, settings_of("two_walls"));
+  EXPECT_LT(fit.largest_relative_residual, 2e-3);
+  // Bases of one wall miss the force near the lid.
+  EXPECT_GT(fit_force_table(table, settings_of("asymptotic_extended")).largest_relative_residual,
+            0.1);
+  const auto lid = std::ranges::find(fit.terms, "1/(L-q)", &lubrication::FitTerm::name);
+  EXPECT_NEAR(lid->coefficient / (6 * std::numbers::pi * 3), 1, 0.01);
+  EXPECT_EQ(compare_bases(table, settings_of("lecture")).back().basis, "two_walls");
+  table.container = "unbounded";
+  EXPECT_THROW(fit_force_table(table, settings_of("two_walls")), Error);
 }
 
 TEST(Warnings, SayThatThereAreAsManyCoefficientsAsRows) {

@@ -52,7 +52,9 @@ class DragAtDistance {
     // fits whose resistance does not fall.
     const double free = momentum * setting.per_mass;
     const double low = std::max(-distance * setting.per_step, std::min(0.0, free));
-    const double high = std::max(0.0, free);
+    // At the wall opposite the drag is infinite, or it is neglected and the motion ends there.
+    const double last = motion_ends_at(drag_.largest_gap) - contact_gap_ - distance;
+    const double high = std::min(std::max(0.0, free), std::max(0.0, last * setting.per_step));
     const auto excess_and_slope = [&](double v) {
       const double to = distance + setting.step * v;
       return std::pair(setting.mass * v + impulse(distance, to) - momentum,
@@ -65,6 +67,7 @@ class DragAtDistance {
       constexpr double kRoundOff = 4 * std::numeric_limits<double>::epsilon();
       return std::abs(next - v) <= kRoundOff * std::abs(next);
     };
+    if (high < free && excess_and_slope(high).first < 0) return high;
     return bracketed_newton(0, low, high, Bracket::kClosed, excess_and_slope, settled);
   }
 
@@ -192,14 +195,16 @@ ContactStep as_contact_step(const ReboundStep& step) {
 /// step. `turns` are the times [T] at which the force changes its sign, increasing. In a staggered
 /// model the impulses before and after such a time act one after the other. The reason is that the
 /// solids carry the impulse before such a time, and must not give this impulse back to the sphere
-/// afterwards.
+/// afterwards. The motion ends early in a step in which the sphere reaches the wall opposite; the
+/// row of this step has the time of that. Returns the end of the last step [T].
 template <class Drag, class Rebounding, class Kick, class Add>
-void run_steps(const Motion& motion, const ContactModel& model, const Drag& drag,
-               std::span<const double> turns, const Rebounding& rebound, const Kick& kick,
-               const Add& add) {
+double run_steps(const Motion& motion, const ContactModel& model, const Drag& drag,
+                 std::span<const double> turns, const Rebounding& rebound, const Kick& kick,
+                 const Add& add) {
   const double end = motion.end_time;
   const double h = motion.parameter(kContactTimeStep);
   const int steps = step_count(end, h);
+  const double last = motion_ends_at(model.largest_gap) - model.contact_gap;
   ContactSetting setting(motion.mass, model.gamma_min, h);
   ContactState state{motion.initial_gap - model.contact_gap, motion.initial_velocity, 0};
   // A ForceWalk must be asked for times that do not decrease. Means over half steps and over whole
@@ -245,17 +250,26 @@ void run_steps(const Motion& motion, const ContactModel& model, const Drag& drag
     step.film += earlier.film;
     step.solid += earlier.solid;
     ContactState at_end = step.state;
+    const bool ends = at_end.gap >= last;  // at the wall opposite
     if (model.is_staggered) {
       const double rest = (next - times.kick_end) * force_of_half.mean(times.kick_end, next);
-      const auto last = kicked(step.state, rest, setting);
-      at_end = last.state;
-      if (n + 1 == steps) kick(step.state.velocity, rest, last);
+      const auto end_kick = kicked(step.state, rest, setting);
+      at_end = end_kick.state;
+      if (n + 1 == steps || ends) kick(step.state.velocity, rest, end_kick);
+    }
+    if (ends) {
+      // The gap is linear within a step of the scheme.
+      const double share = (last - before.gap) / (at_end.gap - before.gap);
+      times.end = at_end.gap > last ? t + share * (next - t) : next;
+      at_end.gap = last;
     }
     add(times, setting, before, push, step, at_end);
+    if (ends) return next;
     state = step.state;
     t = next;
     since = times.kick_end;
   }
+  return end;
 }
 
 /// The times [T] at which the force changes its sign. The list is empty if there are too many of
@@ -332,15 +346,15 @@ Trajectory run_contact_model(const Motion& motion, ContactModel model) {
   const auto kick = [&](double velocity, double push, const ContactStep& step) {
     add_to(budget, velocity, push, step);
   };
-  if (model.drag)
-    run_steps(motion, model, DragAtDistance(*model.drag, model.contact_gap), turns, rebound, kick,
-              add);
-  else
-    run_steps(motion, model, NoDrag(), turns, rebound, kick, add);
+  const double end = model.drag
+                         ? run_steps(motion, model, DragAtDistance(*model.drag, model.contact_gap),
+                                     turns, rebound, kick, add)
+                         : run_steps(motion, model, NoDrag(), turns, rebound, kick, add);
+  trajectory.steps = static_cast<long>(trajectory.rows.size()) - 1;
   if (lowest_gamma < 0 && model.film_thickness)
     trajectory.recovered_minimal_gap = model.film_thickness(lowest_gamma);
   trajectory.contact_interval = clock.interval();
-  budget.external_impulse = motion.external_force.impulse(motion.end_time);
+  budget.external_impulse = motion.external_force.impulse(end);
   trajectory.budget = budget;
   return trajectory;
 }

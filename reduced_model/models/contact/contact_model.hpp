@@ -9,6 +9,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -24,12 +25,17 @@ struct ResolvedDrag {
   std::function<double(double gap)> resistance;
   /// A primitive of the resistance [M L/T].
   std::function<double(double gap)> impulse;
+  /// The drag is known below this gap [L] only, and infinite there or neglected beyond.
+  double largest_gap = std::numeric_limits<double>::infinity();
 };
 
 /// What distinguishes one contact model from another.
 struct ContactModel {
   /// Gap at which the sphere is in contact [L], >= 0.
   double contact_gap = 0;
+  /// Gap at which the sphere touches the wall opposite [L], where the motion ends
+  /// (motion_ends_at()); infinity without one.
+  double largest_gap = std::numeric_limits<double>::infinity();
   /// Value of gamma at which the solids touch [M L/T], <= 0. With -infinity they never touch. With
   /// 0 there is no film, which is plain inelastic contact.
   double gamma_min = 0;

@@ -22,6 +22,7 @@ ContactModel viscous_contact(const Motion& motion, const lubrication::Lubricatio
   const double q0 = motion.initial_gap;
   const double solid_gap = motion.roughness[0] + motion.roughness[1];
   ContactModel model;
+  model.largest_gap = force.largest_gap();
   model.gamma_min = solid_gap == 0 ? -std::numeric_limits<double>::infinity()
                                    : std::min(0.0, k * std::log(solid_gap / q0));
   if (solid_gap > 0) model.solid_resistance = k / solid_gap;
@@ -46,12 +47,15 @@ ContactModel viscous_contact_leapfrog(const Motion& motion,
 ContactModel viscous_contact_regular_drag(const Motion& motion,
                                           const lubrication::LubricationForce& force) {
   ContactModel model = viscous_contact(motion, force);
-  model.drag = ResolvedDrag{[&force](double q) { return force.regular_resistance(q); },
-                            [&force](double q) { return force.regular_impulse(q); }};
+  model.drag =
+      ResolvedDrag{[&force](double q) { return force.regular_resistance(q); },
+                   [&force](double q) { return force.regular_impulse(q); }, force.largest_gap()};
   return model;
 }
 
-/// Makes a model of contact without a film, in which gamma is always 0. The arguments are not used.
-ContactModel inelastic_contact(const Motion&, const lubrication::LubricationForce&) { return {}; }
+/// Makes a model of contact without a film, in which gamma is always 0.
+ContactModel inelastic_contact(const Motion&, const lubrication::LubricationForce& force) {
+  return {.largest_gap = force.largest_gap()};
+}
 
 }  // namespace viscontact::reduced_model

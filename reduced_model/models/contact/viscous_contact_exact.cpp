@@ -29,10 +29,13 @@ class EventDriven {
         solid_resistance_(model.solid_resistance),
         restitution_(motion.restitution()),
         shortest_flight_(kShortestFlight * motion.end_time),
+        last_gap_(motion_ends_at(model.largest_gap)),
         gap_(motion.initial_gap),
         velocity_(motion.initial_velocity) {}
 
   bool contact() const { return contact_; }
+  /// True after the sphere has reached the wall opposite, where the motion ends.
+  bool ended() const { return ended_; }
   const MomentumEnergyBudget& budget() const { return budget_; }
   const std::vector<Rebound>& rebounds() const { return rebounds_; }
   const std::optional<SolidTouch>& touch() const { return touch_; }
@@ -72,6 +75,13 @@ class EventDriven {
     for (const double end : {turn, to}) {
       if (begin < end && gap(end) < 0 && falls(begin + (end - begin) / 2))
         return land(bisect_first_true(begin, end, [&](double t) { return gap(t) < 0; }));
+      if (begin < end && gap(end) >= last_gap_) {
+        const double t =
+            bisect_first_true(begin, end, [&](double s) { return gap(s) >= last_gap_; });
+        move_to(t, last_gap_, velocity(t));
+        ended_ = true;
+        return t;
+      }
       begin = end;
     }
     move_to(to, std::max(0.0, gap(to)), velocity(to));
@@ -137,7 +147,8 @@ class EventDriven {
 
   double m_;
   const ExternalForce& f_;
-  double gamma_min_, solid_resistance_, restitution_, shortest_flight_;
+  double gamma_min_, solid_resistance_, restitution_, shortest_flight_, last_gap_;
+  bool ended_ = false;
   double from_ = 0;
   bool contact_ = false;
   double gap_, velocity_, gamma_ = 0, lowest_gamma_ = 0;
@@ -191,14 +202,17 @@ Trajectory simulate_viscous_contact_exact(const Motion& motion,
       for (; next_row != times.end() && *next_row < event; ++next_row) add_row(before, *next_row);
       const bool at_row = next_row != times.end() && *next_row == event;
       if (at_row) ++next_row;
-      if (at_row || event < stop || before.contact() != sphere.contact()) add_row(sphere, event);
+      if (at_row || event < stop || sphere.ended() || before.contact() != sphere.contact())
+        add_row(sphere, event);
       const bool has_struck = sphere.rebounds().size() > before.rebounds().size();
       if ((has_struck || (sphere.contact() && !before.contact())) && !trajectory.contact_interval)
         trajectory.contact_interval = {event, event};
       if (has_struck || before.contact()) (*trajectory.contact_interval)[1] = event;
       ++trajectory.steps;
       now = event;
+      if (sphere.ended()) break;
     }
+    if (sphere.ended()) break;
   }
   trajectory.budget = sphere.budget();
   trajectory.rebounds = sphere.rebounds();

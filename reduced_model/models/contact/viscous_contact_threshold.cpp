@@ -34,11 +34,12 @@ ContactModel viscous_contact_threshold(const Motion& motion,
 
   ContactModel model;
   model.contact_gap = q_c;
+  model.largest_gap = force.largest_gap();
   model.gamma_min = solid_gap == 0 ? -std::numeric_limits<double>::infinity()
                                    : std::min(0.0, force.impulse(solid_gap) - impulse_at_contact);
   if (solid_gap > 0) model.solid_resistance = force.resistance(solid_gap);
   model.drag = ResolvedDrag{[&force](double q) { return force.resistance(q); },
-                            [&force](double q) { return force.impulse(q); }};
+                            [&force](double q) { return force.impulse(q); }, force.largest_gap()};
   model.film_thickness = [&force, impulse_at_contact](double gamma) {
     return force.gap_of_impulse(impulse_at_contact + gamma);
   };

@@ -283,6 +283,139 @@ TEST_F(Export, FortranModuleHasTheLimitsOutsideTheInterval) {
   expect_values_outside(values_of(output_of({path("program")})), fit_);
 }
 
+/// A fit between a floor and a lid at the gap 4, with both kinds of terms that the lid needs.
+lubrication::Fit fit_below_a_lid() {
+  auto fit = planted_fit({{"1/q", 20}, {"1", 30}, {"1/(L-q)", 19}, {"ln(L-q)", -3}}, 1e-3, 2);
+  fit.geometry = "plane";
+  fit.container = "closed cylinder, radius 5, height 6.6";
+  fit.radius = 1.3;
+  fit.basis = lubrication::kOwnTerms;
+  fit.covariance.assign(4, std::vector<double>(4, 0.0));
+  return fit;
+}
+
+TEST_F(Export, OfAFitBelowALidIsInfiniteThereInEachLanguage) {
+  const auto fit = fit_below_a_lid();
+  const lubrication::LubricationForce force(fit, both_limits());
+  const double lid = force.largest_gap();
+  ASSERT_NEAR(lid, 4, 1e-15);
+  std::string gaps, fortran;
+  std::vector<double> all;
+  for (const double gap : lubrication::spread_gaps({1e-7, 3.9999}, 40)) all.push_back(gap);
+  for (const double gap : all) {
+    gaps += fmt::format("{}{:.17e}", gaps.empty() ? "" : ", ", gap);
+    auto text = fmt::format("{:.17e}", gap);
+    std::ranges::replace(text, 'e', 'd');
+    fortran += fmt::format(
+        "  print '(3es25.16e3)', viscontact_resistance({0}), viscontact_force({0}, {1}d0), &\n"
+        "    viscontact_impulse({0})\n",
+        text, kVelocity);
+  }
+  const auto expect = [&](const std::string& output) {
+    const auto values = values_of(output);
+    ASSERT_EQ(values.size(), all.size());
+    // Rounding of the distance to the lid, 1e-4, relative to the gap.
+    constexpr double kRounding = 1e-11;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const double resistance = force.resistance(all[i]);
+      EXPECT_NEAR(values[i].resistance / resistance, 1, kRounding) << all[i];
+      EXPECT_NEAR(values[i].impulse, force.impulse(all[i]),
+                  kRounding * std::max(std::abs(force.impulse(all[i])), resistance * all[i]));
+    }
+  };
+  const auto at_lid = fmt::format("{:.17g}", lid);
+  put_text(path("force.h"), export_fit(fit, "c-header", "", both_limits()));
+  put_text(path("main.c"), fmt::format(R"(
+#include <stdio.h>
+#include "force.h"
+int main(void) {{
+  const double gaps[] = {{{}}};
+  for (unsigned i = 0; i < sizeof gaps / sizeof *gaps; ++i)
+    printf("%.17g %.17g %.17g\n", viscontact_resistance(gaps[i]),
+           viscontact_force(gaps[i], -0.7), viscontact_impulse(gaps[i]));
+  return !(isinf(viscontact_resistance({1})) && isnan(viscontact_resistance(4.1)));
+}}
+)",
+                                       gaps, at_lid));
+  output_of({"gcc", "-std=c99", "-x", "c", "-Wall", "-Wextra", "-Wpedantic", "-Werror",
+             path("main.c"), "-o", path("program"), "-lm"});
+  expect(output_of({path("program")}));
+
+  put_text(path("force.f90"), export_fit(fit, "fortran", "", both_limits()));
+  put_text(path("main.f90"),
+           "program main\n  use viscontact_lubrication\n  use, intrinsic :: ieee_arithmetic\n"
+           "  implicit none\n" +
+               fortran +
+               fmt::format("  if (ieee_is_finite(viscontact_resistance({}d0))) stop 1\n"
+                           "  if (ieee_is_nan(viscontact_resistance({}d0))) stop 1\n"
+                           "  if (.not. ieee_is_nan(viscontact_resistance(4.1d0))) stop 1\n"
+                           "end program\n",
+                           at_lid, at_lid));
+  output_of({"gfortran", "-std=f2008", "-Wall", "-Wextra", "-pedantic", "-Werror", "-J",
+             folder_.path().string(), path("force.f90"), path("main.f90"), "-o", path("program")});
+  expect(output_of({path("program")}));
+
+  put_text(path("lubrication.py"), export_fit(fit, "python", "", both_limits()));
+  put_text(path("main.py"), fmt::format(R"(
+import lubrication, math
+for gap in [{}]:
+    print(repr(lubrication.resistance(gap)), repr(lubrication.force(gap, -0.7)),
+          repr(lubrication.impulse(gap)))
+assert math.isinf(lubrication.resistance({}))
+try:
+    lubrication.resistance(4.1)
+except ValueError:
+    raise SystemExit(0)
+raise SystemExit("no error")
+)",
+                                        gaps, at_lid));
+  expect(output_of({"python3", path("main.py")}));
+
+  put_text(path("viscontact_lubrication.m"), export_fit(fit, "matlab", "", both_limits()));
+  put_text(path("main.m"), fmt::format(R"(
+f = viscontact_lubrication();
+gaps = [{}];
+printf("%.17g %.17g %.17g\n", [f.resistance(gaps); f.force(gaps, -0.7); f.impulse(gaps)]);
+assert(isinf(f.resistance({})) && isnan(f.resistance(4.1)));
+)",
+                                       gaps, at_lid));
+  expect(octave(path("main.m")));
+}
+
+TEST_F(Export, TakesWholeNumbersAsDoublesInEachLanguage) {
+  fit_.gap_interval = {1e-3, 5};
+  const lubrication::LubricationForce force(fit_);
+  const auto expect = [&](const std::string& output) {
+    std::istringstream stream(output);
+    double resistance = 0, drag = 0;
+    ASSERT_TRUE(stream >> resistance >> drag) << output;
+    EXPECT_NEAR(resistance / force.resistance(1), 1, 1e-15);
+    EXPECT_NEAR(drag / (-3 * force.resistance(1)), 1, 1e-15);
+  };
+  put_text(path("viscontact_lubrication.m"), export_fit(fit_, "matlab"));
+  for (const std::string type : {"int32", "uint8", "int64", "single", "double"}) {
+    put_text(path("main.m"),
+             "f = viscontact_lubrication();\nprintf(\"%.17g %.17g\\n\", f.resistance(" + type +
+                 "(1)), f.force(" + type + "(1), " + type + "(3)));\n");
+    expect(octave(path("main.m")));
+  }
+  put_text(path("lubrication.py"), export_fit(fit_, "python"));
+  put_text(path("main.py"),
+           "import lubrication, numpy\nfor one, three in ((1, 3), (numpy.int32(1), numpy.int8(3)), "
+           "(True, 3)):\n    print(repr(float(lubrication.resistance(one))), "
+           "repr(float(lubrication.force(one, three))))\n");
+  std::istringstream lines(output_of({"/usr/bin/python3", path("main.py")}));
+  for (std::string line; std::getline(lines, line);) expect(line);
+  put_text(path("force.h"), export_fit(fit_, "c-header"));
+  put_text(
+      path("main.c"),
+      "#include <stdio.h>\n#include \"force.h\"\nint main(void) {\n  printf(\"%.17g %.17g\\n\", "
+      "viscontact_resistance(1), viscontact_force(1, 3));\n  return 0;\n}\n");
+  output_of({"gcc", "-std=c99", "-x", "c", "-Wall", "-Werror", path("main.c"), "-o",
+             path("program"), "-lm"});
+  expect(output_of({path("program")}));
+}
+
 TEST_F(Export, JsonHasTheLimitsAndCsvRefusesThem) {
   fit_.leading_coefficient = 90;
   auto limits = both_limits();

@@ -215,6 +215,11 @@ TEST(ForcesOfContacts, OfBlowsAreTheirStress) {
   // A blow is solved to 1e-13 of its velocity (kExact in strike.cpp).
   EXPECT_NEAR(stress[1], -(4.5 * 1.5 + 4 * 0.5) / 0.1 / 24, 1e-11);
   EXPECT_EQ(stress[4], 0);
+  // A plane that has come down to y = 5 leaves the area 20, and without a domain planes at the walls
+  // bound the same region.
+  setting.planes = {{.start = {{0, 5.05, 0}, {0, -1, 0}}}};
+  setting.planes[0].velocity.pieces = {{1, {0, -0.5, 0}}};
+  EXPECT_NEAR(rows_of("stress", setting, simulation.state())[0][1], stress[1] * 24 / 20, 1e-11);
   simulation.step(1);
   EXPECT_EQ(rows_of("stress", simulation.setting(), simulation.state())[0][1], 0);
 }
