@@ -43,6 +43,7 @@ void Simulation::move_freely(double h, double next) {
   if (!p.bodies.empty()) move_bodies_freely(h, next);
   link_forces_ = state_.link_forces;
   link_forces_.resize(setting_.links.force_count(D), 0.0);
+  works_across_.assign(setting_.links.arms.size(), 0.0);
 }
 
 /// Mean of a force or torque over the times in which it changes the velocities of this step: the

@@ -209,7 +209,8 @@ ProjectionResult Simulation::project(double h, double next) {
                                      turn_mobilities_,
                                      body_steps_,
                                      &setting_.links,
-                                     link_forces_};
+                                     link_forces_,
+                                     works_across_};
     if (has_constraints()) projection.add_constraints(constraints);
     if (impacts<D>()) projection.follow(*impacts<D>());
     auto projected = projection.solve(setting_.solver, mean_radius_);
@@ -262,6 +263,7 @@ void Simulation::add_works_of_arms(double h) {
     const auto& arm = setting_.links.arms[k];
     const double impulse =
         kick_length(h) * link_forces_[setting_.links.place_of_arm(k, p.dimension)];
+    arm_works_[k] += works_across_[k];
     arm_works_[k] += impulse / 2 *
                      (rate_of_arm(arm, p, before(arm.first), before(arm.second)) +
                       rate_of_arm(arm, p, after(arm.first), after(arm.second)));

@@ -179,8 +179,9 @@ class Simulation {
   // for which they acted [T].
   std::vector<double> link_forces_, link_impulses_;
   double link_time_ = 0;
-  std::vector<double> arm_works_;  // work of each arm in the parts that are done [M L^2/T^2]
-  std::vector<Plane> obstacles_;   // walls of the domain, then planes
+  std::vector<double> works_across_;  // of the arms in the present part, ConstraintStep
+  std::vector<double> arm_works_;     // work of each arm in the parts that are done [M L^2/T^2]
+  std::vector<Plane> obstacles_;      // walls of the domain, then planes
   StepGrid grid_;
   std::unique_ptr<Impacts<2>> impacts_in_plane_;
   std::unique_ptr<Impacts<3>> impacts_in_space_;
