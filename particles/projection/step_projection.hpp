@@ -199,7 +199,10 @@ class StepProjection {
     const auto& p = state_.particles;
     if (!tangents_.empty() && pair(k).first < 0)
       return contact_of<D>(p, pair(k), tangents_[k - state_.pairs.size()]);
-    if (impacts_ != nullptr && pair(k).first >= 0) return contact_at_end(k);
+    // A film that holds its pair through the step pulls along the normal of its beginning. With
+    // that of the end a chain of films would be unstable at half of the step, (5.21).
+    const bool is_glued = pair(k).gamma < 0 && impacts_ != nullptr && !impacts_->is_hit(k);
+    if (impacts_ != nullptr && pair(k).first >= 0 && !is_glued) return contact_at_end(k);
     return contact_of<D>(p, pair(k), planes_);
   }
   Contact<D> contact_at_end(std::size_t k);
