@@ -84,9 +84,7 @@ double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Isla
       row.tension = {b, times_.h * rate};
       row.block.is_contact = false;
       row.block.allowed = problem.blocks[b].allowed / (first.is_turn ? mean_radius_ : 1);
-      // The first step has no step before it. Without the rate, velocities at the start give the
-      // amplitude that they would have in a short step.
-      row.block.compliance = 4 / ((times_.is_first ? times_.h : times_.kick) * stiffness);
+      row.block.compliance = 1 / (times_.beta() * times_.kick * stiffness);
       row.value = times_.is_first ? 0 : -times_.h * rate;
       double value = row.value;
       for (const auto& [unit, coefficients] : row.parts)

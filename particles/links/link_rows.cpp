@@ -87,7 +87,7 @@ void make_spring(LinkRow& row, double extension, double rate, double stiffness,
   const double beta = times.beta();
   row.extension = extension;
   row.stiffness = stiffness;
-  row.value = extension / beta - times.h * rate;
+  row.value = extension / beta - (times.is_first ? 0 : times.h * rate);
   row.compliance = 1 / (times.kick * stiffness * beta);
 }
 
