@@ -47,6 +47,7 @@ void Simulation::move_freely(double h, double next) {
   move_as_given(h, next);
   link_forces_ = state_.link_forces;
   link_forces_.resize(setting_.links.force_count(D), 0.0);
+  works_across_.assign(setting_.links.arms.size(), 0.0);
 }
 
 void Simulation::move_as_given(double h, double next) {

@@ -178,6 +178,8 @@ class Simulation {
     else
       return impacts_in_space_;
   }
+  // True if a film that pulls with `impulse` < 0 in a part [M L/T] has geometric stiffness, (5.21).
+  bool pulls_across(const Pair& pair, double impulse) const;
   template <int D>
   void find_impacts(double h, double next);
   void undo_impacts();
@@ -202,7 +204,8 @@ class Simulation {
   // for which they acted [T].
   std::vector<double> link_forces_, link_impulses_;
   double link_time_ = 0;
-  std::vector<double> arm_works_;  // work of each arm in the parts that are done [M L^2/T^2]
+  std::vector<double> works_across_;  // of the arms in the present part, ConstraintStep
+  std::vector<double> arm_works_;     // work of each arm in the parts that are done [M L^2/T^2]
   // Walls of the domain, then planes, where they are at the present time (State::planes).
   std::vector<Plane> obstacles_;
   // For each obstacle its entry in displacements_ and mobilities_ if it is a plane under a load, and

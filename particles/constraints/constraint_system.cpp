@@ -205,7 +205,7 @@ double ConstraintSystem<D>::correct(ContactSystem<D>& system, Island& island,
   move_particles(system, island, motions);
   auto& problem = island.problem;
   double largest = 0;
-  island.shifts.assign(problem.blocks.size(), 0.0);
+  island.shifts.assign(island.contacts.size() + island.links.size(), 0.0);
   const auto shift = [&](std::size_t b, std::size_t k, double value) {
     const std::size_t r = problem.blocks[b].row + k;
     const double linear = problem.rows[r].offset + problem.product(r, motions);
@@ -237,7 +237,7 @@ double ConstraintSystem<D>::correct(ContactSystem<D>& system, Island& island,
     const auto values = values_after(links_[l], *step_.links, particles_, times_, of_units);
     for (std::size_t k = 0; k < values.size(); ++k) shift(of_link, k, values[k]);
   }
-  return largest;
+  return std::max(largest, change_tensions(system, island, motions, false));
 }
 
 /// Linearises the equations about the motion without contacts. If this motion leaves all contacts
@@ -260,6 +260,7 @@ bool ConstraintSystem<D>::begin_without_contacts(ContactSystem<D>& system, Islan
     for (std::size_t k = 0; !block.is_contact && k < block.rows; ++k)
       problem.impulses[block.row + k] = times_.kick * link_forces_[link.first_force + k];
   }
+  change_tensions(system, island, motions, true);
   return true;
 }
 
@@ -322,6 +323,7 @@ void ConstraintSystem<D>::take_over(ContactSystem<D>& system, const Island& isla
       forces_of(l)[k] += sign * problem.impulses[block.row + k] / times_.kick;
     ++b;
   }
+  take_works_across(island, solution.motions);
   // Forces of a solution without contacts may be far from those with contacts, and are no guess.
   if (!island.contacts.empty())
     for (const auto l : island.links)
@@ -520,10 +522,14 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
   const auto give_up_anew = [&](const std::vector<double>& impulses) {
     if (!may_give_up(island)) return false;
     auto corrected = problem;
+    const auto tensions = island.tensions;
     restart();
-    if (!impulses.empty()) problem.impulses = impulses;
+    // The rows of tensions, which are the last ones, may have changed.
+    std::copy_n(impulses.begin(), std::min(impulses.size(), problem.impulses.size()),
+                problem.impulses.begin());
     if (give_up(island, impulses.empty(), solution, result)) return true;
     problem = std::move(corrected);
+    island.tensions = tensions;
     return false;
   };
   // Begins anew with gaps that are distances. Returns false if this would change no gap.

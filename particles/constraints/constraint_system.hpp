@@ -8,6 +8,7 @@
 // the order of the link forces, which restart files store.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -48,6 +49,9 @@ struct ConstraintStep {
   /// Forces and torques of all links [M L/T^2, M L^2/T^2], in the order of State::link_forces:
   /// before solve() the first guess, after solve() the solution.
   std::span<double> link_forces;
+  /// Works of the impulses across all arms, (5.21), in the order of Links::arms [M L^2/T^2]: after
+  /// solve() the solution.
+  std::span<double> works_across;
 };
 
 /// What is known of the error of an impulse.
@@ -56,6 +60,27 @@ struct ImpulseError {
   double estimate = -1;
   double rounding = 0;  ///< error that rounding errors of gaps and lengths cause [M L/T], >= 0
 };
+
+/// The coefficients by which the motion of one unit enters a link's equation.
+template <int D>
+Motion<D> row_of(const LinkPart& part) {
+  if (!part.is_turn) return displacement_row<D>(part.direction, part.arm);
+  Motion<D> row{};
+  constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);
+  for (std::size_t i = 0; i < r; ++i) row[d + i] = part.direction[3 - r + i];
+  return row;
+}
+
+/// The share of the geometric stiffness K that is a spring in the step, (5.21). `kappa` is the time
+/// for which forces act times K w, with the mobility w of its row. Without springs the step is
+/// stable if kappa, summed over the links of a particle, is below 4. Below 0.05 the directions of
+/// the beginning of the step are as good, and keep angular momentum exactly; above 0.1 everything is
+/// a spring. In between the share is linear, because a change of the scheme at each oscillation of a
+/// tension would change the energy. A particle may have up to 80 links.
+inline double share_of_tension(double kappa) {
+  constexpr double kNone = 0.05, kAll = 0.1;
+  return std::clamp((kappa - kNone) / (kAll - kNone), 0.0, 1.0);
+}
 
 /// The contacts, rigid bodies and links of a step as one ConstraintProblem, and its solution.
 template <int D>
@@ -176,12 +201,20 @@ class ConstraintSystem {
   std::vector<double> least_violations() const;
 
  private:
+  // The block of a row of geometric stiffness.
+  struct Tension {
+    std::size_t source = 0;   // block of the link or film
+    double moved_before = 0;  // step times the rate of the row at its beginning [L, rad]
+    double moved_given = 0;   // by particles whose motion is given, in the step [L, rad]
+  };
   // A set of particles that contacts and links connect, and its problem.
   struct Island {
     std::vector<std::int32_t> bodies;          // numbers that ContactSystem gives to the particles
     std::vector<std::size_t> contacts, links;  // numbers of the blocks of the problem, in its order
     ConstraintProblem<D> problem;  // empty if the last solve() left the island as it was
-    std::vector<double> shifts;    // last corrections of the blocks [L]
+    // The last blocks of the problem, after those of contacts and links.
+    std::vector<Tension> tensions;
+    std::vector<double> shifts;  // last corrections of the blocks of contacts and links [L]
     // can_give_up: false if the problem had no solution with given loads either.
     bool has_given_up = false, can_give_up = true;
   };
@@ -221,6 +254,15 @@ class ConstraintSystem {
   void move_particles(const ContactSystem<D>& system, const Island& island,
                       std::span<const Motion<D>> motions);
   double correct(ContactSystem<D>& system, Island& island, std::span<const Motion<D>> motions);
+  // Rows of the geometric stiffness of block `b`, that of a contact or link, at its impulses.
+  std::vector<LinkRow> tension_rows(const ContactSystem<D>& system, const Island& island,
+                                    std::size_t b) const;
+  // Compares the geometric stiffness in the problem with that of its impulses. Takes over the latter
+  // if the difference changes a motion by more than half of what is allowed, or if `is_always`.
+  // Returns the change of `motions` divided by what is allowed [1].
+  double change_tensions(const ContactSystem<D>& system, Island& island,
+                         std::span<const Motion<D>> motions, bool is_always);
+  void take_works_across(const Island& island, std::span<const Motion<D>> motions);
   bool has_motions_without_contacts(const Island& island) const;
   std::vector<Motion<D>> motions_without_contacts(const ContactSystem<D>& system,
                                                   const Island& island) const;

@@ -12,18 +12,6 @@
 #include "viscontact/particles/constraints/constraint_system.hpp"
 
 namespace viscontact::particles {
-namespace {
-
-/// The coefficients by which the motion of one unit enters a link's equation.
-template <int D>
-Motion<D> row_of(const LinkPart& part) {
-  if (!part.is_turn) return displacement_row<D>(part.direction, part.arm);
-  Motion<D> row{};
-  row.back() = part.direction[2];  // the turn about z
-  return row;
-}
-
-}  // namespace
 
 /// Makes a unit of each rigid body, and of each particle without a body, of the island.
 template <int D>
@@ -188,6 +176,11 @@ void ConstraintSystem<D>::make_problem(const ContactSystem<D>& system, Island& i
     for (auto& block : problem.blocks) block.allowed = roughly_allowed;
   for (const auto l : island.links)
     add_link(l, is_rough ? roughly_allowed : links_allowed[l], problem);
+  island.tensions.clear();
+  island.shifts.clear();
+  std::vector<Motion<D>> free;
+  for (const auto& unit : problem.units) free.push_back(unit.free);
+  change_tensions(system, island, free, true);
   const auto has_load = [&](std::size_t c) { return contact_states_[c].last_load.has_value(); };
   if (island.has_given_up) {
     give_loads_of_step(island);
@@ -200,6 +193,8 @@ void ConstraintSystem<D>::make_problem(const ContactSystem<D>& system, Island& i
   }
 }
 
+template ContactSide ConstraintSystem<2>::side_of(std::int32_t) const;
+template ContactSide ConstraintSystem<3>::side_of(std::int32_t) const;
 template void ConstraintSystem<2>::make_problem(const ContactSystem<2>&, Island&, bool, double);
 template bool ConstraintSystem<2>::has_motions_without_contacts(const Island&) const;
 template std::vector<Motion<2>> ConstraintSystem<2>::motions_without_contacts(

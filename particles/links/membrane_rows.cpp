@@ -92,7 +92,8 @@ LinkRow bend_row(const Membrane& membrane, const Particles& p, std::int32_t k,
                viscous =
                    times.kick * membrane.bending_viscosity / (length * length * length * times.h);
   row.compliance = 1 / (beta * elastic + viscous);
-  row.value = elastic * (row.extension - beta * times.h * rate) * row.compliance;
+  row.value =
+      elastic * (row.extension - (times.is_first ? 0 : beta * times.h * rate)) * row.compliance;
   return row;
 }
 

@@ -1,0 +1,172 @@
+// The blocks of a problem with the geometric stiffness of links and films, docs/physics.md (5.21).
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "viscontact/particles/constraints/constraint_system.hpp"
+#include "viscontact/particles/links/tension.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+/// The mobility of a row [T/M, T/(M L^2)].
+template <int D>
+double mobility_of(std::span<const RowPart<D>> parts, const ConstraintProblem<D>& problem) {
+  double w = 0;
+  for (const auto& part : parts) {
+    const auto moved =
+        problem.units[static_cast<std::size_t>(part.unit)].moved_by(part.coefficients);
+    for (std::size_t k = 0; k < moved.size(); ++k) w += part.coefficients[k] * moved[k];
+  }
+  return w;
+}
+
+}  // namespace
+
+template <int D>
+std::vector<LinkRow> ConstraintSystem<D>::tension_rows(const ContactSystem<D>& system,
+                                                       const Island& island, std::size_t b) const {
+  const auto& problem = island.problem;
+  const auto& block = problem.blocks[b];
+  std::vector<double> forces;
+  for (std::size_t k = 0; k < block.rows; ++k)
+    forces.push_back(problem.impulses[block.row + k] / times_.kick);
+  if (b >= island.contacts.size())
+    return rows_of_tension(links_[island.links[b - island.contacts.size()]], forces, particles_);
+  const auto& contact = system.contacts[island.contacts[b]];
+  if (contact.first < 0 || !(forces.front() < 0)) return {};
+  const auto first = side_of(contact.first), second = side_of(contact.second);
+  if (first.unit == second.unit) return {};
+  Vector apart{};
+  std::ranges::copy(separation<D>(particles_, contact.first, contact.second, contact.image),
+                    apart.begin());
+  return rows_across({contact.first, {}, first.offset}, {contact.second, {}, second.offset}, apart,
+                     -forces.front(), D);
+}
+
+template <int D>
+double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Island& island,
+                                            std::span<const Motion<D>> motions, bool is_always) {
+  auto& problem = island.problem;
+  const std::size_t sources = island.contacts.size() + island.links.size();
+  struct NewRow {
+    std::vector<RowPart<D>> parts;
+    ConstraintBlock block;
+    Tension tension;
+    double value, impulse;
+  };
+  std::vector<NewRow> rows;
+  std::vector<Motion<D>> changes;  // of the impulses of all units
+  const auto add = [&](std::span<const RowPart<D>> parts, double impulse) {
+    for (const auto& [unit, coefficients] : parts)
+      for (std::size_t k = 0; k < coefficients.size(); ++k)
+        changes[index_of(unit)][k] += impulse * coefficients[k];
+  };
+  for (std::size_t b = 0; b < sources; ++b) {
+    const auto from = tension_rows(system, island, b);
+    for (const auto& equation : from) {
+      NewRow row;
+      double given = 0;
+      for (const auto& part : equation.parts)
+        if (is_given(part.particle))
+          given += value_of(part, given_motion(part.particle));
+        else
+          row.parts.push_back({unit_of_particle_[index_of(part.particle)], row_of<D>(part)});
+      if (row.parts.empty()) continue;
+      double w = mobility_of<D>(row.parts, problem);
+      const auto& first = equation.parts.front();
+      if (b >= island.contacts.size() &&
+          links_[island.links[b - island.contacts.size()]].kind == LinkEquations::Kind::kHinge) {
+        // A body that is held at a point also moves when it turns.
+        const Vector around = cross(first.direction, first.arm);
+        w = 1 / (1 / w + problem.units[index_of(row.parts.front().unit)].inverse_mobility *
+                             dot(around, around));
+      }
+      const double stiffness =
+          equation.stiffness * share_of_tension(times_.kick * equation.stiffness * w);
+      if (!(stiffness > 0)) continue;
+      const double rate = rate_of(equation, particles_);
+      row.tension = {b, times_.h * rate, given};
+      row.block.is_contact = false;
+      row.block.allowed = problem.blocks[b].allowed / (first.is_turn ? mean_radius_ : 1);
+      row.block.compliance = 1 / (times_.beta() * times_.kick * stiffness);
+      row.value = (times_.is_first ? 0 : -times_.h * rate) + given;
+      double value = row.value;
+      for (const auto& [unit, coefficients] : row.parts)
+        for (std::size_t k = 0; k < coefficients.size(); ++k)
+          value += coefficients[k] * motions[index_of(unit)][k];
+      row.impulse = -value / row.block.compliance;
+      rows.push_back(std::move(row));
+    }
+  }
+  if (rows.empty() && island.tensions.empty()) return 0;
+  changes.resize(problem.units.size());
+  for (std::size_t t = 0; t < island.tensions.size(); ++t) {
+    const auto r = problem.blocks[sources + t].row;
+    add(problem.parts_of(r), -problem.impulses[r]);
+  }
+  for (const auto& row : rows) add(row.parts, row.impulse);
+  double largest = 0;
+  const auto take = [&](std::size_t b) {
+    double moved = 0;
+    for (const auto& part : problem.parts_of(problem.blocks[b].row)) {
+      const auto by = problem.units[index_of(part.unit)].moved_by(changes[index_of(part.unit)]);
+      for (std::size_t k = 0; k < by.size(); ++k)
+        moved = std::max(moved, std::abs(by[k]) * (k < D ? 1 : mean_radius_));
+    }
+    island.shifts[b] = std::max(island.shifts[b], moved);
+    largest = std::max(largest, moved / problem.blocks[b].allowed);
+  };
+  island.shifts.resize(sources);
+  for (const auto& tension : island.tensions) take(tension.source);
+  for (const auto& row : rows) take(row.tension.source);
+  constexpr double kSmall = 0.5;  // of what is allowed, as in solve_island()
+  if (largest <= kSmall && !is_always) return largest;
+  if (!island.tensions.empty()) {
+    const auto first_row = problem.blocks[sources].row;
+    problem.parts.resize(problem.rows[first_row].first_part);
+    problem.rows.resize(first_row);
+    problem.impulses.resize(first_row);
+    problem.blocks.resize(sources);
+    island.tensions.clear();
+  }
+  for (const auto& row : rows) {
+    island.tensions.push_back(row.tension);
+    problem.blocks.push_back(row.block);
+    problem.blocks.back().row = problem.rows.size();
+    problem.add_row(row.value, row.parts, row.impulse);
+  }
+  return largest;
+}
+
+template <int D>
+void ConstraintSystem<D>::take_works_across(const Island& island,
+                                            std::span<const Motion<D>> motions) {
+  const auto& problem = island.problem;
+  for (const auto l : island.links)
+    if (links_[l].kind == LinkEquations::Kind::kArm) step_.works_across[links_[l].number] = 0;
+  const std::size_t contacts = island.contacts.size(), sources = contacts + island.links.size();
+  for (std::size_t t = 0; t < island.tensions.size(); ++t) {
+    const auto& tension = island.tensions[t];
+    if (tension.source < contacts) continue;
+    const auto& link = links_[island.links[tension.source - contacts]];
+    if (link.kind != LinkEquations::Kind::kArm) continue;
+    const auto r = problem.blocks[sources + t].row;
+    step_.works_across[link.number] +=
+        problem.impulses[r] *
+        (tension.moved_before + tension.moved_given + problem.product(r, motions)) / (2 * times_.h);
+  }
+}
+
+template std::vector<LinkRow> ConstraintSystem<2>::tension_rows(const ContactSystem<2>&,
+                                                                const Island&, std::size_t) const;
+template double ConstraintSystem<2>::change_tensions(const ContactSystem<2>&, Island&,
+                                                     std::span<const Motion<2>>, bool);
+template void ConstraintSystem<2>::take_works_across(const Island&, std::span<const Motion<2>>);
+template std::vector<LinkRow> ConstraintSystem<3>::tension_rows(const ContactSystem<3>&,
+                                                                const Island&, std::size_t) const;
+template double ConstraintSystem<3>::change_tensions(const ContactSystem<3>&, Island&,
+                                                     std::span<const Motion<3>>, bool);
+template void ConstraintSystem<3>::take_works_across(const Island&, std::span<const Motion<3>>);
+
+}  // namespace viscontact::particles

@@ -1,0 +1,364 @@
+// Particles between links and films under tension, in steps up to a period of their fastest motion.
+#include "viscontact/particles/links/tension.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "tests/particles/systems.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kGravity = 9.81, kLength = 1.5, kHeavy = 100, kVelocity = 0.01;
+
+struct Units {
+  double mass = 1, length = 1, time = 1;
+  double angle = 0;  // by which the scene is turned [rad]
+};
+
+enum class Link { kArm, kSpring };
+
+/// Masses 1, 1 and 100 below each other, the first on a hinge, the middle one with a velocity.
+Simulation double_pendulum(int dimension, Scheme scheme, Link link, double h,
+                           std::optional<FrictionMethod> method = {}, const Units& units = {}) {
+  const Vector down{std::sin(units.angle), -std::cos(units.angle), 0},
+      aside{std::cos(units.angle), std::sin(units.angle), 0};
+  const double force = units.mass * units.length / (units.time * units.time);
+  Setting setting;
+  setting.time_step = h * units.time;
+  setting.scheme = scheme;
+  setting.gravity = (kGravity * units.length / (units.time * units.time)) * down;
+  if (method) {
+    setting.laws.film.gamma_min = 0;
+    setting.laws.friction = FrictionLaw{.coefficient = 0.3, .method = *method};
+  }
+  State state = no_particles(dimension);
+  for (int k = 0; k < 3; ++k)
+    add_particle(state, (k * kLength * units.length) * down, 0.1 * units.length,
+                 units.mass * (k == 2 ? kHeavy : 1),
+                 (k == 1 ? kVelocity * units.length / units.time : 0) * aside);
+  add_rotation(state.particles);
+  setting.links.hinges.emplace_back();
+  for (std::int32_t k = 0; k < 2; ++k) {
+    const double rest = kLength - (kHeavy + 1 - k) * kGravity / 1e5;
+    if (link == Link::kArm)
+      setting.links.arms.push_back(
+          {k, k + 1, PiecewiseLinearLength{{{0, kLength * units.length}}}});
+    else
+      setting.links.springs.push_back({k, k + 1, 1e5 * force / units.length, rest * units.length});
+  }
+  return {setting, state, 1};
+}
+
+/// The modes across of the double pendulum: squares of angular frequencies, shares of the middle.
+Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> modes() {
+  const double upper = (kHeavy + 1) * kGravity / kLength, lower = kHeavy * kGravity / kLength;
+  Eigen::Matrix2d stiffness, mass;
+  stiffness << upper + lower, -lower, -lower, lower;
+  mass << 1, 0, 0, kHeavy;
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d>(stiffness, mass);
+}
+
+/// x of the middle disc after n steps of the trapezoidal rule, which is exact for h to 0.
+double trapezoidal(double h, int n) {
+  const auto of = modes();
+  double x = 0;
+  for (int k = 0; k < 2; ++k) {
+    const double w = std::sqrt(of.eigenvalues()[k]), share = of.eigenvectors()(0, k);
+    x += share * share * kVelocity / w * std::sin(2 * n * std::atan(w * h / 2));
+  }
+  return x;
+}
+
+class Tension : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Dimensions, Tension, ::testing::Values(2, 3));
+
+TEST_P(Tension, OfADoublePendulumDoesNotGrowAtAnyStep) {
+  const double period = 2 * kPi / std::sqrt(modes().eigenvalues()[1]);
+  const double exact = kVelocity * period / (2 * kPi);
+  for (const double part : {1e-3, 0.03, 0.05, 0.1, 0.32, 0.5, 1.0})
+    for (const auto link : {Link::kArm, Link::kSpring})
+      for (const auto scheme : {Scheme::kLeapfrog, Scheme::kEuler}) {
+        auto simulation = double_pendulum(GetParam(), scheme, link, part * period);
+        double early = 0, late = 0;
+        for (int n = 0; n < 400; ++n) {
+          EXPECT_TRUE(simulation.step(1e9).converged);
+          auto& largest = n < 200 ? early : late;
+          largest = std::max(largest, std::abs(simulation.state().particles.position(1)[0]));
+        }
+        // The slow mode adds 0.1 %. Steps of 5 % of a period, without springs across, have
+        // amplitudes that are (w h)^2/8 = 1.2 % too large.
+        EXPECT_LT(std::max(early, late), 1.02 * exact) << part;
+        // With Euler velocities at the start count as those half a step before.
+        const double least = part > 0.01 ? (scheme == Scheme::kEuler ? 0.5 : 0.96) : 0;
+        EXPECT_GT(late, least * exact) << part;
+      }
+}
+
+TEST_P(Tension, OfADoublePendulumMovesAsTheTrapezoidalRuleDoes) {
+  const double period = 2 * kPi / std::sqrt(modes().eigenvalues()[1]);
+  for (const double part : {0.1, 0.3, 1.0})
+    for (const auto link : {Link::kArm, Link::kSpring}) {
+      const double h = part * period;
+      auto simulation = double_pendulum(GetParam(), Scheme::kLeapfrog, link, h);
+      for (int n = 1; n <= 50; ++n) {
+        simulation.step(1e9);
+        // 1e-3 of the amplitude: the stretched springs change T/l by 1e-2/1.5 at most.
+        EXPECT_NEAR(simulation.state().particles.position(1)[0], trapezoidal(h, n),
+                    link == Link::kArm ? 3e-7 : 3e-6)
+            << part << " " << n;
+      }
+    }
+}
+
+TEST_P(Tension, IsTheSameWithFrictionInOtherUnitsAndTurned) {
+  const double h = 0.09;
+  for (const auto link : {Link::kArm, Link::kSpring}) {
+    auto reference = double_pendulum(GetParam(), Scheme::kLeapfrog, link, h);
+    for (int n = 0; n < 60; ++n) reference.step(1e9);
+    const double x = reference.state().particles.position(1)[0];
+    const auto expect_same = [&](Simulation simulation, const Units& units) {
+      for (int n = 0; n < 60; ++n) EXPECT_TRUE(simulation.step(1e99).converged);
+      const Vector at = simulation.state().particles.position(1);
+      // Lengths are exact to 1e-6 of a radius.
+      EXPECT_NEAR((std::cos(units.angle) * at[0] + std::sin(units.angle) * at[1]) / units.length, x,
+                  1e-9);
+    };
+    for (const Units& units :
+         {Units{1e5, 1e-5, 1e-5}, Units{1e-8, 1e-2, 1e3, 0}, Units{1, 1, 1, 2}})
+      expect_same(double_pendulum(GetParam(), Scheme::kLeapfrog, link, h, {}, units), units);
+    for (const auto method : {FrictionMethod::kFixedPoint, FrictionMethod::kConvex})
+      expect_same(double_pendulum(GetParam(), Scheme::kLeapfrog, link, h, method), {});
+  }
+}
+
+TEST_P(Tension, RunsOnFromAStateWithTheSameBits) {
+  auto whole = double_pendulum(GetParam(), Scheme::kLeapfrog, Link::kArm, 0.1);
+  for (int n = 0; n < 10; ++n) whole.step(1e9);
+  Simulation continued(whole.setting(), whole.state(), 1);
+  for (int n = 0; n < 10; ++n) {
+    whole.step(1e9);
+    continued.step(1e9);
+  }
+  EXPECT_EQ(whole.state().particles.positions, continued.state().particles.positions);
+  EXPECT_EQ(whole.state().link_forces, continued.state().link_forces);
+}
+
+TEST_P(Tension, OfArmsGivesTheEnergyThatTheirPowersAddUpTo) {
+  const double h = 0.2;
+  Setting setting;
+  setting.time_step = h;
+  setting.scheme = Scheme::kLeapfrog;
+  setting.solver.tolerance = 1e-12;
+  State state = no_particles(GetParam());
+  add_particle(state, {-1, 0, 0}, 0.1, 5, {-0.1, 1, 0});
+  add_particle(state, {0, 0.1, 0}, 0.1, 0.1, {0, 0, 0});
+  add_particle(state, {1, 0, 0}, 0.1, 7, {0.1, -1, 0});
+  add_rotation(state.particles);
+  const double length = std::sqrt(1.01);
+  setting.links.arms = {{0, 1, PiecewiseLinearLength{{{0, length}}}},
+                        {1, 2, PiecewiseLinearLength{{{0, length}}}}};
+  Simulation simulation(setting, state, 1);
+  const Vector start = momentum(state.particles);
+  for (int n = 0; n < 30; ++n) {
+    const double before = kinetic_energy(simulation.state().particles);
+    ASSERT_TRUE(simulation.step(1e9).converged);
+    const auto& now = simulation.state();
+    EXPECT_NEAR(h * (now.arm_powers[0] + now.arm_powers[1]), kinetic_energy(now.particles) - before,
+                1e-10);
+    EXPECT_NEAR(norm(momentum(now.particles) - start), 0, 1e-11);
+  }
+}
+
+/// The largest distance of the middle sphere of a chain of films from its centre of mass, across
+/// the chain, in the first and the second half of the time 90. The films absorb the impulse 100 at
+/// first; then both ends are pulled with 1, and the middle sphere gets an impulse of 1e-3.
+std::array<double, 2> swing_of_films(int dimension, Scheme scheme, double restitution, double h,
+                                     std::optional<FrictionMethod> method) {
+  constexpr int kCount = 9, kMiddle = 4;
+  Setting setting;
+  setting.time_step = h;
+  setting.scheme = scheme;
+  setting.laws.film.gamma_min = -200;
+  setting.laws.restitution.coefficient = restitution;
+  if (method) setting.laws.friction = FrictionLaw{.coefficient = 0.3, .method = *method};
+  State state = no_particles(dimension);
+  for (int k = 0; k < kCount; ++k)
+    add_particle(state, {0.2 * k, 0, 0}, 0.1, 1,
+                 {k == 0            ? 100.0
+                  : k == kCount - 1 ? -100.0
+                                    : 0.0,
+                  0, 0});
+  if (method) add_rotation(state.particles);
+  setting.forces[0] = constant({-1, 0, 0});
+  setting.forces[kCount - 1] = constant({1, 0, 0});
+  Simulation simulation(setting, state, 1);
+  std::array<double, 2> largest{};
+  const auto directions = static_cast<std::size_t>(dimension);
+  for (int n = 0; n * h < 90; ++n) {
+    simulation.added_forces()[kMiddle * directions + 1] = n == 2 ? 1e-3 / h : 0;
+    EXPECT_TRUE(simulation.step(1e9).converged) << h << " " << n;
+    double mean = 0;
+    for (std::size_t k = 0; k < kCount; ++k)
+      mean += simulation.state().particles.position(k)[1] / kCount;
+    auto& part = largest[n * h < 45 ? 0 : 1];
+    part = std::max(part, std::abs(simulation.state().particles.position(kMiddle)[1] - mean));
+  }
+  return largest;
+}
+
+TEST_P(Tension, OfFilmsDoesNotGrowWithAndWithoutRestitution) {
+  // The sum of the amplitudes of all modes of a free chain of 9 masses at the distances 0.2 under
+  // the tension 1 after an impulse of 1e-3 on the middle one.
+  double bound = 0;
+  for (int k = 2; k < 9; k += 2) {
+    const double w = 2 * std::sqrt(1 / 0.2) * std::sin(k * kPi / 18);
+    bound += 1e-3 / w * 2 / 9;
+  }
+  for (const double restitution : {0.0, 0.5})
+    for (const double h : {0.1, 0.3, 0.6, 1.5, 3.0})
+      for (const auto scheme : {Scheme::kLeapfrog, Scheme::kEuler}) {
+        const auto largest = swing_of_films(GetParam(), scheme, restitution, h, {});
+        EXPECT_LT(largest[0], 1.02 * bound) << h;
+        EXPECT_LT(largest[1], 1.02 * bound) << h;
+        EXPECT_GT(largest[1], 0.5 * bound) << h;
+      }
+  for (const auto method : {FrictionMethod::kFixedPoint, FrictionMethod::kConvex}) {
+    const auto largest = swing_of_films(GetParam(), Scheme::kLeapfrog, 0.5, 1.5, method);
+    EXPECT_LT(largest[1], 1.02 * bound);
+  }
+}
+
+/// The largest distance of a particle from its place at the start in 300 steps, in both halves.
+std::array<double, 2> farthest(Simulation& simulation) {
+  const auto start = simulation.state().particles;
+  std::array<double, 2> largest{};
+  for (int n = 0; n < 300; ++n) {
+    EXPECT_TRUE(simulation.step(1e9).converged) << n;
+    auto& part = largest[n < 150 ? 0 : 1];
+    for (std::size_t k = 0; k < start.count(); ++k)
+      part = std::max(part, norm(simulation.state().particles.position(k) - start.position(k)));
+  }
+  return largest;
+}
+
+TEST_P(Tension, OfABodyOnAHingeDoesNotGrow) {
+  const int dimension = GetParam();
+  const auto swing = [&](double h) {
+    Setting setting;
+    setting.time_step = h;
+    setting.scheme = Scheme::kLeapfrog;
+    setting.gravity = {0, -kGravity, 0};
+    State state = no_particles(dimension);
+    add_particle(state, {0, 0, 0}, 0.1, 1);
+    add_particle(state, {0, -0.15, 0}, 0.1, 1);
+    add_particle(state, {0, -1.15, 0}, 0.1, kHeavy, {0.01, 0, 0});
+    add_rotation(state.particles);
+    add_rigid_body(state.particles, {{0, 1}});
+    Hinge hinge;
+    hinge.at = {0, 0.05, 0};
+    hinge.point = {0, hinge.at - state.particles.bodies.bodies[0].centre};
+    setting.links.hinges = {hinge};
+    setting.links.arms = {{1, 2, PiecewiseLinearLength{{{0, 1.0}}}}};
+    Simulation simulation(setting, state, 1);
+    return farthest(simulation);
+  };
+  // The slow mode, of a pendulum of the length 1.2, has the amplitude v sqrt(1.2/g) = 3.5e-3.
+  for (const double h : {0.05, 0.1, 0.3}) {
+    const auto largest = swing(h);
+    EXPECT_LT(std::max(largest[0], largest[1]), 3.7e-3) << h;
+    EXPECT_GT(largest[1], 3.3e-3) << h;
+  }
+}
+
+TEST(TensionOf, ANetOfSpringsDoesNotGrow) {
+  // 3 x 3 free masses in a net of springs with the tension 100; the middle one is hit across it.
+  const auto net = [](double h) {
+    Setting setting;
+    setting.time_step = h;
+    State state = no_particles(3);
+    for (int i = 0; i < 5; ++i)
+      for (int j = 0; j < 5; ++j) {
+        const bool is_free = i > 0 && i < 4 && j > 0 && j < 4;
+        const auto k = static_cast<std::int32_t>(state.particles.count());
+        const double x = i, y = j;
+        add_particle(state, {x, y, 0}, 0.1, 1, {0, 0, i == 2 && j == 2 ? 1e-3 : 0});
+        if (!is_free) setting.links.hinges.push_back({{k, {}}, {x, y, 0}});
+        if (i > 0) setting.links.springs.push_back({k - 5, k, 1000, 0.9});
+        if (j > 0) setting.links.springs.push_back({k - 1, k, 1000, 0.9});
+      }
+    add_rotation(state.particles);
+    Simulation simulation(setting, state, 1);
+    return farthest(simulation);
+  };
+  // No amplitude exceeds the velocity over the least frequency.
+  const double slowest = std::sqrt(100 * 2 * 4 * std::pow(std::sin(kPi / 8), 2));
+  for (const double h : {0.05, 0.1, 0.3, 0.7}) {
+    const auto largest = net(h);
+    EXPECT_LT(std::max(largest[0], largest[1]), 1e-3 / slowest) << h;
+    EXPECT_GT(largest[1], 0.2e-3 / slowest) << h;
+  }
+}
+
+TEST(TensionOf, AMembraneUnderPressureDoesNotGrow) {
+  // 24 beads on a circle, each pushed outwards with 1.
+  constexpr int kBeads = 24;
+  const double side = 2 * std::sin(kPi / kBeads), tension = 1 / (2 * std::sin(kPi / kBeads));
+  const double period = 2 * kPi / std::sqrt(4 * tension / side);
+  for (const bool keeps_area : {false, true})
+    for (const double part : {0.1, 0.3, 0.5, 1.0}) {
+      Setting setting;
+      setting.time_step = part * period;
+      State state = no_particles(2);
+      Membrane membrane;
+      membrane.set_beads(0, kBeads);
+      membrane.bending_rigidity = 0;
+      membrane.keeps_area = keeps_area;
+      membrane.perimeter = kBeads * side;
+      membrane.lengths.assign(kBeads, side);
+      membrane.area = kBeads * std::sin(2 * kPi / kBeads) / 2;
+      for (int k = 0; k < kBeads; ++k) {
+        const Vector out{std::cos(2 * kPi * k / kBeads), std::sin(2 * kPi * k / kBeads), 0};
+        // With a part that changes its sign from bead to bead.
+        add_particle(state, out, 0.05, 1, (1e-5 * std::cos(k * k)) * out);
+        setting.forces[k] = constant(out);
+      }
+      add_rotation(state.particles);
+      setting.links.membranes = {membrane};
+      setting.laws.film.gamma_min = 0;
+      Simulation simulation(setting, state, 1);
+      const auto largest = farthest(simulation);
+      // The slowest mode across has a frequency of about 1, the velocities are 1e-5.
+      EXPECT_LT(std::max(largest[0], largest[1]), 1e-4) << part;
+    }
+}
+
+TEST(TensionOf, ChangesNoColumnUnderLoad) {
+  // Links that push have no geometric stiffness.
+  LinkEquations arm{LinkEquations::Kind::kArm};
+  State state = no_particles(3);
+  add_particle(state, {}, 0.1, 1);
+  add_particle(state, {2, 0, 0}, 0.1, 1);
+  add_rotation(state.particles);
+  LinkRow row;
+  row.parts = {{0, {-1, 0, 0}}, {1, {1, 0, 0}}};
+  arm.rows = {row};
+  EXPECT_TRUE(rows_of_tension(arm, std::vector{5.0}, state.particles).empty());
+  const auto rows = rows_of_tension(arm, std::vector{-5.0}, state.particles);
+  ASSERT_EQ(rows.size(), 2U);
+  for (const auto& across : rows) {
+    EXPECT_EQ(across.stiffness, 2.5);
+    EXPECT_EQ(across.parts[1].direction[0], 0);
+  }
+}
+
+}  // namespace
+}  // namespace viscontact::particles
