@@ -19,7 +19,8 @@ template <int D>
 Motion<D> row_of(const LinkPart& part) {
   if (!part.is_turn) return displacement_row<D>(part.direction, part.arm);
   Motion<D> row{};
-  row.back() = part.direction[2];  // the turn about z
+  constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);
+  for (std::size_t i = 0; i < r; ++i) row[d + i] = part.direction[3 - r + i];
   return row;
 }
 

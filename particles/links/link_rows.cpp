@@ -183,7 +183,7 @@ double image_rate(const LinkRow& row, const PeriodicCell& cell) {
 
 /// Value of a part for the motion of its unit, to first order in the turn [L, rad].
 double value_of(const LinkPart& part, const UnitMotion& motion) {
-  return part.is_turn ? part.direction[2] * motion.turn[2]
+  return part.is_turn ? dot(part.direction, motion.turn)
                       : dot(part.direction, motion.displacement + cross(motion.turn, part.arm));
 }
 

@@ -20,15 +20,14 @@ namespace viscontact::particles {
 
 /// What one unit adds to an equation. A unit is a rigid body or a particle without a body. If
 /// `is_turn` is false, the part is the inner product of `direction` and the displacement of a point
-/// of the unit; otherwise it is the turn of the unit about z [rad], times the third component of
-/// `direction`.
+/// of the unit; otherwise it is the inner product of `direction` and the turn of the unit [rad].
 struct LinkPart {
   std::int32_t particle = 0;  ///< number of the particle, or of a member of the body
   /// A unit vector; of a membrane any vector [1], and [1/L] in the rows for the turns of its beads.
-  /// With `is_turn` it is (0, 0, 1) or (0, 0, -1).
+  /// With `is_turn` it is the axis of the turn, in the plane (0, 0, 1) or (0, 0, -1).
   Vector direction{};
   Vector arm{};          ///< vector from the centre of the unit to the point [L]
-  bool is_turn = false;  ///< true: the turn about z; false: the displacement
+  bool is_turn = false;  ///< true: the turn; false: the displacement
   /// Numbers of periods from the particle to its periodic image to which the equation applies.
   Periods image{};
 };
