@@ -325,16 +325,20 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
     }
     solver_->place(equation.bodies());
     forces = equation.right_side();
-    if (held) {
-      const auto contacts = contacts_before(h);
-      auto loaded = forces;
-      for (const auto& contact : contacts)
-        add_contact_force(contact, contact.impulse / h, loaded, layout_);
-      follow_turns(equation, *held, std::move(loaded), contacts,
-                   held->row_forces(state_.link_forces), settled);
-    }
+    auto loaded =
+        forces;  // by contacts, those of the step before until those of this step are known
+    const auto contacts = held ? contacts_before(h) : std::vector<Contact<2>>{};
+    for (const auto& contact : contacts)
+      add_contact_force(contact, contact.impulse / h, loaded, layout_);
+    if (held)
+      follow_turns(equation, *held, loaded, contacts, held->row_forces(state_.link_forces),
+                   settled);
     for (int turns = 0;; ++turns) {
       motion.flow = solver_->velocities(forces, true);
+      // Forces may have jumped since the step before.
+      if (held && turns == 0 &&
+          follow_turns(equation, *held, loaded, contacts, held_->row_forces(), settled))
+        continue;
       motion.free = free_velocities(equation, motion.flow, h, held ? &*held : nullptr);
       motion.linear = motion.free;
       if (held) {
@@ -346,15 +350,13 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
       if (held) hold_with_contacts(equation, *held, h, next, motion, further_row_forces);
       iterations += motion.contact.iterations + (motion.blow ? motion.blow->iterations : 0);
       if (!held || motion.blow || turns == kMostTurns) break;
-      auto loaded = forces;
+      loaded = forces;
       auto of_rows = held_->row_forces();
       if (largest_magnitude(motion.contact.loads) > 0) {
         add_elements(motion.contact.loads, loaded);
         of_rows = held_->row_forces_under(loaded);
       }
-      if (!follow_turns(equation, *held, std::move(loaded), motion.contact.contacts, of_rows,
-                        settled))
-        break;
+      if (!follow_turns(equation, *held, loaded, motion.contact.contacts, of_rows, settled)) break;
     }
     motion.contact.iterations = iterations;
     if (!equation.put_in_contact(motion.blow ? motion.blow->contacts : motion.contact.contacts))

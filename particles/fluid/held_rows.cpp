@@ -244,9 +244,10 @@ std::vector<double> HeldMotion::missing(std::span<const double> velocities,
     const auto r = changes.size();
     changes.push_back(0);
     if (!turn.row.accelerates || !(stiffnesses[r] > 0)) continue;
-    changes.back() = -(turn.row.extension / thetas[r] + row_forces[r] / (thetas[r] * stiffnesses[r])) /
-                         times_.h -
-                     sum_of(turn.row, velocities);
+    changes.back() =
+        -(turn.row.extension / thetas[r] + row_forces[r] / (thetas[r] * stiffnesses[r])) /
+            times_.h -
+        sum_of(turn.row, velocities);
   }
   return changes;
 }

@@ -182,7 +182,7 @@ class HeldSolver : public FluidSolver {
   std::unique_ptr<FluidSolver> solver_;
   double relative_error_;
   bool has_inertia_;
-  double h_ = 0;  // [T]
+  double h_ = 0;             // [T]
   std::size_t motions_ = 0;  // length of arrays of velocities
   std::vector<HeldRow> rows_;
   std::vector<double> stiffnesses_, thetas_;

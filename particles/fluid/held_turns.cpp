@@ -101,16 +101,15 @@ std::vector<HeldMotion::Turn> HeldMotion::turns_of_films(const ForcesOfStep& ste
   for (const auto& contact : step.contacts) {
     const bool is_of_discs = contact.first >= 0 && contact.levers[0] == 0 && contact.levers[1] == 0;
     if (!is_of_discs || !(contact.impulse < 0)) continue;
-    const auto apart =
-        separation<2>(particles_, contact.first, contact.second, contact.image);
+    const auto apart = separation<2>(particles_, contact.first, contact.second, contact.image);
     const double length = std::hypot(apart[0], apart[1]);
     if (!(length > 0)) continue;
     const auto part_of = [&](std::int32_t particle) {
       return LinkPart{particle, {}, offset_in_body(particles_, particle)};
     };
-    const auto across = rows_across(part_of(contact.first), part_of(contact.second),
-                                    {apart[0], apart[1], 0}, 1, 2)
-                            .front();
+    const auto across =
+        rows_across(part_of(contact.first), part_of(contact.second), {apart[0], apart[1], 0}, 1, 2)
+            .front();
     HeldRow row;
     row.is_geometric = true;
     row.accelerates = link_time(contact.first) >= 0 || link_time(contact.second) >= 0;
@@ -119,8 +118,7 @@ std::vector<HeldMotion::Turn> HeldMotion::turns_of_films(const ForcesOfStep& ste
     if (contact.image != 0)
       row.image_rate =
           dot(across.parts[1].direction, velocity_of_image(particles_.cell, contact.image));
-    turns.push_back(
-        {{Turn::kFilm, contact.first, contact.second, contact.image}, std::move(row)});
+    turns.push_back({{Turn::kFilm, contact.first, contact.second, contact.image}, std::move(row)});
   }
   return turns;
 }
@@ -133,7 +131,9 @@ void HeldMotion::add_turns(const ForcesOfStep& step) {
     candidates.insert(candidates.end(), turns.begin(), turns.end());
   for (auto& turn : turns_)
     if (turn.key[0] != Turn::kLink) turn.row.stiffness = 0;
-  const auto find = [&](const Turn::Key& key) { return std::ranges::find(turns_, key, &Turn::key); };
+  const auto find = [&](const Turn::Key& key) {
+    return std::ranges::find(turns_, key, &Turn::key);
+  };
   for (auto& candidate : candidates) {
     if (const auto found = find(candidate.key); found != turns_.end()) {
       found->row.stiffness = candidate.row.stiffness;
