@@ -59,7 +59,7 @@ std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equatio
   const double allowed = tolerated_length();
   double off = 0;  // [L]
   for (int n = 0; n <= kMostChanges; ++n) {
-    const auto missing = held.missing(velocities, forces, thetas);
+    const auto missing = held.missing(velocities, forces, thetas, held_->stiffnesses());
     off = h * largest_magnitude(missing);
     if (off <= kOfTolerance * allowed || n == kMostChanges) break;
     add_elements(held_->change(velocities, missing, with_springs), forces);
@@ -85,9 +85,9 @@ double FluidSimulation::hold_turned(const HeldMotion& held, double h,
   const auto rows = held.rows();
   const auto thetas = held_->thetas();
   for (int n = 0;; ++n) {
-    auto missing = held.missing(velocities, row_forces, thetas);
+    auto missing = held.missing(velocities, row_forces, thetas, held_->stiffnesses());
     for (std::size_t r = 0; r < missing.size(); ++r)
-      if (rows[r].stiffness > 0) missing[r] = 0;
+      if (r >= rows.size() || rows[r].is_spring()) missing[r] = 0;
     const double off = h * largest_magnitude(missing);
     if (off <= kOfTolerance * tolerated_length() || n == kMostChanges) return off;
     add_elements(held_->change(velocities, missing, false), row_forces);
@@ -106,7 +106,7 @@ void FluidSimulation::hold_with_contacts(const StepEquation& equation, const Hel
                                          double h, double next, Motion& motion,
                                          std::vector<double>& row_forces) {
   auto& contact = motion.contact;
-  if (motion.blow || !(largest_magnitude(contact.loads) > 0)) return;
+  if (!has_links_ || motion.blow || !(largest_magnitude(contact.loads) > 0)) return;
   const double allowed = kOfTolerance * tolerated_length();
   for (int round = 0; round < kMostChanges; ++round) {
     auto velocities = motion.linear;
@@ -139,6 +139,39 @@ void FluidSimulation::hold_with_contacts(const StepEquation& equation, const Hel
     contact.iterations += iterations;
     if (motion.blow) return;
   }
+}
+
+std::vector<Contact<2>> FluidSimulation::contacts_before(double h) const {
+  std::vector<Contact<2>> contacts;
+  if (layout_.components != 3) return contacts;
+  const auto places = positions_of(obstacles_, state_.time);
+  for (const auto* list : {&state_.pairs, &state_.walls})
+    for (const auto& pair : *list) {
+      const auto is_plate = [&](std::int32_t k) {
+        return k >= 0 && setting_.fluid->is_plate(index_of(k));
+      };
+      if (pair.impulse == 0 || is_plate(pair.first) || is_plate(pair.second)) continue;
+      contacts.push_back(contact_of<2>(state_.particles, pair, places));
+      contacts.back().impulse *= h / kick_length(h);
+    }
+  return contacts;
+}
+
+bool FluidSimulation::follow_turns(const StepEquation& equation, HeldMotion& held,
+                                   std::vector<double> loaded, std::span<const Contact<2>> contacts,
+                                   std::span<const double> row_forces,
+                                   std::vector<double>& settled) {
+  const auto before = held.geometric_rows().size();
+  held.add_turns({row_forces, equation.forces(), contacts, equation.largest_mobility()});
+  const auto rows = held.geometric_rows();
+  if (rows.empty() || (rows.size() == before && loaded == settled)) return false;
+  held_->turn_with(rows);
+  // Tensions that are off by this share (a free choice) turn links by a share of the turn of the
+  // step.
+  constexpr double kFollowed = 0.02;
+  const bool changed = held_->settle_stiffnesses(loaded, kFollowed);
+  settled = std::move(loaded);
+  return changed || rows.size() > before;
 }
 
 /// Changes the velocities `at_end` at the end of a step, in which particles moved with `moved`,

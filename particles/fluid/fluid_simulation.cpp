@@ -35,6 +35,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// How often a step is solved with geometric rows at most; a free choice. Tensions hardly depend on
+// how fast links turn.
+constexpr int kMostTurns = 10;
+
 /// The times of the links in a step of length h [T] that ends at the time `next` [T].
 LinkTimes times_of_links(const StepEquation& equation, double h, double next) {
   const auto flow = equation.flow_step();
@@ -78,7 +82,8 @@ FluidSimulation::FluidSimulation(Setting setting, State state, std::unique_ptr<F
     has_flow_ = true;
   }
   state_.flow.clear();
-  if (setting_.links.empty() && p.bodies.empty()) return;
+  has_links_ = !setting_.links.empty() || !p.bodies.empty();
+  if (!has_links_ && layout_.components != 3) return;
   auto held = std::make_unique<HeldSolver>(std::move(solver_), error_of_answers(*setting_.fluid),
                                            setting_.fluid->has_inertia());
   held_ = held.get();
@@ -310,6 +315,7 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
   std::vector<double> forces;
   std::optional<HeldMotion> held;
   std::vector<double> further_row_forces;  // the result of hold_after_step()
+  std::vector<double> settled;             // of follow_turns()
   // A contact with an impulse sets theta = 1 for its particles, which changes the equation of
   // motion. The step is then solved again.
   for (int iterations = 0;;) {
@@ -320,17 +326,39 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
     }
     solver_->place(equation.bodies());
     forces = equation.right_side();
-    motion.flow = solver_->velocities(forces, true);
-    motion.free = free_velocities(equation, motion.flow, h, held ? &*held : nullptr);
-    motion.linear = motion.free;
-    if (held) {
-      further_row_forces =
-          hold_after_step(equation, *held, motion.flow, motion.linear, h, motion.links_hold);
-      motion.free = held->with_finite_turns(motion.linear);
+    auto loaded =
+        forces;  // by contacts, those of the step before until those of this step are known
+    const auto contacts = held ? contacts_before(h) : std::vector<Contact<2>>{};
+    for (const auto& contact : contacts)
+      add_contact_force(contact, contact.impulse / h, loaded, layout_);
+    if (held)
+      follow_turns(equation, *held, loaded, contacts, held->row_forces(state_.link_forces),
+                   settled);
+    for (int turns = 0;; ++turns) {
+      motion.flow = solver_->velocities(forces, true);
+      // Forces may have jumped since the step before.
+      if (held && turns == 0 &&
+          follow_turns(equation, *held, loaded, contacts, held_->row_forces(), settled))
+        continue;
+      motion.free = free_velocities(equation, motion.flow, h, held ? &*held : nullptr);
+      motion.linear = motion.free;
+      if (held) {
+        further_row_forces =
+            hold_after_step(equation, *held, motion.flow, motion.linear, h, motion.links_hold);
+        motion.free = held->with_finite_turns(motion.linear);
+      }
+      motion.blow = solve_contacts_of(equation, motion.free, h, next, motion.contact);
+      if (held) hold_with_contacts(equation, *held, h, next, motion, further_row_forces);
+      iterations += motion.contact.iterations + (motion.blow ? motion.blow->iterations : 0);
+      if (!held || motion.blow || turns == kMostTurns) break;
+      loaded = forces;
+      auto of_rows = held_->row_forces();
+      if (largest_magnitude(motion.contact.loads) > 0) {
+        add_elements(motion.contact.loads, loaded);
+        of_rows = held_->row_forces_under(loaded);
+      }
+      if (!follow_turns(equation, *held, loaded, motion.contact.contacts, of_rows, settled)) break;
     }
-    motion.blow = solve_contacts_of(equation, motion.free, h, next, motion.contact);
-    if (held) hold_with_contacts(equation, *held, h, next, motion, further_row_forces);
-    iterations += motion.contact.iterations + (motion.blow ? motion.blow->iterations : 0);
     motion.contact.iterations = iterations;
     if (!equation.put_in_contact(motion.blow ? motion.blow->contacts : motion.contact.contacts))
       break;
@@ -358,8 +386,9 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
   motion.at_end = equation.velocities_at_end(motion.after, motion.flow);
   if (setting_.fluid->has_inertia()) keep_and_extrapolate(equation, motion);
   std::vector<double> of_step, at_end;  // the forces of the links within the step and at its end
+  std::vector<double> row_forces;
   if (held) {
-    auto row_forces = held_->row_forces();
+    row_forces = held_->row_forces();
     if (!equation.link_times().empty()) add_elements(further_row_forces, row_forces);
     of_step = motion.link_forces = held->link_forces(row_forces);
     add_torques_of_stops(setting_.links, state_.particles,
@@ -378,7 +407,8 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
     const auto working = equation.velocities_of_work(motion.flow, motion.at_end, drag);
     for (std::size_t k = 0; k < setting_.links.arms.size(); ++k) {
       const auto place = setting_.links.place_of_arm(k, state_.particles.dimension);
-      double power = of_step[place] * held->rate_of_arm(k, working);
+      double power = of_step[place] * held->rate_of_arm(k, working) +
+                     held->power_of_turning(k, row_forces, working);
       if (!at_end.empty())
         power += at_end[place] * held->rate_of_arm_at_end(k, motion.linear, working);
       motion.arm_powers.push_back(power);
@@ -432,7 +462,7 @@ void FluidSimulation::report_inertia(Motion& motion) const {
 void FluidSimulation::estimate(const StepEquation& equation, std::span<const double> forces,
                                const HeldMotion* held, Motion& motion) {
   std::function<std::vector<double>()> link_forces;
-  if (held != nullptr) link_forces = [&] { return held->link_forces(held_->row_forces()); };
+  if (has_links_) link_forces = [&] { return held->link_forces(held_->row_forces()); };
   auto estimate = estimate_flow(*solver_, forces, state_.particles, *setting_.fluid, link_forces);
   motion.fluid.velocity_errors = estimate.of_velocities;
   motion.fluid.force_errors = estimate.of_forces;

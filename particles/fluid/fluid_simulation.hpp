@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
+#include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 #include "viscontact/particles/impacts/rebound.hpp"
 #include "viscontact/particles/setting.hpp"
@@ -164,6 +165,15 @@ class FluidSimulation {
   double tolerated_length() const { return setting_.solver.tolerance * mean_radius_; }
   double hold_turned(const HeldMotion& held, double h, std::vector<double>& velocities,
                      std::vector<double>& row_forces) const;
+  /// The contacts that had an impulse in the step before, at their present places, with the impulse
+  /// of the same force in a step of length h [T]. Contacts of plates are left out.
+  std::vector<Contact<2>> contacts_before(double h) const;
+  /// Adds the geometric rows that the step needs for the forces of its links and contacts, and finds
+  /// their stiffnesses under `loaded`, the given forces and those of contacts. Returns true if the
+  /// step must be solved again with them. `settled` are the forces `loaded` of the last call.
+  bool follow_turns(const StepEquation& equation, HeldMotion& held, std::vector<double> loaded,
+                    std::span<const Contact<2>> contacts, std::span<const double> row_forces,
+                    std::vector<double>& settled);
   void hold_with_contacts(const StepEquation& equation, const HeldMotion& held, double h,
                           double next, Motion& motion, std::vector<double>& row_forces);
   std::vector<double> hold_at_end(const StepEquation& equation, const HeldMotion& held,
@@ -173,7 +183,8 @@ class FluidSimulation {
   Setting setting_;
   State state_;
   std::unique_ptr<FluidSolver> solver_;
-  HeldSolver* held_ = nullptr;  // points to *solver_ if the case has bodies or links
+  HeldSolver* held_ = nullptr;  // points to *solver_ in the plane, and with links
+  bool has_links_ = false;      // the case has bodies or links
   MotionLayout layout_;
   double mean_radius_;  // [L]
   ThreadPool pool_;

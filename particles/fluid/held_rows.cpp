@@ -66,10 +66,7 @@ double HeldMotion::link_time(const LinkEquations& link) const {
   return latest;
 }
 
-/// Sets in_rows_: the equations of each link with the directions that they have when its units have
-/// moved with the velocities at the beginning of the step for the time link_time().
-void HeldMotion::turn_rows() {
-  if (link_times_.empty()) return;
+std::vector<double> HeldMotion::velocities_before() const {
   std::vector<double> velocities(particles_.count() * layout_.components);
   const auto n = layout_.directions();
   for (std::size_t k = 0; k < particles_.count(); ++k) {
@@ -77,6 +74,14 @@ void HeldMotion::turn_rows() {
       velocities[k * layout_.components + d] = particles_.velocities[k * n + d];
     if (layout_.components == 3) velocities[k * 3 + 2] = particles_.angular_velocities[k];
   }
+  return velocities;
+}
+
+/// Sets in_rows_: the equations of each link with the directions that they have when its units have
+/// moved with the velocities at the beginning of the step for the time link_time().
+void HeldMotion::turn_rows() {
+  if (link_times_.empty()) return;
+  const auto velocities = velocities_before();
   for (std::size_t l = 0; l < equations_.size(); ++l) {
     const double share = link_time(equations_[l]) / times_.h;
     if (!(share > 0)) continue;
@@ -215,7 +220,8 @@ std::vector<UnitMotion> HeldMotion::motions_of(const LinkEquations& link,
 /// extension in the step. The number is 0 for rows of bodies and of all other springs.
 std::vector<double> HeldMotion::missing(std::span<const double> velocities,
                                         std::span<const double> row_forces,
-                                        std::span<const double> thetas) const {
+                                        std::span<const double> thetas,
+                                        std::span<const double> stiffnesses) const {
   std::vector<double> changes(body_rows_, 0.0);
   for (std::size_t l = 0; l < equations_.size(); ++l) {
     const auto& link = equations_[l];
@@ -233,6 +239,15 @@ std::vector<double> HeldMotion::missing(std::span<const double> velocities,
     } else {
       changes.resize(changes.size() + link.rows.size(), 0.0);
     }
+  }
+  for (const auto& turn : turns_) {
+    const auto r = changes.size();
+    changes.push_back(0);
+    if (!turn.row.accelerates || !(stiffnesses[r] > 0)) continue;
+    changes.back() =
+        -(turn.row.extension / thetas[r] + row_forces[r] / (thetas[r] * stiffnesses[r])) /
+            times_.h -
+        sum_of(turn.row, velocities);
   }
   return changes;
 }
@@ -272,10 +287,11 @@ std::vector<double> HeldMotion::hold_at_end(std::span<const double> velocities,
       rate = motions.front().turn[2] / times_.h;
     rates.resize(rates.size() + link.rows.size(), rate);
   }
-  const auto rows = rows_of(turned);
+  auto rows = rows_of(turned);
+  turn_to_end(turned, velocities, rows, rates);
   std::vector<std::size_t> chosen;
   for (std::size_t r = 0; r < rows.size(); ++r)
-    if (!(rows[r].stiffness > 0) || is_stiff[r] != 0) chosen.push_back(r);
+    if (!rows[r].is_spring() || is_stiff[r] != 0) chosen.push_back(r);
   std::vector<double> forces(rows.size());
   if (chosen.empty()) return forces;
   const auto n = static_cast<Eigen::Index>(chosen.size());
@@ -366,13 +382,17 @@ void HeldMotion::keep_torques(std::span<const double> velocities, std::span<cons
   const auto& bodies = particles_.bodies.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const auto first = bodies[b].members.front();
-    if (!(link_time(first) >= 0)) continue;
+    const bool accelerates = link_time(first) >= 0;
+    if (!accelerates && !turns(first)) continue;
+    const auto& turning = accelerates ? of_fluid : std::span<const double>(forces);
+    double change = 0;
     const Vector turn = times_.h * motion_of_body(b, velocities).turn;
     for (std::size_t m = 0; m < bodies[b].members.size(); ++m) {
       const Vector further = displacement_at({}, turn, present_offset(bodies[b], m, 2), 2);
       const auto i = layout_.at(bodies[b].members[m], 0);
-      forces[layout_.at(first, 2)] -= cross(further, {of_fluid[i], of_fluid[i + 1], 0})[2];
+      change += cross(further, {turning[i], turning[i + 1], 0})[2];
     }
+    forces[layout_.at(first, 2)] -= change;
   }
 }
 
@@ -396,6 +416,15 @@ double HeldMotion::rate_of_arm_at_end(std::size_t k, std::span<const double> mov
   const auto& link = equations_[arm(k)];
   const auto turned = turned_equations(link, links_, particles_, motions_of(link, moved));
   return sum_of(turned.rows.front(), velocities);
+}
+
+std::vector<double> HeldMotion::row_forces(std::span<const double> link_forces) const {
+  if (link_forces.empty()) return {};
+  std::vector<double> forces(body_rows_, 0.0);
+  for (const auto& link : equations_)
+    for (std::size_t k = 0; k < link.rows.size(); ++k)
+      forces.push_back(link_forces[link.first_force + k]);
+  return forces;
 }
 
 /// The entries of `row_forces` that belong to links, in the order of State::link_forces.

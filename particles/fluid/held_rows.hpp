@@ -7,15 +7,27 @@
 // or thrown. A change must keep bodies exactly rigid, and the order of the rows: bodies first.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/fluid/held_solver.hpp"
 #include "viscontact/particles/links/link_rows.hpp"
 #include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {
+
+/// The forces of a step that turn with the motion, and what HeldMotion::add_turns() needs besides.
+struct ForcesOfStep {
+  std::span<const double> of_rows;       ///< forces of the rows, as far as they are known
+  std::span<const double> on_particles;  ///< given forces and torques on all particles
+  std::span<const Contact<2>> contacts;  ///< contacts with their impulses
+  /// StepEquation::largest_mobility() of all components [T/M, T/(M L^2)].
+  std::vector<double> mobility;
+};
 
 /// The rows of one step from the present places of the particles, and the motion of their units.
 ///
@@ -40,6 +52,16 @@ class HeldMotion {
   /// neither bodies nor links.
   std::vector<HeldRow> rows() const;
 
+  /// Adds geometric rows, docs/physics.md (6.15), for the forces whose turning the step may not
+  /// resolve: pulling links and films across their line, and bodies and hinged particles about
+  /// their centres. A row stays until the end of the step; the constant stiffnesses of all rows
+  /// become those of `step`.
+  void add_turns(const ForcesOfStep& step);
+  /// The geometric rows, which follow rows().
+  std::vector<HeldRow> geometric_rows() const;
+  /// True if the unit of a particle has a geometric row that turns it.
+  bool turns(std::int32_t particle) const;
+
   /// Returns for each row the number [L/T, 1/T] by which its sum must change, so that hinges and
   /// arms hold after a step with `velocities`, in which bodies turn by finite angles. The number is
   /// 0 for rows of bodies and of other links, except for a spring of which an end accelerates. For
@@ -50,9 +72,11 @@ class HeldMotion {
   /// the error of the equation of a spring in held_solver.hpp. `extension` is that at the beginning
   /// of the step, and growth its finite change in the step; force is the entry of the row in
   /// `row_forces`, and theta its entry in `thetas`, which are HeldSolver::thetas().
+  /// A geometric row of which an end accelerates has the error of its own equation, which is that
+  /// of a spring with the growth of its sum. `stiffnesses` are HeldSolver::stiffnesses().
   std::vector<double> missing(std::span<const double> velocities,
-                              std::span<const double> row_forces,
-                              std::span<const double> thetas) const;
+                              std::span<const double> row_forces, std::span<const double> thetas,
+                              std::span<const double> stiffnesses) const;
 
   /// Changes `at_end`, the velocities at the end of the step, until bodies are rigid and hinges and
   /// arms hold with these velocities. The particles moved with `velocities` in the step. `is_stiff`
@@ -77,7 +101,8 @@ class HeldMotion {
   /// If a body turns in the step with `velocities`, the places of its members change, and with them
   /// the torque of the forces `of_fluid` about the centre of the body. For each body that
   /// accelerates, this function subtracts the change of this torque from the torque on the first
-  /// member in `forces`. Both arrays are forces and torques of the particles on the fluid
+  /// member in `forces`. It does the same for a body without mass that has a geometric row, with
+  /// `forces` in place of `of_fluid`. Both arrays are forces and torques of the particles on the fluid
   /// [M L/T^2, M L^2/T^2], motion_components() numbers for each particle.
   void keep_torques(std::span<const double> velocities, std::span<const double> of_fluid,
                     std::span<double> forces) const;
@@ -96,12 +121,37 @@ class HeldMotion {
   double rate_of_arm_at_end(std::size_t k, std::span<const double> moved,
                             std::span<const double> velocities) const;
 
+  /// Power [M L^2/T^3] with `velocities` of the geometric row of arm `k`, which turns the force of
+  /// the arm; 0 without such a row. `row_forces` has the forces of all rows.
+  double power_of_turning(std::size_t k, std::span<const double> row_forces,
+                          std::span<const double> velocities) const;
+
+  /// The inverse of link_forces(): the forces of rows(), 0 for those of bodies. Empty if
+  /// `link_forces` is empty.
+  std::vector<double> row_forces(std::span<const double> link_forces) const;
+
   /// The forces of the links in the order of State::link_forces, Links::force_count() numbers. They
   /// are those of `row_forces` that belong to links; the torques of stops are not in them. Empty
   /// without links.
   std::vector<double> link_forces(std::span<const double> row_forces) const;
 
  private:
+  /// A geometric row and what it turns: a link (its place in equations_), a unit (its particle or
+  /// first member) or a film (both particles and the image).
+  struct Turn {
+    enum What : std::int32_t { kLink, kUnit, kFilm };
+    using Key = std::array<std::int32_t, 4>;
+    Key key;
+    HeldRow row;
+  };
+  HeldRow row_across(const LinkEquations& link, double length) const;
+  std::vector<Turn> turns_of_links(std::span<const double> before) const;
+  std::vector<Turn> turns_of_units(const ForcesOfStep& step, std::span<const double> before) const;
+  std::vector<Turn> turns_of_films(const ForcesOfStep& step) const;
+  void turn_to_end(std::span<const LinkEquations> turned, std::span<const double> velocities,
+                   std::vector<HeldRow>& rows, std::vector<double>& rates) const;
+  static double sum_of(const HeldRow& row, std::span<const double> velocities);
+  std::vector<double> velocities_before() const;
   UnitMotion motion_of(const LinkPart& part, std::span<const double> velocities) const;
   std::vector<UnitMotion> motions_of(const LinkEquations& link,
                                      std::span<const double> velocities) const;
@@ -126,6 +176,7 @@ class HeldMotion {
   // Velocities [L/T] of the images at the places in each body, relative to the members.
   std::vector<std::vector<Vector>> image_velocities_;
   std::size_t body_rows_ = 0;  // number of rows of bodies
+  std::vector<Turn> turns_;
 };
 
 }  // namespace viscontact::particles

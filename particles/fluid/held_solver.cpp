@@ -37,6 +37,7 @@ HeldSolver::HeldSolver(std::unique_ptr<FluidSolver> solver, double relative_erro
 /// Sets the rows and the length h of the step for the next place().
 void HeldSolver::hold(std::vector<HeldRow> rows, double h) {
   rows_ = std::move(rows);
+  stiffnesses_.clear();
   h_ = h;
 }
 
@@ -63,40 +64,118 @@ void HeldSolver::add_responses(std::span<double> velocities, const Eigen::Vector
       velocities[i] += forces[static_cast<Index>(r)] * responses_[r][i];
 }
 
-/// Gives the particles to the fluid solver, asks it once for each row for the velocities by a unit
-/// force of the row, and factorises the matrix of the rows.
 void HeldSolver::place(const FluidParticles& bodies) {
   solver_->place(bodies);
   is_varied_ = false;
   responses_.clear();
-  const std::size_t motions =
-      bodies.particles->count() * motion_components(bodies.particles->dimension);
+  motions_ = bodies.particles->count() * motion_components(bodies.particles->dimension);
+  respond();
+}
+
+void HeldSolver::turn_with(std::span<const HeldRow> rows) {
+  std::size_t known = 0;
+  for (auto& row : rows_)
+    if (row.is_geometric) row.stiffness = rows[known++].stiffness;
+  if (known == rows.size()) return;
+  rows_.insert(rows_.end(), rows.begin() + static_cast<std::ptrdiff_t>(known), rows.end());
+  respond();
+}
+
+void HeldSolver::respond() {
   const auto n = static_cast<Index>(rows_.size());
   matrix_.resize(n, n);
-  for (Index r = 0; r < n; ++r) {
-    std::vector<double> forces(motions);
-    add_row_forces(forces, Eigen::VectorXd::Unit(n, r));
+  while (responses_.size() < rows_.size()) {
+    std::vector<double> forces(motions_);
+    add_row_forces(forces, Eigen::VectorXd::Unit(n, static_cast<Index>(responses_.size())));
     responses_.push_back(solver_->velocities(forces, false));
-    matrix_.col(r) = sums(responses_.back());
   }
+  for (Index r = 0; r < n; ++r) matrix_.col(r) = sums(responses_[static_cast<std::size_t>(r)]);
   if (!has_inertia_) matrix_ = (matrix_ + matrix_.transpose().eval()) / 2;
+  auto stiffnesses = std::move(stiffnesses_);
+  for (std::size_t r = stiffnesses.size(); r < rows_.size(); ++r)
+    stiffnesses.push_back(std::max(rows_[r].stiffness, 0.0));
+  set_stiffnesses(std::move(stiffnesses));
   if (n > 0) factorise();
 }
 
-/// The number theta [1] of row `r`, which says how implicit the step is for a spring: 1/2 to 1, or
-/// with inertia of the fluid 1e-9 to 2. held_solver.hpp has the formulas and their reasons.
-double HeldSolver::theta(Index r) const {
-  const auto& row = rows_[static_cast<std::size_t>(r)];
-  const double of_row = h_ * row.stiffness * matrix_(r, r);
+double HeldSolver::theta_for(double z, bool accelerates) const {
   if (has_inertia_) {
     // The bound keeps 1/theta finite. It changes the force of a spring by less than the relative
     // error of the fluid solver's velocities does, which is at least 1e-9 (error_of_answers()).
     constexpr double kLeast = 1e-9;
-    const double z = of_row * of_row;
-    return std::isfinite(z) ? std::max(kLeast, 2 * z / (2 + z)) : 2;
+    return std::isfinite(z * z) ? std::max(kLeast, 2 * z * z / (2 + z * z)) : 2;
   }
-  const double z = row.accelerates ? of_row * of_row : of_row;
+  if (accelerates) z *= z;
   return std::isfinite(z) ? (1 + z) / (2 + z) : 1;
+}
+
+void HeldSolver::set_stiffnesses(std::vector<double> stiffnesses) {
+  stiffnesses_ = std::move(stiffnesses);
+  thetas_.clear();
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    const auto i = static_cast<Index>(r);
+    double mobility = matrix_(i, i);
+    if (rows_[r].is_geometric && stiffnesses_[r] > 0)
+      for (std::size_t s = 0; s < rows_.size(); ++s)
+        if (rows_[s].is_geometric && s != r)
+          mobility += std::sqrt(stiffnesses_[s] / stiffnesses_[r]) *
+                      std::abs(matrix_(i, static_cast<Index>(s)));
+    thetas_.push_back(theta_for(h_ * stiffnesses_[r] * mobility, rows_[r].accelerates));
+  }
+}
+
+std::vector<double> HeldSolver::stiffnesses_for(const Eigen::VectorXd& of_rows) const {
+  auto stiffnesses = stiffnesses_;
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    if (!rows_[r].is_geometric) continue;
+    stiffnesses[r] = rows_[r].stiffness;
+    for (const auto& [row, coefficient] : rows_[r].of_forces)
+      stiffnesses[r] += coefficient * of_rows[static_cast<Index>(row)];
+    if (!(stiffnesses[r] > 0)) stiffnesses[r] = 0;
+  }
+  return stiffnesses;
+}
+
+/// The value that each row prescribes for its sum, or, if it is a spring, for its sum plus its
+/// compliance times its force.
+Eigen::VectorXd HeldSolver::given() const {
+  Eigen::VectorXd given(static_cast<Index>(rows_.size()));
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    given[static_cast<Index>(r)] =
+        (rows_[r].is_spring() ? -rows_[r].extension / (thetas_[r] * h_) : rows_[r].rate) -
+        rows_[r].image_rate;
+  return given;
+}
+
+bool HeldSolver::settle_stiffnesses(std::span<const double> forces, double tolerance) {
+  const auto before = stiffnesses_;
+  const Eigen::VectorXd free = sums(solver_->velocities(forces, true));
+  // The forces of links hardly depend on how fast the links turn, so that few rounds are needed.
+  // Both numbers are free choices; stiffnesses that are not settled make the step less accurate.
+  constexpr int kRounds = 50;
+  constexpr double kSettled = 1e-8;
+  const auto largest_change = [&](const std::vector<double>& from, const std::vector<double>& to) {
+    double change = 0;
+    for (std::size_t r = 0; r < rows_.size(); ++r)
+      if (const double larger = std::max(from[r], to[r]); larger > 0)
+        change = std::max(change, std::abs(to[r] - from[r]) / larger);
+    return change;
+  };
+  for (int round = 0; round < kRounds; ++round) {
+    auto next = stiffnesses_for(solve(given() - free, true));
+    const double change = largest_change(stiffnesses_, next);
+    set_stiffnesses(std::move(next));
+    if (change <= kSettled) break;
+  }
+  if (largest_change(before, stiffnesses_) > tolerance) return true;
+  set_stiffnesses(before);
+  return false;
+}
+
+std::vector<double> HeldSolver::row_forces_under(std::span<const double> forces) {
+  if (rows_.empty()) return {};
+  const Eigen::VectorXd of_rows = solve(given() - sums(solver_->velocities(forces, true)), true);
+  return {of_rows.begin(), of_rows.end()};
 }
 
 /// Returns for each row its prescribed rate minus its sum with these velocities. The prescribed
@@ -114,7 +193,7 @@ void HeldSolver::factorise() {
   fixed_.clear();
   springs_.clear();
   for (Index r = 0; r < matrix_.rows(); ++r)
-    (rows_[static_cast<std::size_t>(r)].stiffness > 0 ? springs_ : fixed_).push_back(r);
+    (rows_[static_cast<std::size_t>(r)].is_spring() ? springs_ : fixed_).push_back(r);
   // Rows are divided by the root of their mobility, so that those of lengths and of angles have the
   // same size. A row whose particles are all driven has the mobility 0.
   scale_ = matrix_.diagonal().unaryExpr([](double x) { return x > 0 ? 1 / std::sqrt(x) : 1; });
@@ -159,21 +238,27 @@ Eigen::VectorXd HeldSolver::solve(const Eigen::VectorXd& right, bool with_spring
   const Eigen::VectorXd scaled = scale_.cwiseProduct(right);
   Eigen::VectorXd of_fixed = solve_fixed(scaled(fixed_));
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(right.size());
-  if (with_springs && !springs_.empty()) {
-    Eigen::VectorXd rest = scaled(springs_) - coupling_ * of_fixed;
-    Eigen::MatrixXd matrix = spring_matrix_;
-    for (std::size_t i = 0; i < springs_.size(); ++i) {
-      const Index r = springs_[i];
-      const double k = rows_[static_cast<std::size_t>(r)].stiffness;
-      matrix.diagonal()[static_cast<Index>(i)] += scale_[r] * scale_[r] / (k * theta(r) * h_);
+  // A geometric row whose forces do not pull has no stiffness, and its force is 0.
+  std::vector<Index> acting;
+  for (std::size_t i = 0; i < springs_.size(); ++i)
+    if (stiffnesses_[static_cast<std::size_t>(springs_[i])] > 0)
+      acting.push_back(static_cast<Index>(i));
+  if (with_springs && !acting.empty()) {
+    Eigen::VectorXd rest = (scaled(springs_) - coupling_ * of_fixed)(acting);
+    Eigen::MatrixXd matrix = spring_matrix_(acting, acting);
+    for (std::size_t i = 0; i < acting.size(); ++i) {
+      const Index r = springs_[static_cast<std::size_t>(acting[i])];
+      const auto k = static_cast<std::size_t>(r);
+      matrix.diagonal()[static_cast<Index>(i)] +=
+          scale_[r] * scale_[r] / (stiffnesses_[k] * thetas_[k] * h_);
     }
     // The matrix is scaled again to the diagonal 1, so that soft and stiff springs have entries of
     // one size.
     const Eigen::VectorXd own = matrix.diagonal().cwiseSqrt().cwiseInverse();
     matrix = own.asDiagonal() * matrix * own.asDiagonal();
     rest = own.cwiseProduct(rest);
-    const Eigen::VectorXd of_springs =
-        own.cwiseProduct(matrix.completeOrthogonalDecomposition().solve(rest));
+    Eigen::VectorXd of_springs = Eigen::VectorXd::Zero(static_cast<Index>(springs_.size()));
+    of_springs(acting) = own.cwiseProduct(matrix.completeOrthogonalDecomposition().solve(rest));
     of_fixed -= spring_responses_ * of_springs;
     forces(springs_) = of_springs;
   }
@@ -215,23 +300,16 @@ void HeldSolver::check(const Eigen::VectorXd& right, const Eigen::VectorXd& forc
 std::vector<double> HeldSolver::velocities(std::span<const double> forces, bool driving) {
   auto velocities = solver_->velocities(forces, driving);
   if (rows_.empty()) return velocities;
-  // The value that each row prescribes for its sum, or, if it is a spring, for its sum plus its
-  // compliance times its force.
-  Eigen::VectorXd given = Eigen::VectorXd::Zero(static_cast<Index>(rows_.size()));
-  if (driving)
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-      const auto& row = rows_[r];
-      const auto i = static_cast<Index>(r);
-      given[i] = (row.stiffness > 0 ? -row.extension / (theta(i) * h_) : row.rate) - row.image_rate;
-    }
-  const Eigen::VectorXd right = given - sums(velocities);
+  Eigen::VectorXd prescribed = Eigen::VectorXd::Zero(static_cast<Index>(rows_.size()));
+  if (driving) prescribed = given();
+  const Eigen::VectorXd right = prescribed - sums(velocities);
   auto of_rows = solve(right, true);
   if (!driving) {
     add_responses(velocities, of_rows);
     return velocities;
   }
   check(right, of_rows);
-  if (is_varied_) correct(given, forces, of_rows);
+  if (is_varied_) correct(prescribed, forces, of_rows);
   row_forces_.assign(of_rows.begin(), of_rows.end());
   std::vector<double> all(forces.begin(), forces.end());
   add_row_forces(all, of_rows);
@@ -270,20 +348,16 @@ std::vector<double> HeldSolver::row_forces_for(std::span<const double> changes) 
   return {forces.begin(), forces.end()};
 }
 
-std::vector<double> HeldSolver::thetas() const {
-  std::vector<double> thetas;
-  for (Index r = 0; r < static_cast<Index>(rows_.size()); ++r) thetas.push_back(theta(r));
-  return thetas;
-}
-
-/// Returns the forces on the particles in the last velocities() with `driving` by springs and by
-/// the rows with a particle that accelerates; empty without rows.
 std::vector<double> HeldSolver::forces_of_step() const {
   std::vector<double> forces(responses_.empty() ? 0 : responses_.front().size());
+  std::vector<char> acts;
+  for (const auto& row : rows_) acts.push_back(row.is_spring() || row.accelerates ? 1 : 0);
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    if (rows_[r].is_geometric && stiffnesses_[r] > 0)
+      for (const auto& [row, coefficient] : rows_[r].of_forces) acts[row] = 1;
   Eigen::VectorXd of_rows = Eigen::VectorXd::Zero(static_cast<Index>(rows_.size()));
   for (std::size_t r = 0; r < rows_.size() && r < row_forces_.size(); ++r)
-    if (rows_[r].stiffness > 0 || rows_[r].accelerates)
-      of_rows[static_cast<Index>(r)] = row_forces_[r];
+    if (acts[r] != 0) of_rows[static_cast<Index>(r)] = row_forces_[r];
   add_row_forces(forces, of_rows);
   return forces;
 }
@@ -317,8 +391,8 @@ void HeldSolver::correct(const Eigen::VectorXd& right, std::span<const double> f
     add_row_forces(all, of_rows);
     Eigen::VectorXd missing = right - sums(solver_->velocities(all, true));
     for (Index r = 0; r < missing.size(); ++r)
-      if (const double k = rows_[static_cast<std::size_t>(r)].stiffness; k > 0)
-        missing[r] -= of_rows[r] / (k * theta(r) * h_);
+      if (const double k = stiffnesses_[static_cast<std::size_t>(r)]; k > 0)
+        missing[r] -= of_rows[r] / (k * thetas_[static_cast<std::size_t>(r)] * h_);
     of_rows += solve(missing, true);
   }
 }

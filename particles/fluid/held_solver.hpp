@@ -37,6 +37,15 @@ struct HeldRow {
   /// True if a particle of the row accelerates, that is, has a mass and no given motion.
   bool accelerates = false;
   std::string name{};  ///< name of the body or link in messages of errors
+  /// True if the row is the geometric stiffness of forces, docs/physics.md (6.15): it turns these
+  /// forces with the motion. Such a row is a spring whose stiffness is that of `of_forces` plus the
+  /// constant `stiffness`, which may then have any sign, or 0 if this is negative.
+  bool is_geometric = false;
+  /// Of a geometric row: numbers of other rows, and the stiffness per force of each of them [1/L,
+  /// L].
+  std::vector<std::pair<std::size_t, double>> of_forces{};
+
+  bool is_spring() const { return is_geometric || stiffness > 0; }
 };
 
 /// A fluid solver that holds the particles: it adds forces along the rows with which the conditions
@@ -59,6 +68,11 @@ struct HeldRow {
 /// 1/2 V^{n-1}), which would not decay with theta = 1. S is not symmetric in such a fluid, because
 /// moving fluid carries the effect of a force along.
 ///
+/// A geometric row has the same theta, but its z is the sum of h sqrt(k_r k_s) |A S A^T|_rs over
+/// all geometric rows s with their stiffnesses k. Geometric rows of neighbouring links act on one
+/// particle; with this z no motion across a chain overshoots. Without inertia and masses it then
+/// decays monotonically for every h.
+///
 /// If rows depend on each other, A S A^T is singular up to the errors of the velocities. The
 /// compliance 1/(theta h stiffness) of a spring may be far larger or smaller than the entries of
 /// A S A^T. Therefore the rank is found only for the rows without stiffness. These rows are then
@@ -74,6 +88,20 @@ class HeldSolver : public FluidSolver {
   void hold(std::vector<HeldRow> rows, double h);
 
   void place(const FluidParticles& bodies) override;
+  /// Takes the geometric rows `rows` after place(). The first ones, as many as there are geometric
+  /// rows already, replace the constant stiffnesses of these; the others are added, and the fluid
+  /// solver is asked once for each of them.
+  void turn_with(std::span<const HeldRow> rows);
+
+  /// Finds the stiffnesses of the geometric rows from the forces that all rows have under `forces`
+  /// of the caller. Keeps the stiffnesses of before and returns false if none of them differs from
+  /// its new value by more than `tolerance` [1], >= 0, times the larger of both. Asks the fluid
+  /// solver once.
+  bool settle_stiffnesses(std::span<const double> forces, double tolerance);
+
+  /// The forces of the rows under `forces` of the caller. Asks the fluid solver once.
+  std::vector<double> row_forces_under(std::span<const double> forces);
+
   /// Returns the velocities with which the rows hold. If `driving` is false, the prescribed sums,
   /// the motions of images and the extensions of springs are taken as 0. If `driving` is true and
   /// rows contradict each other, throws Error(kNotConverged), which names these rows. Also throws
@@ -108,19 +136,26 @@ class HeldSolver : public FluidSolver {
 
   /// The theta of each row [1]. That of a spring is from 1/2 to 1, in a fluid with inertia from
   /// 1e-9 to 2; that of another row is the smaller one of these bounds.
-  std::vector<double> thetas() const;
+  std::vector<double> thetas() const { return thetas_; }
+  /// The stiffness of each row, >= 0 [M/T^2, M L^2/T^2]; 0 if the row is no spring.
+  const std::vector<double>& stiffnesses() const { return stiffnesses_; }
+  /// h times the stiffness of row `r` times its mobility [1], > 0 for a spring that acts.
+  double rate_of(std::size_t r, double stiffness) const {
+    const auto i = static_cast<Eigen::Index>(r);
+    return h_ * stiffness * matrix_(i, i);
+  }
 
   /// True if row `r` is a spring with theta > 2/3, which means that the step does not resolve its
   /// motion. This is so if z > 1 for the z of this class.
-  bool is_stiff(std::size_t r) const { return theta(static_cast<Eigen::Index>(r)) > 2.0 / 3; }
+  bool is_stiff(std::size_t r) const { return thetas_[r] > 2.0 / 3; }
 
   /// The forces of the rows in the last velocities(forces, true) [M L/T^2, M L^2/T^2]; empty before
   /// the first such call.
   const std::vector<double>& row_forces() const { return row_forces_; }
 
-  /// The forces and torques [M L/T^2, M L^2/T^2] that the springs, and the rows with a particle
-  /// that accelerates, exerted on all particles in the last velocities(forces, true); empty without
-  /// rows.
+  /// The forces and torques [M L/T^2, M L^2/T^2] that the springs, the rows with a particle that
+  /// accelerates, and the rows of whose forces a geometric row has a stiffness, exerted on all
+  /// particles in the last velocities(forces, true); empty without rows.
   std::vector<double> forces_of_step() const;
 
   /// Changes `velocities` by forces along the rows until the rows without stiffness hold. The fluid
@@ -130,7 +165,11 @@ class HeldSolver : public FluidSolver {
  private:
   Eigen::VectorXd sums(std::span<const double> velocities) const;
   Eigen::VectorXd missing(std::span<const double> velocities) const;
+  void respond();
   void factorise();
+  void set_stiffnesses(std::vector<double> stiffnesses);
+  std::vector<double> stiffnesses_for(const Eigen::VectorXd& of_rows) const;
+  Eigen::VectorXd given() const;
   Eigen::MatrixXd solve_fixed(const Eigen::MatrixXd& right) const;
   void correct(const Eigen::VectorXd& right, std::span<const double> forces,
                Eigen::VectorXd& of_rows);
@@ -138,13 +177,15 @@ class HeldSolver : public FluidSolver {
   void add_responses(std::span<double> velocities, const Eigen::VectorXd& forces) const;
   void add_row_forces(std::span<double> forces, const Eigen::VectorXd& of_rows) const;
   void check(const Eigen::VectorXd& right, const Eigen::VectorXd& forces) const;
-  double theta(Eigen::Index r) const;
+  double theta_for(double z, bool accelerates) const;
 
   std::unique_ptr<FluidSolver> solver_;
   double relative_error_;
   bool has_inertia_;
-  double h_ = 0;  // [T]
+  double h_ = 0;             // [T]
+  std::size_t motions_ = 0;  // length of arrays of velocities
   std::vector<HeldRow> rows_;
+  std::vector<double> stiffnesses_, thetas_;
   std::vector<std::vector<double>> responses_;  // velocities by a unit force of each row: S A^T
   Eigen::MatrixXd matrix_;                      // A S A^T
   // Numbers of the rows without stiffness (fixed) and of the springs.

@@ -433,6 +433,14 @@ std::vector<double> StepEquation::mobility_of_step() const {
   return mobility;
 }
 
+std::vector<double> StepEquation::largest_mobility() const {
+  auto mobility = mobility_of_step();
+  for (std::size_t i = 0; i < mobility.size(); ++i)
+    mobility[i] =
+        std::min(mobility[i], 1 / stokes_drag(i / layout_.components, i % layout_.components));
+  return mobility;
+}
+
 /// Marks the particles of contacts with an impulse as in contact, except driven ones. Returns true
 /// if a theta, or the order in a fluid with inertia, changed; the step must then be solved again.
 bool StepEquation::put_in_contact(std::span<const Contact<2>> contacts) {

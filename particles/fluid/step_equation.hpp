@@ -103,6 +103,11 @@ class StepEquation {
   /// the inverse of the Stokes drag, for driven particles 0.
   std::vector<double> mobility_of_step() const;
 
+  /// At least the order of the largest change of each velocity in the step by a force, per force
+  /// [T/M, T/(M L^2)]: the smaller one of h/m (h over the moment of inertia) and the inverse of the
+  /// Stokes drag; for driven particles 0.
+  std::vector<double> largest_mobility() const;
+
   /// In a fluid with inertia, particles without contact move with U plus this share [1] of the
   /// change of U since the step before. The share is h divided by twice the length of the step
   /// before. It is -1/2 in the first step, and 0 if the step before was shorter than half of this

@@ -1,0 +1,206 @@
+// Chains of arms, springs and films, and bodies, that are pulled in a fluid with a given resistance:
+// a motion across the pull decays at every step, and pendulums move as closed forms say.
+// Docs: physics.md (6.15).
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+#include "tests/particles/fluid/stand_in_fluid.hpp"
+#include "tests/particles/systems.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+ArmLength fixed_length(double length) { return PiecewiseLinearLength{{{0, length}}}; }
+
+enum class Kind { kArms, kSprings, kFilms };
+
+/// A disc that is fixed, one below it that is `aside` and a third one that a force pulls down, at
+/// the distance `apart` from each other.
+struct Chain {
+  Kind kind = Kind::kArms;
+  double h = 0.1, apart = 1.5, aside = 0.05, force = 1000, drag = 2, mass = 0;
+  bool has_inertia = false;  // of the fluid, which has no weight
+  // Units; that of the weight is a mass per length.
+  double length = 1, time = 1, weight = 1;
+
+  double stiffness() const { return 1e6 * weight / (time * time); }
+  InFluid system() const {
+    const double mu = weight / time;
+    auto made = in_fluid(2, 100 * length, h * time, 0.01 * length);
+    made.setting.fluid->viscosity = mu;
+    if (has_inertia) made.setting.fluid->density = 1e-12;
+    const double radius = kind == Kind::kFilms ? apart / 2 - 0.005 : 0.1;
+    const Vector top{50, 50, 0};
+    const double down = std::sqrt(apart * apart - aside * aside);
+    const std::vector<Vector> at{top, top + Vector{aside, -down, 0}, top + Vector{0, -2 * down, 0}};
+    for (std::size_t k = 0; k < 3; ++k)
+      add_pushed(made, length * at[k], radius * length, mass * weight,
+                 {0, k == 2 ? -force * weight * length / (time * time) : 0, 0});
+    auto& p = made.state.particles;
+    p.angles.assign(3, 0);
+    p.angular_velocities.assign(3, 0);
+    if (mass > 0)
+      p.inertias.assign(3, homogeneous_inertia(2, mass, radius) * weight * length * length);
+    made.setting.given_motions[0] = {};
+    auto& links = made.setting.links;
+    for (std::int32_t k = 0; k < 2; ++k) {
+      if (kind == Kind::kArms) links.arms.push_back({k, k + 1, fixed_length(apart * length)});
+      if (kind == Kind::kSprings)
+        links.springs.push_back({k, k + 1, stiffness(), apart * length - force * length / 1e6});
+      if (kind == Kind::kFilms) {
+        Pair pair{k, k + 1};
+        pair.gamma = -1e9 * weight * length / time;
+        made.state.pairs.push_back(pair);
+      }
+    }
+    return made;
+  }
+  Resistance resistance() const { return constant_drag(drag * weight / time); }
+};
+
+/// Distances of the middle disc from the line of the chain, in the length of the chain, after each
+/// of `steps` steps. The chain must not contract by more than what was slack.
+std::vector<double> asides(const Chain& chain, int steps) {
+  auto system = chain.system();
+  auto simulation = system.simulation(chain.resistance());
+  std::vector<double> result{chain.aside};
+  for (int n = 1; n <= steps; ++n) {
+    const auto report = simulation.step(1e9 * chain.time);
+    EXPECT_TRUE(report.converged) << n;
+    const auto& p = simulation.state().particles;
+    result.push_back(p.position(1)[0] / chain.length - 50);
+    const double bottom = 50 - p.position(2)[1] / chain.length;
+    // What the motion across the chain lengthens the links by to second order, twice, is regained
+    // in the next steps.
+    EXPECT_NEAR(bottom, 2 * chain.apart, 5 * chain.aside * chain.aside) << n;
+  }
+  return result;
+}
+
+TEST(TensionInFluid, AMotionAcrossAMasslessChainDecaysMonotonicallyAtEveryStep) {
+  for (const auto kind : {Kind::kArms, Kind::kSprings, Kind::kFilms})
+    for (const double h : {1e-5, 1e-3, 3e-3, 0.01, 0.05, 1.0, 100.0}) {
+      SCOPED_TRACE(::testing::Message() << static_cast<int>(kind) << " " << h);
+      const Chain chain{.kind = kind, .h = h};
+      const auto x = asides(chain, 12);
+      // The slower one of both modes of the chain decays at this rate. Rounding and the tolerance of
+      // lengths, 1e-6 radii, leave some 1e-7.
+      const double rate = (3 - std::sqrt(5.0)) / 2 * chain.force / chain.apart / chain.drag;
+      for (std::size_t n = 1; n < x.size(); ++n) {
+        // Where one step turns the links to the line of the pull, the correction of their lengths
+        // moves the disc by the second order of the turn.
+        EXPECT_LE(std::abs(x[n]), x[0] / (1 + rate * h / 4) + 1e-6) << n;
+        EXPECT_LE(x[n], std::max(x[n - 1], 0.0) + 1e-6) << n;
+        EXPECT_GE(x[n], -0.2 * chain.aside * chain.aside) << n;
+      }
+      EXPECT_LT(x.back(), 1e-6 + chain.aside * std::pow(1 + rate * h, -11.0));
+    }
+}
+
+TEST(TensionInFluid, UnitsDoNotMatter) {
+  const auto x = asides({.kind = Kind::kSprings, .h = 0.004}, 6);
+  for (const double unit : {1e-5, 1e5}) {
+    const auto scaled = asides(
+        {.kind = Kind::kSprings, .h = 0.004, .length = unit, .time = unit, .weight = 1 / unit}, 6);
+    for (std::size_t n = 0; n < x.size(); ++n) EXPECT_NEAR(scaled[n], x[n], 1e-7);
+  }
+}
+
+TEST(TensionInFluid, AMotionAcrossAChainOfMassesDoesNotGrowAtAnyStep) {
+  for (const bool has_inertia : {false, true})
+    for (const auto kind : {Kind::kArms, Kind::kSprings})
+      for (const double drag : {1e-6, 1.0}) {
+        const double period =
+            2 * std::numbers::pi / std::sqrt(1000 * 2 / 1.5);  // of the middle disc alone
+        for (const double share : {1e-3, 0.05, 0.2, 0.35, 0.5, 1.0}) {
+          SCOPED_TRACE(::testing::Message() << has_inertia << " " << static_cast<int>(kind) << " "
+                                            << drag << " " << share);
+          const Chain chain{.kind = kind,
+                            .h = share * period,
+                            .aside = 0.01,
+                            .drag = drag,
+                            .mass = 1,
+                            .has_inertia = has_inertia};
+          for (const double x : asides(chain, 60)) EXPECT_LE(std::abs(x), 1.1 * chain.aside);
+        }
+      }
+}
+
+/// The angle of a disc without mass from the line of the force on it at the time `end`, on an arm or
+/// a stiff spring of length 1.5 about a fixed disc. Its rate is -force/(drag length) sin(angle).
+double angle_of_pendulum(Kind kind, double h, double end) {
+  constexpr double kLength = 1.5, kForce = 3, kDrag = 2, kStart = 1.2;
+  auto system = in_fluid(2, 100, h, 0.01);
+  system.setting.fluid->viscosity = kDrag / (4 * std::numbers::pi);
+  add_pushed(system, {50, 50, 0}, 0.1, 0, {});
+  add_pushed(system, {50 + kLength * std::sin(kStart), 50 - kLength * std::cos(kStart), 0}, 0.1, 0,
+             {0, -kForce, 0});
+  system.setting.given_motions[0] = {};
+  if (kind == Kind::kArms)
+    system.setting.links.arms = {{0, 1, fixed_length(kLength)}};
+  else
+    system.setting.links.springs = {{0, 1, 1e7, kLength}};
+  auto simulation = system.simulation(constant_drag(kDrag));
+  run(simulation, end);
+  const auto& p = simulation.state().particles;
+  const double angle = std::atan2(p.position(1)[0] - 50, 50 - p.position(1)[1]);
+  const double exact =
+      2 * std::atan(std::tan(kStart / 2) * std::exp(-kForce * end / (kDrag * kLength)));
+  return angle - exact;
+}
+
+TEST(TensionInFluid, APendulumWithoutMassIsOfSecondOrderWithAndWithoutTheTurningRow) {
+  // The row acts in steps of 0.1 and more. An arm in steps of 0.0125 has no row.
+  for (const auto kind : {Kind::kArms, Kind::kSprings}) {
+    const double coarse = angle_of_pendulum(kind, 0.4, 2), fine = angle_of_pendulum(kind, 0.1, 2);
+    EXPECT_LT(std::abs(coarse), 0.02);
+    EXPECT_LT(std::abs(fine), std::abs(coarse) / 10);
+  }
+  EXPECT_LT(std::abs(angle_of_pendulum(Kind::kArms, 0.0125, 2)), 1e-5);
+}
+
+TEST(TensionInFluid, ABodyOnAHingeThatIsPulledTurnsToTheForceAtEveryStep) {
+  for (const double mass : {0.0, 1.0})
+    for (const bool has_inertia : {false, true})
+      for (const double h : {1e-3, 0.01, 0.1, 1.0}) {
+        if (has_inertia && mass == 0) continue;
+        SCOPED_TRACE(::testing::Message() << mass << " " << has_inertia << " " << h);
+        auto system = in_fluid(2, 100, h, 0.01);
+        if (has_inertia) system.setting.fluid->density = 1e-12;
+        const double start = 0.1, length = 2;
+        const Vector hinge_at{50, 50, 0};
+        add_pushed(system, hinge_at, 0.5, mass, {});
+        add_pushed(system,
+                   hinge_at + Vector{length * std::sin(start), -length * std::cos(start), 0}, 0.5,
+                   mass, {0, -1000, 0});
+        auto& p = system.state.particles;
+        p.angles.assign(2, 0);
+        p.angular_velocities.assign(2, 0);
+        p.inertias.assign(2, homogeneous_inertia(2, mass, 0.5));
+        add_rigid_body(p, {{0, 1}});
+        Hinge hinge;
+        hinge.body = 0;
+        hinge.at = hinge_at;
+        hinge.point = {0, hinge.at - p.bodies.bodies[0].centre};
+        system.setting.links.hinges = {hinge};
+        auto simulation = system.simulation(constant_drag(2));
+        double largest = 0;
+        for (int n = 0; n < 60; ++n) {
+          simulation.step(1e9);
+          const auto& q = simulation.state().particles;
+          largest =
+              std::max(largest, std::abs(std::atan2(q.position(1)[0] - 50, 50 - q.position(1)[1])));
+          if (mass == 0) {
+            EXPECT_GE(q.position(1)[0] - 50, -1e-6) << n;
+          }
+        }
+        EXPECT_LE(largest, 1.02 * start);
+      }
+}
+
+}  // namespace
+}  // namespace viscontact::particles
