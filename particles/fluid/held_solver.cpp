@@ -98,6 +98,8 @@ void HeldSolver::respond() {
   auto stiffnesses = std::move(stiffnesses_);
   for (std::size_t r = stiffnesses.size(); r < rows_.size(); ++r)
     stiffnesses.push_back(std::max(rows_[r].stiffness, 0.0));
+  fixed_.clear();
+  springs_.clear();
   if (n > 0) factorise();
   set_stiffnesses(std::move(stiffnesses));
 }
@@ -220,8 +222,6 @@ Eigen::VectorXd HeldSolver::missing(std::span<const double> velocities) const {
 /// Computes the factors of A S A^T (matrix_): first those of the rows without stiffness (fixed_),
 /// then, with these rows eliminated, those of the springs.
 void HeldSolver::factorise() {
-  fixed_.clear();
-  springs_.clear();
   for (Index r = 0; r < matrix_.rows(); ++r)
     (rows_[static_cast<std::size_t>(r)].is_spring() ? springs_ : fixed_).push_back(r);
   // Rows are divided by the root of their mobility, so that those of lengths and of angles have the

@@ -195,7 +195,8 @@ TEST(TensionInFluid, ABodyOnAHingeThatIsPulledTurnsToTheForceAtEveryStep) {
           largest =
               std::max(largest, std::abs(std::atan2(q.position(1)[0] - 50, 50 - q.position(1)[1])));
           if (mass == 0) {
-            EXPECT_GE(q.position(1)[0] - 50, -1e-6) << n;
+            // One implicit step of sin(angle) ends beyond 0 by tan(angle) - angle.
+            EXPECT_GE(q.position(1)[0] - 50, -length * std::pow(start, 3) / 2) << n;
           }
         }
         EXPECT_LE(largest, 1.02 * start);
