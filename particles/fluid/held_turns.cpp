@@ -144,9 +144,9 @@ void HeldMotion::add_turns(const ForcesOfStep& step) {
       if (row < step.of_rows.size()) stiffness += coefficient * step.of_rows[row];
     for (const auto& [component, coefficient] : candidate.row.entries)
       mobility += coefficient * coefficient * step.mobility[component];
-    // Without the row a step is stable if h stiffness mobility < 1, or 2 if masses damp. The
-    // mobilities of discs in the widest containers are some 10 times those of `step`, and
-    // neighbouring links double them.
+    // The solver lets a row act where its z is large enough. The mobilities of discs in the widest
+    // containers are some 10 times those of `step`, and neighbouring links double them, but the
+    // motion is stable up to z = 1.
     constexpr double kLeast = 0.05;
     if (times_.h * stiffness * mobility > kLeast) turns_.push_back(std::move(candidate));
   }

@@ -203,5 +203,47 @@ TEST(TensionInFluid, ABodyOnAHingeThatIsPulledTurnsToTheForceAtEveryStep) {
       }
 }
 
+TEST(TensionInFluid, TheWorksOfPullingArmsAddUpToTheDissipation) {
+  // Two arms at an angle shorten by a third in steps in which they turn visibly.
+  const double h = 0.5, end = 2;
+  auto system = in_fluid(2, 100, h, 0.01);
+  system.setting.fluid->viscosity = 2 / (4 * std::numbers::pi);
+  for (const Vector& at : {Vector{48, 50, 0}, Vector{50, 49, 0}, Vector{52, 50, 0}})
+    add_pushed(system, at, 0.1, 0, {});
+  auto& p = system.state.particles;
+  p.angles.assign(3, 0);
+  p.angular_velocities.assign(3, 0);
+  const double length = std::sqrt(5.0);
+  const ArmLength shrinks = PiecewiseLinearLength{{{0, length}, {end, length - 1.4}}};
+  system.setting.links.arms = {{0, 1, shrinks}, {1, 2, shrinks}};
+  auto simulation = system.simulation(constant_drag(2));
+  double work = 0, dissipated = 0;
+  while (simulation.state().time < end - h / 2) {
+    dissipated += h * simulation.step(end).fluid.dissipation;
+    for (const double power : simulation.state().arm_powers) work += h * power;
+  }
+  EXPECT_GT(work, 1);
+  EXPECT_NEAR(work, dissipated, 1e-9 * work);
+}
+
+TEST(TensionInFluid, ARunThatIsContinuedGivesTheSameBits) {
+  for (const auto kind : {Kind::kArms, Kind::kSprings, Kind::kFilms})
+    for (const double mass : {0.0, 1.0}) {
+      const Chain chain{.kind = kind, .h = 0.02, .mass = mass};
+      auto whole = chain.system();
+      auto simulation = whole.simulation(chain.resistance());
+      for (int n = 0; n < 3; ++n) simulation.step(1e9);
+      auto rest = chain.system();
+      rest.state = simulation.state();
+      auto continued = rest.simulation(chain.resistance());
+      for (int n = 0; n < 3; ++n) {
+        simulation.step(1e9);
+        continued.step(1e9);
+        EXPECT_EQ(simulation.state().particles.positions, continued.state().particles.positions);
+        EXPECT_EQ(simulation.state().link_forces, continued.state().link_forces);
+      }
+    }
+}
+
 }  // namespace
 }  // namespace viscontact::particles
