@@ -569,11 +569,15 @@ template <int D>
 void Simulation::advance(double h, double next, int halvings, StepReport& report) {
   move_freely<D>(h, next);
   const auto projected = project<D>(h, next);
-  examine(projected, next);
-  if (projected.residuals.converged && projected.unresolved > 0 && halvings < kMostHalvings) {
+  // Links that only seem to contradict each other because they turn too far hold in shorter steps.
+  const bool is_divided =
+      halvings < kMostHalvings &&
+      (projected.residuals.converged ? projected.unresolved > 0 : projected.turns_too_far);
+  if (!is_divided) examine(projected, next);
+  if (is_divided) {
     undo_impacts();
     if (halvings == 0) before_division_ = state_;
-    take_impulses(projected);
+    if (projected.residuals.converged) take_impulses(projected);
     const double middle = state_.time + h / 2;
     report.iterations += projected.iterations;
     scale_impulses(0.5);

@@ -67,7 +67,8 @@ class Simulation {
   /// errors of the times would cause tiny steps.
   ///
   /// A step in which two touching particles pass each other by more than half the sum of their
-  /// radii (kLargestTurn in contact.hpp) is computed in two halves, and these again, up to
+  /// radii (kLargestTurn in contact.hpp), or links turn so far that their equations are not solved,
+  /// is computed in two halves, and these again, up to
   /// kMostHalvings times. The report then has the contacts, and the number of glued ones, of the
   /// last part.
   ///

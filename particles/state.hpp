@@ -123,8 +123,7 @@ struct State {
   /// the first step.
   std::vector<double> earlier_velocities;
   /// Forces and torques of the particles on the fluid at `earlier_velocities` [M L/T^2, M L^2/T^2],
-  /// in the same order, without those of bodies, hinges and arms on particles without mass unless a
-  /// geometric row (docs/physics.md (6.15)) turns them.
+  /// in the same order, without those of bodies, hinges and arms on particles without mass.
   std::vector<double> earlier_forces;
   /// In a fluid with inertia: length of the step before the last one [T]; 0 if there was none.
   double step_before = 0;

@@ -402,7 +402,7 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
   motion.quantities = solver_->quantities();
   auto drag = motion.quantities.fluid_forces;
   for (auto& force : drag) force = -force;
-  if (held) held->keep_torques(motion.linear, drag, motion.drag);
+  if (held) held->keep_torques(motion.linear, drag, held_->stiffnesses(), motion.drag);
   if (held && !setting_.links.arms.empty()) {
     const auto working = equation.velocities_of_work(motion.flow, motion.at_end, drag);
     for (std::size_t k = 0; k < setting_.links.arms.size(); ++k) {

@@ -378,12 +378,15 @@ void HeldMotion::make_rigid(std::span<double> velocities) const {
 /// `velocities`. Both arrays have forces and torques of the particles on the fluid [M L/T^2, M
 /// L^2/T^2], as many numbers as `velocities`.
 void HeldMotion::keep_torques(std::span<const double> velocities, std::span<const double> of_fluid,
-                              std::span<double> forces) const {
+                              std::span<const double> stiffnesses, std::span<double> forces) const {
   const auto& bodies = particles_.bodies.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const auto first = bodies[b].members.front();
     const bool accelerates = link_time(first) >= 0;
-    if (!accelerates && !turns(first)) continue;
+    const auto turn_of = turn_of_unit(first);
+    const auto base = stiffnesses.size() - turns_.size();
+    const bool is_turned = turn_of < turns_.size() && stiffnesses[base + turn_of] > 0;
+    if (!accelerates && !is_turned) continue;
     const auto& turning = accelerates ? of_fluid : std::span<const double>(forces);
     double change = 0;
     const Vector turn = times_.h * motion_of_body(b, velocities).turn;

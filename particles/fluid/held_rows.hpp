@@ -59,8 +59,6 @@ class HeldMotion {
   void add_turns(const ForcesOfStep& step);
   /// The geometric rows, which follow rows().
   std::vector<HeldRow> geometric_rows() const;
-  /// True if the unit of a particle has a geometric row that turns it.
-  bool turns(std::int32_t particle) const;
 
   /// Returns for each row the number [L/T, 1/T] by which its sum must change, so that hinges and
   /// arms hold after a step with `velocities`, in which bodies turn by finite angles. The number is
@@ -101,11 +99,11 @@ class HeldMotion {
   /// If a body turns in the step with `velocities`, the places of its members change, and with them
   /// the torque of the forces `of_fluid` about the centre of the body. For each body that
   /// accelerates, this function subtracts the change of this torque from the torque on the first
-  /// member in `forces`. It does the same for a body without mass that has a geometric row, with
-  /// `forces` in place of `of_fluid`. Both arrays are forces and torques of the particles on the fluid
+  /// member in `forces`. It does the same for a body without mass whose geometric row acts
+  /// (`stiffnesses` are HeldSolver::stiffnesses()), with `forces` in place of `of_fluid`. Both arrays are forces and torques of the particles on the fluid
   /// [M L/T^2, M L^2/T^2], motion_components() numbers for each particle.
   void keep_torques(std::span<const double> velocities, std::span<const double> of_fluid,
-                    std::span<double> forces) const;
+                    std::span<const double> stiffnesses, std::span<double> forces) const;
 
   /// Velocity [L/T] of the centre of the body with the number `body`, and its angular velocity
   /// [1/T]. Both are means over its members, weighted by their masses, or with equal weights if the
@@ -144,6 +142,8 @@ class HeldMotion {
     Key key;
     HeldRow row;
   };
+  /// The place in turns_ of the row that turns the unit of a particle; turns_.size(): none.
+  std::size_t turn_of_unit(std::int32_t particle) const;
   HeldRow row_across(const LinkEquations& link, double length) const;
   std::vector<Turn> turns_of_links(std::span<const double> before) const;
   std::vector<Turn> turns_of_units(const ForcesOfStep& step, std::span<const double> before) const;

@@ -27,6 +27,10 @@ namespace {
 // zero; a free choice.
 constexpr double kAboveErrors = 10;
 
+// Geometric rows act where their z is at least this. Without them the motion is stable up to 1
+// without masses, and up to 2 with masses, where they damp an oscillation that is resolved.
+constexpr double kResolved = 0.05, kResolvedWithMass = 0.1;
+
 }  // namespace
 
 /// Takes over the fluid solver, which must not be null. `has_inertia` says whether its fluid has
@@ -94,33 +98,61 @@ void HeldSolver::respond() {
   auto stiffnesses = std::move(stiffnesses_);
   for (std::size_t r = stiffnesses.size(); r < rows_.size(); ++r)
     stiffnesses.push_back(std::max(rows_[r].stiffness, 0.0));
-  set_stiffnesses(std::move(stiffnesses));
+  fixed_.clear();
+  springs_.clear();
   if (n > 0) factorise();
+  set_stiffnesses(std::move(stiffnesses));
 }
 
-double HeldSolver::theta_for(double z, bool accelerates) const {
+double HeldSolver::theta_for(double z, const HeldRow& row) const {
   if (has_inertia_) {
     // The bound keeps 1/theta finite. It changes the force of a spring by less than the relative
     // error of the fluid solver's velocities does, which is at least 1e-9 (error_of_answers()).
     constexpr double kLeast = 1e-9;
     return std::isfinite(z * z) ? std::max(kLeast, 2 * z * z / (2 + z * z)) : 2;
   }
-  if (accelerates) z *= z;
+  if (row.accelerates) z *= z;
+  if (row.accelerates && row.is_geometric) z *= z;
   return std::isfinite(z) ? (1 + z) / (2 + z) : 1;
+}
+
+std::vector<double> HeldSolver::rates_of_turning(const std::vector<double>& stiffnesses) const {
+  std::vector<double> rates(rows_.size(), 0.0);
+  const auto of = [&](std::size_t i) { return static_cast<std::size_t>(springs_[i]); };
+  for (std::size_t i = 0; i < springs_.size(); ++i) {
+    if (!rows_[of(i)].is_geometric) continue;
+    for (std::size_t j = 0; j < springs_.size(); ++j)
+      if (rows_[of(j)].is_geometric)
+        rates[of(i)] += h_ * std::sqrt(stiffnesses[of(i)] * stiffnesses[of(j)]) *
+                        std::abs(spring_matrix_(static_cast<Index>(i), static_cast<Index>(j))) /
+                        (scale_[springs_[i]] * scale_[springs_[j]]);
+  }
+  return rates;
 }
 
 void HeldSolver::set_stiffnesses(std::vector<double> stiffnesses) {
   stiffnesses_ = std::move(stiffnesses);
+  // Where the step resolves the motion, the row does not act.
+  auto rates = rates_of_turning(stiffnesses_);
+  std::vector<char> acts(rows_.size(), 0);
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    acts[r] = rates[r] >= (rows_[r].accelerates || has_inertia_ ? kResolvedWithMass : kResolved);
+  // Where a unit is turned, the forces that turn it count as forces of the step. The rows across
+  // their links must then act, too.
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    if (acts[r] != 0 && rows_[r].entries.size() == 1)
+      for (std::size_t s = 0; s < rows_.size(); ++s)
+        if (rows_[s].of_forces.size() == 1)
+          for (const auto& [row, coefficient] : rows_[r].of_forces)
+            if (row == rows_[s].of_forces.front().first) acts[s] = 1;
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    if (rows_[r].is_geometric && acts[r] == 0) stiffnesses_[r] = 0;
+  rates = rates_of_turning(stiffnesses_);
   thetas_.clear();
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const auto i = static_cast<Index>(r);
-    double mobility = matrix_(i, i);
-    if (rows_[r].is_geometric && stiffnesses_[r] > 0)
-      for (std::size_t s = 0; s < rows_.size(); ++s)
-        if (rows_[s].is_geometric && s != r)
-          mobility += std::sqrt(stiffnesses_[s] / stiffnesses_[r]) *
-                      std::abs(matrix_(i, static_cast<Index>(s)));
-    thetas_.push_back(theta_for(h_ * stiffnesses_[r] * mobility, rows_[r].accelerates));
+    const double z = rows_[r].is_geometric ? rates[r] : h_ * stiffnesses_[r] * matrix_(i, i);
+    thetas_.push_back(theta_for(z, rows_[r]));
   }
 }
 
@@ -190,8 +222,6 @@ Eigen::VectorXd HeldSolver::missing(std::span<const double> velocities) const {
 /// Computes the factors of A S A^T (matrix_): first those of the rows without stiffness (fixed_),
 /// then, with these rows eliminated, those of the springs.
 void HeldSolver::factorise() {
-  fixed_.clear();
-  springs_.clear();
   for (Index r = 0; r < matrix_.rows(); ++r)
     (rows_[static_cast<std::size_t>(r)].is_spring() ? springs_ : fixed_).push_back(r);
   // Rows are divided by the root of their mobility, so that those of lengths and of angles have the

@@ -68,10 +68,12 @@ struct HeldRow {
 /// 1/2 V^{n-1}), which would not decay with theta = 1. S is not symmetric in such a fluid, because
 /// moving fluid carries the effect of a force along.
 ///
-/// A geometric row has the same theta, but its z is the sum of h sqrt(k_r k_s) |A S A^T|_rs over
-/// all geometric rows s with their stiffnesses k. Geometric rows of neighbouring links act on one
-/// particle; with this z no motion across a chain overshoots. Without inertia and masses it then
-/// decays monotonically for every h.
+/// A geometric row has the same theta, or, if an end accelerates, (1 + z^4)/(2 + z^4). Its z is the
+/// sum of h sqrt(k_r k_s) |A S A^T|_rs over all geometric rows s with their stiffnesses k, where S is
+/// the mobility that the rows without stiffness leave. Geometric rows of neighbouring links act on
+/// one particle; with this z no motion across a chain overshoots. Without inertia and masses it then
+/// decays monotonically for every h. Where z is small, the step resolves the motion and the row does
+/// not act: its stiffness counts as 0.
 ///
 /// If rows depend on each other, A S A^T is singular up to the errors of the velocities. The
 /// compliance 1/(theta h stiffness) of a spring may be far larger or smaller than the entries of
@@ -139,12 +141,6 @@ class HeldSolver : public FluidSolver {
   std::vector<double> thetas() const { return thetas_; }
   /// The stiffness of each row, >= 0 [M/T^2, M L^2/T^2]; 0 if the row is no spring.
   const std::vector<double>& stiffnesses() const { return stiffnesses_; }
-  /// h times the stiffness of row `r` times its mobility [1], > 0 for a spring that acts.
-  double rate_of(std::size_t r, double stiffness) const {
-    const auto i = static_cast<Eigen::Index>(r);
-    return h_ * stiffness * matrix_(i, i);
-  }
-
   /// True if row `r` is a spring with theta > 2/3, which means that the step does not resolve its
   /// motion. This is so if z > 1 for the z of this class.
   bool is_stiff(std::size_t r) const { return thetas_[r] > 2.0 / 3; }
@@ -177,7 +173,8 @@ class HeldSolver : public FluidSolver {
   void add_responses(std::span<double> velocities, const Eigen::VectorXd& forces) const;
   void add_row_forces(std::span<double> forces, const Eigen::VectorXd& of_rows) const;
   void check(const Eigen::VectorXd& right, const Eigen::VectorXd& forces) const;
-  double theta_for(double z, bool accelerates) const;
+  double theta_for(double z, const HeldRow& row) const;
+  std::vector<double> rates_of_turning(const std::vector<double>& stiffnesses) const;
 
   std::unique_ptr<FluidSolver> solver_;
   double relative_error_;

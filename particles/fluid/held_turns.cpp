@@ -144,9 +144,9 @@ void HeldMotion::add_turns(const ForcesOfStep& step) {
       if (row < step.of_rows.size()) stiffness += coefficient * step.of_rows[row];
     for (const auto& [component, coefficient] : candidate.row.entries)
       mobility += coefficient * coefficient * step.mobility[component];
-    // Without the row a step is stable if h stiffness mobility < 1, or 2 if masses damp. The
-    // mobilities of discs in the widest containers are some 10 times those of `step`, and
-    // neighbouring links double them.
+    // The solver lets a row act where its z is large enough. The mobilities of discs in the widest
+    // containers are some 10 times those of `step`, and neighbouring links double them, but the
+    // motion is stable up to z = 1.
     constexpr double kLeast = 0.05;
     if (times_.h * stiffness * mobility > kLeast) turns_.push_back(std::move(candidate));
   }
@@ -155,15 +155,18 @@ void HeldMotion::add_turns(const ForcesOfStep& step) {
   for (auto& candidate : candidates) {
     if (candidate.key[0] != Turn::kLink || find(candidate.key) != turns_.end()) continue;
     const auto& parts = in_rows_[index_of(candidate.key[1])].parts();
-    if (std::ranges::any_of(parts, [&](const LinkPart& part) { return turns(part.particle); }))
+    if (std::ranges::any_of(parts, [&](const LinkPart& part) {
+          return turn_of_unit(part.particle) < turns_.size();
+        }))
       turns_.push_back(std::move(candidate));
   }
 }
 
-bool HeldMotion::turns(std::int32_t particle) const {
+std::size_t HeldMotion::turn_of_unit(std::int32_t particle) const {
   const auto body = particles_.bodies.body_of(particle);
   const auto first = body < 0 ? particle : particles_.bodies.bodies[index_of(body)].members.front();
-  return std::ranges::find(turns_, Turn::Key{Turn::kUnit, first, 0, 0}, &Turn::key) != turns_.end();
+  return static_cast<std::size_t>(
+      std::ranges::find(turns_, Turn::Key{Turn::kUnit, first, 0, 0}, &Turn::key) - turns_.begin());
 }
 
 std::vector<HeldRow> HeldMotion::geometric_rows() const {

@@ -119,7 +119,7 @@ void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyo
         result.unsolved_links.push_back(name_of(links[l], *links_, state_.particles));
     return;
   }
-  result.contact_contradicts = true;
+  result.contact_contradicts = result.turns_too_far = true;
   std::vector<char> is_held(state_.particles.count(), 0);
   const auto for_particles = [&](const LinkEquations& link, const auto& visit) {
     for (const auto& part : link.parts()) {
@@ -155,7 +155,7 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
   result.unresolved = 0;
   result.link_residual = 0;
   result.unsolved_links.clear();
-  result.contact_contradicts = false;
+  result.contact_contradicts = result.turns_too_far = false;
   result.residuals.impulse_errors.resize(system_.contacts.size());
   for (std::size_t c = 0; is_final && c < chosen_.size(); ++c) {
     const auto& here = system_.contacts[c];

@@ -140,6 +140,9 @@ struct ProjectionResult {
   /// Names of the hinges and arms that contradict each other, for messages. Empty if the residuals
   /// of all links are allowed, or no residual or overlap is more than kBroken mean radii.
   std::vector<std::string> unsolved_links;
+  /// True if some motion satisfies the linear equations of links and contacts, but none was found
+  /// with finite turns: they contradict each other, or turn too far in the step.
+  bool turns_too_far = false;
   bool contact_contradicts = false;  ///< true: contacts may contradict these links
   std::vector<Pair*> pairs;          ///< the pairs in the projection, which solve() does not change
   /// Normal impulse of each of `pairs` [M L/T], >= gamma of the pair before the step.

@@ -108,7 +108,7 @@ std::string axis_label(std::string_view name, const Units& units) {
   return fmt::format("{}{}", name, unit_of(name, units));
 }
 
-std::string axis_label(const std::vector<std::string>& columns, const Units& units) {
+std::string common_axis_label(const std::vector<std::string>& columns, const Units& units) {
   if (columns.size() == 1) return axis_label(columns[0], units);
   const auto agree = [&](const auto& property) {
     return std::ranges::all_of(

@@ -16,6 +16,6 @@ std::string axis_label(std::string_view name, const Units& units);
 
 /// The label of the axis of several columns: what their names have in common after the last dot,
 /// and their unit, as far as all agree; it may be empty.
-std::string axis_label(const std::vector<std::string>& columns, const Units& units);
+std::string common_axis_label(const std::vector<std::string>& columns, const Units& units);
 
 }  // namespace viscontact::report

@@ -135,7 +135,7 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
   for (const auto& key : plot.others) others.push_back(rows.find(key));
   Panel panel{"",
               axis_label(plot.x, rows.units()),
-              axis_label(plot.columns, rows.units()),
+              common_axis_label(plot.columns, rows.units()),
               false,
               false,
               {kLegendBelow},

@@ -30,8 +30,8 @@ inline std::vector<TextOfKind> texts_of_all_kinds() {
           {TextKind::kFortran, "real function force(gap)\n"},
           {TextKind::kMatlab, "function f = force()\nend\n"},
           {TextKind::kPdf, "%PDF-1.5\ntrailer\n<< >>\nstartxref\n9\n%%EOF\n"},
-          {TextKind::kPng, png},
-          {TextKind::kXyz, "1\npbc=\"F F F\" Time=0\nX 0 0 0\n"}};
+          {TextKind::kXyz, "1\npbc=\"F F F\" Time=0\nX 0 0 0\n"},
+          {TextKind::kPng, png}};
 }
 
 /// The provenance of a command that reads a file whose name contains the ends of all kinds of

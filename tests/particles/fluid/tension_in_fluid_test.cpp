@@ -93,7 +93,7 @@ TEST(TensionInFluid, AMotionAcrossAMasslessChainDecaysMonotonicallyAtEveryStep) 
       for (std::size_t n = 1; n < x.size(); ++n) {
         // Where one step turns the links to the line of the pull, the correction of their lengths
         // moves the disc by the second order of the turn.
-        EXPECT_LE(std::abs(x[n]), x[0] / (1 + rate * h / 4) + 1e-6) << n;
+        EXPECT_LE(std::abs(x[n]), x[0] / (1 + rate * h / 4) + 0.2 * chain.aside * chain.aside) << n;
         EXPECT_LE(x[n], std::max(x[n - 1], 0.0) + 1e-6) << n;
         EXPECT_GE(x[n], -0.2 * chain.aside * chain.aside) << n;
       }
@@ -195,11 +195,54 @@ TEST(TensionInFluid, ABodyOnAHingeThatIsPulledTurnsToTheForceAtEveryStep) {
           largest =
               std::max(largest, std::abs(std::atan2(q.position(1)[0] - 50, 50 - q.position(1)[1])));
           if (mass == 0) {
-            EXPECT_GE(q.position(1)[0] - 50, -1e-6) << n;
+            // One implicit step of sin(angle) ends beyond 0 by tan(angle) - angle.
+            EXPECT_GE(q.position(1)[0] - 50, -length * std::pow(start, 3) / 2) << n;
           }
         }
         EXPECT_LE(largest, 1.02 * start);
       }
+}
+
+TEST(TensionInFluid, TheWorksOfPullingArmsAddUpToTheDissipation) {
+  // Two arms at an angle shorten by a third in steps in which they turn visibly.
+  const double h = 0.5, end = 2;
+  auto system = in_fluid(2, 100, h, 0.01);
+  system.setting.fluid->viscosity = 2 / (4 * std::numbers::pi);
+  for (const Vector& at : {Vector{48, 50, 0}, Vector{50, 49, 0}, Vector{52, 50, 0}})
+    add_pushed(system, at, 0.1, 0, {});
+  auto& p = system.state.particles;
+  p.angles.assign(3, 0);
+  p.angular_velocities.assign(3, 0);
+  const double length = std::sqrt(5.0);
+  const ArmLength shrinks = PiecewiseLinearLength{{{0, length}, {end, length - 1.4}}};
+  system.setting.links.arms = {{0, 1, shrinks}, {1, 2, shrinks}};
+  auto simulation = system.simulation(constant_drag(2));
+  double work = 0, dissipated = 0;
+  while (simulation.state().time < end - h / 2) {
+    dissipated += h * simulation.step(end).fluid.dissipation;
+    for (const double power : simulation.state().arm_powers) work += h * power;
+  }
+  EXPECT_GT(work, 1);
+  EXPECT_NEAR(work, dissipated, 1e-9 * work);
+}
+
+TEST(TensionInFluid, ARunThatIsContinuedGivesTheSameBits) {
+  for (const auto kind : {Kind::kArms, Kind::kSprings, Kind::kFilms})
+    for (const double mass : {0.0, 1.0}) {
+      const Chain chain{.kind = kind, .h = 0.02, .mass = mass};
+      auto whole = chain.system();
+      auto simulation = whole.simulation(chain.resistance());
+      for (int n = 0; n < 3; ++n) simulation.step(1e9);
+      auto rest = chain.system();
+      rest.state = simulation.state();
+      auto continued = rest.simulation(chain.resistance());
+      for (int n = 0; n < 3; ++n) {
+        simulation.step(1e9);
+        continued.step(1e9);
+        EXPECT_EQ(simulation.state().particles.positions, continued.state().particles.positions);
+        EXPECT_EQ(simulation.state().link_forces, continued.state().link_forces);
+      }
+    }
 }
 
 }  // namespace

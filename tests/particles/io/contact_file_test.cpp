@@ -217,7 +217,8 @@ TEST(ForcesOfContacts, OfBlowsAreTheirStress) {
   EXPECT_EQ(stress[4], 0);
   // A plane that has come down to y = 5 leaves the area 20, and without a domain planes at the walls
   // bound the same region.
-  setting.planes = {{.start = {{0, 5.05, 0}, {0, -1, 0}}}};
+  setting.planes.resize(1);
+  setting.planes[0].start = {{0, 5.05, 0}, {0, -1, 0}};
   setting.planes[0].velocity.pieces = {{1, {0, -0.5, 0}}};
   EXPECT_NEAR(rows_of("stress", setting, simulation.state())[0][1], stress[1] * 24 / 20, 1e-11);
   simulation.step(1);

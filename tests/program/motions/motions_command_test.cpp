@@ -9,6 +9,7 @@
 
 #include "tests/common/temporary_folder.hpp"
 #include "tests/program/program.hpp"
+#include "tests/program/sample_files.hpp"
 #include "tests/program/undisturbed.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/csv.hpp"
