@@ -79,7 +79,7 @@ TEST_P(DragUpToAWall, IsSingularThereAndContinuousAndHasItsPrimitive) {
   }
   EXPECT_LT(force.gap_of_impulse(1e6 * k), far);
   EXPECT_GT(force.gap_of_impulse(1e6 * k), far * (1 - kRounding));
-  for (const double gap : {far, 62.7, INFINITY}) EXPECT_THROW(force.resistance(gap), Error) << gap;
+  for (const double gap : {far, 62.7, HUGE_VAL}) EXPECT_THROW(force.resistance(gap), Error) << gap;
 }
 
 INSTANTIATE_TEST_SUITE_P(

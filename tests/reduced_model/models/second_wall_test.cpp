@@ -186,8 +186,12 @@ TEST(Rebounds, HaveVelocitiesOfTheMotionAndAreNotThoseOfASphereThatStays) {
       stays += rebound.velocity == 0 ? 1 : 0;
     }
     EXPECT_LE(stays, 1U) << mass;
-    if (mass < 1) EXPECT_EQ(trajectory.rebounds.size(), 1U) << mass;
-    if (mass > 10) EXPECT_GT(trajectory.rebounds.front().velocity, 0) << mass;
+    if (mass < 1) {
+      EXPECT_EQ(trajectory.rebounds.size(), 1U) << mass;
+    }
+    if (mass > 10) {
+      EXPECT_GT(trajectory.rebounds.front().velocity, 0) << mass;
+    }
   }
 }
 
