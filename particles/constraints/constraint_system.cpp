@@ -346,7 +346,7 @@ double ConstraintSystem<D>::change_of_impulses(const Island& island,
   const auto changes = refinement.changes_by(island.shifts);
   const auto unavoidable = refinement.changes_by(of_values);
   double largest = 0;
-  for (std::size_t b = 0; b < changes.size(); ++b)
+  for (std::size_t b = 0; b < allowed.size(); ++b)
     if (changes[b] > 0)
       largest = std::max(largest, changes[b] / std::max(allowed[b], unavoidable[b]));
   return largest;

@@ -502,9 +502,9 @@ double Refinement<D>::error(std::size_t b) const {
 
 template <int D>
 std::vector<double> Refinement<D>::changes_by(const std::vector<double>& shifts) const {
-  assert(is_done_ && shifts.size() == laws_.size());
+  assert(is_done_ && shifts.size() <= laws_.size());
   std::vector<double> right(problem_.rows.size());
-  for (std::size_t b = 0; b < laws_.size(); ++b)
+  for (std::size_t b = 0; b < shifts.size(); ++b)
     for (std::size_t k = 0; k < (problem_.blocks[b].is_contact ? 1 : problem_.blocks[b].rows); ++k)
       if (laws_[b].is_value[k]) right[problem_.blocks[b].row + k] = shifts[b];
   return largest_of_blocks(solved(std::move(right)));

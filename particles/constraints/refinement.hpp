@@ -38,8 +38,8 @@ class Refinement {
   /// rounding errors of offsets and free motions. is_done() must be true.
   double error(std::size_t b) const;
   /// The largest changes of the impulses of all blocks [M L/T], >= 0, if the gap of each contact
-  /// and all rows of each link change by `shifts` [L], one number for each block. is_done() must be
-  /// true.
+  /// and all rows of each link change by `shifts` [L], one number for each of the first blocks.
+  /// is_done() must be true.
   std::vector<double> changes_by(const std::vector<double>& shifts) const;
   /// Most rows of a problem that is always refined.
   static constexpr std::size_t kFew = 32;

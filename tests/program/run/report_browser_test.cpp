@@ -89,7 +89,9 @@ void expect_readable_panels(const Json& found) {
     plots.insert(name);
     for (const int painted : panel["painted"]) EXPECT_GT(painted, 10);
     EXPECT_EQ(panel["undefined"], 0);
-    if (name == "gap_logarithmic") EXPECT_GT(panel["interrupted"], 100);
+    if (name == "gap_logarithmic") {
+      EXPECT_GT(panel["interrupted"], 100);
+    }
     EXPECT_NE(panel["values"][0], panel["values"][1]);
     EXPECT_NE(panel["values"][1], panel["values"][2]);
     // Drawn from 0.3 to 0.6 of the width and from 0.3 to 0.7 of the height; a pixel is 0.2 % of
