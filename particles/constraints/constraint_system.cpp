@@ -206,6 +206,7 @@ double ConstraintSystem<D>::correct(ContactSystem<D>& system, Island& island,
   auto& problem = island.problem;
   double largest = 0;
   island.shifts.assign(island.contacts.size() + island.links.size(), 0.0);
+  island.shifts_across = island.shifts;
   const auto shift = [&](std::size_t b, std::size_t k, double value) {
     const std::size_t r = problem.blocks[b].row + k;
     const double linear = problem.rows[r].offset + problem.product(r, motions);
@@ -271,7 +272,9 @@ bool ConstraintSystem<D>::has_large_shifts(const Island& island) const {
   const std::size_t contacts = island.contacts.size();
   for (std::size_t b = 0; b < island.shifts.size(); ++b) {
     const bool is_angle = b >= contacts && links_[island.links[b - contacts]].is_angle();
-    if (island.shifts[b] * (is_angle ? mean_radius_ : 1) > kPart * mean_radius_) return true;
+    if (std::max(island.shifts[b], island.shifts_across[b]) * (is_angle ? mean_radius_ : 1) >
+        kPart * mean_radius_)
+      return true;
   }
   return false;
 }
@@ -304,7 +307,7 @@ void ConstraintSystem<D>::take_over(ContactSystem<D>& system, const Island& isla
       state.friction =
           state.friction + problem.impulses[block.row + k] * state.tangents.directions[k - 1];
     state.residual = residual_of_contact(island, b, solution);
-    state.residual.normal += island.shifts[b];
+    state.residual.normal += std::max(island.shifts[b], island.shifts_across[b]);
     ++b;
   }
   const auto forces_of = [&](std::size_t l) {
@@ -314,7 +317,8 @@ void ConstraintSystem<D>::take_over(ContactSystem<D>& system, const Island& isla
   for (const auto l : island.links) {
     const auto& link = links_[l];
     const auto& block = problem.blocks[b];
-    link_residuals_[l] = solution.residuals[b].normal + island.shifts[b];
+    link_residuals_[l] =
+        solution.residuals[b].normal + std::max(island.shifts[b], island.shifts_across[b]);
     if (link.is_angle()) link_residuals_[l] *= mean_radius_;
     // A hinge has one torque, the sum of those of its spring and its stops.
     const bool is_stop = link.kind == LinkEquations::Kind::kStop;

@@ -215,7 +215,8 @@ class ConstraintSystem {
     ConstraintProblem<D> problem;  // empty if the last solve() left the island as it was
     // The last blocks of the problem, after those of contacts and links.
     std::vector<Tension> tensions;
-    std::vector<double> shifts;  // last corrections of the blocks of contacts and links [L]
+    std::vector<double> shifts;         // last corrections of the blocks of contacts and links [L]
+    std::vector<double> shifts_across;  // of the motions, by the last change of their tensions [L]
     // can_give_up: false if the problem had no solution with given loads either.
     bool has_given_up = false, can_give_up = true;
   };

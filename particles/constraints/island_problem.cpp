@@ -178,6 +178,7 @@ void ConstraintSystem<D>::make_problem(const ContactSystem<D>& system, Island& i
     add_link(l, is_rough ? roughly_allowed : links_allowed[l], problem);
   island.tensions.clear();
   island.shifts.clear();
+  island.shifts_across.clear();
   std::vector<Motion<D>> free;
   for (const auto& unit : problem.units) free.push_back(unit.free);
   change_tensions(system, island, free, true);

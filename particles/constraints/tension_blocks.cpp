@@ -121,10 +121,11 @@ double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Isla
       for (std::size_t k = 0; k < by.size(); ++k)
         moved = std::max(moved, std::abs(by[k]) * (k < D ? 1 : mean_radius_));
     }
-    island.shifts[b] = std::max(island.shifts[b], moved);
+    island.shifts_across[b] = std::max(island.shifts_across[b], moved);
     largest = std::max(largest, moved / allowed);
   };
   island.shifts.resize(sources);
+  island.shifts_across.resize(sources);
   for (const auto& tension : island.tensions) take(tension.source);
   for (const auto& row : rows) take(row.tension.source);
   constexpr double kSmall = 0.5;  // of what is allowed, as in solve_island()
