@@ -58,7 +58,7 @@ WallShift fit_wall_shift(const lubrication::MotionTable& rough,
                 "{}; they must be equal",
                 rough.viscosity, rough.radius, smooth.viscosity(), smooth.radius());
   const auto [smallest, largest] = smooth.interval();
-  if (smallest == 0 || !std::isfinite(largest))
+  if (smallest == 0 || largest == smooth.largest_gap())
     throw Error(ErrorKind::kBadInput,
                 "the smooth wall has a formula for gaps outside its fitted interval; give a force "
                 "without one (OutsideInterval)");

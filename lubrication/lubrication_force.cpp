@@ -129,7 +129,7 @@ void LubricationForce::check_gap(double gap) const {
           : outside_.below != BelowInterval::kError && gap > 0;
   if (allowed) return;
   std::string remedy;
-  if (gap >= largest_gap_)
+  if (gap >= largest_gap_ && std::isfinite(largest_gap_))
     throw Error(ErrorKind::kBadInput,
                 "gap {} is not less than {}, at which the sphere touches the wall opposite", gap,
                 largest_gap_);

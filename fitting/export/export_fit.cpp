@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <vector>
 
 #include "viscontact/common/error.hpp"
@@ -224,6 +225,23 @@ std::string write_c_header(const lubrication::Fit& fit, std::string_view source,
          "  return -viscontact_resistance(gap) * velocity;\n}\n\n#endif\n";
 }
 
+/// The statements of Fortran with lines of at most 100 characters, of the 132 that it allows.
+std::string continued(const std::string& statements) {
+  constexpr std::size_t kLongest = 100;
+  std::string text;
+  std::istringstream lines(statements);
+  for (std::string line; std::getline(lines, line);) {
+    for (auto at = line.rfind(' ', kLongest);
+         line.size() > kLongest && at != std::string::npos && line.find_first_not_of(' ') < at;
+         at = line.rfind(' ', kLongest)) {
+      text += line.substr(0, at) + " &\n";
+      line = "      " + line.substr(at + 1);
+    }
+    text += line + "\n";
+  }
+  return text;
+}
+
 /// The target fortran: the same three functions in a module; each takes a number or an array.
 std::string write_fortran(const lubrication::Fit& fit, std::string_view source,
                           const Limits& limits) {
@@ -237,28 +255,28 @@ std::string write_fortran(const lubrication::Fit& fit, std::string_view source,
                                   "      return\n    end if\n",
                                   condition, answer);
     };
-    return fmt::format(
-               "  elemental function viscontact_{}(gap) result(answer)\n"
-               "    real(real64), intent(in) :: gap\n"
-               "    real(real64) :: answer, q, l{}\n"
-               "    q = gap\n",
-               name, sum.needs_wall ? ", p, m" : "") +
-           branch("gap > 0 .and. gap < smallest_gap", e.below) +
-           branch(outside.has_wall() ? fmt::format("gap > largest_gap .and. gap < {}",
-                                                   fortran_literal(outside.wall))
-                                     : "gap > largest_gap .and. gap <= huge(gap)",
-                  e.above) +
-           (outside.has_above && outside.has_wall()
-                ? branch(fmt::format("gap >= {0} .and. gap <= {0}", fortran_literal(outside.wall)),
-                         "ieee_value(answer, ieee_positive_inf)")
-                : "") +
-           branch(".not. (gap >= smallest_gap .and. gap <= largest_gap)",
-                  "ieee_value(answer, ieee_quiet_nan)") +
-           fmt::format("    l = log(gap)\n{}    answer = {}\n  end function\n\n",
-                       sum.needs_wall ? fmt::format("    p = {} - gap\n    m = log(p)\n",
-                                                    fortran_literal(sum.largest_gap))
-                                      : "",
-                       e.inside);
+    return continued(
+        fmt::format("  elemental function viscontact_{}(gap) result(answer)\n"
+                    "    real(real64), intent(in) :: gap\n"
+                    "    real(real64) :: answer, q, l{}\n"
+                    "    q = gap\n",
+                    name, sum.needs_wall ? ", p, m" : "") +
+        branch("gap > 0 .and. gap < smallest_gap", e.below) +
+        branch(outside.has_wall()
+                   ? fmt::format("gap > largest_gap .and. gap < {}", fortran_literal(outside.wall))
+                   : "gap > largest_gap .and. gap <= huge(gap)",
+               e.above) +
+        (outside.has_above && outside.has_wall()
+             ? branch(fmt::format("gap >= {0} .and. gap <= {0}", fortran_literal(outside.wall)),
+                      "ieee_value(answer, ieee_positive_inf)")
+             : "") +
+        branch(".not. (gap >= smallest_gap .and. gap <= largest_gap)",
+               "ieee_value(answer, ieee_quiet_nan)") +
+        fmt::format("    l = log(gap)\n{}    answer = {}\n  end function\n\n",
+                    sum.needs_wall ? fmt::format("    p = {} - gap\n    m = log(p)\n",
+                                                 fortran_literal(sum.largest_gap))
+                                   : "",
+                    e.inside));
   };
   constexpr std::string_view kBetween = " &\n      + ";
   return commented(facts(fit, source, outside), "!") + "! At other gaps the answer is NaN.\n" +

@@ -70,7 +70,7 @@ constexpr auto kKnown = std::to_array<Known>({
 });
 
 /// The part of a name after the last dot, without the index of a list.
-std::string_view last_part(std::string_view name) {
+std::string_view unqualified(std::string_view name) {
   // A gap in the name of a column, such as 0.001, has a dot of its own.
   if (const auto gap = name.find("time_to_gap"); gap != std::string_view::npos)
     return name.substr(gap);
@@ -89,8 +89,8 @@ std::optional<Dimension> dimension_of(std::string_view name) {
   }
   if (name == "sphere.mass") return Dimension{1, 0, 0};
   if (name == "sphere.density") return Dimension{1, -3, 0};
-  if (last_part(name).starts_with("time_to_gap")) return Dimension{0, 0, 1};
-  const auto known = std::ranges::find(kKnown, last_part(name), &Known::name);
+  if (unqualified(name).starts_with("time_to_gap")) return Dimension{0, 0, 1};
+  const auto known = std::ranges::find(kKnown, unqualified(name), &Known::name);
   if (known == kKnown.end()) return {};
   return known->dimension;
 }
@@ -116,8 +116,8 @@ std::string common_axis_label(const std::vector<std::string>& columns, const Uni
   };
   const auto unit = [&](const std::string& column) { return unit_of(column, units); };
   std::string label;
-  if (agree([](const std::string& column) { return last_part(column); }))
-    label = last_part(columns[0]);
+  if (agree([](const std::string& column) { return unqualified(column); }))
+    label = unqualified(columns[0]);
   if (!agree(unit)) return label;
   label += unit(columns[0]);
   return label.starts_with(' ') ? label.substr(1) : label;

@@ -14,7 +14,7 @@
 namespace viscontact::reduced_model {
 namespace {
 
-const std::vector<double> kGaps = {std::exp(-1.0), 1e-2, std::exp(-4.0) * 1.001, 1e-3, 1.5};
+const std::vector<double> kGaps = {std::exp(-1.0), 5e-2, std::exp(-4.0) * 1.001, 1e-3, 1.5};
 
 Trajectory run(const char* model) {
   auto motion = limit_motion();
