@@ -127,14 +127,6 @@ void Simulation::scale_impulses(double factor) {
   });
 }
 
-bool Simulation::pulls_across(const Pair& pair, double impulse) const {
-  if (pair.first < 0 || !(impulse < 0)) return false;
-  const auto& p = state_.particles;
-  const auto i = index_of(pair.first), j = index_of(pair.second);
-  const double w = mobilities_[i] + mobilities_[j];
-  return share_of_tension(-impulse / (p.radii[i] + p.radii[j]) * w, true) > 0;
-}
-
 /// Copies the impulses of the step before and the memories, to restore them if this step throws.
 void Simulation::save_impulses() {
   if (!saved_impulses_.empty() || before_division_) return;
@@ -239,46 +231,26 @@ ProjectionResult Simulation::project(double h, double next) {
     rebuild_neighbour_list(state_, displacements_, *pool_);
     state_.memories.keep_only(state_.pairs, state_.walls);
   }
-  bool is_constrained = has_constraints();
-  for (const auto& pair : state_.pairs)
-    is_constrained = is_constrained || pulls_across(pair, pair.impulse);
-  std::vector<double> no_turns, no_turn_mobilities;  // of particles that do not turn
   for (;;) {
     rebuild_wall_list(state_, planes, margin, *pool_);
     find_impacts<D>(h, next);
     StepProjection<D> projection(state_, h, planes_before, planes, displacements_, mobilities_,
                                  *pool_, loaded_);
-    const bool turns = state_.particles.turn();
-    if (is_constrained && !turns) {
-      no_turns.assign(mobilities_.size() * turn_components(D), 0.0);
-      no_turn_mobilities.assign(mobilities_.size(), 0.0);
-      for (std::size_t k = 0; k < state_.particles.count(); ++k)
-        no_turn_mobilities[k] =
-            mobilities_[k] / (state_.particles.radii[k] * state_.particles.radii[k]);
-    }
     const ConstraintStep constraints{setting_.laws,
                                      obstacles_,
                                      state_.time,
                                      next,
                                      state_.steps == 0 && state_.time == first_time_,
                                      kick_length(h),
-                                     turns ? turns_ : no_turns,
-                                     turns ? turn_mobilities_ : no_turn_mobilities,
+                                     turns_,
+                                     turn_mobilities_,
                                      body_steps_,
                                      &setting_.links,
                                      link_forces_,
                                      works_across_};
-    if (is_constrained) projection.add_constraints(constraints);
+    if (has_constraints()) projection.add_constraints(constraints);
     if (impacts<D>()) projection.follow(*impacts<D>());
-    const bool was_constrained = is_constrained;
     auto projected = projection.solve(setting_.solver, mean_radius_);
-    for (std::size_t f = 0; f < projected.pairs.size() && !is_constrained; ++f)
-      is_constrained = pulls_across(*projected.pairs[f], projected.impulses[f]);
-    if (is_constrained && !was_constrained) {
-      undo_impacts();
-      move_freely<D>(h, next);
-      continue;
-    }
     double gone = 0;
     for (const auto body : projected.bodies)
       if (index_of(body) < state_.particles.count())

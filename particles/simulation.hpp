@@ -179,8 +179,6 @@ class Simulation {
     else
       return impacts_in_space_;
   }
-  // True if a film that pulls with `impulse` < 0 in a part [M L/T] has geometric stiffness, (5.21).
-  bool pulls_across(const Pair& pair, double impulse) const;
   template <int D>
   void find_impacts(double h, double next);
   void undo_impacts();

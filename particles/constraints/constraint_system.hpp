@@ -76,11 +76,10 @@ Motion<D> row_of(const LinkPart& part) {
 /// stable if kappa, summed over the links of a particle, is below 4. Below 0.05 the directions of
 /// the beginning of the step are as good, and keep angular momentum exactly; above 0.1 everything is
 /// a spring. In between the share is linear, because a change of the scheme at each oscillation of a
-/// tension would change the energy. A particle may have up to 80 links. Films, of which a particle
-/// has at most 12, begin at 0.25, because a film that lets its pair go pulls for a step only.
-inline double share_of_tension(double kappa, bool is_film) {
-  const double none = is_film ? 0.25 : 0.05;
-  return std::clamp(kappa / none - 1, 0.0, 1.0);
+/// tension would change the energy. A particle may have up to 80 links.
+inline double share_of_tension(double kappa) {
+  constexpr double kNone = 0.05;
+  return std::clamp(kappa / kNone - 1, 0.0, 1.0);
 }
 
 /// The contacts, rigid bodies and links of a step as one ConstraintProblem, and its solution.
@@ -204,7 +203,7 @@ class ConstraintSystem {
  private:
   // The block of a row of geometric stiffness.
   struct Tension {
-    std::size_t source = 0;   // block of the link or film
+    std::size_t source = 0;   // block of the link
     double moved_before = 0;  // step times the rate of the row at its beginning [L, rad]
     double moved_given = 0;   // by particles whose motion is given, in the step [L, rad]
   };
@@ -256,14 +255,12 @@ class ConstraintSystem {
   void move_particles(const ContactSystem<D>& system, const Island& island,
                       std::span<const Motion<D>> motions);
   double correct(ContactSystem<D>& system, Island& island, std::span<const Motion<D>> motions);
-  // Rows of the geometric stiffness of block `b`, that of a contact or link, at its impulses.
-  std::vector<LinkRow> tension_rows(const ContactSystem<D>& system, const Island& island,
-                                    std::size_t b) const;
+  // Rows of the geometric stiffness of block `b`, that of a link, at its impulses.
+  std::vector<LinkRow> tension_rows(const Island& island, std::size_t b) const;
   // Compares the geometric stiffness in the problem with that of its impulses. Takes over the latter
   // if the difference changes a motion by more than half of what is allowed, or if `is_always`.
   // Returns the change of `motions` divided by what is allowed [1].
-  double change_tensions(const ContactSystem<D>& system, Island& island,
-                         std::span<const Motion<D>> motions, bool is_always);
+  double change_tensions(Island& island, std::span<const Motion<D>> motions, bool is_always);
   void take_works_across(const Island& island, std::span<const Motion<D>> motions);
   bool has_motions_without_contacts(const Island& island) const;
   std::vector<Motion<D>> motions_without_contacts(const ContactSystem<D>& system,

@@ -1,4 +1,4 @@
-// The blocks of a problem with the geometric stiffness of links and films, docs/physics.md (5.21).
+// The blocks of a problem with the geometric stiffness of links, docs/physics.md (5.21).
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -24,29 +24,18 @@ double mobility_of(std::span<const RowPart<D>> parts, const ConstraintProblem<D>
 }  // namespace
 
 template <int D>
-std::vector<LinkRow> ConstraintSystem<D>::tension_rows(const ContactSystem<D>& system,
-                                                       const Island& island, std::size_t b) const {
+std::vector<LinkRow> ConstraintSystem<D>::tension_rows(const Island& island, std::size_t b) const {
   const auto& problem = island.problem;
   const auto& block = problem.blocks[b];
   std::vector<double> forces;
   for (std::size_t k = 0; k < block.rows; ++k)
     forces.push_back(problem.impulses[block.row + k] / times_.kick);
-  if (b >= island.contacts.size())
-    return rows_of_tension(links_[island.links[b - island.contacts.size()]], forces, particles_);
-  const auto& contact = system.contacts[island.contacts[b]];
-  if (contact.first < 0 || !(forces.front() < 0)) return {};
-  const auto first = side_of(contact.first), second = side_of(contact.second);
-  if (first.unit == second.unit) return {};
-  Vector apart{};
-  std::ranges::copy(separation<D>(particles_, contact.first, contact.second, contact.image),
-                    apart.begin());
-  return rows_across({contact.first, {}, first.offset}, {contact.second, {}, second.offset}, apart,
-                     -forces.front(), D);
+  return rows_of_tension(links_[island.links[b - island.contacts.size()]], forces, particles_);
 }
 
 template <int D>
-double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Island& island,
-                                            std::span<const Motion<D>> motions, bool is_always) {
+double ConstraintSystem<D>::change_tensions(Island& island, std::span<const Motion<D>> motions,
+                                            bool is_always) {
   auto& problem = island.problem;
   const std::size_t sources = island.contacts.size() + island.links.size();
   struct NewRow {
@@ -68,8 +57,8 @@ double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Isla
       for (std::size_t k = 0; k < coefficients.size(); ++k)
         changes[index_of(unit)][k] += impulse * coefficients[k];
   };
-  for (std::size_t b = 0; b < sources; ++b) {
-    const auto from = tension_rows(system, island, b);
+  for (std::size_t b = island.contacts.size(); b < sources; ++b) {
+    const auto from = tension_rows(island, b);
     for (const auto& equation : from) {
       NewRow row;
       double given = 0;
@@ -89,8 +78,7 @@ double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Isla
                              dot(around, around));
       }
       const double stiffness =
-          equation.stiffness *
-          share_of_tension(times_.kick * equation.stiffness * w, b < island.contacts.size());
+          equation.stiffness * share_of_tension(times_.kick * equation.stiffness * w);
       if (!(stiffness > 0)) continue;
       const double rate = rate_of(equation, particles_);
       row.tension = {b, times_.h * rate, given};
@@ -166,15 +154,11 @@ void ConstraintSystem<D>::take_works_across(const Island& island,
   }
 }
 
-template std::vector<LinkRow> ConstraintSystem<2>::tension_rows(const ContactSystem<2>&,
-                                                                const Island&, std::size_t) const;
-template double ConstraintSystem<2>::change_tensions(const ContactSystem<2>&, Island&,
-                                                     std::span<const Motion<2>>, bool);
+template std::vector<LinkRow> ConstraintSystem<2>::tension_rows(const Island&, std::size_t) const;
+template double ConstraintSystem<2>::change_tensions(Island&, std::span<const Motion<2>>, bool);
 template void ConstraintSystem<2>::take_works_across(const Island&, std::span<const Motion<2>>);
-template std::vector<LinkRow> ConstraintSystem<3>::tension_rows(const ContactSystem<3>&,
-                                                                const Island&, std::size_t) const;
-template double ConstraintSystem<3>::change_tensions(const ContactSystem<3>&, Island&,
-                                                     std::span<const Motion<3>>, bool);
+template std::vector<LinkRow> ConstraintSystem<3>::tension_rows(const Island&, std::size_t) const;
+template double ConstraintSystem<3>::change_tensions(Island&, std::span<const Motion<3>>, bool);
 template void ConstraintSystem<3>::take_works_across(const Island&, std::span<const Motion<3>>);
 
 }  // namespace viscontact::particles
