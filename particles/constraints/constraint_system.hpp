@@ -9,6 +9,7 @@
 #pragma once
 
 #include <algorithm>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
