@@ -9,7 +9,6 @@
 #pragma once
 
 #include <algorithm>
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>

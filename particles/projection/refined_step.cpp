@@ -58,11 +58,11 @@ void StepProjection<D>::refine() {
       block.allowed = contact.allowed;
       problem.blocks.push_back(block);
       const RowPart<D> of_second{unit(contact.second), along};
-      if (contact.first < 0)
+      if (contact.first_entry() < 0)
         problem.add_row(contact.gap, std::array{of_second}, contact.impulse);
       else
         problem.add_row(contact.gap,
-                        std::array{of_second, RowPart<D>{unit(contact.first), against}},
+                        std::array{of_second, RowPart<D>{unit(contact.first_entry()), against}},
                         contact.impulse);
     }
     ConstraintSolution<D> solution;
@@ -93,8 +93,8 @@ bool StepProjection<D>::is_worth_refining(const std::vector<std::size_t>& island
   double least = std::numeric_limits<double>::infinity(), largest = 0;
   for (const auto c : island) {
     const auto& contact = system_.contacts[c];
-    pairs += contact.first >= 0 ? 1 : 0;
-    for (const auto particle : {contact.first, contact.second}) {
+    pairs += contact.first_entry() >= 0 ? 1 : 0;
+    for (const auto particle : {contact.first_entry(), contact.second}) {
       if (particle < 0) continue;
       least = std::min(least, mobilities_[index_of(particle)]);
       largest = std::max(largest, mobilities_[index_of(particle)]);
