@@ -34,7 +34,7 @@ struct FlowField : QuadraticMesh {
 };
 
 /// The content of a VTK file of the type UnstructuredGrid (VTK's file formats, "XML file formats";
-/// appended raw data): quadratic triangles (VTK's cell type 22) with velocity [L/T], pressure [M/(L
+/// inline binary): quadratic triangles (VTK's cell type 22) with velocity [L/T], pressure [M/(L
 /// T^2)] and speed [L/T] at their nodes. `more` is empty or has a value for each node, in any unit;
 /// these values become the array `more_name`. In the file, x and y of a node are the coordinates x
 /// and y of VTK, and z = 0. If `on_axis` is true, they are the coordinates x >= 0 and z of VTK, and

@@ -22,7 +22,7 @@ constexpr const char* kCompressor = "vtkZLibDataCompressor";
 // VTK's own block size, which is also the window of zlib.
 constexpr std::size_t kBlock = 32768;
 
-// Higher levels need two to four times the time and save less than 4 % (bench/README.md).
+// Of a frame of 20 000 discs and of a flow, level 6 takes 1.5 and 2.2 times the time and saves 1.2 %.
 constexpr int kLevel = 1;
 
 /// Number of blocks, size of a block, size of the last block if it is shorter, and the compressed

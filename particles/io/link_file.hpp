@@ -48,7 +48,7 @@ struct TimeTable {
 /// does work on the particles.
 std::vector<TimeTable> time_tables(const Setting& setting, const Particles& particles);
 
-/// Content of a VTK XML PolyData file (VTK's file formats, "XML file formats"; appended raw data)
+/// Content of a VTK XML PolyData file (VTK's file formats, "XML file formats"; inline binary)
 /// with a vertex at the place of each hinge, and a line between the centres of two particles for
 /// each spring, for each arm, and for each two neighbouring particles (beads) of a membrane without
 /// a fluid. In a periodic domain the line goes to the nearest image of the second particle. Each

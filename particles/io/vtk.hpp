@@ -15,7 +15,7 @@
 
 namespace viscontact::particles {
 
-/// Content of a VTK XML PolyData file (VTK's file formats, "XML file formats"; appended raw data).
+/// Content of a VTK XML PolyData file (VTK's file formats, "XML file formats"; inline binary).
 /// Each particle is a point with the arrays radius [L], velocity [L/T], id and, if any particle has
 /// a mass > 0, mass [M]. Particles that turn also have an angle [rad] or, in space, an orientation
 /// (a unit quaternion w, x, y, z), and an angular_velocity [1/T]. If there are rigid bodies, the
