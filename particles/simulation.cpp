@@ -120,7 +120,7 @@ bool Simulation::pulls_across(const Pair& pair, double impulse) const {
   const auto& p = state_.particles;
   const auto i = index_of(pair.first), j = index_of(pair.second);
   const double w = mobilities_[i] + mobilities_[j];
-  return share_of_tension(-impulse / (p.radii[i] + p.radii[j]) * w) > 0;
+  return share_of_tension(-impulse / (p.radii[i] + p.radii[j]) * w, true) > 0;
 }
 
 /// Copies the impulses of the step before and the memories, to restore them if this step throws.

@@ -64,10 +64,11 @@ Motion<D> row_of(const LinkPart& part) {
 /// stable if kappa, summed over the links of a particle, is below 4. Below 0.05 the directions of
 /// the beginning of the step are as good, and keep angular momentum exactly; above 0.1 everything is
 /// a spring. In between the share is linear, because a change of the scheme at each oscillation of a
-/// tension would change the energy. A particle may have up to 80 links.
-inline double share_of_tension(double kappa) {
-  constexpr double kNone = 0.05, kAll = 0.1;
-  return std::clamp((kappa - kNone) / (kAll - kNone), 0.0, 1.0);
+/// tension would change the energy. A particle may have up to 80 links. Films, of which a particle
+/// has at most 12, begin at 0.25, because a film that lets its pair go pulls for a step only.
+inline double share_of_tension(double kappa, bool is_film) {
+  const double none = is_film ? 0.25 : 0.05;
+  return std::clamp(kappa / none - 1, 0.0, 1.0);
 }
 
 /// The contacts, rigid bodies and links of a step as one ConstraintProblem, and its solution.

@@ -55,6 +55,12 @@ double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Isla
     Tension tension;
     double value, impulse;
   };
+  // What is allowed between particles that are held at rest is less than what the solver resolves in
+  // the rows across them, which move nothing there.
+  double allowed = 0;
+  for (std::size_t b = 0; b < sources; ++b)
+    if (b < island.contacts.size() || !links_[island.links[b - island.contacts.size()]].is_angle())
+      allowed = std::max(allowed, problem.blocks[b].allowed);
   std::vector<NewRow> rows;
   std::vector<Motion<D>> changes;  // of the impulses of all units
   const auto add = [&](std::span<const RowPart<D>> parts, double impulse) {
@@ -78,12 +84,13 @@ double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Isla
                              dot(around, around));
       }
       const double stiffness =
-          equation.stiffness * share_of_tension(times_.kick * equation.stiffness * w);
+          equation.stiffness *
+          share_of_tension(times_.kick * equation.stiffness * w, b < island.contacts.size());
       if (!(stiffness > 0)) continue;
       const double rate = rate_of(equation, particles_);
       row.tension = {b, times_.h * rate};
       row.block.is_contact = false;
-      row.block.allowed = problem.blocks[b].allowed / (first.is_turn ? mean_radius_ : 1);
+      row.block.allowed = allowed / (first.is_turn ? mean_radius_ : 1);
       row.block.compliance = 1 / (times_.beta() * times_.kick * stiffness);
       row.value = times_.is_first ? 0 : -times_.h * rate;
       double value = row.value;
@@ -110,7 +117,7 @@ double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Isla
         moved = std::max(moved, std::abs(by[k]) * (k < D ? 1 : mean_radius_));
     }
     island.shifts[b] = std::max(island.shifts[b], moved);
-    largest = std::max(largest, moved / problem.blocks[b].allowed);
+    largest = std::max(largest, moved / allowed);
   };
   island.shifts.resize(sources);
   for (const auto& tension : island.tensions) take(tension.source);

