@@ -495,14 +495,14 @@ std::vector<double> Refinement<D>::largest_of_blocks(const std::vector<double>& 
 
 template <int D>
 double Refinement<D>::error(std::size_t b) const {
-  assert(is_done_);
+  assert(is_done());
   const auto& block = problem_.blocks[b];
   return *std::max_element(&errors_[block.row], &errors_[block.row] + block.rows);
 }
 
 template <int D>
 std::vector<double> Refinement<D>::changes_by(const std::vector<double>& shifts) const {
-  assert(is_done_ && shifts.size() <= laws_.size());
+  assert(is_done() && shifts.size() <= laws_.size());
   std::vector<double> right(problem_.rows.size());
   for (std::size_t b = 0; b < shifts.size(); ++b)
     for (std::size_t k = 0; k < (problem_.blocks[b].is_contact ? 1 : problem_.blocks[b].rows); ++k)

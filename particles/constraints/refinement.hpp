@@ -33,7 +33,8 @@ class Refinement {
   Refinement(ConstraintProblem<D>& problem, ConstraintSolution<D>& solution);
   ~Refinement();
 
-  bool is_done() const { return is_done_; }  ///< true if the problem was refined
+  /// True if the problem was refined, and has had no new rows since.
+  bool is_done() const { return is_done_ && impulses_.size() == problem_.rows.size(); }
   /// Estimate of the largest error of the impulses of block `b` [M L/T], > 0, with the effect of
   /// rounding errors of offsets and free motions. is_done() must be true.
   double error(std::size_t b) const;
