@@ -27,12 +27,12 @@ namespace viscontact::particles {
 /// The names of all files that a run may have, except those of its frames, in the order in which
 /// they are removed. restart.bin is the first, because no run continues without it.
 inline constexpr auto kParticleResults = std::to_array<const char*>(
-    {"restart.bin", "particles.pvd", "particles.html",      "particles.svg",
-     "run.json",    "steps.csv",     "final_particles.csv", "final_contacts.csv",
-     "motion.csv",  "contacts.csv",  "walls.csv",           "stress.csv",
-     "flow.pvd",    "bodies.csv",    "hinges.csv",          "springs.csv",
-     "arms.csv",    "membranes.csv", "links.pvd",           "rebounds.csv",
-     "probes.csv",  "particles.h5",  "planes.csv",          "particles.pdf",
+    {"restart.bin",  "particles.pvd", "particles.html",      "particles.svg",
+     "run.json",     "steps.csv",     "final_particles.csv", "final_contacts.csv",
+     "motion.csv",   "contacts.csv",  "walls.csv",           "stress.csv",
+     "flow.pvd",     "bodies.csv",    "hinges.csv",          "springs.csv",
+     "arms.csv",     "membranes.csv", "links.pvd",           "rebounds.csv",
+     "probes.csv",   "particles.h5",  "planes.csv",          "particles.pdf",
      "particles.xyz"});
 
 /// A kind of file of which each frame (output time) has one. The name of a file is `begin`, "_",

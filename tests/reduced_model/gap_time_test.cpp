@@ -44,7 +44,7 @@ TEST(GapTime, IsThatOfTheMotionWithoutInertia) {
 TEST(GapTime, OfAContactModelBeginsWithItsFilm) {
   const auto times = run("viscous_contact").gap_times;
   ASSERT_TRUE(times[0].time && times[4].time);
-  EXPECT_NEAR(*times[0].time, 1, 2e-3);                    // within the step of the landing
+  EXPECT_NEAR(*times[0].time, 1, 2e-3);                   // within the step of the landing
   EXPECT_NEAR(*times[4].time, 4 + std::sqrt(1.5), 2e-3);  // first order in the step of 1e-3
 }
 
@@ -53,8 +53,7 @@ TEST(GapTime, IsThatOfTheMotionWithInertia) {
   const auto trajectory = run("inertial");
   const auto& of = trajectory.gap_times[1];
   ASSERT_TRUE(of.time);
-  const auto after =
-      std::ranges::lower_bound(trajectory.rows, *of.time, {}, &TrajectoryRow::time);
+  const auto after = std::ranges::lower_bound(trajectory.rows, *of.time, {}, &TrajectoryRow::time);
   const auto before = std::prev(after);
   const double w = (*of.time - before->time) / (after->time - before->time);
   // u is linear between rows with an error of 1e-7 (second derivative about 1, rows 1e-3 apart).

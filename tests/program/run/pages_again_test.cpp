@@ -114,8 +114,8 @@ TEST_F(PagesAgain, WithPdfFiles) {
       if (text.starts_with("%PDF-")) stems.insert(fs::path(name).stem());
     return stems;
   };
-  expect_done(run_viscontact({"rolling", kData + "cases/rolling/incline.toml", "-o", path("out"),
-                              "--plots", "pdf"}));
+  expect_done(run_viscontact(
+      {"rolling", kData + "cases/rolling/incline.toml", "-o", path("out"), "--plots", "pdf"}));
   std::set<std::string> pictures;
   for (const auto& [name, text] : pages())
     if (name.ends_with(".svg")) pictures.insert(fs::path(name).stem());
