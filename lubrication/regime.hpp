@@ -31,7 +31,7 @@ std::optional<std::string> reynolds_warning(double reynolds);
 /// The smallest m u/|gamma| without a warning, with the momentum m u of the landing and the impulse
 /// |gamma| that the film absorbs. Viscous contact neglects the drag before contact. Where a constant
 /// force presses a sphere from the gap r onto a roughness of 1e-2 to 1e-4 r, the solids touch 18 to
-/// 10 % too early for all m u/|gamma| below 0.5, 6 % at 3 and 2 % at 10 (docs/studies.md#regimes).
+/// 10 % too early for all m u/|gamma| below 0.5, 6 % at 3 and 2 % at 10 (docs/studies.md, "Regimes").
 /// Below 0.1 the inertia of the sphere changes nothing by more than 0.02 %.
 inline constexpr double kSmallestFilmStokes = 0.1;
 

@@ -43,8 +43,9 @@ struct ModelComparison {
   double sup_gap_distance = 0;      ///< max over time of |q - q_ref| [L], >= 0
   double l1_gap_distance = 0;       ///< integral over time of |q - q_ref| [L T], >= 0
   double l1_velocity_distance = 0;  ///< integral over time of |u - u_ref| [L], >= 0
-  /// The numbers of Trajectory with these names.
-  std::optional<double> reynolds_number{}, stokes_number{}, film_stokes_number{};
+  std::optional<double> reynolds_number{};     ///< Trajectory::reynolds_number
+  std::optional<double> stokes_number{};       ///< Trajectory::stokes_number
+  std::optional<double> film_stokes_number{};  ///< Trajectory::film_stokes_number
   long steps = 0;      ///< number of steps of the integrator; 0 if not stated
   double seconds = 0;  ///< computing time on a clock [s]; 0 if not stated
 };

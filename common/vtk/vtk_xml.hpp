@@ -34,6 +34,7 @@ std::string vtk_opening(std::string_view type);
 /// The last line of a VTK file.
 inline constexpr std::string_view kVtkClosing = "</VTKFile>\n";
 
+/// vtk_array() of the bytes of values whose VTK type is `type`, such as Float64.
 std::string vtk_array_of_bytes(const char* type, std::string_view name, int components,
                                std::span<const std::byte> bytes);
 

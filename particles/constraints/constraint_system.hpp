@@ -112,9 +112,11 @@ class ConstraintSystem {
   /// caller sets them before solve().
   std::vector<double> links_allowed;
   /// Errors of the impulses of all contacts, in the order of add(), and then of all links() that
-  /// are asked for [M L/T], >= 0, and rounding errors of their gaps and values [L]; of angles as in
-  /// links_allowed. The caller sets them before solve().
-  std::vector<double> allowed_errors, rounding;
+  /// are asked for [M L/T], >= 0; of angles as in links_allowed. The caller sets them before
+  /// solve().
+  std::vector<double> allowed_errors;
+  /// Rounding errors of the gaps and values of the same contacts and links [L].
+  std::vector<double> rounding;
   /// Allowed residuals of the slips, the tangential displacements of all contacts [L], > 0, in the
   /// order of add(). The caller sets them before solve().
   std::vector<double> slips_allowed;

@@ -45,6 +45,7 @@ struct HeldRow {
   /// L].
   std::vector<std::pair<std::size_t, double>> of_forces{};
 
+  /// True if the row is a spring, of whatever kind.
   bool is_spring() const { return is_geometric || stiffness > 0; }
 };
 

@@ -85,8 +85,15 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
           // bases of pairs, two of which are named bases
           Found("motions/pair_fit.cpp", "asymptotic"),
           Found("motions/pair_fit.cpp", "asymptotic_extended"),
+          // words for the geometry in the head of a table
+          Found("lubrication/second_wall.cpp", "plane"),
+          Found("lubrication/second_wall.cpp", "cavity"),
+          Found("lubrication/second_wall.cpp", "sphere"),
+          Found("lubrication/second_wall.cpp", "free_surface"),
+          Found("lubrication/second_wall.cpp", "rough_plane"),
           // a model of the rolling sphere, and a section of its case
           Found("rolling/roll_with_viscous_contact.cpp", "viscous_contact"),
+          Found("rolling/job/rolling_page.cpp", "viscous_contact"),
           Found("rolling/case/rolling_study.cpp", "viscous_contact"),
           Found("rolling/case/rolling_case.cpp", "sphere"),
           // what the texts of Python's help() quote
