@@ -188,7 +188,7 @@ std::vector<CurrentContact> contacts_of(const Setting& setting, const State& sta
                           .image = pair.image,
                           .friction = friction_of(setting, memory),
                           .normal_force = per_time * pair.impulse,
-                          .tangential_force = per_time * memory.friction(),
+                          .tangential_force = per_time * (memory.friction() + memory.across()),
                           .solid_force = per_time * memory[Remembered::kCarried],
                           .normal = normal,
                           .branch = branch,

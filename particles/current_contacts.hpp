@@ -36,7 +36,9 @@ struct CurrentContact {
   /// Mean normal force in the last step [M L/T^2], of discs in a fluid per length: that of solids
   /// and film together, > 0 where it pushes the bodies apart.
   double normal_force = 0;
-  Vector tangential_force{};  ///< mean friction on `second` in the last step, unit of normal_force
+  /// Mean friction on `second` in the last step, and the force across the normal of a film that
+  /// pulls, (5.21), in the unit of normal_force.
+  Vector tangential_force{};
   /// The part of normal_force that the solids bear, and not the film, >= 0. It bounds the friction.
   /// Always 0 in a case without friction.
   double solid_force = 0;

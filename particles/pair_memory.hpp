@@ -30,7 +30,12 @@ enum class Remembered : std::uint8_t {
   kFrictionZ,  ///< z of the impulse of friction [M L/T]
   kCarried,    ///< part of the normal impulse of the last step that the solids carried and not the
                ///< film [M L/T], >= 0: p_s of docs/physics.md (5.7), which bounds the friction
-  kCount,      ///< how many numbers there are; it must stay the last one
+  /// x of the impulse across the normal [M L/T] with which a film that pulls acted on Pair::second
+  /// in the last step, docs/physics.md (5.21). It acts on the centres and turns no particle.
+  kAcrossX,
+  kAcrossY,  ///< y of the impulse across the normal [M L/T]
+  kAcrossZ,  ///< z of the impulse across the normal [M L/T]
+  kCount,    ///< how many numbers there are; it must stay the last one
 };
 
 /// A number that a law remembers, as files show it.
@@ -42,10 +47,10 @@ struct MemoryField {
 
 /// All numbers that laws remember. Restart files store them by name.
 inline constexpr std::array kMemoryFields = {
-    MemoryField{"friction_x", true, false},
-    MemoryField{"friction_y", true, false},
-    MemoryField{"friction_z", true, false},
-    MemoryField{"carried", true, false},
+    MemoryField{"friction_x", true, false}, MemoryField{"friction_y", true, false},
+    MemoryField{"friction_z", true, false}, MemoryField{"carried", true, false},
+    MemoryField{"across_x", true, false},   MemoryField{"across_y", true, false},
+    MemoryField{"across_z", true, false},
 };
 
 static_assert(kMemoryFields.size() == static_cast<std::size_t>(Remembered::kCount),
@@ -77,18 +82,25 @@ class PairMemory {
   }
 
   /// Impulse of friction [M L/T].
-  Vector friction() const {
-    const auto first = values_.begin() + static_cast<std::ptrdiff_t>(Remembered::kFrictionX);
-    return {first[0], first[1], first[2]};
-  }
+  Vector friction() const { return vector_at(Remembered::kFrictionX); }
   /// Sets the impulse of friction [M L/T].
-  void set_friction(const Vector& p) {
-    std::ranges::copy(p, values_.begin() + static_cast<std::ptrdiff_t>(Remembered::kFrictionX));
-  }
+  void set_friction(const Vector& p) { set_vector(Remembered::kFrictionX, p); }
+  /// Impulse of a film across the normal [M L/T].
+  Vector across() const { return vector_at(Remembered::kAcrossX); }
+  /// Sets the impulse of a film across the normal [M L/T].
+  void set_across(const Vector& p) { set_vector(Remembered::kAcrossX, p); }
   /// True if all members are equal.
   bool operator==(const PairMemory&) const = default;
 
  private:
+  Vector vector_at(Remembered x) const {
+    const auto first = values_.begin() + static_cast<std::ptrdiff_t>(x);
+    return {first[0], first[1], first[2]};
+  }
+  void set_vector(Remembered x, const Vector& p) {
+    std::ranges::copy(p, values_.begin() + static_cast<std::ptrdiff_t>(x));
+  }
+
   std::array<double, kMemoryFields.size()> values_{};
 };
 

@@ -127,6 +127,28 @@ void Simulation::scale_impulses(double factor) {
   });
 }
 
+bool Simulation::pull_across(std::span<Pair* const> pairs, std::span<const double> impulses) const {
+  std::vector<double> kappas;  // of all particles, as ConstraintSystem::kappas_of_films()
+  const auto& p = state_.particles;
+  for (std::size_t f = 0; f < pairs.size(); ++f) {
+    const auto& pair = *pairs[f];
+    if (pair.first < 0 || !(impulses[f] < 0)) continue;
+    kappas.resize(p.count());
+    for (const auto k : {index_of(pair.first), index_of(pair.second)}) {
+      kappas[k] -= impulses[f] * mobilities_[k] /
+                   (p.radii[index_of(pair.first)] + p.radii[index_of(pair.second)]);
+      if (share_of_film(kappas[k]) > 0) return true;
+    }
+  }
+  return false;
+}
+
+bool Simulation::pulled_across() const {
+  return !state_.memories.empty() && std::ranges::any_of(state_.pairs, [&](const Pair& pair) {
+    return norm(state_.memories.of(pair.memory).across()) > 0;
+  });
+}
+
 /// Copies the impulses of the step before and the memories, to restore them if this step throws.
 void Simulation::save_impulses() {
   if (!saved_impulses_.empty() || before_division_) return;
@@ -231,26 +253,43 @@ ProjectionResult Simulation::project(double h, double next) {
     rebuild_neighbour_list(state_, displacements_, *pool_);
     state_.memories.keep_only(state_.pairs, state_.walls);
   }
+  bool is_constrained = has_constraints() || pulled_across();
+  std::vector<double> no_turns, no_turn_mobilities;  // of particles that do not turn
   for (;;) {
     rebuild_wall_list(state_, planes, margin, *pool_);
     find_impacts<D>(h, next);
     StepProjection<D> projection(state_, h, planes_before, planes, displacements_, mobilities_,
                                  *pool_, loaded_);
+    const bool turns = state_.particles.turn();
+    if (is_constrained && !turns) {
+      no_turns.assign(mobilities_.size() * turn_components(D), 0.0);
+      no_turn_mobilities.assign(mobilities_.size(), 0.0);
+      for (std::size_t k = 0; k < state_.particles.count(); ++k)
+        no_turn_mobilities[k] =
+            mobilities_[k] / (state_.particles.radii[k] * state_.particles.radii[k]);
+    }
     const ConstraintStep constraints{setting_.laws,
                                      obstacles_,
                                      state_.time,
                                      next,
                                      state_.steps == 0 && state_.time == first_time_,
                                      kick_length(h),
-                                     turns_,
-                                     turn_mobilities_,
+                                     turns ? turns_ : no_turns,
+                                     turns ? turn_mobilities_ : no_turn_mobilities,
                                      body_steps_,
                                      &setting_.links,
                                      link_forces_,
                                      works_across_};
-    if (has_constraints()) projection.add_constraints(constraints);
+    if (is_constrained) projection.add_constraints(constraints);
     if (impacts<D>()) projection.follow(*impacts<D>());
+    const bool was_constrained = is_constrained;
     auto projected = projection.solve(setting_.solver, mean_radius_);
+    is_constrained = is_constrained || pull_across(projected.pairs, projected.impulses);
+    if (is_constrained && !was_constrained) {
+      undo_impacts();
+      move_freely<D>(h, next);
+      continue;
+    }
     double gone = 0;
     for (const auto body : projected.bodies)
       if (index_of(body) < state_.particles.count())
@@ -447,8 +486,11 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
   // A pair that bore friction without a normal impulse in the step before can be missing in this
   // projection. The friction of such a pair is then 0.
   for_pairs([&](Pair& pair) {
-    if (pair.impulse == 0 && pair.memory != PairMemories::kNone)
-      state_.memories.make(pair.memory).set_friction({});
+    if (pair.memory == PairMemories::kNone) return;
+    auto& memory = state_.memories.make(pair.memory);
+    if (pair.impulse == 0) memory.set_friction({});
+    // A step without constraints has no memories that take the place of these.
+    if (pair.impulse == 0 || projected.memories.empty()) memory.set_across({});
   });
   const auto [planes, particles, impulse] = pressing(projected, next);
   report.given_load += impulse;

@@ -179,6 +179,11 @@ class Simulation {
     else
       return impacts_in_space_;
   }
+  // True if films of these pairs, with these impulses in a part [M L/T], have geometric stiffness,
+  // (5.21).
+  bool pull_across(std::span<Pair* const> pairs, std::span<const double> impulses) const;
+  // True if films had it in the step before.
+  bool pulled_across() const;
   template <int D>
   void find_impacts(double h, double next);
   void undo_impacts();

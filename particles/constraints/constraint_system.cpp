@@ -238,7 +238,7 @@ double ConstraintSystem<D>::correct(ContactSystem<D>& system, Island& island,
     const auto values = values_after(links_[l], *step_.links, particles_, times_, of_units);
     for (std::size_t k = 0; k < values.size(); ++k) shift(of_link, k, values[k]);
   }
-  return std::max(largest, change_tensions(island, motions, false));
+  return std::max(largest, change_tensions(system, island, motions, false));
 }
 
 /// Linearises the equations about the motion without contacts. If this motion leaves all contacts
@@ -261,7 +261,7 @@ bool ConstraintSystem<D>::begin_without_contacts(ContactSystem<D>& system, Islan
     for (std::size_t k = 0; !block.is_contact && k < block.rows; ++k)
       problem.impulses[block.row + k] = times_.kick * link_forces_[link.first_force + k];
   }
-  change_tensions(island, motions, true);
+  change_tensions(system, island, motions, true);
   return true;
 }
 
@@ -327,7 +327,7 @@ void ConstraintSystem<D>::take_over(ContactSystem<D>& system, const Island& isla
       forces_of(l)[k] += sign * problem.impulses[block.row + k] / times_.kick;
     ++b;
   }
-  take_works_across(island, solution.motions);
+  take_impulses_across(island, solution.motions);
   // Forces of a solution without contacts may be far from those with contacts, and are no guess.
   if (!island.contacts.empty())
     for (const auto l : island.links)

@@ -82,6 +82,12 @@ inline double share_of_tension(double kappa) {
   return std::clamp(kappa / kNone - 1, 0.0, 1.0);
 }
 
+/// As share_of_tension(), of a film. `kappa` is the sum of the shares that one of its particles has
+/// in kappa of all its films; without springs the step is stable if no particle's sum is above 2. A
+/// pair that collides pulls for a step only, and with a sum of its displacement divided by the
+/// distance of the centres: it shall keep its angular momentum exactly, so that films begin late.
+inline double share_of_film(double kappa) { return std::clamp(2 * (kappa - 1), 0.0, 1.0); }
+
 /// The contacts, rigid bodies and links of a step as one ConstraintProblem, and its solution.
 template <int D>
 class ConstraintSystem {
@@ -171,12 +177,13 @@ class ConstraintSystem {
   /// for, and given loads bound the friction there.
   bool has_given_up() const { return has_given_up_; }
 
-  /// Writes the friction of contact number `c`, from 0 in the order of add(), and the impulse that
-  /// its solids carry to `memory` [M L/T]. solve() must have been called before this and the next
+  /// Writes the friction of contact number `c`, from 0 in the order of add(), the impulse that its
+  /// solids carry, and the impulse of its film across the normal to `memory` [M L/T]. solve() must have been called before this and the next
   /// functions.
   void remember(std::size_t c, PairMemory& memory) const {
     memory.set_friction(contact_states_[c].friction);
     memory[Remembered::kCarried] = contact_states_[c].carried;
+    memory.set_across(contact_states_[c].across);
   }
   /// Residual of contact number `c`, from 0 in the order of add(), in the last solution [L].
   const BlockResidual& residual(std::size_t c) const { return contact_states_[c].residual; }
@@ -205,9 +212,10 @@ class ConstraintSystem {
  private:
   // The block of a row of geometric stiffness.
   struct Tension {
-    std::size_t source = 0;   // block of the link
+    std::size_t source = 0;   // block of the link or film
     double moved_before = 0;  // step times the rate of the row at its beginning [L, rad]
     double moved_given = 0;   // by particles whose motion is given, in the step [L, rad]
+    Vector direction{};       // of the impulse on the second particle; 0 of a turn
   };
   // A set of particles that contacts and links connect, and its problem.
   struct Island {
@@ -230,6 +238,7 @@ class ConstraintSystem {
   struct ContactState {
     ContactTangents<D> tangents;
     Vector friction{};      // impulse of friction [M L/T]
+    Vector across{};        // impulse of the film across the normal, on the second particle [M L/T]
     double carried = 0;     // part of the impulse that solids carry [M L/T]
     double first_load = 0;  // load with which solutions begin, that of the last rough solution or
                             // of the step before [M L/T]
@@ -257,13 +266,19 @@ class ConstraintSystem {
   void move_particles(const ContactSystem<D>& system, const Island& island,
                       std::span<const Motion<D>> motions);
   double correct(ContactSystem<D>& system, Island& island, std::span<const Motion<D>> motions);
-  // Rows of the geometric stiffness of block `b`, that of a link, at its impulses.
-  std::vector<LinkRow> tension_rows(const Island& island, std::size_t b) const;
+  // Rows of the geometric stiffness of block `b`, that of a contact or link, at its impulses.
+  std::vector<LinkRow> tension_rows(const ContactSystem<D>& system, const Island& island,
+                                    std::size_t b) const;
+  // For each unit the sum of its shares in kappa of all its films, (5.21); empty if no film needs
+  // a spring across it, share_of_film().
+  std::vector<double> kappas_of_films(const ContactSystem<D>& system, const Island& island) const;
   // Compares the geometric stiffness in the problem with that of its impulses. Takes over the latter
   // if the difference changes a motion by more than half of what is allowed, or if `is_always`.
   // Returns the change of `motions` divided by what is allowed [1].
-  double change_tensions(Island& island, std::span<const Motion<D>> motions, bool is_always);
-  void take_works_across(const Island& island, std::span<const Motion<D>> motions);
+  double change_tensions(const ContactSystem<D>& system, Island& island,
+                         std::span<const Motion<D>> motions, bool is_always);
+  // The works of arms and the impulses of films across their directions.
+  void take_impulses_across(const Island& island, std::span<const Motion<D>> motions);
   bool has_motions_without_contacts(const Island& island) const;
   std::vector<Motion<D>> motions_without_contacts(const ContactSystem<D>& system,
                                                   const Island& island) const;

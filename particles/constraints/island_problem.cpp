@@ -181,7 +181,7 @@ void ConstraintSystem<D>::make_problem(const ContactSystem<D>& system, Island& i
   island.shifts_across.clear();
   std::vector<Motion<D>> free;
   for (const auto& unit : problem.units) free.push_back(unit.free);
-  change_tensions(island, free, true);
+  change_tensions(system, island, free, true);
   const auto has_load = [&](std::size_t c) { return contact_states_[c].last_load.has_value(); };
   if (island.has_given_up) {
     give_loads_of_step(island);

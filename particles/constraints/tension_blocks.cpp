@@ -1,5 +1,6 @@
-// The blocks of a problem with the geometric stiffness of links, docs/physics.md (5.21).
+// The blocks of a problem with the geometric stiffness of links and films, docs/physics.md (5.21).
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -24,18 +25,54 @@ double mobility_of(std::span<const RowPart<D>> parts, const ConstraintProblem<D>
 }  // namespace
 
 template <int D>
-std::vector<LinkRow> ConstraintSystem<D>::tension_rows(const Island& island, std::size_t b) const {
+std::vector<LinkRow> ConstraintSystem<D>::tension_rows(const ContactSystem<D>& system,
+                                                       const Island& island, std::size_t b) const {
   const auto& problem = island.problem;
   const auto& block = problem.blocks[b];
   std::vector<double> forces;
   for (std::size_t k = 0; k < block.rows; ++k)
     forces.push_back(problem.impulses[block.row + k] / times_.kick);
-  return rows_of_tension(links_[island.links[b - island.contacts.size()]], forces, particles_);
+  if (b >= island.contacts.size())
+    return rows_of_tension(links_[island.links[b - island.contacts.size()]], forces, particles_);
+  const auto& contact = system.contacts[island.contacts[b]];
+  if (contact.first < 0 || !(forces.front() < 0)) return {};
+  const auto first = side_of(contact.first), second = side_of(contact.second);
+  if (first.unit == second.unit) return {};
+  Vector apart{};
+  std::ranges::copy(separation<D>(particles_, contact.first, contact.second, contact.image),
+                    apart.begin());
+  return rows_across({contact.first, {}, first.offset}, {contact.second, {}, second.offset}, apart,
+                     -forces.front(), D);
 }
 
 template <int D>
-double ConstraintSystem<D>::change_tensions(Island& island, std::span<const Motion<D>> motions,
-                                            bool is_always) {
+std::vector<double> ConstraintSystem<D>::kappas_of_films(const ContactSystem<D>& system,
+                                                         const Island& island) const {
+  const auto& problem = island.problem;
+  std::vector<double> kappas(problem.units.size());
+  double largest = 0;
+  for (std::size_t b = 0; b < island.contacts.size(); ++b) {
+    const auto rows = tension_rows(system, island, b);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      // The second row across a film of spheres has the kappa of the first.
+      if (D == 3 && k == 1 && !rows[k].parts.front().is_turn) continue;
+      for (const auto& part : rows[k].parts) {
+        if (is_given(part.particle)) continue;
+        const auto unit = unit_of_particle_[index_of(part.particle)];
+        const std::array<RowPart<D>, 1> own = {{{unit, row_of<D>(part)}}};
+        auto& kappa = kappas[index_of(unit)];
+        kappa += times_.kick * rows[k].stiffness * mobility_of<D>(own, problem);
+        largest = std::max(largest, kappa);
+      }
+    }
+  }
+  if (!(share_of_film(largest) > 0)) kappas.clear();
+  return kappas;
+}
+
+template <int D>
+double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Island& island,
+                                            std::span<const Motion<D>> motions, bool is_always) {
   auto& problem = island.problem;
   const std::size_t sources = island.contacts.size() + island.links.size();
   struct NewRow {
@@ -57,8 +94,11 @@ double ConstraintSystem<D>::change_tensions(Island& island, std::span<const Moti
       for (std::size_t k = 0; k < coefficients.size(); ++k)
         changes[index_of(unit)][k] += impulse * coefficients[k];
   };
-  for (std::size_t b = island.contacts.size(); b < sources; ++b) {
-    const auto from = tension_rows(island, b);
+  const auto of_films = kappas_of_films(system, island);
+  for (std::size_t b = 0; b < sources; ++b) {
+    const bool is_film = b < island.contacts.size();
+    if (is_film && of_films.empty()) continue;
+    const auto from = tension_rows(system, island, b);
     for (const auto& equation : from) {
       NewRow row;
       double given = 0;
@@ -70,18 +110,23 @@ double ConstraintSystem<D>::change_tensions(Island& island, std::span<const Moti
       if (row.parts.empty()) continue;
       double w = mobility_of<D>(row.parts, problem);
       const auto& first = equation.parts.front();
-      if (b >= island.contacts.size() &&
+      if (!is_film &&
           links_[island.links[b - island.contacts.size()]].kind == LinkEquations::Kind::kHinge) {
         // A body that is held at a point also moves when it turns.
         const Vector around = cross(first.direction, first.arm);
         w = 1 / (1 / w + problem.units[index_of(row.parts.front().unit)].inverse_mobility *
                              dot(around, around));
       }
+      double kappa = 0;
+      for (const auto& part : row.parts)
+        if (is_film) kappa = std::max(kappa, of_films[index_of(part.unit)]);
       const double stiffness =
-          equation.stiffness * share_of_tension(times_.kick * equation.stiffness * w);
+          equation.stiffness *
+          (is_film ? share_of_film(kappa) : share_of_tension(times_.kick * equation.stiffness * w));
       if (!(stiffness > 0)) continue;
       const double rate = rate_of(equation, particles_);
-      row.tension = {b, times_.h * rate, given};
+      row.tension = {b, times_.h * rate, given,
+                     first.is_turn ? Vector{} : equation.parts.back().direction};
       row.block.is_contact = false;
       row.block.allowed = allowed / (first.is_turn ? mean_radius_ : 1);
       row.block.compliance = 1 / (times_.beta() * times_.kick * stiffness);
@@ -136,29 +181,43 @@ double ConstraintSystem<D>::change_tensions(Island& island, std::span<const Moti
 }
 
 template <int D>
-void ConstraintSystem<D>::take_works_across(const Island& island,
-                                            std::span<const Motion<D>> motions) {
+void ConstraintSystem<D>::take_impulses_across(const Island& island,
+                                               std::span<const Motion<D>> motions) {
   const auto& problem = island.problem;
   for (const auto l : island.links)
     if (links_[l].kind == LinkEquations::Kind::kArm) step_.works_across[links_[l].number] = 0;
+  for (const auto c : island.contacts) contact_states_[c].across = {};
   const std::size_t contacts = island.contacts.size(), sources = contacts + island.links.size();
   for (std::size_t t = 0; t < island.tensions.size(); ++t) {
     const auto& tension = island.tensions[t];
-    if (tension.source < contacts) continue;
-    const auto& link = links_[island.links[tension.source - contacts]];
-    if (link.kind != LinkEquations::Kind::kArm) continue;
     const auto r = problem.blocks[sources + t].row;
-    step_.works_across[link.number] +=
-        problem.impulses[r] *
-        (tension.moved_before + tension.moved_given + problem.product(r, motions)) / (2 * times_.h);
+    if (tension.source < contacts) {
+      auto& across = contact_states_[island.contacts[tension.source]].across;
+      across = across + problem.impulses[r] * tension.direction;
+      continue;
+    }
+    const auto& link = links_[island.links[tension.source - contacts]];
+    if (link.kind == LinkEquations::Kind::kArm)
+      step_.works_across[link.number] +=
+          problem.impulses[r] *
+          (tension.moved_before + tension.moved_given + problem.product(r, motions)) /
+          (2 * times_.h);
   }
 }
 
-template std::vector<LinkRow> ConstraintSystem<2>::tension_rows(const Island&, std::size_t) const;
-template double ConstraintSystem<2>::change_tensions(Island&, std::span<const Motion<2>>, bool);
-template void ConstraintSystem<2>::take_works_across(const Island&, std::span<const Motion<2>>);
-template std::vector<LinkRow> ConstraintSystem<3>::tension_rows(const Island&, std::size_t) const;
-template double ConstraintSystem<3>::change_tensions(Island&, std::span<const Motion<3>>, bool);
-template void ConstraintSystem<3>::take_works_across(const Island&, std::span<const Motion<3>>);
+template std::vector<LinkRow> ConstraintSystem<2>::tension_rows(const ContactSystem<2>&,
+                                                                const Island&, std::size_t) const;
+template std::vector<double> ConstraintSystem<2>::kappas_of_films(const ContactSystem<2>&,
+                                                                  const Island&) const;
+template double ConstraintSystem<2>::change_tensions(const ContactSystem<2>&, Island&,
+                                                     std::span<const Motion<2>>, bool);
+template void ConstraintSystem<2>::take_impulses_across(const Island&, std::span<const Motion<2>>);
+template std::vector<LinkRow> ConstraintSystem<3>::tension_rows(const ContactSystem<3>&,
+                                                                const Island&, std::size_t) const;
+template std::vector<double> ConstraintSystem<3>::kappas_of_films(const ContactSystem<3>&,
+                                                                  const Island&) const;
+template double ConstraintSystem<3>::change_tensions(const ContactSystem<3>&, Island&,
+                                                     std::span<const Motion<3>>, bool);
+template void ConstraintSystem<3>::take_impulses_across(const Island&, std::span<const Motion<3>>);
 
 }  // namespace viscontact::particles

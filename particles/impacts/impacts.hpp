@@ -101,6 +101,8 @@ class Impacts {
   bool is_touched(std::int32_t k) const {
     return !flight_of_.empty() && k >= 0 && flight_of_[index_of(k)] >= 0;
   }
+  /// True if pair `k` was hit. Pairs are numbered as in State::pairs, then as in State::walls.
+  bool is_hit(std::size_t k) const { return !hits_of_.empty() && hits_of_[k] > 0; }
   /// Displacement of particle `k` in the step with its blows but without the projection [L].
   Vector displacement(std::int32_t k) const;
   /// Corrects velocities and angular velocities that were computed as displacements and turns over

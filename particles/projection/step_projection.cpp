@@ -399,7 +399,8 @@ void StepProjection<D>::take_given(std::size_t c, const PairMemory& memory,
   const auto is_given = [&](std::int32_t k) { return k >= 0 && !(mobilities_[index_of(k)] > 0); };
   Vector normal{};
   std::ranges::copy(here.normal, normal.begin());
-  const Vector on_second = result.impulses.back() * normal + memory.friction();
+  const Vector along = result.impulses.back() * normal + memory.friction();
+  const Vector on_second = along + memory.across();
   // The arms end at one point, in the ratio of the radii, as those of tangents_of().
   const double r = p.radii[index_of(here.second)];
   if (is_given(here.second)) {
@@ -407,13 +408,12 @@ void StepProjection<D>::take_given(std::size_t c, const PairMemory& memory,
         here.first < 0
             ? r
             : r * (1 + (here.gap - here.tolerated) / (r + p.radii[index_of(here.first)]));
-    result.on_given.push_back({here.second, on_second, cross(-arm * normal, on_second)});
+    result.on_given.push_back({here.second, on_second, cross(-arm * normal, along)});
   }
   if (is_given(here.first)) {
     const double own = p.radii[index_of(here.first)];
     const double arm = own * (1 + (here.gap - here.tolerated) / (own + r));
-    result.on_given.push_back(
-        {here.first, -1.0 * on_second, cross(arm * normal, -1.0 * on_second)});
+    result.on_given.push_back({here.first, -1.0 * on_second, cross(arm * normal, -1.0 * along)});
   }
 }
 

@@ -209,7 +209,10 @@ class StepProjection {
   // Contact of pair k with its true gap. A curved obstacle is replaced by its tangent.
   Contact<D> contact_at_start(std::size_t k) {
     const auto& p = state_.particles;
-    if (impacts_ != nullptr && pair(k).first >= 0) return contact_at_end(k);
+    // A film that holds its pair through the step pulls along the normal of its beginning. With
+    // that of the end a chain of films would be unstable at half of the step, (5.21).
+    const bool is_glued = pair(k).gamma < 0 && impacts_ != nullptr && !impacts_->is_hit(k);
+    if (impacts_ != nullptr && pair(k).first >= 0 && !is_glued) return contact_at_end(k);
     auto contact = !tangents_.empty() && pair(k).first < 0
                        ? contact_of<D>(p, pair(k), tangents_[k - state_.pairs.size()])
                        : contact_of<D>(p, pair(k), planes_);

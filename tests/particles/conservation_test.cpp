@@ -95,7 +95,8 @@ TEST_P(Conservation, ActionIsReactionAndFilmsRememberTheImpulses) {
       const auto i = static_cast<std::size_t>(pair.first),
                  j = static_cast<std::size_t>(pair.second);
       const Vector between = before.particles.position(j) - before.particles.position(i);
-      const Vector push = pair.impulse / norm(between) * between;
+      const Vector push =
+          pair.impulse / norm(between) * between + after.memories.of(pair.memory).across();
       change[i] = change[i] + push;
       change[j] = change[j] - push;
       scale[i] += std::abs(pair.impulse);
