@@ -21,6 +21,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
+#include "viscontact/particles/contact/film_tension.hpp"
 #include "viscontact/particles/impacts/impacts.hpp"
 #include "viscontact/particles/links/link_rows.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
@@ -128,19 +129,11 @@ void Simulation::scale_impulses(double factor) {
 }
 
 bool Simulation::pull_across(std::span<Pair* const> pairs, std::span<const double> impulses) const {
-  std::vector<double> kappas;  // of all particles, as ConstraintSystem::kappas_of_films()
-  const auto& p = state_.particles;
-  for (std::size_t f = 0; f < pairs.size(); ++f) {
-    const auto& pair = *pairs[f];
-    if (pair.first < 0 || !(impulses[f] < 0)) continue;
-    kappas.resize(p.count());
-    for (const auto k : {index_of(pair.first), index_of(pair.second)}) {
-      kappas[k] -= impulses[f] * mobilities_[k] /
-                   (p.radii[index_of(pair.first)] + p.radii[index_of(pair.second)]);
-      if (share_of_film(kappas[k]) > 0) return true;
-    }
-  }
-  return false;
+  const auto kappas = kappas_of_films(
+      state_.particles, mobilities_,
+      pairs.size(), [&](std::size_t f) -> auto& { return *pairs[f]; },
+      [&](std::size_t f) { return impulses[f]; });
+  return !kappas.empty() && share_of_film(std::ranges::max(kappas)) > 0;
 }
 
 bool Simulation::pulled_across() const {
@@ -254,6 +247,7 @@ ProjectionResult Simulation::project(double h, double next) {
     state_.memories.keep_only(state_.pairs, state_.walls);
   }
   bool is_constrained = has_constraints() || pulled_across();
+  bool can_have_springs = true;                      // films, across their pairs
   std::vector<double> no_turns, no_turn_mobilities;  // of particles that do not turn
   for (;;) {
     rebuild_wall_list(state_, planes, margin, *pool_);
@@ -284,8 +278,14 @@ ProjectionResult Simulation::project(double h, double next) {
     if (impacts<D>()) projection.follow(*impacts<D>());
     const bool was_constrained = is_constrained;
     auto projected = projection.solve(setting_.solver, mean_radius_);
-    is_constrained = is_constrained || pull_across(projected.pairs, projected.impulses);
-    if (is_constrained && !was_constrained) {
+    // A chain that is squeezed until it buckles may have a solution without springs only.
+    const bool springs_fail =
+        is_constrained && !has_constraints() && !projected.residuals.converged;
+    can_have_springs = can_have_springs && !springs_fail;
+    is_constrained =
+        has_constraints() ||
+        (can_have_springs && (is_constrained || pull_across(projected.pairs, projected.impulses)));
+    if (is_constrained != was_constrained) {
       undo_impacts();
       move_freely<D>(h, next);
       continue;

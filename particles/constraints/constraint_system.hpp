@@ -82,12 +82,6 @@ inline double share_of_tension(double kappa) {
   return std::clamp(kappa / kNone - 1, 0.0, 1.0);
 }
 
-/// As share_of_tension(), of a film. `kappa` is the sum of the shares that one of its particles has
-/// in kappa of all its films; without springs the step is stable if no particle's sum is above 2. A
-/// pair that collides pulls for a step only, and with a sum of its displacement divided by the
-/// distance of the centres: it shall keep its angular momentum exactly, so that films begin late.
-inline double share_of_film(double kappa) { return std::clamp(2 * (kappa - 1), 0.0, 1.0); }
-
 /// The contacts, rigid bodies and links of a step as one ConstraintProblem, and its solution.
 template <int D>
 class ConstraintSystem {
@@ -269,8 +263,7 @@ class ConstraintSystem {
   // Rows of the geometric stiffness of block `b`, that of a contact or link, at its impulses.
   std::vector<LinkRow> tension_rows(const ContactSystem<D>& system, const Island& island,
                                     std::size_t b) const;
-  // For each unit the sum of its shares in kappa of all its films, (5.21); empty if no film needs
-  // a spring across it, share_of_film().
+  // For each unit kappa of its films, share_of_film(); empty if no film is a spring.
   std::vector<double> kappas_of_films(const ContactSystem<D>& system, const Island& island) const;
   // Compares the geometric stiffness in the problem with that of its impulses. Takes over the latter
   // if the difference changes a motion by more than half of what is allowed, or if `is_always`.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "viscontact/particles/constraints/constraint_system.hpp"
+#include "viscontact/particles/contact/film_tension.hpp"
 #include "viscontact/particles/links/tension.hpp"
 
 namespace viscontact::particles {

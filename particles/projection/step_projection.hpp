@@ -21,6 +21,7 @@
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/constraints/constraint_system.hpp"
 #include "viscontact/particles/contact/contact.hpp"
+#include "viscontact/particles/contact/film_tension.hpp"
 #include "viscontact/particles/dual_problem/contact_system.hpp"
 #include "viscontact/particles/impacts/impacts.hpp"
 #include "viscontact/particles/neighbours/pairs_of_particles.hpp"
@@ -193,6 +194,10 @@ class StepProjection {
   /// object.
   void follow(const Impacts<D>& impacts) {
     impacts_ = &impacts;
+    kappas_of_films_ = kappas_of_films(
+        state_.particles, mobilities_,
+        state_.pairs.size(), [&](std::size_t k) -> auto& { return state_.pairs[k]; },
+        [&](std::size_t k) { return state_.pairs[k].impulse; });
     system_.forbid_distances();
   }
   /// Solves the projection and sets the displacements h v, but changes neither pairs nor memories
@@ -209,15 +214,19 @@ class StepProjection {
   // Contact of pair k with its true gap. A curved obstacle is replaced by its tangent.
   Contact<D> contact_at_start(std::size_t k) {
     const auto& p = state_.particles;
-    // A film that holds its pair through the step pulls along the normal of its beginning. With
-    // that of the end a chain of films would be unstable at half of the step, (5.21).
-    const bool is_glued = pair(k).gamma < 0 && impacts_ != nullptr && !impacts_->is_hit(k);
-    if (impacts_ != nullptr && pair(k).first >= 0 && !is_glued) return contact_at_end(k);
+    if (impacts_ != nullptr && pair(k).first >= 0 && !is_stretched(k)) return contact_at_end(k);
     auto contact = !tangents_.empty() && pair(k).first < 0
                        ? contact_of<D>(p, pair(k), tangents_[k - state_.pairs.size()])
                        : contact_of<D>(p, pair(k), planes_);
     contact.loaded_plane = loaded_plane(k);
     return contact;
+  }
+  // True if a film holds pair k of particles under so strong a tension that the normal of the end
+  // of the step would be unstable.
+  bool is_stretched(std::size_t k) {
+    if (kappas_of_films_.empty() || !(pair(k).gamma < 0) || impacts_->is_hit(k)) return false;
+    return std::max(kappas_of_films_[index_of(pair(k).first)],
+                    kappas_of_films_[index_of(pair(k).second)]) > kLargestWithEndNormals;
   }
   // Contact::loaded_plane of pair k.
   std::int32_t loaded_plane(std::size_t k) {
@@ -308,8 +317,9 @@ class StepProjection {
   std::optional<ConstraintSystem<D>> constraints_;
   std::optional<PairsOfParticles> pairs_of_particles_;
   const Impacts<D>* impacts_ = nullptr;
-  std::vector<ImpulseError> errors_;  // of the contacts of system_, without constraints
-  std::vector<double> rounding_;      // rounding errors of the gaps of the contacts of system_ [L]
+  std::vector<double> kappas_of_films_;  // at the impulses of the step before; see follow()
+  std::vector<ImpulseError> errors_;     // of the contacts of system_, without constraints
+  std::vector<double> rounding_;  // rounding errors of the gaps of the contacts of system_ [L]
 };
 
 }  // namespace viscontact::particles

@@ -155,7 +155,18 @@ TEST_P(Conservation, InelasticContactsNeverGainEnergy) {
   }
 }
 
-TEST_P(Conservation, FilmsGainHardlyAnyEnergyAndNoAngularMomentum) {
+/// The angular momentum [M L^2/T] that impulses of films across their pairs add, with the positions
+/// `before` the step.
+Vector turned_across(const Particles& before, const State& after) {
+  Vector sum{};
+  for (const auto& pair : after.pairs)
+    sum = sum + cross(before.position(static_cast<std::size_t>(pair.second)) -
+                          before.position(static_cast<std::size_t>(pair.first)),
+                      after.memories.of(pair.memory).across());
+  return sum;
+}
+
+TEST_P(Conservation, FilmsGainHardlyAnyEnergyAndAngularMomentumOnlyAcross) {
   for (const std::uint64_t seed : {1U, 2U, 3U})
     for (const double h : {0.02, 0.002}) {
       Setting setting;
@@ -164,16 +175,26 @@ TEST_P(Conservation, FilmsGainHardlyAnyEnergyAndNoAngularMomentum) {
       Simulation simulation(setting, thrown(GetParam(), seed), 1);
       const auto& p = simulation.state().particles;
       const double start = kinetic_energy(p);
-      const Vector turning = angular_momentum(p);
+      const Vector first = angular_momentum(p);
+      Vector turning = first;
       double lowest = start;
-      run(simulation, 3, [&](const StepReport& report) {
+      while (simulation.state().time < 3 - h / 2) {
+        const auto before = p;
+        const auto report = simulation.step(3);
         // The equality of a film takes back what the step before drifted apart, also where what
         // drove them apart is over by then: 4e-5 is seen.
         EXPECT_LE(kinetic_energy(p), lowest + 4e-4 * start) << report.time << ", h = " << h;
         lowest = std::min(lowest, kinetic_energy(p));
-        // Impulses along the lines of the centres.
-        EXPECT_LE(norm(angular_momentum(p) - turning), 1e-11 * start) << report.time;
-      });
+        // Other impulses are along the lines of the centres. The parts of a divided step have
+        // positions of their own, which are not seen from here.
+        const Vector across = turned_across(before, simulation.state());
+        if (report.parts == 1 || norm(across) == 0) {
+          EXPECT_LE(norm(angular_momentum(p) - turning - across), 1e-11 * start) << report.time;
+        }
+        turning = angular_momentum(p);
+      }
+      // A step in three hundred has a film so tight that it is a spring across its pair.
+      EXPECT_LE(norm(turning - first), 1e-4 * start);
       EXPECT_LT(lowest, 0.1 * start);
     }
 }
