@@ -593,6 +593,8 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
       if (give_up(island, is_convex_, solution, result)) refinement.emplace(problem, solution);
     }
     result.residual = solution.result.residual;
+    constexpr int kWithTheirTensions = 4;  // corrections, which suffice for unique loads
+    island.loads_may_drift = n >= kWithTheirTensions && !(refinement && refinement->is_done());
     double change = correct(system, island, solution.motions);
     if (refinement && refinement->is_done())
       change = std::max(change, change_of_impulses(island, *refinement));

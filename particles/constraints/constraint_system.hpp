@@ -220,6 +220,9 @@ class ConstraintSystem {
     std::vector<Tension> tensions;
     std::vector<double> shifts;         // last corrections of the blocks of contacts and links [L]
     std::vector<double> shifts_across;  // of the motions, by the last change of their tensions [L]
+    // True if redundant loads have no unique values, which may differ a little in each solution, and
+    // with them the tensions.
+    bool loads_may_drift = false;
     // can_give_up: false if the problem had no solution with given loads either.
     bool has_given_up = false, can_give_up = true;
   };
