@@ -532,6 +532,7 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
   ++report.parts;
   report.contacts = projected.pairs.size();
   report.unresolved += projected.unresolved;
+  report.buckling = std::max(report.buckling, projected.buckling);
   report.has_given_loads = report.has_given_loads || projected.has_given_loads;
   report.iterations += projected.iterations;
   report_residuals(projected.residuals, mean_radius_, report);

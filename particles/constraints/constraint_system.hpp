@@ -194,6 +194,10 @@ class ConstraintSystem {
   double link_impulse(std::size_t l, std::size_t k) const {
     return times_.kick * link_forces_[links_[l].first_force + k];
   }
+  /// The largest kappa, (5.21), of the links that push, and of the pressures that keep areas, in the
+  /// last solution. What they push moves away like an unstable pendulum, by a factor of about
+  /// exp(kappa^(1/2)) in the step, and a step with kappa above 1 does not resolve it.
+  double buckling() const;
   /// For each constraint of the last solve(), first all contacts, then all links, its violation
   /// [L], >= 0, by the motion that violates all constraints least. Violations of angles are
   /// multiplied by the mean radius. That motion has the least sum of v^2/w over the rows of rigid

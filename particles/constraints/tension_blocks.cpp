@@ -6,6 +6,7 @@
 
 #include "viscontact/particles/constraints/constraint_system.hpp"
 #include "viscontact/particles/contact/film_tension.hpp"
+#include "viscontact/particles/domain/periods.hpp"
 #include "viscontact/particles/links/tension.hpp"
 
 namespace viscontact::particles {
@@ -85,9 +86,13 @@ double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Isla
   // What is allowed between particles that are held at rest is less than what the solver resolves in
   // the rows across them, which move nothing there.
   double allowed = 0;
+  const auto is_of_lengths = [&](std::size_t b) {
+    if (b < island.contacts.size()) return true;
+    const auto& link = links_[island.links[b - island.contacts.size()]];
+    return !link.is_angle() && link.kind != LinkEquations::Kind::kArea;
+  };
   for (std::size_t b = 0; b < sources; ++b)
-    if (b < island.contacts.size() || !links_[island.links[b - island.contacts.size()]].is_angle())
-      allowed = std::max(allowed, problem.blocks[b].allowed);
+    if (is_of_lengths(b)) allowed = std::max(allowed, problem.blocks[b].allowed);
   std::vector<NewRow> rows;
   std::vector<Motion<D>> changes;  // of the impulses of all units
   const auto add = [&](std::span<const RowPart<D>> parts, double impulse) {
@@ -191,6 +196,32 @@ double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Isla
 }
 
 template <int D>
+double ConstraintSystem<D>::buckling() const {
+  using Kind = LinkEquations::Kind;
+  double largest = 0;
+  for (const auto& link : links_) {
+    const double force = link_forces_[link.first_force];
+    if (link.kind == Kind::kArea) {
+      for (const auto& part : link.parts())
+        largest =
+            std::max(largest, times_.kick * std::abs(force) * mobilities_[index_of(part.particle)]);
+      continue;
+    }
+    if (!(force > 0) ||
+        (link.kind != Kind::kArm && link.kind != Kind::kSpring && link.kind != Kind::kDistance))
+      continue;
+    const auto& parts = link.parts();
+    const double length =
+        norm(nearest_image(particles_.cell, particles_.position(index_of(parts[1].particle)) -
+                                                particles_.position(index_of(parts[0].particle))));
+    double w = 0;
+    for (const auto& part : parts) w += mobilities_[index_of(part.particle)];
+    if (length > 0) largest = std::max(largest, times_.kick * force / length * w);
+  }
+  return largest;
+}
+
+template <int D>
 void ConstraintSystem<D>::take_impulses_across(const Island& island,
                                                std::span<const Motion<D>> motions) {
   const auto& problem = island.problem;
@@ -221,6 +252,7 @@ template std::vector<double> ConstraintSystem<2>::kappas_of_films(const ContactS
                                                                   const Island&) const;
 template double ConstraintSystem<2>::change_tensions(const ContactSystem<2>&, Island&,
                                                      std::span<const Motion<2>>, bool);
+template double ConstraintSystem<2>::buckling() const;
 template void ConstraintSystem<2>::take_impulses_across(const Island&, std::span<const Motion<2>>);
 template std::vector<LinkRow> ConstraintSystem<3>::tension_rows(const ContactSystem<3>&,
                                                                 const Island&, std::size_t) const;
@@ -228,6 +260,7 @@ template std::vector<double> ConstraintSystem<3>::kappas_of_films(const ContactS
                                                                   const Island&) const;
 template double ConstraintSystem<3>::change_tensions(const ContactSystem<3>&, Island&,
                                                      std::span<const Motion<3>>, bool);
+template double ConstraintSystem<3>::buckling() const;
 template void ConstraintSystem<3>::take_impulses_across(const Island&, std::span<const Motion<3>>);
 
 }  // namespace viscontact::particles

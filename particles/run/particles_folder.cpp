@@ -36,12 +36,12 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ParticleRegime, reynolds, stokes, film, has_c
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StepTotals, steps, unconverged, failed, iterations,
                                    most_iterations, first_time, last_time, largest_residual,
                                    largest_overlap, largest_impulse_residual, divided, unresolved,
-                                   given_loads, regime, seconds, peak_memory_mebibytes,
-                                   fluid_seconds, unknowns, first_velocity_errors,
-                                   last_velocity_errors, first_force_errors, last_force_errors,
-                                   averaged_time, mean_dissipation, mean_apparent_viscosity,
-                                   contact_time, contact_means, jammed, first_jam, jammed_bodies,
-                                   given_load, growing)
+                                   buckling, largest_buckling, given_loads, regime, seconds,
+                                   peak_memory_mebibytes, fluid_seconds, unknowns,
+                                   first_velocity_errors, last_velocity_errors, first_force_errors,
+                                   last_force_errors, averaged_time, mean_dissipation,
+                                   mean_apparent_viscosity, contact_time, contact_means, jammed,
+                                   first_jam, jammed_bodies, given_load, growing)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunRecord, totals, frames, flows, last_frame, rebounds, files)
 
 namespace {
@@ -60,6 +60,8 @@ void StepTotals::add(const StepReport& report, double average_from) {
   largest_impulse_residual = std::max(largest_impulse_residual, report.impulse_residual);
   divided += report.parts > 1 ? 1 : 0;
   unresolved += static_cast<std::int64_t>(report.unresolved);
+  buckling += report.buckling > 1 ? 1 : 0;
+  largest_buckling = std::max(largest_buckling, report.buckling);
   given_loads += report.has_given_loads ? 1 : 0;
   // Both numbers are free choices. A load that follows a motion through a spring, or the inertia of
   // ever more particles, grows in proportion to the time, and hence by ever smaller factors.
@@ -228,6 +230,7 @@ std::string run_json(const ParticlesCase& c, const StepTotals& totals, const Sta
   json["largest_gamma_error"] = largest_gamma_error(state);
   json["divided_steps"] = totals.divided;
   json["unresolved_contacts"] = totals.unresolved;
+  json["buckling_steps"] = totals.buckling;
   json["steps_with_given_loads"] = totals.given_loads;
   json["largest_overlap"] = totals.largest_overlap;
   json["final_overlap"] = largest_overlap(c.setting, state);

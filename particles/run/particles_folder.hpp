@@ -91,6 +91,8 @@ struct StepTotals {
   double largest_impulse_residual = 0;  ///< largest StepReport::impulse_residual [1], >= 0
   std::int64_t divided = 0;             ///< number of steps that were divided into parts
   std::int64_t unresolved = 0;          ///< sum of StepReport::unresolved
+  std::int64_t buckling = 0;            ///< number of steps with StepReport::buckling > 1
+  double largest_buckling = 0;          ///< the largest StepReport::buckling [1]
   std::int64_t given_loads = 0;         ///< number of steps with StepReport::has_given_loads
   /// Computing time of earlier calls [s]. In a saved record it includes the call that saved it.
   double seconds = 0;

@@ -236,6 +236,18 @@ void warn_of_jam(const StepTotals& record) {
         record.jammed, record.first_jam, record.jammed_bodies);
 }
 
+/// Warns if links push so hard that steps do not resolve how what they push buckles.
+void warn_of_buckling(const ParticlesCase& c, const StepTotals& record) {
+  if (record.buckling > 0)
+    terminal::warn(
+        "particles: warning: in {} of {} steps a link (or the area that a membrane keeps) pushes "
+        "so "
+        "hard that what it pushes buckles within the step, and rounding errors decide how "
+        "(run.json: "
+        "buckling_steps); a time_step of {:.2g} resolves it",
+        record.buckling, record.steps, c.setting.time_step / std::sqrt(record.largest_buckling));
+}
+
 /// Says on the terminal how the run ended, after its files are written. Throws Error(kInterrupted)
 /// if the run was interrupted, Error(kNotConverged) if a step missed the tolerances by more than
 /// the factor kStillAResult (particles_folder.hpp).
@@ -275,6 +287,7 @@ void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State&
         c.setting.laws.friction->method == FrictionMethod::kConvex ? "the convex relaxation"
                                                                    : "Coulomb's law");
   warn_of_jam(record);
+  warn_of_buckling(c, record);
   if (record.unresolved > 0)
     terminal::warn(
         "particles: warning: {} contacts were computed although their particles move past each "

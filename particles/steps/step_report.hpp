@@ -91,6 +91,9 @@ struct StepReport {
   /// beforehand, because Coulomb's law or its convex relaxation, in which these impulses are
   /// unknown, was not solved, docs/physics.md (5.17).
   bool has_given_loads = false;
+  /// The largest kappa, docs/physics.md (5.21), of links that push [1], >= 0: above 1 the step does
+  /// not resolve how what they push buckles. Only without a fluid.
+  double buckling = 0;
   /// Names of the obstacles that move as given, and of the particles whose motion is given, that
   /// push on others in the step, such as "plane -3 and particle 7"; empty if there are none. Only
   /// without a fluid.
