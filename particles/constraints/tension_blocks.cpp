@@ -169,7 +169,9 @@ double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Isla
       for (std::size_t k = 0; k < by.size(); ++k)
         moved = std::max(moved, std::abs(by[k]) * (k < D ? 1 : mean_radius_));
     }
-    island.shifts_across[b] = std::max(island.shifts_across[b], moved);
+    // In proportion to what the block's own residual may be.
+    const double own = moved * problem.blocks[b].allowed / allowed;
+    island.shifts_across[b] = std::max(island.shifts_across[b], own);
     largest = std::max(largest, moved / allowed);
   };
   island.shifts.resize(sources);
