@@ -4,12 +4,12 @@
 # All of it is exact in P2, so that each node whose path stays inside should get x - 0.25 v_x, up to rounding.
 # It does for v = (0.9, 0.37). In the directions of the edges, (1, 0) and (0.5, 0.5), one node in 20 gets
 # another number, without a word, and some are wrong by more than twice the length of the path.
-# Packages: freefem++ 4.11 (Debian 12).
+# Packages: freefem++ 4.11 (Debian 12) and 4.15 (Debian 13).
 set -eu
 cd "$(dirname "$0")"
 # shellcheck source-path=SCRIPTDIR
 . ./packages
-debian freefem++ 4.11+dfsg1-3 4.11+dfsg1-2
+debian freefem++ 4.11+dfsg1-3 4.11+dfsg1-2 4.15+dfsg-1
 command -v FreeFem++ >/dev/null || unavailable "FreeFem++ is not installed"
 
 cat >"$folder/convect.edp" <<'END_OF_SCRIPT'

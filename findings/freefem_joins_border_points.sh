@@ -5,12 +5,12 @@
 # floor. With a gap of 0.015 the mesh has all 18 points. With 0.011 it has 17: the corner and the point of
 # the floor have become one, so that the octagon touches the floor. fixedborder=1, which forbids the mesh
 # generator to change the border, makes no difference.
-# Packages: freefem++ 4.11 (Debian 12).
+# Packages: freefem++ 4.11 (Debian 12) and 4.15 (Debian 13).
 set -eu
 cd "$(dirname "$0")"
 # shellcheck source-path=SCRIPTDIR
 . ./packages
-debian freefem++ 4.11+dfsg1-3 4.11+dfsg1-2
+debian freefem++ 4.11+dfsg1-3 4.11+dfsg1-2 4.15+dfsg-1
 command -v FreeFem++ >/dev/null || unavailable "FreeFem++ is not installed"
 
 cat >"$folder/border.edp" <<'END_OF_SCRIPT'

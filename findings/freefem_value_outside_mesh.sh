@@ -3,12 +3,12 @@
 # of u which one. P1, P2 and P1nc take the value at the nearest point of the border, at any distance; P0,
 # P1dc and P2dc are 0. The same function in two spaces, which agree at each point inside, is therefore 2 and
 # 0 at a point 0.01 beyond the border, without a word. chi(Th)(x, y) tells whether a point is inside.
-# Packages: freefem++ 4.11 (Debian 12).
+# Packages: freefem++ 4.11 (Debian 12) and 4.15 (Debian 13).
 set -eu
 cd "$(dirname "$0")"
 # shellcheck source-path=SCRIPTDIR
 . ./packages
-debian freefem++ 4.11+dfsg1-3 4.11+dfsg1-2
+debian freefem++ 4.11+dfsg1-3 4.11+dfsg1-2 4.15+dfsg-1
 command -v FreeFem++ >/dev/null || unavailable "FreeFem++ is not installed"
 
 cat >"$folder/outside.edp" <<'END_OF_SCRIPT'
