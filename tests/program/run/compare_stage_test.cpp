@@ -37,7 +37,7 @@ TEST_F(Stages, CompareTakesATrajectoryOfTheUsersOwn) {
   EXPECT_NEAR(mine.sup_gap_distance, kShift, 1e-12);
   EXPECT_NEAR(mine.l1_gap_distance, kShift * 4, 1e-10);
   EXPECT_EQ(mine.l1_velocity_distance, 0);
-  EXPECT_FALSE(mine.recovered_minimal_gap || mine.contact_interval);
+  EXPECT_FALSE(mine.film_from_gamma || mine.contact_interval);
 }
 
 TEST_F(Stages, CompareKeepsItsColumnsBesideALongName) {
