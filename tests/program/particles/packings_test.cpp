@@ -20,8 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using Json = nlohmann::json;
 
-/// Three discs of the radius 1/2 on each other, between a plane at rest and one at the height 3.2,
-/// which moves as `upper` says.
+/// Three discs of the radius 1/2 on each other, on a plane at rest, and below the body `upper`.
 std::string squeezed(const std::string& end_time, const std::string& upper) {
   std::string text = R"(title = "A column"
 [space]
@@ -34,16 +33,20 @@ end_time = )" + end_time +
 [[plane]]
 point = [0.0, 0.0]
 normal = [0.0, 1.0]
-[[plane]]
-point = [0.0, 3.2]
-normal = [0.0, -1.0]
-)" + upper;
+)";
   for (const auto* height : {"0.5", "1.5", "2.5"})
     text += disc(std::string("0.0, ") + height, "0.5", "1.0");
-  return text;
+  return text + upper;
 }
 
-const std::string kDriven = "velocity = [0.0, -0.1]\n";
+/// A plane at the height 3.2, which moves as `motion` says.
+std::string plane_above(const std::string& motion) {
+  return "[[plane]]\npoint = [0.0, 3.2]\nnormal = [0.0, -1.0]\n" + motion;
+}
+
+const std::string kDriven = plane_above("velocity = [0.0, -0.1]\n");
+const std::string kDrivenDisc =
+    disc("0.0, 3.7", "0.5", "1.0", "velocity_given = { value = [0.0, -0.1] }\n");
 
 class Packings : public ParticlesCommand {
  protected:
@@ -51,26 +54,29 @@ class Packings : public ParticlesCommand {
 };
 
 TEST_F(Packings, ThatJamAreCountedAndWarnedOf) {
-  // The column has the height 3, so that the plane leaves it room until t = 2.
-  const auto jammed = run(put_case(squeezed("2.5", kDriven)), out());
-  EXPECT_EQ(jammed.exit_status, results::exit_code_of(ErrorKind::kNotConverged)) << jammed.errors;
-  const auto found = record();
-  const double first = found["first_jam"];
-  const int steps = found["jammed_steps"];
-  EXPECT_GT(first, 2);
-  // Counted once an overlap exceeds 0.005: at the latest, when the plane lacks room for four.
-  EXPECT_LT(first, 2.2 + 2 * 0.05);
-  // Each step from then on, to the end.
-  EXPECT_EQ(steps, std::lround((2.5 - first) / 0.05) + 1);
-  EXPECT_THAT(jammed.errors,
-              HasSubstr(fmt::format("warning: the particles jam in {} steps, first at t = {:.6g}: "
-                                    "no motion of them gives way to the given motion of planes 2,",
-                                    steps, first)));
+  for (const auto& [upper, name] :
+       {std::pair(kDriven, "planes 2"), std::pair(kDrivenDisc, "particles 3")}) {
+    // The column has the height 3, so that the body above leaves it room until t = 2.
+    const auto jammed = run(put_case(squeezed("2.5", upper)), out());
+    EXPECT_EQ(jammed.exit_status, results::exit_code_of(ErrorKind::kNotConverged));
+    const auto found = record();
+    const double first = found["first_jam"];
+    const int steps = found["jammed_steps"];
+    EXPECT_GT(first, 2);
+    // Counted from an overlap of 0.005 on: at the latest when four of them are lacking, and a step.
+    EXPECT_LT(first, 2.2 + 1.5 * 0.05);
+    // Each step from then on, to the end.
+    EXPECT_EQ(steps, std::lround((2.5 - first) / 0.05) + 1);
+    EXPECT_THAT(jammed.errors, HasSubstr(fmt::format(
+                                   "warning: the particles jam in {} steps, first at t = {:.6g}: "
+                                   "no motion of them gives way to the given motion of {},",
+                                   steps, first, name)));
+  }
 }
 
 TEST_F(Packings, ThatHaveRoomOrGiveWayDoNotJam) {
   for (const auto& text :
-       {squeezed("1.9", kDriven), squeezed("4.0", "force = 1.0\nmass = 1.0\n")}) {
+       {squeezed("1.9", kDriven), squeezed("4.0", plane_above("force = 1.0\nmass = 1.0\n"))}) {
     const auto result = run(put_case(text), out());
     expect_done(result);
     EXPECT_EQ(record()["jammed_steps"], 0);
