@@ -7,7 +7,7 @@ set -eu
 cd "$(dirname "$0")"
 # shellcheck source-path=SCRIPTDIR
 . ./packages
-debian freefem++ 4.11+dfsg1-3 4.11+dfsg1-2 4.15+dfsg-3
+debian freefem++ 4.11+dfsg1-3 4.11+dfsg1-2 4.15+dfsg-1
 command -v FreeFem++ >/dev/null || unavailable "FreeFem++ is not installed"
 
 echo 'cout << "2^-1 " << 2^-1 << ", 10^-3 " << 10^-3 << ", 2.^-1 " << 2.^-1 << ", 2^0.5 " << 2^0.5 << endl;' \

@@ -9,20 +9,15 @@ cd "$(dirname "$0")"
 . ./packages
 npm_package uplot 1.6.32
 
-cat >"$folder/page.html" <<'END'
-<html><body><div id="plots"></div><pre id="out"></pre>
-<script src="node_modules/uplot/dist/uPlot.iife.min.js"></script>
-<script>
+browser node_modules/uplot/dist/uPlot.iife.min.js >"$folder/output" <<'END'
 const plot = new uPlot({width: 800, height: 400, scales: {x: {time: false}, y: {distr: 3}}, series: [{}, {stroke: "red"}]},
-                       [[1, 2, 3, 4], [1, 0, -5, 100]], document.getElementById("plots"));
+                       [[1, 2, 3, 4], [1, 0, -5, 100]], plots);
 setTimeout(() => {
   const {min, max} = plot.scales.y, place = (y) => plot.valToPos(y, "y").toFixed(1);
-  document.getElementById("plots").remove();
-  document.getElementById("out").textContent = `\naxis from ${min} to ${max}\n` +
-    `0 and -5 are drawn where ${min / 10} is: ${place(0) === place(min / 10) && place(-5) === place(min / 10)}\n`;
+  const low = place(min / 10);
+  show([`axis from ${min} to ${max}`,
+        `0 and -5 are drawn where ${min / 10} is: ${place(0) === low && place(-5) === low}`]);
 }, 100);
-</script></body></html>
 END
-browser "$folder/page.html" >"$folder/output"
 verdict "axis from 1 to 100
 0 and -5 are drawn where 0.1 is: true"

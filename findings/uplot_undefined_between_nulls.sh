@@ -10,10 +10,7 @@ cd "$(dirname "$0")"
 . ./packages
 npm_package uplot 1.6.32
 
-cat >"$folder/page.html" <<'END'
-<html><body><div id="plots"></div><pre id="out"></pre>
-<script src="node_modules/uplot/dist/uPlot.iife.min.js"></script>
-<script>
+browser node_modules/uplot/dist/uPlot.iife.min.js >"$folder/output" <<'END'
 const lines = [];
 const none = undefined;
 for (const [name, ys] of [["nulls", [1, 2, null, null, null, null, null, 3, 4]],
@@ -21,7 +18,7 @@ for (const [name, ys] of [["nulls", [1, 2, null, null, null, null, null, 3, 4]],
                           ["three undefined", [1, 2, null, none, none, none, null, 3, 4]]]) {
   const plot = new uPlot({width: 800, height: 400, scales: {x: {time: false}}, axes: [{show: false}, {show: false}],
                           series: [{}, {stroke: "red", width: 2, points: {show: false}}]},
-                         [ys.map((_, k) => k + 1), ys], document.getElementById("plots"));
+                         [ys.map((_, k) => k + 1), ys], plots);
   setTimeout(() => {
     const {width, height} = plot.ctx.canvas, pixels = plot.ctx.getImageData(0, 0, width, height).data;
     const [begin, end] = [2.05, 7.95].map((x) => Math.round(plot.valToPos(x, "x", true)));
@@ -37,10 +34,8 @@ for (const [name, ys] of [["nulls", [1, 2, null, null, null, null, null, 3, 4]],
     lines.push(`${name}: a line in ${Math.round(10 * drawn / (end - begin)) * 10} % of the interval`);
   }, 20);
 }
-setTimeout(() => { document.getElementById("plots").remove(); document.getElementById("out").textContent = "\n" + lines.join("\n") + "\n"; }, 300);
-</script></body></html>
+setTimeout(() => show(lines), 300);
 END
-browser "$folder/page.html" >"$folder/output"
 verdict "nulls: a line in 0 % of the interval
 one undefined: a line in 0 % of the interval
 three undefined: a line in 30 % of the interval"

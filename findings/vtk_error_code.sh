@@ -10,6 +10,7 @@ cd "$(dirname "$0")"
 # shellcheck source-path=SCRIPTDIR
 . ./packages
 debian python3-vtk9 9.1.0+really9.1.0+dfsg2-5+deb12u1 9.1.0+really9.1.0+dfsg2-5 9.3.0+dfsg1-4+b1
+python -c 'import vtkmodules.vtkIOXML' 2>/dev/null || unavailable "the libraries of VTK are not installed"
 
 python - "$folder" >"$folder/output" 2>/dev/null <<'END'
 import sys

@@ -100,7 +100,8 @@ py::object columns_of(const reduced_model::Trajectory& trajectory) {
   about["model"] = trajectory.model;
   about["steps"] = trajectory.steps;
   about["seconds"] = trajectory.seconds;
-  about["recovered_minimal_gap"] = or_none(trajectory.recovered_minimal_gap);
+  about["film_from_gamma"] = or_none(trajectory.film_from_gamma);
+  about["recovered_minimal_gap"] = about["film_from_gamma"];  // the name in earlier versions
   about["contact_interval"] = or_none(trajectory.contact_interval);
   about["solid_contact_from"] =
       trajectory.solid_contact_from ? py::cast(trajectory.solid_contact_from->time) : py::none();
@@ -321,9 +322,8 @@ lubrication_force, external_force   (R,) [M L/T^2]
 gamma, solid_force                  (R,) [M L/T], [M L/T^2]
 
 NaN stands where a model has no such number. Its `about` has model, steps, seconds,
-recovered_minimal_gap, contact_interval, solid_contact_from, time_to_gap (pairs of a gap and its
-first time), rebounds, and the impulses and works of
-the budget. No file is written.)",
+film_from_gamma, contact_interval, solid_contact_from, time_to_gap (pairs of a gap and its first
+time), rebounds, and the impulses and works of the budget. No file is written.)",
              py::arg("case"), py::arg("fit") = py::none(), py::kw_only(),
              py::arg("models") = py::none(), py::arg("values") = Numbers());
   module.def("rolling", &roll,

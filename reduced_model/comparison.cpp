@@ -136,7 +136,7 @@ Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
     const auto lowest = std::ranges::min_element(trajectory.rows, {}, &TrajectoryRow::gap);
     result.minimal_gap = lowest->gap;
     result.minimal_gap_time = lowest->time;
-    result.recovered_minimal_gap = trajectory.recovered_minimal_gap;
+    result.film_from_gamma = trajectory.film_from_gamma;
     result.contact_interval = contact_interval(trajectory);
     result.solid_contact_from = trajectory.solid_contact_from;
     result.gap_times = trajectory.gap_times;
@@ -182,7 +182,7 @@ void fields_of(JsonFields& json, MomentumEnergyBudget& budget) {
 void fields_of(JsonFields& json, ModelComparison& model) {
   json("minimal_gap", model.minimal_gap);
   json("minimal_gap_time", model.minimal_gap_time);
-  json("recovered_minimal_gap", model.recovered_minimal_gap);
+  json.renamed("film_from_gamma", "recovered_minimal_gap", model.film_from_gamma);
   json("contact_interval", model.contact_interval);
   json("solid_contact_from", model.solid_contact_from, Absence::kAllowed);
   json("time_to_gap", model.gap_times, Absence::kLeftOutIfEmpty);

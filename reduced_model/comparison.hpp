@@ -26,7 +26,7 @@ struct ModelComparison {
   double minimal_gap_time = 0;  ///< time of the first row with this gap [T]
   /// Film thickness that a contact model computes from the lowest gamma [L], >= 0; nothing if gamma
   /// is never < 0 or if the model is not a contact model.
-  std::optional<double> recovered_minimal_gap;
+  std::optional<double> film_from_gamma;
   /// First time at which contact begins and last time at which contact ends [T]. If the trajectory
   /// does not state them, they are the times of the first and last row with gamma < 0; nothing if
   /// there is no such row.
@@ -40,9 +40,9 @@ struct ModelComparison {
   std::vector<Rebound> rebounds;
   /// Impulse and work of each force; nothing in a trajectory that Viscontact did not write.
   std::optional<MomentumEnergyBudget> budget;
-  double sup_gap_distance = 0;      ///< max over time of |q - q_ref| [L], >= 0
-  double l1_gap_distance = 0;       ///< integral over time of |q - q_ref| [L T], >= 0
-  double l1_velocity_distance = 0;  ///< integral over time of |u - u_ref| [L], >= 0
+  double sup_gap_distance = 0;                 ///< max over time of |q - q_ref| [L], >= 0
+  double l1_gap_distance = 0;                  ///< integral over time of |q - q_ref| [L T], >= 0
+  double l1_velocity_distance = 0;             ///< integral over time of |u - u_ref| [L], >= 0
   std::optional<double> reynolds_number{};     ///< Trajectory::reynolds_number
   std::optional<double> stokes_number{};       ///< Trajectory::stokes_number
   std::optional<double> film_stokes_number{};  ///< Trajectory::film_stokes_number

@@ -30,6 +30,7 @@ const std::array<std::string, 7> kColumns = {
 // velocity [L/T] of the first touch of the solids.
 const std::array<std::string, 2> kContactKeys = {"contact_from", "contact_until"};
 const std::array<std::string, 2> kSolidKeys = {"solid_contact_from", "solid_contact_velocity"};
+const std::string kFilmKey = "film_from_gamma";
 const std::string kReynoldsKey = "reynolds_number", kStokesKey = "stokes_number",
                   kFilmStokesKey = "film_stokes_number";
 constexpr std::size_t kRequiredColumns = 3;  // time, gap, velocity
@@ -127,7 +128,10 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
     return csv_comment_number(csv.comments, key, file);
   };
   if (const auto model = take("model")) trajectory.model = *model;
-  trajectory.recovered_minimal_gap = take_number("recovered_minimal_gap");
+  trajectory.film_from_gamma = take_number(kFilmKey);
+  // The name in files of earlier versions.
+  if (const auto film = take_number("recovered_minimal_gap"); !trajectory.film_from_gamma)
+    trajectory.film_from_gamma = film;
   trajectory.reynolds_number = take_number(kReynoldsKey);
   trajectory.stokes_number = take_number(kStokesKey);
   trajectory.film_stokes_number = take_number(kFilmStokesKey);
@@ -179,11 +183,10 @@ std::string write_trajectory(const Trajectory& trajectory) {
   comments["rows"] = std::to_string(trajectory.rows.size());
   comments["steps"] = std::to_string(trajectory.steps);
   comments["seconds"] = format_number(trajectory.seconds);
-  if (trajectory.recovered_minimal_gap)
-    comments["recovered_minimal_gap"] = format_number(*trajectory.recovered_minimal_gap);
   const auto add = [&](const std::string& key, const std::optional<double>& number) {
     if (number) comments[key] = format_number(*number);
   };
+  add(kFilmKey, trajectory.film_from_gamma);
   add(kReynoldsKey, trajectory.reynolds_number);
   add(kStokesKey, trajectory.stokes_number);
   add(kFilmStokesKey, trajectory.film_stokes_number);

@@ -150,7 +150,7 @@ struct Trajectory {
   std::vector<TrajectoryRow> rows;  ///< in strictly increasing time, at least one
   /// Smallest film thickness [L], >= 0, that gamma stands for; nothing if gamma is never < 0.
   /// Contact models only.
-  std::optional<double> recovered_minimal_gap;
+  std::optional<double> film_from_gamma;
   /// Beginning of the first contact, and end of the last one or of a motion that ends in contact
   /// [T]; nothing if there is no contact. Contact models only.
   std::optional<std::array<double, 2>> contact_interval;

@@ -152,8 +152,7 @@ std::string models_table(const results::RunResults& run) {
     rows += table_row(
         model_link(run, model.model), fmt::format("{:.6g}", model.minimal_gap),
         fmt::format("{:.5g}", model.minimal_gap_time),
-        model.recovered_minimal_gap ? fmt::format("{:.6g}", *model.recovered_minimal_gap)
-                                    : "&ndash;",
+        model.film_from_gamma ? fmt::format("{:.6g}", *model.film_from_gamma) : "&ndash;",
         model.contact_interval ? fmt::format("{:.4g} to {:.4g}", (*model.contact_interval)[0],
                                              (*model.contact_interval)[1])
                                : "&ndash;",

@@ -29,7 +29,7 @@ constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 
 using Value = double (*)(const reduced_model::TrajectoryRow&);
 
-/// The style of the line of a model, or, if `film` is true, of the film that is recovered from its
+/// The style of the line of a model, or, if `film` is true, of the film from its
 /// gamma. The place of the model in the list of all models decides which row of kLines it gets.
 /// Models beyond the last row begin again at the first row, with longer dashes. Widths of lines
 /// [pixels] differ, so that equal curves can be seen. A name that is no model gets a colour of its
@@ -128,7 +128,7 @@ Plot plot_gaps_logarithmic(const std::vector<reduced_model::Trajectory>& traject
                            const lubrication::LubricationForce& force) {
   PlotPanel panel{"Gap, logarithmic", {"time t"}, {"gap q", true}, {}};
   std::vector<std::pair<double, double>> through;
-  // The axis must show the gaps of models without contact and the recovered films. The gaps of
+  // The axis must show the gaps of models without contact and the films from gamma. The gaps of
   // contact models do not count, because they are very small just after the release.
   double thinnest = std::numeric_limits<double>::infinity();
   for (const auto& trajectory : trajectories) {
@@ -164,7 +164,7 @@ Plot plot_gaps_logarithmic(const std::vector<reduced_model::Trajectory>& traject
     if (std::ranges::any_of(film.points,
                             [](const auto& point) { return std::isfinite(point.second); })) {
       panel.curves.push_back(film);
-      panel.title = "Gap, logarithmic; broken lines: film recovered from gamma";
+      panel.title = "Gap, logarithmic; broken lines: film from gamma";
     }
   }
   if (thinnest > 0 && std::isfinite(thinnest)) {
@@ -289,20 +289,20 @@ Plot plot_minimal_gaps(const reduced_model::Comparison& comparison,
   const auto rows = comparison.models.size();
   PlotPanel panel{"Thinnest film of each model", {"gap q"}, {}, {}};
   PlotCurve computed{"smallest gap computed", {kBlue, 0, {}, PointKind::kDisc, 1.2}, {}};
-  PlotCurve recovered{"recovered from gamma", {kBlue, 0, {}, PointKind::kCircle, 1.2}, {}};
+  PlotCurve from_gamma{"film from gamma", {kBlue, 0, {}, PointKind::kCircle, 1.2}, {}};
   panel.rows.resize(rows);
   std::vector<double> all;
   for (std::size_t i = 0; i < rows; ++i) {
     const auto& model = comparison.models[i];
-    const double gap = model.recovered_minimal_gap.value_or(model.minimal_gap);
+    const double gap = model.film_from_gamma.value_or(model.minimal_gap);
     panel.rows[rows - 1 - i] = model.model + (gap > 0 ? "" : " (0)");
     if (!(gap > 0)) continue;
     all.push_back(gap);
-    (model.recovered_minimal_gap ? recovered : computed)
+    (model.film_from_gamma ? from_gamma : computed)
         .points.emplace_back(gap, static_cast<double>(rows - i));
   }
   const double top = static_cast<double>(rows) + 0.6, bottom = 0.4;
-  for (auto* curve : {&computed, &recovered}) {
+  for (auto* curve : {&computed, &from_gamma}) {
     std::ranges::stable_sort(curve->points, {}, &std::pair<double, double>::first);
     if (!curve->points.empty()) panel.curves.push_back(*curve);
   }

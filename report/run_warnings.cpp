@@ -36,7 +36,7 @@ struct Warnings {
   }
 };
 
-/// Warns of gaps, and of films recovered from gamma, outside the fit's interval.
+/// Warns of gaps, and of films from gamma, outside the fit's interval.
 void add_extrapolation(Warnings& warnings, const results::RunResults& run) {
   if (run.fit.terms.empty()) return;  // the exact drag is valid at all gaps
   const auto [low, high] = run.fit.gap_interval;
@@ -50,8 +50,8 @@ void add_extrapolation(Warnings& warnings, const results::RunResults& run) {
     const double smallest = first->gap, largest = last->gap;
     const bool contact = choice->model->contact != nullptr;
     // While a contact model is in contact, its gap is 0 or constant and no drag is computed.
-    // Therefore its recovered film is compared with the interval.
-    const double thinnest = contact ? trajectory.recovered_minimal_gap.value_or(low) : smallest;
+    // Therefore its film from gamma is compared with the interval.
+    const double thinnest = contact ? trajectory.film_from_gamma.value_or(low) : smallest;
     if (thinnest > 0 && thinnest < low)
       warnings.add(
           trajectory_name(trajectory.model),

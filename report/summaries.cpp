@@ -185,7 +185,7 @@ std::string regime_in_words(const reduced_model::Comparison& comparison) {
 }
 
 /// A table for the terminal with a line for each model: smallest gap [L] and its time [T], film
-/// recovered from gamma [L], interval of contact [T], and largest distance of the gap from that of
+/// from gamma [L], interval of contact [T], and largest distance of the gap from that of
 /// the reference [L]; if solids touch in a model, also the time [T] and the velocity [L/T] of that.
 std::string comparison_table(const reduced_model::Comparison& comparison) {
   // The first column is as wide as the longest name, and at least 30 characters wide, which few
@@ -204,14 +204,14 @@ std::string comparison_table(const reduced_model::Comparison& comparison) {
                                  "film from gamma", "in contact", "sup |dq|") +
                      solid_columns("solids touch at", "velocity");
   for (const auto& model : comparison.models) {
-    text += fmt::format(
-        kLine, model.model, width, fmt::format("{:.6g}", model.minimal_gap),
-        fmt::format("{:.6g}", model.minimal_gap_time),
-        model.recovered_minimal_gap ? fmt::format("{:.6g}", *model.recovered_minimal_gap) : "-",
-        model.contact_interval ? fmt::format("[{:.4g}, {:.4g}]", (*model.contact_interval)[0],
-                                             (*model.contact_interval)[1])
-                               : "-",
-        fmt::format("{:.3g}", model.sup_gap_distance));
+    text += fmt::format(kLine, model.model, width, fmt::format("{:.6g}", model.minimal_gap),
+                        fmt::format("{:.6g}", model.minimal_gap_time),
+                        model.film_from_gamma ? fmt::format("{:.6g}", *model.film_from_gamma) : "-",
+                        model.contact_interval
+                            ? fmt::format("[{:.4g}, {:.4g}]", (*model.contact_interval)[0],
+                                          (*model.contact_interval)[1])
+                            : "-",
+                        fmt::format("{:.3g}", model.sup_gap_distance));
     const auto& touch = model.solid_contact_from;
     text += solid_columns(touch ? fmt::format("{:.6g}", touch->time) : "-",
                           touch ? fmt::format("{:.4g}", touch->velocity) : "-");

@@ -52,10 +52,11 @@ std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& 
 /// them.
 std::string regime_in_words(const reduced_model::Comparison& comparison);
 
-/// A table with a line for each model: smallest gap and its time, smallest film that is recovered
-/// from gamma (minus the impulse that the film has absorbed), times of contact, and largest
+/// A table with a line for each model: smallest gap and its time, smallest film from
+/// gamma (minus the impulse that the film has absorbed), times of contact, and largest
 /// distance of the gap to that of the reference model. If solids touch in a model, two more columns
-/// show the time and the velocity of the touch. The lines of regime_in_words() follow. A dash replaces a missing value.
+/// show the time and the velocity of the touch. The lines of regime_in_words() follow.
+/// A dash replaces a missing value.
 std::string comparison_table(const reduced_model::Comparison& comparison);
 
 }  // namespace viscontact::report

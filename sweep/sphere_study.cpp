@@ -30,14 +30,14 @@ namespace {
 // largest difference of the gap from that of the reference model, and the two columns after it are
 // the integrals over time of the differences of the gap and of the velocity.
 constexpr std::array kModelColumns = {
-    "minimal_gap",     "minimal_gap_time",     "film",
+    "minimal_gap",     "minimal_gap_time",     "film_from_gamma",
     "contact_from",    "contact_until",        "sup_gap_distance",
     "l1_gap_distance", "l1_velocity_distance", "film_ratio",
     "steps",           "solid_contact_from",   "solid_contact_velocity"};
 
 /// The thinnest film that a contact model computes, or else the smallest gap [L], >= 0.
 double thinnest(const reduced_model::ModelComparison& model) {
-  return model.recovered_minimal_gap.value_or(model.minimal_gap);
+  return model.film_from_gamma.value_or(model.minimal_gap);
 }
 
 /// The column, after "MODEL.", of the time at which a gap [L] is first reached.
@@ -53,7 +53,7 @@ void add_model(const reduced_model::ModelComparison& model,
   };
   put("minimal_gap", model.minimal_gap);
   put("minimal_gap_time", model.minimal_gap_time);
-  if (model.recovered_minimal_gap) put("film", *model.recovered_minimal_gap);
+  if (model.film_from_gamma) put("film_from_gamma", *model.film_from_gamma);
   if (model.contact_interval) {
     put("contact_from", (*model.contact_interval)[0]);
     put("contact_until", (*model.contact_interval)[1]);

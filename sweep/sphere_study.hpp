@@ -37,7 +37,7 @@ struct SpherePlan {
 SpherePlan planned_sphere(const case_file::Case& c);
 
 /// The study of a plan. Its results are, for each model, MODEL.minimal_gap [L],
-/// MODEL.minimal_gap_time [T], MODEL.film [L] (thinnest film that a contact model computes),
+/// MODEL.minimal_gap_time [T], MODEL.film_from_gamma [L] (as in a comparison),
 /// MODEL.contact_from [T], MODEL.contact_until [T], MODEL.sup_gap_distance [L],
 /// MODEL.l1_gap_distance [L T] and MODEL.l1_velocity_distance [L] (largest difference and integrals
 /// over time of the differences to the reference), MODEL.film_ratio [1] (thinnest film or smallest

@@ -108,6 +108,14 @@ class JsonFields {
     }
   }
 
+  /// The same for a key that had the name `former` in files of earlier versions, which may have it.
+  template <class Value>
+  void renamed(const std::string& key, const std::string& former, Value& value,
+               Absence absence = Absence::kRefused) {
+    const bool is_old = reads() && !json_->contains(key) && json_->contains(former);
+    (*this)(is_old ? former : key, value, absence);
+  }
+
   /// Reads or writes a finite number. When it is read, the key must exist and the number must pass
   /// the test `allowed`, or Error(kBadInput) is thrown.
   void operator()(const std::string& key, double& value, const Allowed& allowed) {

@@ -40,7 +40,7 @@ motion = viscontact.simulate(case, fit)
 for name in "inertial", "viscous_contact", "viscous_contact_regular_drag":
     trajectory = motion[name]
     k = trajectory.gap.argmin()
-    film = trajectory.about["recovered_minimal_gap"]
+    film = trajectory.about["film_from_gamma"]
     print(f"{name}: smallest gap {trajectory.gap[k]:.6g}",
           f"at t = {trajectory.time[k]:.6g}" if film is None else f"film from gamma {film:.6g}",
           sep=" " if film is None else ", ")

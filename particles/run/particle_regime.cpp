@@ -38,18 +38,17 @@ Vector relative_velocity(const ParticlesCase& c, const Particles& particles, std
 void ParticleRegime::add(const ParticlesCase& c, const Particles& particles, bool contact) {
   has_contact = has_contact || contact;
   const double mu = viscosity_of(c);
-  if (!(mu > 0)) return;
   const double density = has_inertia_of_fluid(c) ? c.setting.fluid->density : c.fluid_density;
   const bool per_length = c.setting.fluid && particles.dimension == 2;
   constexpr double kPlane = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < particles.count(); ++k) {
     const double r = particles.radii[k], speed = norm(relative_velocity(c, particles, k));
     const double momentum = particles.masses[k] * speed;
-    if (density > 0)
+    if (mu > 0 && density > 0)
       reynolds = std::max(reynolds, lubrication::reynolds_number(density, r, speed, mu));
     // The mass of a sphere of this density is 4/3 r times that of a disc per length.
     const double mass = per_length ? particles.masses[k] * (4 * r / 3) : particles.masses[k];
-    stokes = std::max(stokes, lubrication::stokes_number(mass, r, speed, mu));
+    if (mu > 0) stokes = std::max(stokes, lubrication::stokes_number(mass, r, speed, mu));
     if (c.setting.fluid) continue;
     const double lowest = c.setting.laws.film.lowest_gamma(r, kPlane);
     if (lowest < 0 && std::isfinite(lowest)) film = std::max(film, momentum / -lowest);

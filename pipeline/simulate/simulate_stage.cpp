@@ -105,7 +105,7 @@ lubrication::Fit fit_of_text(const case_file::Case& c, const FitFile& file) {
 }
 
 /// Adds comments to the trajectory that say how it was computed: `time_step` ([T] or words),
-/// `rows_computed` and `recovered_film`. Drops rows if the case asks for fewer rows
+/// `rows_computed` and `film_from_gamma_formula`. Drops rows if the case asks for fewer rows
 /// (motion.output_rows > 0).
 void finish(reduced_model::Trajectory& trajectory, const reduced_model::ModelChoice& choice,
             const reduced_model::Motion& motion, const lubrication::LubricationForce& force) {
@@ -120,7 +120,7 @@ void finish(reduced_model::Trajectory& trajectory, const reduced_model::ModelCho
   if (choice.model->contact == nullptr) return;
   const auto drag = reduced_model::drag_of(choice, force);
   const auto law = reduced_model::contact_model_of(choice, motion, drag).film_law;
-  if (!law.empty()) comments["recovered_film"] = law;
+  if (!law.empty()) comments["film_from_gamma_formula"] = law;
 }
 
 }  // namespace

@@ -389,8 +389,7 @@ std::optional<ReachedGaps> reached_gaps(const ModelChoice& choice, const Motion&
     const ContactModel contact = contact_model_of(choice, motion, force);
     if (!contact.drag) return {};
     ReachedGaps reached{{}, high->gap};
-    if (contact.contact_gap > 0)
-      reached.smallest = trajectory.recovered_minimal_gap.value_or(low->gap);
+    if (contact.contact_gap > 0) reached.smallest = trajectory.film_from_gamma.value_or(low->gap);
     return reached;
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::kInterrupted) throw;

@@ -207,7 +207,8 @@ function makePanel(parent, panel, height) {
   const fit = () => { if (chart.clientWidth && chart.clientWidth !== u.width) u.setSize(size()); };
   // A change of size within the observer would call the observer again without end.
   new ResizeObserver(() => requestAnimationFrame(fit)).observe(chart);
-  place.uplot = u;  // tests of reports in a browser read this and the next member
+  place.uplot = u;  // tests of reports in a browser read this and the next two members
+  place.curves = panel.curves;
   place.full = {x: x.full, y: y.full};
 }
 

@@ -39,7 +39,6 @@ constexpr auto kKnown = std::to_array<Known>({
     {"time_scale", {0, 0, 0}},
     {"minimal_gap", {0, 1, 0}},
     {"minimal_gap_time", {0, 0, 1}},
-    {"film", {0, 1, 0}},
     {"film_from_gamma", {0, 1, 0}},
     {"contact_from", {0, 0, 1}},
     {"contact_until", {0, 0, 1}},

@@ -134,7 +134,7 @@ TEST(WeightOfOneSphere, MakesTheSameMotionInUnitsOverTenDecades) {
     const auto other = ends(c, "viscous_contact_threshold");
     EXPECT_NEAR(other.contact_interval.value()[0] / second / old_one.contact_interval.value()[0], 1,
                 kRounding);
-    EXPECT_NEAR(*other.recovered_minimal_gap / metre / 1e-6, 1, kRounding);
+    EXPECT_NEAR(*other.film_from_gamma / metre / 1e-6, 1, kRounding);
   }
 }
 

@@ -1,5 +1,6 @@
 """Fit, PairFit, fit and fit_pair of the Python module."""
 
+import json
 import pathlib
 import tempfile
 import unittest
@@ -65,11 +66,26 @@ class FitTest(unittest.TestCase):
         with self.assertRaises(ValueError):
             fit.resistance(float("nan"))
         limits = viscontact.Fit(LECTURE, below="lubrication_limit", above="stokes_limit")
-        self.assertEqual(limits.interval, (0, float("inf")))
+        # The container of the table has the height 80, so that the sphere touches its lid at 78.
+        lid = 80 - 2 * fit.radius
+        self.assertEqual(limits.interval, (0, lid))
         self.assertGreater(limits.resistance(low / 1000), 900 * fit.resistance(low))
+        with self.assertRaisesRegex(viscontact.InputError, "touches the wall opposite"):
+            limits.resistance(lid)
+        stokes = 6 * np.pi * fit.viscosity * fit.radius
+        # Lubrication theory is met but for Stokes' drag, of which it is the multiple 1/1e-6.
+        self.assertAlmostEqual(limits.resistance(lid - 1e-6) / stokes * 1e-6, 1, delta=1e-5)
+
+    def test_in_an_unbounded_fluid_has_stokes_drag_far_away(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "unbounded.json"
+            bounded = json.loads(LECTURE.read_text())
+            path.write_text(json.dumps(bounded | {"container": "unbounded"}))
+            fit = viscontact.Fit(path, above="stokes_limit")
+        self.assertEqual(fit.interval[1], float("inf"))
         stokes = 6 * np.pi * fit.viscosity * fit.radius
         # Stokes' drag is met but for the term c/q of the first reflection, c about the radius.
-        self.assertAlmostEqual(limits.resistance(1e6) / stokes, 1, delta=1e-5)
+        self.assertAlmostEqual(fit.resistance(1e6) / stokes, 1, delta=1e-5)
 
     def test_refusals_have_the_words_of_the_program(self):
         with self.assertRaisesRegex(viscontact.InputError, "no_such_fit.json"):

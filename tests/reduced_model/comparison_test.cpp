@@ -157,13 +157,13 @@ TEST(Comparison, KeepsTheOrderAndWhatTheTrajectoriesKnow) {
   auto a = sampled("zebra", {0, 1}, constant(1));
   a.steps = 12;
   a.seconds = 0.5;
-  a.recovered_minimal_gap = 3e-3;
+  a.film_from_gamma = 3e-3;
   const auto result = compare_trajectories({a, sampled("ant", {0, 1}, constant(1))}, "ant");
   EXPECT_EQ(result.reference_model, "ant");
   EXPECT_EQ(result.models[0].model, "zebra");
   EXPECT_EQ(result.models[0].steps, 12);
   EXPECT_EQ(result.models[0].seconds, 0.5);
-  EXPECT_EQ(result.models[0].recovered_minimal_gap, 3e-3);
+  EXPECT_EQ(result.models[0].film_from_gamma, 3e-3);
   EXPECT_EQ(result.models[1].model, "ant");
 }
 
@@ -172,7 +172,7 @@ Comparison two_models() {
   zebra.model = "zebra";
   zebra.minimal_gap = 0.1 + 0.2;
   zebra.minimal_gap_time = 2;
-  zebra.recovered_minimal_gap = 2.9708466100000004e-3;
+  zebra.film_from_gamma = 2.9708466100000004e-3;
   zebra.contact_interval = {0.59, 1.0 / 3};
   zebra.rebounds = {{0.1 + 0.2, -1.0 / 3, 5e-324, 0, 0}, {1, -2, 3, 1e-17, 5e-18}};
   zebra.sup_gap_distance = 5e-324;
@@ -197,7 +197,7 @@ TEST(ComparisonFile, ReadsBackToTheBit) {
     EXPECT_EQ(a.model, b.model);
     EXPECT_EQ(a.minimal_gap, b.minimal_gap);
     EXPECT_EQ(a.minimal_gap_time, b.minimal_gap_time);
-    EXPECT_EQ(a.recovered_minimal_gap, b.recovered_minimal_gap);
+    EXPECT_EQ(a.film_from_gamma, b.film_from_gamma);
     EXPECT_EQ(a.contact_interval, b.contact_interval);
     EXPECT_EQ(a.rebounds, b.rebounds);
     EXPECT_EQ(a.sup_gap_distance, b.sup_gap_distance);
@@ -209,8 +209,22 @@ TEST(ComparisonFile, ReadsBackToTheBit) {
 }
 
 TEST(ComparisonFile, HasNullWhereAModelHasNoContact) {
-  EXPECT_THAT(write_comparison(two_models()), AllOf(HasSubstr("\"recovered_minimal_gap\": null"),
+  EXPECT_THAT(write_comparison(two_models()), AllOf(HasSubstr("\"film_from_gamma\": null"),
                                                     HasSubstr("\"contact_interval\": null")));
+}
+
+TEST(ComparisonFile, MayHaveTheFilmUnderItsNameInEarlierVersions) {
+  auto written = two_models();
+  written.models[0].film_from_gamma = 3e-3;
+  std::string text = write_comparison(written);
+  const std::string name = "film_from_gamma", former = "recovered_minimal_gap";
+  ASSERT_NE(text.find(name), text.npos);
+  for (auto at = text.find(name); at != text.npos; at = text.find(name, at))
+    text.replace(at, name.size(), former);
+  const TemporaryFolder folder;
+  const auto read = read_comparison(folder.file("old.json", text));
+  EXPECT_EQ(read.models[0].film_from_gamma, 3e-3);
+  EXPECT_FALSE(read.models[1].film_from_gamma);
 }
 
 TEST(ComparisonFile, IsRefusedWhenItIsSomethingElse) {

@@ -62,7 +62,7 @@ TEST(FewerRows, ChangeNothingThatAComparisonSaysOfOneModel) {
     const auto a = of(whole), b = of(fewer);
     EXPECT_EQ(a.minimal_gap, b.minimal_gap) << model.name;
     EXPECT_EQ(a.minimal_gap_time, b.minimal_gap_time) << model.name;
-    EXPECT_EQ(a.recovered_minimal_gap, b.recovered_minimal_gap) << model.name;
+    EXPECT_EQ(a.film_from_gamma, b.film_from_gamma) << model.name;
     EXPECT_EQ(a.contact_interval, b.contact_interval) << model.name;
     // Without what the model says itself, as in a file of a user's own.
     auto own_whole = whole, own_fewer = fewer;

@@ -119,7 +119,7 @@ TEST(ViscousOrNot, TheViscousOneIsTheSphereWithInertia) {
   const double thinnest = lowest_row(inertial).gap;
   // gamma = -4 and k = 0.1. The momentum of a film of that thickness is nothing.
   EXPECT_NEAR(std::log(thinnest), -40, 1e-7);
-  EXPECT_NEAR(std::log(viscous.recovered_minimal_gap.value()), -40, 1e-9);
+  EXPECT_NEAR(std::log(viscous.film_from_gamma.value()), -40, 1e-9);
   EXPECT_NEAR(inertial.rows.back().gap, 1.1564, 5e-5);  // as printed; 1 in the limit
   EXPECT_LT(inertial.rows.back().gap - viscous.rows.back().gap, 0.2);
   EXPECT_GT(plain.rows.back().gap - inertial.rows.back().gap, 7);
@@ -140,8 +140,8 @@ TEST(Roughness, StopsGammaAndTheSolidCarriesTheRest) {
   EXPECT_EQ(*touch(rough).solid_force, 200);
   EXPECT_NEAR(release(rough), 2 - gamma_min / 200, kRoundOff);  // 3.3021
   EXPECT_NEAR(release(smooth), 4, kRoundOff);
-  EXPECT_NEAR(rough.recovered_minimal_gap.value(), 0.01, 1e-15);
-  EXPECT_NEAR(smooth.recovered_minimal_gap.value(), std::exp(-400 / k), 1e-15);
+  EXPECT_NEAR(rough.film_from_gamma.value(), 0.01, 1e-15);
+  EXPECT_NEAR(smooth.film_from_gamma.value(), std::exp(-400 / k), 1e-15);
   // Of the push's 400 the film takes -gamma_min, the solid the rest; the film gives back what it
   // took.
   EXPECT_NEAR(rough.budget->solid_impulse, 400 + gamma_min, 1e-10);
@@ -163,8 +163,8 @@ TEST(Roughness, DoesTheSameWhereTheDragIsResolvedDownToAThreshold) {
   EXPECT_NEAR(rough.budget->solid_impulse, 69.4272, 5e-5);
   const double from_threshold = s.force.impulse(s.motion().parameter(kThresholdGap)) - at_solid;
   EXPECT_NEAR(release(rough), 2 + from_threshold / 200, 1e-9);
-  EXPECT_NEAR(rough.recovered_minimal_gap.value(), 0.01, 1e-14);
-  EXPECT_NEAR(smooth.recovered_minimal_gap.value(), kExactMinimalGap, 5e-12);  // its digits
+  EXPECT_NEAR(rough.film_from_gamma.value(), 0.01, 1e-14);
+  EXPECT_NEAR(smooth.film_from_gamma.value(), kExactMinimalGap, 5e-12);  // its digits
   EXPECT_GT(release(smooth), release(rough) + 0.3);
   EXPECT_EQ(smooth.budget->solid_impulse, 0);
 }
@@ -200,8 +200,7 @@ TEST(Splitting, TheThresholdHasTheFilmOfTheFirstIntegral) {
     const auto threshold = s.run("viscous_contact_threshold" + suffix);
     // Relative 1e-11: round-off of 2000 sums of impulses of 400 is 1e-13 to 1e-12 of them, 7 times
     // that in ln q.
-    EXPECT_NEAR(threshold.recovered_minimal_gap.value() / lowest_row(exact).gap, 1, 1e-11)
-        << suffix;
+    EXPECT_NEAR(threshold.film_from_gamma.value() / lowest_row(exact).gap, 1, 1e-11) << suffix;
   }
   EXPECT_NEAR(lowest_row(s.run("reference_exact_brenner")).gap, kExactMinimalGap, 5e-12);
   EXPECT_NEAR(lowest_row(s.run("reference_exact")).gap, 2.9598e-3, 5e-8);  // theory.md, section 2
@@ -214,11 +213,11 @@ TEST(Splitting, TheRegularDragLeavesOutWhatItHasNotTaken) {
   // m u + G(q) + gamma = P with G(1) - G(0) taken on the way: q = r exp((G(1) - 400)/k), where (I)
   // has G(1) - G(q_min).
   const double expected = std::exp((force.regular_impulse(1) - 400) / force.leading_coefficient());
-  EXPECT_NEAR(brenner.recovered_minimal_gap.value() / expected, 1, 1e-11);
+  EXPECT_NEAR(brenner.film_from_gamma.value() / expected, 1, 1e-11);
   EXPECT_NEAR(expected, 2.9915e-3, 5e-8);
   // What the lecture prints for this model.
   EXPECT_EQ(fmt::format("{:.0e}", expected), "3e-03");
-  EXPECT_NEAR(s.run("viscous_contact_regular_drag").recovered_minimal_gap.value(), 2.9724e-3, 5e-8);
+  EXPECT_NEAR(s.run("viscous_contact_regular_drag").film_from_gamma.value(), 2.9724e-3, 5e-8);
 }
 
 TEST(Splitting, IsAsGoodAsTheSphereWithInertiaAllows) {

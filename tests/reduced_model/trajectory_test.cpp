@@ -40,7 +40,7 @@ TEST(TrajectoryFile, ReadsBackToTheBit) {
       {smallest, smallest, -largest, largest, -smallest, -4e-5},
       {1e22, 5e-324, 1.7976931348623157e308, 0.1, {}, -1e-300},
   };
-  written.recovered_minimal_gap = 2.9708466100000004e-3;
+  written.film_from_gamma = 2.9708466100000004e-3;
   written.rebounds = {{0.1 + 0.2, -1.0 / 3, 5e-324, 0, 0}, {1, -2, 3, 1e-17, 5e-18}};
   written.steps = 123456789;
   written.seconds = 0.1;
@@ -52,7 +52,7 @@ TEST(TrajectoryFile, ReadsBackToTheBit) {
   EXPECT_EQ(read.steps, written.steps);
   EXPECT_EQ(read.provenance, written.provenance);
   EXPECT_EQ(bits(read.seconds), bits(written.seconds));
-  EXPECT_EQ(read.recovered_minimal_gap, written.recovered_minimal_gap);
+  EXPECT_EQ(read.film_from_gamma, written.film_from_gamma);
   EXPECT_EQ(read.rebounds, written.rebounds);
   ASSERT_EQ(read.rows.size(), written.rows.size());
   for (std::size_t i = 0; i < read.rows.size(); ++i) {
@@ -64,6 +64,26 @@ TEST(TrajectoryFile, ReadsBackToTheBit) {
     expect_same_bits(read.rows[i].external_force, written.rows[i].external_force);
     expect_same_bits(read.rows[i].gamma, written.rows[i].gamma);
   }
+}
+
+TEST(TrajectoryFile, MayHaveTheFilmUnderItsNameInEarlierVersions) {
+  const TemporaryFolder folder;
+  const std::string rows = "time,gap,velocity\n0,1,0\n";
+  const auto old =
+      read_trajectory(folder.file("old.csv", "# recovered_minimal_gap: 3e-3\n" + rows));
+  EXPECT_EQ(old.film_from_gamma, 3e-3);
+  EXPECT_TRUE(old.provenance.empty());
+  EXPECT_THAT(write_trajectory(old), HasSubstr("# film_from_gamma: 0.003\n"));
+  EXPECT_EQ(read_trajectory(folder.file("both.csv",
+                                        "# recovered_minimal_gap: 3e-3\n"
+                                        "# film_from_gamma: 4e-3\n" +
+                                            rows))
+                .film_from_gamma,
+            4e-3);
+  EXPECT_THAT(bad_input([&] {
+                read_trajectory(folder.file("w.csv", "# recovered_minimal_gap: thin\n" + rows));
+              }),
+              HasSubstr("recovered_minimal_gap"));
 }
 
 TEST(TrajectoryFile, HasTheColumnsOfTheInterfaces) {
@@ -85,7 +105,7 @@ TEST(TrajectoryFile, MayBeAUsersOwnWithThreeColumns) {
   EXPECT_EQ(read.rows[1].time, 1.5);
   EXPECT_EQ(read.rows[0].velocity, -2);
   EXPECT_FALSE(read.rows[0].gamma || read.rows[0].external_force || read.rows[0].lubrication_force);
-  EXPECT_FALSE(read.recovered_minimal_gap);
+  EXPECT_FALSE(read.film_from_gamma);
 }
 
 TEST(TrajectoryFile, MayHaveItsColumnsInAnyOrderAndOthersBesides) {
@@ -159,9 +179,8 @@ INSTANTIATE_TEST_SUITE_P(
         WrongFile{"ReboundsOfFourNumbers",
                   "# rebounds: 1 -2 3 1 0.5; 1 -2 3 1\ntime,gap,velocity\n0,1,0\n", 0,
                   "the rebound ' 1 -2 3 1' in its head is not five numbers"},
-        WrongFile{"AWrongNumberAtItsHead",
-                  "# recovered_minimal_gap: thin\ntime,gap,velocity\n0,1,0\n", 0,
-                  "recovered_minimal_gap"}),
+        WrongFile{"AWrongNumberAtItsHead", "# film_from_gamma: thin\ntime,gap,velocity\n0,1,0\n", 0,
+                  "film_from_gamma"}),
     [](const auto& parameter) { return parameter.param.name; });
 
 TEST(TrajectoryFile, IsRefusedWhenItIsAFolderOrMissing) {

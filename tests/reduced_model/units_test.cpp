@@ -110,7 +110,7 @@ double difference(const Trajectory& old_one, const Trajectory& other, const Colu
   return largest > 0 ? difference / largest : difference;
 }
 
-/// Expects all columns and the recovered film of two twins to agree to within `tolerance`.
+/// Expects all columns and the film from gamma of two twins to agree to within `tolerance`.
 void expect_twins(const Trajectory& old_one, const Trajectory& other, const Units& units,
                   double tolerance) {
   SCOPED_TRACE(::testing::Message() << old_one.model << ", units of " << units.length << ", "
@@ -124,10 +124,9 @@ void expect_twins(const Trajectory& old_one, const Trajectory& other, const Unit
     EXPECT_NEAR(other.solid_contact_from->velocity / units.velocity() / touch->velocity, 1,
                 tolerance);
   }
-  ASSERT_EQ(old_one.recovered_minimal_gap.has_value(), other.recovered_minimal_gap.has_value());
-  if (old_one.recovered_minimal_gap) {
-    EXPECT_NEAR(*other.recovered_minimal_gap / units.length / *old_one.recovered_minimal_gap, 1,
-                tolerance);
+  ASSERT_EQ(old_one.film_from_gamma.has_value(), other.film_from_gamma.has_value());
+  if (old_one.film_from_gamma) {
+    EXPECT_NEAR(*other.film_from_gamma / units.length / *old_one.film_from_gamma, 1, tolerance);
   }
 }
 
@@ -167,8 +166,8 @@ TEST(Units, ChangeTheModelsOfFixedStepsByRoundingOnly) {
           for (const std::size_t i : {0U, 1U})
             EXPECT_NEAR((*other.contact_interval)[i] / units.time, (*old_one.contact_interval)[i],
                         1e-12);
-          EXPECT_NEAR(*other.recovered_minimal_gap / units.length, *old_one.recovered_minimal_gap,
-                      1e-12 * *old_one.recovered_minimal_gap);
+          EXPECT_NEAR(*other.film_from_gamma / units.length, *old_one.film_from_gamma,
+                      1e-12 * *old_one.film_from_gamma);
         }
 }
 

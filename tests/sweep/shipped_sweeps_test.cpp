@@ -79,7 +79,7 @@ TEST(TimeStepStudy, SchemeIsOfFirstOrderForAForceThatJumps) {
 TEST(TimeStepStudy, FilmIsThatOfTheRoughnessAtAnyStep) {
   for (const auto& row : run_whole(shipped("time_step.toml")))
     for (const std::string model : {"viscous_contact.", "viscous_contact_exact."})
-      EXPECT_NEAR(number(row, model + "film"), 0.02, 0.02 * 16 * kEpsilon);
+      EXPECT_NEAR(number(row, model + "film_from_gamma"), 0.02, 0.02 * 16 * kEpsilon);
 }
 
 /// The shipped map's drag.
@@ -122,7 +122,7 @@ TEST(RegimeMap, HeavyAndShortHardlyMoves) {
   EXPECT_GT(gone, way * (1 - lost));
   EXPECT_LT(number(row, "inertial.minimal_gap_time"), 0.6);
   EXPECT_GT(number(row, "inertial.minimal_gap_time"), 0.6 * (1 - lost));
-  EXPECT_EQ(row.at("viscous_contact.film"), "");  // no contact
+  EXPECT_EQ(row.at("viscous_contact.film_from_gamma"), "");  // no contact
   EXPECT_NEAR(number(row, "viscous_contact.film_ratio"), 1, way * lost);
 }
 

@@ -55,7 +55,7 @@ TEST(SweepPlanCheck, FitIsScaledToTheRadius) {
   const auto film = [](const std::string& variation) {
     const auto plan = varied(shipped("vanishing_viscosity.toml"), {variation});
     return number(row_of(with_models(plan, {"viscous_contact"}, "viscous_contact"), 1),
-                  "viscous_contact.film");
+                  "viscous_contact.film_from_gamma");
   };
   const double radius = 0.23032943298089034, viscosity = 1;
   EXPECT_NEAR(film(fmt::format("sphere.radius={},{}", radius, 2 * radius)) /
@@ -64,7 +64,7 @@ TEST(SweepPlanCheck, FitIsScaledToTheRadius) {
   // k = 6 pi mu r^2 = 4, and gamma is -1 at the end of the push, q0 = 1: exp(gamma/k).
   const auto row =
       row_of(varied(shipped("regime_map.toml"), {"sphere.radius=1,2", "sphere.mass=0.1"}), 1);
-  EXPECT_NEAR(number(row, "viscous_contact.film") / std::exp(-0.25), 1, 1e-12);
+  EXPECT_NEAR(number(row, "viscous_contact.film_from_gamma") / std::exp(-0.25), 1, 1e-12);
 }
 
 TEST(SweepPlanCheck, DensitiesAreVariedWhereTheMotionDependsOnThem) {

@@ -36,7 +36,7 @@ void expect_row_of(const SpherePlan& plan, std::uint64_t index, const std::strin
   const auto& reference =
       *std::ranges::find(comparison.models, plan.reference, &reduced_model::ModelComparison::model);
   const auto thinnest = [](const reduced_model::ModelComparison& m) {
-    return m.recovered_minimal_gap ? *m.recovered_minimal_gap : m.minimal_gap;
+    return m.film_from_gamma ? *m.film_from_gamma : m.minimal_gap;
   };
   const auto row = row_of(plan, index);
   for (const auto& m : comparison.models) {
@@ -49,7 +49,7 @@ void expect_row_of(const SpherePlan& plan, std::uint64_t index, const std::strin
     };
     expect("minimal_gap", m.minimal_gap);
     expect("minimal_gap_time", m.minimal_gap_time);
-    expect("film", m.recovered_minimal_gap);
+    expect("film_from_gamma", m.film_from_gamma);
     expect("contact_from", contact(0));
     expect("contact_until", contact(1));
     expect("sup_gap_distance", m.sup_gap_distance);
@@ -111,9 +111,9 @@ TEST(SweepRow, ViscosityScalesTheFit) {
     const auto row = row_of(plan, i);
     // gamma = -4 to round-off at the end of the push, k = mu, q0 = 1: exp(-4/mu), 4/mu being 16 at
     // most.
-    EXPECT_NEAR(
-        number(row, "viscous_contact_exact.film") / std::exp(-4 / number(row, "fluid.viscosity")),
-        1, 64 * kEpsilon);
+    EXPECT_NEAR(number(row, "viscous_contact_exact.film_from_gamma") /
+                    std::exp(-4 / number(row, "fluid.viscosity")),
+                1, 64 * kEpsilon);
   }
 }
 
@@ -172,8 +172,8 @@ TEST(SweepRow, WithoutItsReferenceAModelKeepsWhatIsItsOwn) {
   const auto row = row_of(plan, 0);
   const auto alone =
       row_of(with_models(plan, {"viscous_contact_exact"}, "viscous_contact_exact"), 0);
-  for (const std::string name :
-       {"minimal_gap", "minimal_gap_time", "film", "contact_from", "contact_until", "steps"}) {
+  for (const std::string name : {"minimal_gap", "minimal_gap_time", "film_from_gamma",
+                                 "contact_from", "contact_until", "steps"}) {
     EXPECT_EQ(row.at("viscous_contact_exact." + name), alone.at("viscous_contact_exact." + name));
     EXPECT_NE(row.at("viscous_contact_exact." + name), "") << name;
   }
@@ -209,8 +209,8 @@ TEST(SweepRow, HasNumbersThatAreFiniteOrNothing) {
              {"fluid.viscosity=0.0055", "viscous_contact.roughness[0]=0.02"}),
       {"viscous_contact_exact", "viscous_contact_exact_smooth"}, "viscous_contact_exact_smooth");
   const auto row = row_of(plan, 0);
-  ASSERT_LT(number(row, "viscous_contact_exact_smooth.film"), 2e-316);
-  ASSERT_GT(number(row, "viscous_contact_exact_smooth.film"), 0);
+  ASSERT_LT(number(row, "viscous_contact_exact_smooth.film_from_gamma"), 2e-316);
+  ASSERT_GT(number(row, "viscous_contact_exact_smooth.film_from_gamma"), 0);
   for (const auto& [name, value] : row) {
     if (name != "failure") {
       EXPECT_TRUE(value.empty() || parse_number(value)) << name << " is " << value;

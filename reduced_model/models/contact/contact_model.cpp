@@ -352,7 +352,7 @@ Trajectory run_contact_model(const Motion& motion, ContactModel model) {
                          : run_steps(motion, model, NoDrag(), turns, rebound, kick, add);
   trajectory.steps = static_cast<long>(trajectory.rows.size()) - 1;
   if (lowest_gamma < 0 && model.film_thickness)
-    trajectory.recovered_minimal_gap = model.film_thickness(lowest_gamma);
+    trajectory.film_from_gamma = model.film_thickness(lowest_gamma);
   trajectory.contact_interval = clock.interval();
   budget.external_impulse = motion.external_force.impulse(end);
   trajectory.budget = budget;

@@ -217,7 +217,7 @@ Trajectory simulate_viscous_contact_exact(const Motion& motion,
   trajectory.budget = sphere.budget();
   trajectory.rebounds = sphere.rebounds();
   trajectory.solid_contact_from = sphere.touch();
-  if (lowest_gamma < 0) trajectory.recovered_minimal_gap = model.film_thickness(lowest_gamma);
+  if (lowest_gamma < 0) trajectory.film_from_gamma = model.film_thickness(lowest_gamma);
   return trajectory;
 }
 

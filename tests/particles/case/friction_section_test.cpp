@@ -130,7 +130,8 @@ TEST_F(FrictionSection, TablesThatACaseCannotHaveAreRefused) {
   EXPECT_THAT(refused("", "[output]\ntables = [\"walls\"]", ""),
               HasSubstr("case.toml:9: output.tables has 'walls', but the case has no walls"));
   EXPECT_THAT(refused("", "[output]\ntables = [\"stress\"]", ""),
-              HasSubstr("case.toml:9: output.tables has 'stress', which needs the area"));
+              HasSubstr("case.toml:9: output.tables has 'stress', which needs a [domain], or planes "
+                        "that bound a region"));
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ TEST_F(FailedModels, DoNotStopTheOthersAndAreForeseenAndNotForgotten) {
   EXPECT_THAT(reason, HasSubstr("is outside the fitted interval"));
   EXPECT_THAT(read_file(folder() / "report.html"),
               AllOf(HasSubstr("inertial failed and has no trajectory: gap "),
-                    HasSubstr("<td>inertial</td><td colspan=8>failed: gap ")));
+                    HasSubstr("<td>inertial</td><td colspan=10>failed: gap ")));
 
   // They are foreseen before the tabulation.
   const auto warning = first.errors.find(

@@ -43,7 +43,7 @@ TEST(OutputRows, AreAboutAsManyAsTheCaseSaysAndLoseNoSmallestGap) {
                       .rows.size()));
     EXPECT_EQ(of_fewer.models[i].minimal_gap, model.minimal_gap) << model.model;
     EXPECT_EQ(of_fewer.models[i].minimal_gap_time, model.minimal_gap_time) << model.model;
-    EXPECT_EQ(of_fewer.models[i].recovered_minimal_gap, model.recovered_minimal_gap) << model.model;
+    EXPECT_EQ(of_fewer.models[i].film_from_gamma, model.film_from_gamma) << model.model;
     EXPECT_EQ(of_fewer.models[i].contact_interval, model.contact_interval) << model.model;
   }
 }

@@ -51,7 +51,7 @@ constexpr std::string_view kReader = R"JS(
       // through those that are undefined.
       seen.undefined = 0;
       seen.interrupted = 0;
-      described.curves.forEach((curve, i) => {
+      place.curves.forEach((curve, i) => {
         const ys = u.data[i + 1], at = curve.inner.x.map(x => u.data[0].indexOf(x));
         for (let k = 1; k < at.length; ++k)
           if (curve.y[k - 1] === null || curve.y[k] === null) {

@@ -72,7 +72,7 @@ TEST_F(Report, OfASmoothModelIsMadeWhereTheRoughModelWouldBeRefused) {
       replaced(lecture_case_text(), "roughness = [0.0, 0.0]", "roughness = [0.06, 0.06]");
   run(replaced(rough, "end_time = 4.0",
                "end_time = 4.0\nmodels = [\"inertial\", \"viscous_contact_threshold_smooth\"]"));
-  EXPECT_THAT(page(), HasSubstr("film recovered from gamma"));
+  EXPECT_THAT(page(), HasSubstr("film from gamma"));
   expect_done(run_viscontact({"report", folder().string()}));
 }
 

@@ -57,6 +57,24 @@ TEST_F(Stages, GapAboveTheFitIsAnErrorUnlessStokesLimitIsAskedFor) {
   EXPECT_NEAR(trajectory("reference_exact").rows.back().gap, 2.5, 1e-9);  // the push is given back
 }
 
+TEST_F(Stages, GravityAwayFromTheWallIsAWarning) {
+  fit("asymptotic");
+  for (const auto& [gravity, warns] : {std::pair("0.01", true), std::pair("-0.01", false)}) {
+    put("case.toml", replaced(lecture_case_text(), "initial_gap = 1.0",
+                              std::string("initial_gap = 1.0\ngravity = ") + gravity));
+    const auto result = run_viscontact({"simulate", path("case.toml"), "--fit", path("fit.json"),
+                                        "-o", path("run"), "--models", "viscous_contact"});
+    expect_done(result);
+    const auto warning = HasSubstr(
+        "warning: motion.gravity, 0.01, is > 0 and lifts a heavy sphere off the wall; "
+        "gravity towards the wall is negative");
+    if (warns)
+      EXPECT_THAT(result.errors, warning);
+    else
+      EXPECT_THAT(result.errors, ::testing::Not(HasSubstr("gravity")));
+  }
+}
+
 TEST_F(Stages, SimulateWritesOneTrajectoryForEachModelAndCopiesCaseAndFit) {
   simulate();
   for (const auto& model : reduced_model::default_models()) {

@@ -363,15 +363,19 @@ TEST_F(SweepCommand, DoesNotReplaceAFileThatIsNoSweep) {
   std::filesystem::remove(path("rows.csv"));
   put_text(path("picture.svg"), "mine");
   auto arguments = kTwoRows;
-  arguments.insert(arguments.end(),
-                   {"--plot", path("picture.svg"), "--column", "viscous_contact_exact.film"});
+  arguments.insert(arguments.end(), {"--plot", path("picture.svg"), "--column",
+                                     "viscous_contact_exact.film_from_gamma"});
   expect_refused(kVanishing, arguments, ErrorKind::kBadInput,
                  AllOf(HasSubstr("picture.svg"), HasSubstr("is not a picture")));
+  // The name of the column in earlier versions.
+  arguments.back() = "viscous_contact_exact.film";
   // A sweep it may replace, by another one.
   std::filesystem::remove(path("picture.svg"));
   put_text(path("rows.csv"), "# provenance: {\"command\":[]}\n# viscontact: sweep\nother\n");
   expect_done(sweep(kVanishing, arguments));
   EXPECT_EQ(lines().size(), 3U);
+  EXPECT_THAT(lines().front(), HasSubstr(",viscous_contact_exact.film_from_gamma,"));
+  EXPECT_THAT(rest_of(path("picture.svg")), HasSubstr("viscous_contact_exact.film_from_gamma"));
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ TEST(Models, WithGammaAreTheContactModels) {
     const auto trajectory = simulate(find_model(model.name), motion, force);
     for (const auto& row : trajectory.rows)
       ASSERT_EQ(row.gamma.has_value(), is_contact) << model.name;
-    EXPECT_EQ(trajectory.recovered_minimal_gap.has_value(), is_viscous) << model.name;
+    EXPECT_EQ(trajectory.film_from_gamma.has_value(), is_viscous) << model.name;
   }
 }
 
@@ -176,7 +176,7 @@ TEST(Models, RunWithTheExactDragAndWithoutRoughnessByTheirSuffixes) {
       lecture_fit(),
       {lubrication::BelowInterval::kError, lubrication::AboveInterval::kStokesLimit});
   const auto film = [&](const char* name) {
-    return simulate(find_model(name), motion, fitted).recovered_minimal_gap.value();
+    return simulate(find_model(name), motion, fitted).film_from_gamma.value();
   };
   EXPECT_NEAR(film("viscous_contact_threshold"), 0.05, 1e-14);
   // Gamma and its inverse, at impulses of 400 over k = 57.

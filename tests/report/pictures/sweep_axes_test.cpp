@@ -22,7 +22,7 @@ TEST(SweepAxes, HaveNameAndUnit) {
 TEST(SweepAxes, OfSeveralColumnsHaveWhatTheyShare) {
   EXPECT_EQ(common_axis_label({"inertial.minimal_gap", "reference.minimal_gap"}, kSi),
             "minimal_gap [m]");
-  EXPECT_EQ(common_axis_label({"inertial.minimal_gap", "reference.film"}, kSi), "[m]");
+  EXPECT_EQ(common_axis_label({"inertial.minimal_gap", "reference.film_from_gamma"}, kSi), "[m]");
   EXPECT_EQ(common_axis_label({"inertial.minimal_gap", "inertial.steps"}, kSi), "");
 }
 

@@ -21,8 +21,7 @@ constexpr double kPush = -400;  // impulse of the lecture's push
 double regular_drag_film(const lubrication::LubricationForce& force, double step) {
   Motion motion = lecture_motion();
   motion.set(kContactTimeStep, step);
-  return run_contact_model(viscous_contact_regular_drag, motion, force)
-      .recovered_minimal_gap.value();
+  return run_contact_model(viscous_contact_regular_drag, motion, force).film_from_gamma.value();
 }
 
 TEST(RegularDrag, RecoversTheLecturesMinimalGap) {
@@ -91,7 +90,7 @@ TEST(Threshold, RecoversTheFilmOfTheReferenceWhateverStepThresholdAndMass) {
           motion.set(kContactTimeStep, step);
           motion.mass = mass;
           const auto film =
-              run_contact_model(viscous_contact_threshold, motion, force).recovered_minimal_gap;
+              run_contact_model(viscous_contact_threshold, motion, force).film_from_gamma;
           EXPECT_NEAR(film.value() / exact, 1, kRoundOff)
               << fit.basis << ", q_c = " << threshold_gap << ", h = " << step << ", m = " << mass;
         }
@@ -135,7 +134,7 @@ TEST(Threshold, StopsAtTheRoughnessHeight) {
   const lubrication::LubricationForce force(lecture_fit());
   const auto trajectory = run_contact_model(viscous_contact_threshold, motion, force);
   // Gamma and its inverse, to round-off of Gamma's 400 over k = 57.
-  EXPECT_NEAR(trajectory.recovered_minimal_gap.value() / 0.02, 1, 1e-13);
+  EXPECT_NEAR(trajectory.film_from_gamma.value() / 0.02, 1, 1e-13);
   EXPECT_EQ(*row_at(trajectory, 2).gamma, force.impulse(0.02) - force.impulse(0.1));
 }
 

@@ -32,7 +32,7 @@ TEST(ViscousContactExact, SolvesTheLimitCase) {
   ASSERT_TRUE(trajectory.contact_interval.has_value());
   EXPECT_NEAR((*trajectory.contact_interval)[0], 1, 4 * kEpsilon);
   EXPECT_NEAR((*trajectory.contact_interval)[1], 4, 4 * kEpsilon);
-  EXPECT_NEAR(std::log(trajectory.recovered_minimal_gap.value()), -40, 1e-13);
+  EXPECT_NEAR(std::log(trajectory.film_from_gamma.value()), -40, 1e-13);
 }
 
 TEST(ViscousContactExact, TouchesSolidAtGammaMinAndLeavesByItAlone) {
@@ -147,7 +147,7 @@ TEST(ViscousContactExact, RecoversAFilmThatDoesNotDependOnItsRows) {
     motion.set(kContactTimeStep, spacing);
     const auto film =
         simulate_viscous_contact_exact(motion, lubrication::LubricationForce(leading_term_fit(0.1)))
-            .recovered_minimal_gap;
+            .film_from_gamma;
     EXPECT_NEAR(std::log(film.value() / motion.initial_gap), -20, 1e-12) << spacing;
   }
 }

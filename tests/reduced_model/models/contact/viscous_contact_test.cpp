@@ -56,7 +56,7 @@ TEST(ViscousContact, RemembersExactlyTheImpulseItHasTaken) {
 TEST(ViscousContact, RecoversTheFilmFromItsLowestGamma) {
   // gamma is -4 at its lowest, where mu = 0.1: the film is exp(-40) (limit_case_states.csv has the
   // same to 14 digits).
-  const auto recovered = limit_trajectory(1e-3).recovered_minimal_gap;
+  const auto recovered = limit_trajectory(1e-3).film_from_gamma;
   ASSERT_TRUE(recovered.has_value());
   EXPECT_NEAR(std::log(*recovered), -40, 1e-10);  // round-off of gamma over mu
 }
@@ -66,7 +66,7 @@ TEST(ViscousContact, HasNoFilmToRecoverWithoutContact) {
   motion.external_force = ExternalForce({{6, 2}});
   EXPECT_FALSE(run_contact_model(viscous_contact, motion,
                                  lubrication::LubricationForce(leading_term_fit(0.1)))
-                   .recovered_minimal_gap);
+                   .film_from_gamma);
 }
 
 TEST(ViscousContact, LeavesWhenThePushIsGivenBackWhateverThePush) {
@@ -100,7 +100,7 @@ TEST(ViscousContact, LeavesASolidContactByTheRoughnessAloneWhateverThePush) {
     trajectory.model = "viscous_contact";
     EXPECT_NEAR(contact_interval(trajectory)[1], 2 - gamma_min / pull, 1e-3 * (1 + 1e-6)) << push;
     // exp and log of the same number: a few roundings at the size of ln s.
-    EXPECT_NEAR(trajectory.recovered_minimal_gap.value() / solid_gap, 1, 1e-14) << push;
+    EXPECT_NEAR(trajectory.film_from_gamma.value() / solid_gap, 1, 1e-14) << push;
   }
 }
 
@@ -215,9 +215,8 @@ TEST(RecoveredFilm, IsThatOfTheFirstIntegralWhereverTheSphereStarts) {
     EXPECT_NEAR(expected / initial_gap, std::exp(-4), 1e-13);
     for (const auto* model :
          {"viscous_contact", "viscous_contact_regular_drag", "viscous_contact_exact"})
-      EXPECT_NEAR(
-          simulate(find_model(model), motion, force).recovered_minimal_gap.value() / expected, 1,
-          1e-11)  // the impulses of 6000 steps
+      EXPECT_NEAR(simulate(find_model(model), motion, force).film_from_gamma.value() / expected, 1,
+                  1e-11)  // the impulses of 6000 steps
           << model << " from " << initial_gap;
   }
 }
@@ -231,7 +230,7 @@ TEST(RecoveredFilm, IsThatOfTheFirstIntegralWithARegularDragToo) {
     motion.initial_gap = initial_gap;
     const double expected = lowest_row(simulate_reference_exact(motion, force)).gap;
     const auto film =
-        simulate(find_model("viscous_contact_regular_drag"), motion, force).recovered_minimal_gap;
+        simulate(find_model("viscous_contact_regular_drag"), motion, force).film_from_gamma;
     EXPECT_NEAR(std::log(film.value()), std::log(expected) + expected, 1e-11) << initial_gap;
   }
 }
@@ -244,7 +243,7 @@ TEST(RecoveredFilm, IsNeverThinnerThanTheRoughnessAndReachesItAtGammaMin) {
     motion.mass = 1e-3;
     motion.initial_gap = initial_gap;
     motion.roughness = {0.03 * initial_gap, 0.02 * initial_gap};  // exp(-4) = 0.018
-    const auto film = run_contact_model(viscous_contact, motion, force).recovered_minimal_gap;
+    const auto film = run_contact_model(viscous_contact, motion, force).film_from_gamma;
     EXPECT_EQ(film.value(), motion.roughness[0] + motion.roughness[1]) << initial_gap;
     const auto model = viscous_contact(motion, force);
     EXPECT_NEAR(model.film_thickness(model.gamma_min * (1 - 1e-9)) / film.value(), 1, 1e-8);
