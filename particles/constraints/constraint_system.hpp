@@ -194,6 +194,11 @@ class ConstraintSystem {
   double link_impulse(std::size_t l, std::size_t k) const {
     return times_.kick * link_forces_[links_[l].first_force + k];
   }
+  /// Adds the impulses of links across their directions on particles whose motion is given.
+  void add_loads_across(std::vector<GivenParticleLoad>& on_given) const {
+    for (const auto& of_link : across_on_given_)
+      on_given.insert(on_given.end(), of_link.begin(), of_link.end());
+  }
   /// The largest kappa, (5.21), of the links that push, and of the pressures that keep areas, in the
   /// last solution. What they push moves away like an unstable pendulum, by a factor of about
   /// exp(kappa^(1/2)) in the step, and a step with kappa above 1 does not resolve it.
@@ -214,6 +219,8 @@ class ConstraintSystem {
     double moved_before = 0;  // step times the rate of the row at its beginning [L, rad]
     double moved_given = 0;   // by particles whose motion is given, in the step [L, rad]
     Vector direction{};       // of the impulse on the second particle; 0 of a turn
+    // Directions of the impulses on particles whose motion is given.
+    std::vector<std::pair<std::int32_t, Vector>> on_given{};
   };
   // A set of particles that contacts and links connect, and its problem.
   struct Island {
@@ -311,6 +318,7 @@ class ConstraintSystem {
   std::vector<LinkEquations> links_;
   std::vector<ContactState> contact_states_;
   std::vector<double> link_residuals_, link_forces_;
+  std::vector<std::vector<GivenParticleLoad>> across_on_given_;  // of each of links_
   std::vector<ImpulseError> link_errors_;
   // Forces of links with which solutions begin, in the order of link_forces_.
   std::vector<double> first_link_forces_;

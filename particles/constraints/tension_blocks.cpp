@@ -133,6 +133,9 @@ double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Isla
       const double rate = rate_of(equation, particles_);
       row.tension = {b, times_.h * rate, given,
                      first.is_turn ? Vector{} : equation.parts.back().direction};
+      for (const auto& part : equation.parts)
+        if (!part.is_turn && is_given(part.particle))
+          row.tension.on_given.emplace_back(part.particle, part.direction);
       row.block.is_contact = false;
       row.block.allowed = allowed / (first.is_turn ? mean_radius_ : 1);
       row.block.compliance = 1 / (times_.beta() * times_.kick * stiffness);
@@ -230,6 +233,8 @@ void ConstraintSystem<D>::take_impulses_across(const Island& island,
   for (const auto l : island.links)
     if (links_[l].kind == LinkEquations::Kind::kArm) step_.works_across[links_[l].number] = 0;
   for (const auto c : island.contacts) contact_states_[c].across = {};
+  across_on_given_.resize(links_.size());
+  for (const auto l : island.links) across_on_given_[l].clear();
   const std::size_t contacts = island.contacts.size(), sources = contacts + island.links.size();
   for (std::size_t t = 0; t < island.tensions.size(); ++t) {
     const auto& tension = island.tensions[t];
@@ -239,7 +244,10 @@ void ConstraintSystem<D>::take_impulses_across(const Island& island,
       across = across + problem.impulses[r] * tension.direction;
       continue;
     }
-    const auto& link = links_[island.links[tension.source - contacts]];
+    const auto l = island.links[tension.source - contacts];
+    const auto& link = links_[l];
+    for (const auto& [particle, direction] : tension.on_given)
+      across_on_given_[l].push_back({particle, problem.impulses[r] * direction, {}});
     if (link.kind == LinkEquations::Kind::kArm)
       step_.works_across[link.number] +=
           problem.impulses[r] *

@@ -385,6 +385,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     take_given(c, memory, result);
   }
   result.bodies = system_.bodies();
+  if (constraints_) constraints_->add_loads_across(result.on_given);
   result.buckling = constraints_ ? constraints_->buckling() : 0;
   result.has_given_loads = constraints_ && constraints_->has_given_up();
   return result;

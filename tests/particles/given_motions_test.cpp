@@ -287,6 +287,35 @@ TEST(GivenMotion, TurnsAnotherDiscByItsFriction) {
   EXPECT_DOUBLE_EQ(simulation.state().particles.angular_velocities[0], 3);
 }
 
+TEST(GivenMotion, OfAFixedParticleBearsWhatTheMassOnItsLinkIsAccelerated) {
+  // A step of a fifth of the period, in which the link is a spring across its line.
+  for (const bool is_arm : {false, true}) {
+    Setting setting;
+    setting.time_step = 0.7;
+    setting.gravity = {0, -10, 0};
+    setting.given_motions[0];
+    State state = no_particles(2);
+    add_particle(state, {0, 0, 0}, 0.1, 1);
+    add_particle(state, {1.8, -2.4, 0}, 0.1, 2);
+    add_rotation(state.particles);
+    if (is_arm)
+      setting.links.arms = {{0, 1, PiecewiseLinearLength{{{0, 3}}}}};
+    else
+      setting.links.springs = {{0, 1, 100, 2.8}};
+    Simulation simulation(setting, state, 1);
+    for (int n = 0; n < 10; ++n) {
+      const Vector before = simulation.state().particles.velocity(1);
+      const auto report = simulation.step(100);
+      const Vector gained = 2 * (simulation.state().particles.velocity(1) - before);
+      const Vector from_link = 1 / 0.7 * gained - 2 * setting.gravity;
+      // In the parts of a divided step the velocity changes from step to step of other lengths.
+      if (report.parts > 1) continue;
+      EXPECT_LE(norm(simulation.state().given_loads[0].force + from_link), 1e-7 * norm(from_link))
+          << is_arm << " " << n;
+    }
+  }
+}
+
 TEST(GivenMotion, OfAFixedParticleHoldsSpringsAndArms) {
   for (const bool is_arm : {false, true}) {
     Setting setting;
