@@ -238,6 +238,7 @@ double ConstraintSystem<D>::correct(ContactSystem<D>& system, Island& island,
     const auto values = values_after(links_[l], *step_.links, particles_, times_, of_units);
     for (std::size_t k = 0; k < values.size(); ++k) shift(of_link, k, values[k]);
   }
+  if (island.keeps_tensions) return largest;
   return std::max(largest, change_tensions(island, motions, false));
 }
 
@@ -520,6 +521,7 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
       make_problem(system, island, is_rough, roughly_allowed);
     last_change = gained_change = kInfinity;
     growing = gained_at = 0;
+    island.keeps_tensions = false;
   };
   // Begins anew with friction that the loads of `impulses` bound, or, if `impulses` is empty, those
   // of a solution without friction. If this fails, restores the problem and returns false.
@@ -609,7 +611,15 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
     // Half of what is allowed is left to the residual of the solution.
     if (change <= 0.5 || is_rough || is_unsolved) break;
     if (growing == kPatience || n - gained_at == kMostWithoutGain) {
-      if (!has_large_shifts(island)) break;
+      if (!has_large_shifts(island)) {
+        if (island.tensions.empty() || island.keeps_tensions) break;
+        // Arms that press particles together have impulses that are not unique and may grow a little
+        // in each solution. The motion would follow their tensions.
+        island.keeps_tensions = true;
+        growing = 0;
+        gained_at = n;
+        continue;
+      }
       if (use_distances()) {
         n = -1;
         continue;

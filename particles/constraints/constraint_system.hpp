@@ -218,6 +218,7 @@ class ConstraintSystem {
     std::vector<Tension> tensions;
     std::vector<double> shifts;         // last corrections of the blocks of contacts and links [L]
     std::vector<double> shifts_across;  // of the motions, by the last change of their tensions [L]
+    bool keeps_tensions = false;        // the rows of tensions stay those of the impulses before
     // can_give_up: false if the problem had no solution with given loads either.
     bool has_given_up = false, can_give_up = true;
   };
