@@ -256,11 +256,10 @@ ProjectionResult Simulation::project(double h, double next) {
                                  *pool_, loaded_);
     const bool turns = state_.particles.turn();
     if (is_constrained && !turns) {
+      // Units need mobilities of turns, of any size, also if nothing turns.
       no_turns.assign(mobilities_.size() * turn_components(D), 0.0);
-      no_turn_mobilities.assign(mobilities_.size(), 0.0);
-      for (std::size_t k = 0; k < state_.particles.count(); ++k)
-        no_turn_mobilities[k] =
-            mobilities_[k] / (state_.particles.radii[k] * state_.particles.radii[k]);
+      no_turn_mobilities = mobilities_;
+      for (auto& w : no_turn_mobilities) w /= mean_radius_ * mean_radius_;
     }
     const ConstraintStep constraints{setting_.laws,
                                      obstacles_,
@@ -286,6 +285,7 @@ ProjectionResult Simulation::project(double h, double next) {
         has_constraints() ||
         (can_have_springs && (is_constrained || pull_across(projected.pairs, projected.impulses)));
     if (is_constrained != was_constrained) {
+      discarded += projected.iterations;
       undo_impacts();
       move_freely<D>(h, next);
       continue;
@@ -298,7 +298,11 @@ ProjectionResult Simulation::project(double h, double next) {
       for (const auto body : impacts<D>()->touched())
         gone = std::max(gone, length_of(index_of(body)));
     gone += gone_planes();
-    if (gone <= margin && neighbour_list_is_valid(state_, displacements_, *pool_)) return projected;
+    if (gone <= margin && neighbour_list_is_valid(state_, displacements_, *pool_)) {
+      projected.lacks_springs = !can_have_springs;
+      projected.iterations += discarded;
+      return projected;
+    }
     // The impulses moved particles further than the lists of pairs allow for, so that pairs may be
     // missing. Therefore the projection is repeated with longer lists. The loop ends because the
     // margin and the skins (distances up to which pairs are listed) only grow. The new impulses are
@@ -438,14 +442,17 @@ Simulation::Pressing Simulation::pressing(const ProjectionResult& projected, dou
       if (body >= 0)
         add(particles, state_.particles.id(index_of(body)));
       else
-        add(planes, -body);
+        add(planes, body);
     }
   }
-  const auto listed = [](std::vector<std::int32_t>& numbers) {
-    std::ranges::sort(numbers);
-    return fmt::format("{}", fmt::join(numbers, ", "));
+  const auto listed = [](std::string_view kind, std::vector<std::int32_t>& numbers) {
+    std::ranges::sort(numbers, {}, [](std::int32_t n) { return std::abs(n); });
+    if (numbers.empty()) return std::string();
+    return fmt::format("{}{} {}", kind, numbers.size() > 1 ? "s" : "", fmt::join(numbers, ", "));
   };
-  return {listed(planes), listed(particles), impulse};
+  const auto of_planes = listed("plane", planes), of_particles = listed("particle", particles);
+  const bool are_both = !planes.empty() && !particles.empty();
+  return {of_planes + (are_both ? " and " : "") + of_particles, impulse};
 }
 
 /// Finds the blows (impacts of solids with restitution) of a part; without restitution there are
@@ -492,18 +499,14 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
     // A step without constraints has no memories that take the place of these.
     if (pair.impulse == 0 || projected.memories.empty()) memory.set_across({});
   });
-  const auto [planes, particles, impulse] = pressing(projected, next);
+  const auto [names, impulse] = pressing(projected, next);
   report.given_load += impulse;
   // In mean radii, a free choice. Steps that fail for another reason, such as their friction, leave
   // overlaps of up to 3e-3 in data/cases/particles/shear_under_pressure.toml.
   constexpr double kOverlap = 0.01;
-  report.jams =
-      report.jams || (!(planes.empty() && particles.empty()) && !projected.residuals.converged &&
-                      -projected.residuals.smallest_gap > kOverlap * mean_radius_);
-  if (!planes.empty()) report.pressing = "planes " + planes;
-  if (!particles.empty())
-    report.pressing =
-        (planes.empty() ? "particles " : report.pressing + " and particles ") + particles;
+  report.jams = report.jams || (!names.empty() && !projected.residuals.converged &&
+                                -projected.residuals.smallest_gap > kOverlap * mean_radius_);
+  if (!names.empty()) report.pressing = names;
   take_impulses(projected);
   report.glued = remember(projected, h);
   const double kick = kick_length(h);
@@ -532,6 +535,7 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
   ++report.parts;
   report.contacts = projected.pairs.size();
   report.unresolved += projected.unresolved;
+  report.lacks_springs = report.lacks_springs || projected.lacks_springs;
   report.buckling = std::max(report.buckling, projected.buckling);
   report.has_given_loads = report.has_given_loads || projected.has_given_loads;
   report.iterations += projected.iterations;
@@ -545,14 +549,9 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
 void Simulation::examine(const ProjectionResult& projected, double next) const {
   const auto& residuals = projected.residuals;
   refuse_deep_overlap(residuals, state_.particles, setting_, mean_radius_, next, [&] {
-    const auto [planes, particles, impulse] = pressing(projected, next);
-    if (planes.empty() && particles.empty())
-      return std::string("is the time step too long for the forces?");
-    return fmt::format("{}{}{}{}{}: do they leave the particles too little room?",
-                       planes.empty() ? "" : "the planes that move are ", planes,
-                       planes.empty() || particles.empty() ? "" : ", and ",
-                       particles.empty() ? "" : "the particles whose motion is given are ",
-                       particles);
+    const auto names = pressing(projected, next).names;
+    if (names.empty()) return std::string("is the time step too long for the forces?");
+    return fmt::format("do {} leave the others too little room?", names);
   });
   refuse_meeting(next);
   if (residuals.converged || projected.unsolved_links.empty() ||

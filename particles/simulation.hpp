@@ -143,7 +143,7 @@ class Simulation {
   // ends at `next` and push on a particle, and the ids of such particles whose motion is given.
   // `impulse` is the sum of the normal impulses of their contacts [M L/T].
   struct Pressing {
-    std::string planes, particles;
+    std::string names;  // such as "planes -5, -6 and particle 7"; empty if there are none
     double impulse = 0;
   };
   Pressing pressing(const ProjectionResult& projected, double next) const;

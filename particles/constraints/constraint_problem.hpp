@@ -128,6 +128,8 @@ struct ConstraintBlock {
   std::size_t row = 0;     ///< number of its first row
   std::size_t rows = 1;    ///< number of its rows, 1 to kMostRows
   bool is_contact = true;  ///< false: a link
+  /// True if the row is the geometric stiffness of another block, docs/physics.md (5.21).
+  bool is_geometric = false;
   /// Lower bound of the normal impulse [M L/T]. In a step it is gamma^n <= 0 before the step; in a
   /// collision (impacts/) it may be > 0.
   double lowest = 0;

@@ -527,6 +527,7 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
     if (!may_give_up(island)) return false;
     auto corrected = problem;
     const auto tensions = island.tensions;
+    const auto shifts = island.shifts, shifts_across = island.shifts_across;
     restart();
     // The rows of tensions, which are the last ones, may have changed.
     std::copy_n(impulses.begin(), std::min(impulses.size(), problem.impulses.size()),
@@ -534,6 +535,8 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
     if (give_up(island, impulses.empty(), solution, result)) return true;
     problem = std::move(corrected);
     island.tensions = tensions;
+    island.shifts = shifts;
+    island.shifts_across = shifts_across;
     return false;
   };
   // Begins anew with gaps that are distances. Returns false if this would change no gap.

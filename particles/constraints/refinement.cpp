@@ -113,13 +113,16 @@ Refinement<D>::Refinement(ConstraintProblem<D>& problem, ConstraintSolution<D>& 
 
 template <int D>
 bool Refinement<D>::is_worth_it() const {
-  const std::size_t rows = problem_.rows.size();
+  // Rows of geometric stiffness join no units that their links do not join.
+  std::size_t rows = 0;
+  for (const auto& block : problem_.blocks) rows += block.is_geometric ? 0 : block.rows;
   if (rows <= kFew) return true;
   std::vector<std::size_t> rows_of(problem_.units.size());
   std::vector<double> mobility(problem_.units.size());
   std::size_t joints = 0, products = 0;
   for (const auto& block : problem_.blocks) {
-    joints += problem_.rows[block.row].parts - 1;
+    const std::size_t joined = problem_.rows[block.row].parts;
+    if (!block.is_geometric && joined > 0) joints += joined - 1;
     for (std::size_t r = block.row; r < block.row + block.rows; ++r)
       for (const auto& part : problem_.parts_of(r)) {
         const auto u = static_cast<std::size_t>(part.unit);

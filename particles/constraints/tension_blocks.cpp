@@ -31,20 +31,22 @@ std::vector<LinkRow> ConstraintSystem<D>::tension_rows(const ContactSystem<D>& s
                                                        const Island& island, std::size_t b) const {
   const auto& problem = island.problem;
   const auto& block = problem.blocks[b];
-  std::vector<double> forces;
-  for (std::size_t k = 0; k < block.rows; ++k)
-    forces.push_back(problem.impulses[block.row + k] / times_.kick);
-  if (b >= island.contacts.size())
+  if (b >= island.contacts.size()) {
+    std::vector<double> forces;
+    for (std::size_t k = 0; k < block.rows; ++k)
+      forces.push_back(problem.impulses[block.row + k] / times_.kick);
     return rows_of_tension(links_[island.links[b - island.contacts.size()]], forces, particles_);
+  }
   const auto& contact = system.contacts[island.contacts[b]];
-  if (contact.first < 0 || !(forces.front() < 0)) return {};
+  const double force = problem.impulses[block.row] / times_.kick;
+  if (contact.first < 0 || !(force < 0)) return {};
   const auto first = side_of(contact.first), second = side_of(contact.second);
   if (first.unit == second.unit) return {};
   Vector apart{};
   std::ranges::copy(separation<D>(particles_, contact.first, contact.second, contact.image),
                     apart.begin());
   return rows_across({contact.first, {}, first.offset}, {contact.second, {}, second.offset}, apart,
-                     -forces.front(), D);
+                     -force, D);
 }
 
 template <int D>
@@ -137,6 +139,7 @@ double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Isla
         if (!part.is_turn && is_given(part.particle))
           row.tension.on_given.emplace_back(part.particle, part.direction);
       row.block.is_contact = false;
+      row.block.is_geometric = true;
       row.block.allowed = allowed / (first.is_turn ? mean_radius_ : 1);
       row.block.compliance = 1 / (times_.beta() * times_.kick * stiffness);
       row.value = (times_.is_first ? 0 : -times_.h * rate) + given;
@@ -148,6 +151,8 @@ double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Isla
       rows.push_back(std::move(row));
     }
   }
+  island.shifts.resize(sources);
+  island.shifts_across.resize(sources);
   if (rows.empty() && island.tensions.empty()) return 0;
   if (!is_always && island.loads_may_drift && rows.size() == island.tensions.size()) {
     double impulses = 0, differences = 0;
@@ -177,8 +182,6 @@ double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Isla
     island.shifts_across[b] = std::max(island.shifts_across[b], own);
     largest = std::max(largest, moved / allowed);
   };
-  island.shifts.resize(sources);
-  island.shifts_across.resize(sources);
   for (const auto& tension : island.tensions) take(tension.source);
   for (const auto& row : rows) take(row.tension.source);
   constexpr double kSmall = 0.5;  // of what is allowed, as in solve_island()

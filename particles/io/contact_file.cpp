@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "viscontact/common/error.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/particles/domain/bounded_region.hpp"
 #include "viscontact/particles/domain/domain.hpp"
@@ -185,6 +186,11 @@ std::vector<double> contact_stress(const Setting& setting, const State& state) {
   const auto places = positions_of(obstacles, state.time);
   const double size = size_of_region(setting.domain, std::span(places).last(setting.planes.size()),
                                      state.particles.dimension);
+  if (!(size > 0))
+    throw Error(ErrorKind::kBadInput,
+                "the planes bound no region at time {}, and a stress is that of a region "
+                "(output.tables: \"stress\"); add a [domain], or change the motion of the planes",
+                state.time);
   for (double& component : stress) component /= size;
   return stress;
 }

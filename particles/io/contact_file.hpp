@@ -52,7 +52,7 @@ std::string rebound_rows(const Particles& particles, std::span<const Rebound> re
 std::vector<Vector> wall_forces(const Setting& setting, const State& state);
 
 /// The components of the stress of the contacts in the last step, row by row, as in stress.csv. The
-/// setting must have a domain.
+/// domain or the planes must bound a region; throws Error(kBadInput) if they no longer do.
 std::vector<double> contact_stress(const Setting& setting, const State& state);
 
 /// Tables over time that a case may ask for (output.tables). A run in a fluid always writes the

@@ -137,7 +137,8 @@ struct ProjectionResult {
   /// the problem with the loads of this step was not solved, or that its corrections for finite
   /// turns diverged (ConstraintSystem::has_given_up()).
   bool has_given_loads = false;
-  double buckling = 0;  ///< StepReport::buckling of this part
+  bool lacks_springs = false;  ///< StepReport::lacks_springs of this part
+  double buckling = 0;         ///< StepReport::buckling of this part
   double link_residual = 0;  ///< largest residual of a link [L], >= 0
   /// Names of the hinges and arms that contradict each other, for messages. Empty if the residuals
   /// of all links are allowed, or no residual or overlap is more than kBroken mean radii.

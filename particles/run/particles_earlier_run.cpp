@@ -101,14 +101,15 @@ void check_same_particles(const State& state, const ParticlesCase& c, const fs::
   const auto obstacles = obstacles_of(c.setting).size();
   const auto check_first = [&](std::int32_t first) {
     if (first < 0 && static_cast<std::size_t>(-1 - first) >= obstacles)
-      differs(fmt::format("a contact with plane {}, which the case does not have", -first));
+      differs(fmt::format("a contact with obstacle {}, which the case does not have", first));
   };
   const auto& planes = c.setting.planes;
   if (!state.planes.empty() && state.planes.size() != planes.size())
     differs(fmt::format("{} planes, not {}", state.planes.size(), planes.size()));
   for (std::size_t k = 0; k < state.planes.size(); ++k)
     if (!planes[k].load && state.planes[k] != PlaneMotion{})
-      differs(fmt::format("a load that has moved plane {}, which has none in the case", k + 1));
+      differs(fmt::format("a load that has moved plane {}, which has none in the case",
+                          -static_cast<std::ptrdiff_t>(obstacles - planes.size() + k + 1)));
   for (const auto& load : state.given_loads)
     if (!c.setting.given_motions.contains(load.particle))
       differs(

@@ -36,7 +36,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ParticleRegime, reynolds, stokes, film, has_c
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StepTotals, steps, unconverged, failed, iterations,
                                    most_iterations, first_time, last_time, largest_residual,
                                    largest_overlap, largest_impulse_residual, divided, unresolved,
-                                   buckling, largest_buckling, given_loads, regime, seconds,
+                                   buckling, largest_buckling, lacks_springs, given_loads, regime, seconds,
                                    peak_memory_mebibytes, fluid_seconds, unknowns,
                                    first_velocity_errors, last_velocity_errors, first_force_errors,
                                    last_force_errors, averaged_time, mean_dissipation,
@@ -62,6 +62,7 @@ void StepTotals::add(const StepReport& report, double average_from) {
   unresolved += static_cast<std::int64_t>(report.unresolved);
   buckling += report.buckling > 1 ? 1 : 0;
   largest_buckling = std::max(largest_buckling, report.buckling);
+  lacks_springs += report.lacks_springs ? 1 : 0;
   given_loads += report.has_given_loads ? 1 : 0;
   // Both numbers are free choices. A load that follows a motion through a spring, or the inertia of
   // ever more particles, grows in proportion to the time, and hence by ever smaller factors.
@@ -231,6 +232,7 @@ std::string run_json(const ParticlesCase& c, const StepTotals& totals, const Sta
   json["divided_steps"] = totals.divided;
   json["unresolved_contacts"] = totals.unresolved;
   json["buckling_steps"] = totals.buckling;
+  json["steps_without_springs"] = totals.lacks_springs;
   json["steps_with_given_loads"] = totals.given_loads;
   json["largest_overlap"] = totals.largest_overlap;
   json["final_overlap"] = largest_overlap(c.setting, state);

@@ -93,6 +93,7 @@ struct StepTotals {
   std::int64_t unresolved = 0;          ///< sum of StepReport::unresolved
   std::int64_t buckling = 0;            ///< number of steps with StepReport::buckling > 1
   double largest_buckling = 0;          ///< the largest StepReport::buckling [1]
+  std::int64_t lacks_springs = 0;       ///< number of steps with StepReport::lacks_springs
   std::int64_t given_loads = 0;         ///< number of steps with StepReport::has_given_loads
   /// Computing time of earlier calls [s]. In a saved record it includes the call that saved it.
   double seconds = 0;

@@ -246,13 +246,16 @@ void warn_of_buckling(const ParticlesCase& c, const StepTotals& record) {
         "(run.json: "
         "buckling_steps); a time_step of {:.2g} resolves it",
         record.buckling, record.steps, c.setting.time_step / std::sqrt(record.largest_buckling));
+  if (record.lacks_springs > 0)
+    terminal::warn(
+        "particles: warning: {} of {} steps have a solution only if films that pull keep their "
+        "directions, with which vibrations across them may grow (run.json: steps_without_springs); "
+        "use a shorter time_step",
+        record.lacks_springs, record.steps);
 }
 
-/// Says on the terminal how the run ended, after its files are written. Throws Error(kInterrupted)
-/// if the run was interrupted, Error(kNotConverged) if a step missed the tolerances by more than
-/// the factor kStillAResult (particles_folder.hpp).
-void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State& state,
-                  const fs::path& folder, const StopToken& stop) {
+/// Warns of gravity that points upwards.
+void warn_of_gravity(const ParticlesCase& c) {
   const auto up =
       c.particles.dimension == 1 ? 0U : static_cast<unsigned>(c.particles.dimension) - 1;
   if (c.setting.gravity[up] > 0)
@@ -260,6 +263,13 @@ void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State&
         "particles: warning: space.gravity points upwards (its last component, {:.6g}, is > 0); "
         "gravity towards the floor is negative",
         c.setting.gravity[up]);
+}
+
+/// Says on the terminal how the run ended, after its files are written. Throws Error(kInterrupted)
+/// if the run was interrupted, Error(kNotConverged) if a step missed the tolerances by more than
+/// the factor kStillAResult (particles_folder.hpp).
+void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State& state,
+                  const fs::path& folder, const StopToken& stop) {
   terminal::say(
       "particles: {} steps to t = {:.6g}, {:.3g} iterations a step, largest residual {:.2g}, "
       "largest overlap {:.2g} mean radii; {}",
@@ -385,6 +395,7 @@ void run_particles(const ParticlesRequest& request) {
     remove_results(folder);
     log.totals().first_time = log.totals().last_time = state.time;
   }
+  warn_of_gravity(c);
   warn_of_fine_mesh(c, state.particles);
   ParticleSimulation simulation(c.setting, std::move(state), request.threads, request.start_solver,
                                 request.stop);

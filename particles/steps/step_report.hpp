@@ -94,6 +94,9 @@ struct StepReport {
   /// The largest kappa, docs/physics.md (5.21), of links that push [1], >= 0: above 1 the step does
   /// not resolve how what they push buckles. Only without a fluid.
   double buckling = 0;
+  /// True if films that pull have no springs across them, docs/physics.md (5.21), because the step
+  /// has no solution with these.
+  bool lacks_springs = false;
   /// Names of the obstacles that move as given, and of the particles whose motion is given, that
   /// push on others in the step, such as "plane -3 and particle 7"; empty if there are none. Only
   /// without a fluid.

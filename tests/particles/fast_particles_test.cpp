@@ -109,7 +109,7 @@ TEST(ClosingWalls, EndTheRunOnceTheOverlapPassesARadius) {
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kNotConverged);
     const std::string message = error.what();
-    EXPECT_NE(message.find("planes that move are 1, 3"), std::string::npos) << message;
+    EXPECT_NE(message.find("do planes -1, -3 leave"), std::string::npos) << message;
     EXPECT_NE(message.find("overlap"), std::string::npos) << message;
   }
   // What was computed before is kept.

@@ -55,7 +55,7 @@ class Packings : public ParticlesCommand {
 
 TEST_F(Packings, ThatJamAreCountedAndWarnedOf) {
   for (const auto& [upper, name] :
-       {std::pair(kDriven, "planes 2"), std::pair(kDrivenDisc, "particles 3")}) {
+       {std::pair(kDriven, "plane -2"), std::pair(kDrivenDisc, "particle 3")}) {
     // The column has the height 3, so that the body above leaves it room until t = 2.
     const auto jammed = run(put_case(squeezed("2.5", upper)), out());
     EXPECT_EQ(jammed.exit_status, results::exit_code_of(ErrorKind::kNotConverged));
