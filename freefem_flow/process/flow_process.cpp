@@ -196,7 +196,8 @@ std::vector<double> FlowProcess::velocities(std::span<const double> forces, bool
 
 /// Reads in this order: the dissipation, the dissipation without particles (0: the solver does not
 /// know it), the forces of the fluid; with inertia the kinetic energy and the Courant number,
-/// and with characteristics the error of the advection [1], >= 0; for each probe the flow [L^2/T] and the pressure [M/(L T^2)].
+/// and with characteristics the error of the advection [1], >= 0; for each probe the flow [L^2/T]
+/// and the pressure [M/(L T^2)].
 particles::FlowQuantities FlowProcess::quantities() {
   solver_->ask("quantities", "quantities\n");
   solver_->expect("quantities");

@@ -236,8 +236,8 @@ void warn_of_jam(const StepTotals& record) {
         record.jammed, record.first_jam, record.jammed_bodies);
 }
 
-/// Warns if links push so hard that steps do not resolve how what they push buckles, or if films in a
-/// fluid pull so hard that what they pull may vibrate with a growing amplitude.
+/// Warns if links push so hard that steps do not resolve how what they push buckles, or if films in
+/// a fluid pull so hard that what they pull may vibrate with a growing amplitude.
 void warn_of_buckling(const ParticlesCase& c, const StepTotals& record) {
   if (record.buckling == 0) return;
   // Where a vibration has grown, the forces of its films say nothing about the step that is stable.

@@ -98,11 +98,11 @@ struct StepReport {
   /// beforehand, because Coulomb's law or its convex relaxation, in which these impulses are
   /// unknown, was not solved, docs/physics.md (5.17).
   bool has_given_loads = false;
-  /// The largest kappa, docs/physics.md (5.21), in a fluid the largest z, (6.15), of links that push
-  /// [1], >= 0: above 1 the step does not resolve how what they push buckles. In a fluid also half
-  /// of the z of films that pull and that no row turns with the motion, those of plates, and with
-  /// Coupling::kSplitting all films: above 1 what the film pulls may vibrate across it with a growing
-  /// amplitude.
+  /// The largest kappa, docs/physics.md (5.21), in a fluid the largest z, (6.15), of links that
+  /// push [1], >= 0: above 1 the step does not resolve how what they push buckles. In a fluid also
+  /// half of the z of films that pull and that no row turns with the motion, those of plates, and
+  /// with Coupling::kSplitting all films: above 1 what the film pulls may vibrate across it with a
+  /// growing amplitude.
   double buckling = 0;
   /// Names of the obstacles that move as given, and of the particles whose motion is given, that
   /// push on others in the step, such as "plane -3 and particle 7"; empty if there are none. Only
