@@ -248,7 +248,7 @@ ProjectionResult Simulation::project(double h, double next) {
   }
   bool is_constrained = has_constraints() || pulled_across();
   bool can_have_springs = true;                      // films, across their pairs
-  int discarded = 0;  // iterations
+  int discarded = 0;                                 // iterations
   std::vector<double> no_turns, no_turn_mobilities;  // of particles that do not turn
   for (;;) {
     rebuild_wall_list(state_, planes, margin, *pool_);

@@ -195,8 +195,9 @@ std::vector<double> FlowProcess::velocities(std::span<const double> forces, bool
 }
 
 /// Reads in this order: the dissipation, the dissipation without particles (0: the solver does not
-/// know it), the forces of the fluid; with inertia the kinetic energy and the Courant number; for
-/// each probe the flow [L^2/T] and the pressure [M/(L T^2)].
+/// know it), the forces of the fluid; with inertia the kinetic energy and the Courant number,
+/// and with characteristics the error of the advection [1], >= 0; for each probe the flow [L^2/T]
+/// and the pressure [M/(L T^2)].
 particles::FlowQuantities FlowProcess::quantities() {
   solver_->ask("quantities", "quantities\n");
   solver_->expect("quantities");
@@ -209,6 +210,8 @@ particles::FlowQuantities FlowProcess::quantities() {
   if (fluid_.has_inertia()) {
     quantities.kinetic_energy = solver_->number();
     quantities.courant_number = solver_->number();
+    if (fluid_.advection == particles::Advection::kCharacteristics)
+      quantities.advection_error = solver_->number_from_zero();
   }
   for (std::size_t k = 0; k < fluid_.probes.size(); ++k) {
     const double flow = solver_->number();

@@ -174,6 +174,68 @@ bool FluidSimulation::follow_turns(const StepEquation& equation, HeldMotion& hel
   return changed || rows.size() > before;
 }
 
+double FluidSimulation::turn_of_films(std::span<const Contact<2>> contacts,
+                                      const StepEquation& equation) const {
+  const auto& fluid = *setting_.fluid;
+  const bool is_split = fluid.coupling == Coupling::kSplitting;
+  if (layout_.components != 3 || (fluid.plates.empty() && !is_split)) return 0;
+  const auto& p = state_.particles;
+  auto mobility = equation.largest_mobility();
+  if (is_split) {
+    const auto inertia = equation.inertia_of_projection();
+    for (std::size_t i = 0; i < mobility.size(); ++i)
+      mobility[i] = mobility[i] > 0 && inertia[i] > 0 ? 1 / inertia[i] : 0;
+  }
+  // The arm of a plate's end across the normal. Along a side, where the nearest points slide on the
+  // plate, it is 0 up to rounding.
+  const auto arm_of = [&](std::size_t i, const Contact<2>& contact) {
+    if (!fluid.is_plate(i)) return 0.0;
+    return (fluid.semi_axes[i][0] - fluid.semi_axes[i][1]) *
+           std::abs(std::cos(p.angles[i]) * contact.normal[0] +
+                    std::sin(p.angles[i]) * contact.normal[1]);
+  };
+  struct Film {
+    std::int32_t first, second;
+    double of_arms;  // part of z that is due to arms that turn [1]
+  };
+  std::vector<Film> films;
+  // The sum of the rates of all films at each particle, with its own mobility. The largest sum of
+  // two particles of one film bounds the rate of a whole chain (Anderson & Morley 1985).
+  std::vector<double> rates(p.count());
+  for (const auto& contact : contacts) {
+    if (contact.is_stop() || !(contact.impulse < 0)) continue;
+    double length = contact.gap;
+    bool has_plate = false, has_side = false;
+    Film film{contact.first, contact.second, 0};
+    for (const auto k : {contact.first, contact.second}) {
+      if (k < 0) continue;
+      const auto i = index_of(k);
+      length += fluid.end_radius(i, p.radii[i]);
+      if (!fluid.is_plate(i)) continue;
+      constexpr double kRounding = 1e-9;
+      const double arm = arm_of(i, contact);
+      has_plate = true;
+      has_side = has_side || !(arm > kRounding * fluid.semi_axes[i][0]);
+      film.of_arms = std::max(film.of_arms, -contact.impulse * arm * mobility[layout_.at(k, 2)]);
+    }
+    if (has_side || (!has_plate && !is_split)) continue;
+    films.push_back(film);
+    // The direction of a film at a wall does not turn.
+    if (contact.first < 0 || !(length > 0)) continue;
+    for (const auto k : {contact.first, contact.second}) {
+      const double arm = arm_of(index_of(k), contact);
+      rates[index_of(k)] -= contact.impulse / length *
+                            (std::max(mobility[layout_.at(k, 0)], mobility[layout_.at(k, 1)]) +
+                             arm * arm * mobility[layout_.at(k, 2)]);
+    }
+  }
+  double largest = 0;
+  for (const auto& film : films)
+    largest = std::max(largest, film.of_arms + rates[index_of(film.second)] +
+                                    (film.first < 0 ? 0 : rates[index_of(film.first)]));
+  return largest;
+}
+
 /// Changes the velocities `at_end` at the end of a step, in which particles moved with `moved`,
 /// until hinges and arms hold for them at that time. Without this change, a part of these
 /// velocities that a link does not allow would remain, and change its sign in each step. Only the

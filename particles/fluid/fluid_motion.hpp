@@ -96,6 +96,7 @@ struct FluidSimulation::Motion {
   std::vector<double> moved;   ///< U^+ with contact: displacements divided by the step's length
   std::vector<double> linear;  ///< `moved`, but without the finite turns of rigid bodies
   bool links_hold = true;      ///< whether hinges and arms hold within the tolerance
+  double buckling = 0;         ///< StepReport::buckling
   /// State::link_forces after the step, Links::force_count() numbers; empty without links.
   std::vector<double> link_forces,
       arm_powers;                ///< State::arm_powers, one for each arm [M L^2/T^3]

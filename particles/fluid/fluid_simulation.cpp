@@ -363,6 +363,8 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
     if (!equation.put_in_contact(motion.blow ? motion.blow->contacts : motion.contact.contacts))
       break;
   }
+  motion.buckling =
+      std::max(held ? held->pushing() : 0, turn_of_films(motion.contact.contacts, equation) / 2);
   const auto& loads = motion.blow ? motion.blow->loads : motion.contact.loads;
   motion.after = motion.blow ? motion.blow->velocities : motion.contact.velocities;
   if (largest_magnitude(loads) > 0 && !is_split) {
@@ -440,6 +442,7 @@ void FluidSimulation::report_inertia(Motion& motion) const {
   const auto& p = state_.particles;
   auto& report = motion.fluid;
   report.courant_number = motion.quantities.courant_number;
+  report.advection_error = motion.quantities.advection_error;
   for (std::size_t k = 0; k < p.count(); ++k) {
     double square = 0;
     for (std::size_t d = 0; d < layout_.directions(); ++d) {
@@ -528,6 +531,7 @@ StepReport FluidSimulation::step(double end) {
   begin_flow(interval->h);
   auto motion = solve(interval->h, interval->end, state_.steps == 0 || interval->reaches_end);
   report.iterations = motion.contact.iterations;
+  report.buckling = motion.buckling;
   report.fluid = motion.fluid;
   report.parts = 1;
   examine(motion, interval->h, report);

@@ -174,6 +174,11 @@ class FluidSimulation {
   bool follow_turns(const StepEquation& equation, HeldMotion& held, std::vector<double> loaded,
                     std::span<const Contact<2>> contacts, std::span<const double> row_forces,
                     std::vector<double>& settled);
+  /// The largest z, physics.md (6.15), of films that pull along their direction at the beginning of
+  /// the step: those of the ends of plates, and with Coupling::kSplitting those of discs. z >= 0 [1]
+  /// is an upper bound of the length of the step times the rate at which what the film pulls turns.
+  /// A film along the side of a plate turns with the plate and has none.
+  double turn_of_films(std::span<const Contact<2>> contacts, const StepEquation& equation) const;
   void hold_with_contacts(const StepEquation& equation, const HeldMotion& held, double h,
                           double next, Motion& motion, std::vector<double>& row_forces);
   std::vector<double> hold_at_end(const StepEquation& equation, const HeldMotion& held,

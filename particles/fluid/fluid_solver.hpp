@@ -88,6 +88,7 @@ struct FlowQuantities {
   /// Largest distance that the fluid moves in a step relative to the mesh, divided by the size of
   /// the triangle of the mesh [1], >= 0; 0 in a fluid without inertia.
   double courant_number = 0;
+  double advection_error = 0;  ///< FluidStepReport::advection_error
   /// Flow [L^2/T] through each of Fluid::probes, and mean pressure [M/(L T^2)] on it, in the order
   /// of the probes.
   std::vector<std::array<double, 2>> probes{};

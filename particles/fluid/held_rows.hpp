@@ -57,6 +57,9 @@ class HeldMotion {
   /// their centres. A row stays until the end of the step; the constant stiffnesses of all rows
   /// become those of `step`.
   void add_turns(const ForcesOfStep& step);
+  /// The largest number z = h K (mobility) of links that push, >= 0 [1], with the forces and the
+  /// mobilities of the last add_turns(): K is the stiffness of physics.md (6.15), without its sign.
+  double pushing() const { return pushing_; }
   /// The geometric rows, which follow rows().
   std::vector<HeldRow> geometric_rows() const;
 
@@ -177,6 +180,7 @@ class HeldMotion {
   std::vector<std::vector<Vector>> image_velocities_;
   std::size_t body_rows_ = 0;  // number of rows of bodies
   std::vector<Turn> turns_;
+  double pushing_ = 0;
 };
 
 }  // namespace viscontact::particles

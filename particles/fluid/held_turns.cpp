@@ -134,16 +134,19 @@ void HeldMotion::add_turns(const ForcesOfStep& step) {
   const auto find = [&](const Turn::Key& key) {
     return std::ranges::find(turns_, key, &Turn::key);
   };
+  pushing_ = 0;
   for (auto& candidate : candidates) {
-    if (const auto found = find(candidate.key); found != turns_.end()) {
-      found->row.stiffness = candidate.row.stiffness;
-      continue;
-    }
     double stiffness = candidate.row.stiffness, mobility = 0;
     for (const auto& [row, coefficient] : candidate.row.of_forces)
       if (row < step.of_rows.size()) stiffness += coefficient * step.of_rows[row];
     for (const auto& [component, coefficient] : candidate.row.entries)
       mobility += coefficient * coefficient * step.mobility[component];
+    if (candidate.key[0] == Turn::kLink)
+      pushing_ = std::max(pushing_, -times_.h * stiffness * mobility);
+    if (const auto found = find(candidate.key); found != turns_.end()) {
+      found->row.stiffness = candidate.row.stiffness;
+      continue;
+    }
     // The solver lets a row act where its z is large enough. The mobilities of discs in the widest
     // containers are some 10 times those of `step`, and neighbouring links double them, but the
     // motion is stable up to z = 1.

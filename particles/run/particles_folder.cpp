@@ -33,15 +33,14 @@ namespace viscontact::particles {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RelativeErrors, best, of_one_mesh, of_penalty)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ParticleRegime, reynolds, stokes, film, has_contact)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StepTotals, steps, unconverged, failed, iterations,
-                                   most_iterations, first_time, last_time, largest_residual,
-                                   largest_overlap, largest_impulse_residual, divided, unresolved,
-                                   buckling, largest_buckling, lacks_springs, given_loads, regime, seconds,
-                                   peak_memory_mebibytes, fluid_seconds, unknowns,
-                                   first_velocity_errors, last_velocity_errors, first_force_errors,
-                                   last_force_errors, averaged_time, mean_dissipation,
-                                   mean_apparent_viscosity, contact_time, contact_means, jammed,
-                                   first_jam, jammed_bodies, given_load, growing)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(
+    StepTotals, steps, unconverged, failed, iterations, most_iterations, first_time, last_time,
+    largest_residual, largest_overlap, largest_impulse_residual, divided, unresolved, buckling,
+    largest_buckling, first_buckling, lacks_springs, given_loads, regime, seconds,
+    peak_memory_mebibytes, fluid_seconds, advection_errors, largest_advection_error, unknowns,
+    first_velocity_errors, last_velocity_errors, first_force_errors, last_force_errors,
+    averaged_time, mean_dissipation, mean_apparent_viscosity, contact_time, contact_means, jammed,
+    first_jam, jammed_bodies, given_load, growing)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunRecord, totals, frames, flows, last_frame, rebounds, files)
 
 namespace {
@@ -60,7 +59,7 @@ void StepTotals::add(const StepReport& report, double average_from) {
   largest_impulse_residual = std::max(largest_impulse_residual, report.impulse_residual);
   divided += report.parts > 1 ? 1 : 0;
   unresolved += static_cast<std::int64_t>(report.unresolved);
-  buckling += report.buckling > 1 ? 1 : 0;
+  if (report.buckling > 1 && ++buckling == 1) first_buckling = report.buckling;
   largest_buckling = std::max(largest_buckling, report.buckling);
   lacks_springs += report.lacks_springs ? 1 : 0;
   given_loads += report.has_given_loads ? 1 : 0;
@@ -76,6 +75,8 @@ void StepTotals::add(const StepReport& report, double average_from) {
   }
   const auto& fluid = report.fluid;
   fluid_seconds += fluid.seconds;
+  advection_errors += fluid.advection_error > kNamedAdvectionError ? 1 : 0;
+  largest_advection_error = std::max(largest_advection_error, fluid.advection_error);
   if (const double duration = report.time - std::max(last_time, average_from);
       duration > 0 && !fluid.is_computed_again) {
     averaged_time += duration;
@@ -263,6 +264,10 @@ std::string run_json(const ParticlesCase& c, const StepTotals& totals, const Sta
     const auto mean = [&](double value) { return totals.averaged_time > 0 ? Json(value) : Json(); };
     json["mean_dissipation"] = mean(totals.mean_dissipation);
     json["mean_apparent_viscosity"] = mean(totals.mean_apparent_viscosity);
+    if (c.setting.fluid->advection == Advection::kCharacteristics) {
+      json["advection_error"] = totals.largest_advection_error;
+      json["steps_with_advection_error"] = totals.advection_errors;
+    }
     json["unknowns"] = totals.unknowns;
     json["fluid_seconds"] = totals.fluid_seconds;
   }

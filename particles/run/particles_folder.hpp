@@ -93,6 +93,7 @@ struct StepTotals {
   std::int64_t unresolved = 0;          ///< sum of StepReport::unresolved
   std::int64_t buckling = 0;            ///< number of steps with StepReport::buckling > 1
   double largest_buckling = 0;          ///< the largest StepReport::buckling [1]
+  double first_buckling = 0;            ///< the first StepReport::buckling > 1 [1], or 0
   std::int64_t lacks_springs = 0;       ///< number of steps with StepReport::lacks_springs
   std::int64_t given_loads = 0;         ///< number of steps with StepReport::has_given_loads
   /// Computing time of earlier calls [s]. In a saved record it includes the call that saved it.
@@ -101,7 +102,10 @@ struct StepTotals {
   double peak_memory_mebibytes = 0;
   ParticleRegime regime;  ///< largest Reynolds and Stokes numbers
   // The following members are used in a fluid only.
-  double fluid_seconds = 0;    ///< sum of FluidStepReport::seconds [s]
+  double fluid_seconds = 0;  ///< sum of FluidStepReport::seconds [s]
+  /// Number of steps with an advection_error above kNamedAdvectionError, and the largest one [1].
+  std::int64_t advection_errors = 0;
+  double largest_advection_error = 0;
   std::uint64_t unknowns = 0;  ///< number of unknowns of the fluid solver in the last step
   /// Estimates of the relative errors [1] of velocities and forces, at the first and at the last
   /// step at which they were estimated; < 0 if they were not estimated.

@@ -236,22 +236,49 @@ void warn_of_jam(const StepTotals& record) {
         record.jammed, record.first_jam, record.jammed_bodies);
 }
 
-/// Warns if links push so hard that steps do not resolve how what they push buckles.
+/// Warns if links push so hard that steps do not resolve how what they push buckles, or if films in
+/// a fluid pull so hard that what they pull may vibrate with a growing amplitude.
 void warn_of_buckling(const ParticlesCase& c, const StepTotals& record) {
-  if (record.buckling > 0)
+  if (record.buckling == 0) return;
+  // Where a vibration has grown, the forces of its films say nothing about the step that is stable.
+  const bool may_grow = c.setting.fluid && (!c.setting.fluid->plates.empty() ||
+                                            c.setting.fluid->coupling == Coupling::kSplitting);
+  if (c.setting.fluid)
+    terminal::warn(
+        "particles: warning: in {} of {} steps a link pushes so hard that what it pushes buckles "
+        "within the step, and rounding errors decide how, or a film of a plate (with coupling = "
+        "\"splitting\" any film) pulls so hard that what it pulls may vibrate across it with a "
+        "growing amplitude (run.json: buckling_steps); a time_step of {:.2g} resolves it",
+        record.buckling, record.steps,
+        c.setting.time_step / (may_grow ? record.first_buckling : record.largest_buckling));
+  else
     terminal::warn(
         "particles: warning: in {} of {} steps a link (or the area that a membrane keeps) pushes "
-        "so "
-        "hard that what it pushes buckles within the step, and rounding errors decide how "
-        "(run.json: "
-        "buckling_steps); a time_step of {:.2g} resolves it",
+        "so hard that what it pushes buckles within the step, and rounding errors decide how "
+        "(run.json: buckling_steps); a time_step of {:.2g} resolves it",
         record.buckling, record.steps, c.setting.time_step / std::sqrt(record.largest_buckling));
+}
+
+/// Warns if steps were solved without springs across films that pull.
+void warn_of_springs(const StepTotals& record) {
   if (record.lacks_springs > 0)
     terminal::warn(
         "particles: warning: {} of {} steps have a solution only if films that pull keep their "
         "directions, with which vibrations across them may grow (run.json: steps_without_springs); "
         "use a shorter time_step",
         record.lacks_springs, record.steps);
+}
+
+/// Warns if steps are too long for advection = "characteristics" to be right to about 1 %.
+void warn_of_advection(const ParticlesCase& c, const StepTotals& record) {
+  if (record.advection_errors > 0)
+    terminal::warn(
+        "particles: warning: in {} of {} steps the velocity of the fluid changes so much along its "
+        "paths that forces of advection = \"characteristics\" are off by more than about 1 % "
+        "(run.json: advection_error is {:.2g}, and should be at most {}); a time_step of {:.2g} "
+        "would do, or advection = \"semi_implicit\"",
+        record.advection_errors, record.steps, record.largest_advection_error, kNamedAdvectionError,
+        c.setting.time_step * kNamedAdvectionError / record.largest_advection_error);
 }
 
 /// Warns of gravity that points upwards.
@@ -298,6 +325,8 @@ void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State&
                                                                    : "Coulomb's law");
   warn_of_jam(record);
   warn_of_buckling(c, record);
+  warn_of_springs(record);
+  warn_of_advection(c, record);
   if (record.unresolved > 0)
     terminal::warn(
         "particles: warning: {} contacts were computed although their particles move past each "

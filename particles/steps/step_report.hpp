@@ -26,6 +26,10 @@ struct RelativeErrors {
   double of_penalty = -1;
 };
 
+/// FluidStepReport::advection_error above which a step is named. Below it drags and velocities of
+/// particles are right to about 1 % (docs/fluid.md has figures).
+inline constexpr double kNamedAdvectionError = 0.02;
+
 /// What is recorded of one step in a fluid.
 struct FluidStepReport {
   /// True in the first step of a fluid with inertia, whose flow the next step computes again. The
@@ -42,6 +46,9 @@ struct FluidStepReport {
   double reynolds_number = 0;
   /// Largest path of the fluid relative to the mesh in the step, over the length of an edge [1].
   double courant_number = 0;
+  /// With Advection::kCharacteristics the power of the error of the rate of change along the paths
+  /// of the fluid, over that of advection and viscosity [1], >= 0, docs/physics.md after (6.9).
+  double advection_error = 0;
   /// Sum of the forces of the fluid on the particles whose motion is given [M L/T^2], in two
   /// dimensions per length [M/T^2]: components x and y; on an axis only the first, along z.
   std::array<double, 2> given_force{};
@@ -91,8 +98,11 @@ struct StepReport {
   /// beforehand, because Coulomb's law or its convex relaxation, in which these impulses are
   /// unknown, was not solved, docs/physics.md (5.17).
   bool has_given_loads = false;
-  /// The largest kappa, docs/physics.md (5.21), of links that push [1], >= 0: above 1 the step does
-  /// not resolve how what they push buckles. Only without a fluid.
+  /// The largest kappa, docs/physics.md (5.21), in a fluid the largest z, (6.15), of links that
+  /// push [1], >= 0: above 1 the step does not resolve how what they push buckles. In a fluid also
+  /// half of the z of films that pull and that no row turns with the motion, those of plates, and
+  /// with Coupling::kSplitting all films: above 1 what the film pulls may vibrate across it with a
+  /// growing amplitude.
   double buckling = 0;
   /// True if films that pull have no springs across them, docs/physics.md (5.21), because the step
   /// has no solution with these.

@@ -24,6 +24,7 @@ struct Chain {
   Kind kind = Kind::kArms;
   double h = 0.1, apart = 1.5, aside = 0.05, force = 1000, drag = 2, mass = 0;
   bool has_inertia = false;  // of the fluid, which has no weight
+  Coupling coupling = Coupling::kConstrained;
   // Units; that of the weight is a mass per length.
   double length = 1, time = 1, weight = 1;
 
@@ -33,6 +34,7 @@ struct Chain {
     auto made = in_fluid(2, 100 * length, h * time, 0.01 * length);
     made.setting.fluid->viscosity = mu;
     if (has_inertia) made.setting.fluid->density = 1e-12;
+    made.setting.fluid->coupling = coupling;
     const double radius = kind == Kind::kFilms ? apart / 2 - 0.005 : 0.1;
     const Vector top{50, 50, 0};
     const double down = std::sqrt(apart * apart - aside * aside);
@@ -224,6 +226,134 @@ TEST(TensionInFluid, TheWorksOfPullingArmsAddUpToTheDissipation) {
   }
   EXPECT_GT(work, 1);
   EXPECT_NEAR(work, dissipated, 1e-9 * work);
+}
+
+/// StepReport::buckling of the first step of a disc that stands on an arm or a spring above a fixed
+/// disc, at the distance 1.5, and is pushed down with 3.
+double buckling_of_standing(Kind kind, double h, double mass, double density, double push = 3) {
+  auto system = in_fluid(2, 100, h, 0.01);
+  constexpr double kDrag = 2, kLength = 1.5;
+  system.setting.fluid->viscosity = kDrag / (4 * std::numbers::pi);
+  system.setting.fluid->density = density;
+  add_pushed(system, {50, 50, 0}, 0.1, 0, {});
+  add_pushed(system, {50, 50 + kLength, 0}, 0.1, mass, {0, -push, 0});
+  auto& p = system.state.particles;
+  p.angles.assign(2, 0);
+  p.angular_velocities.assign(2, 0);
+  if (mass > 0) p.inertias.assign(2, homogeneous_inertia(2, mass, 0.1));
+  system.setting.given_motions[0] = {};
+  if (kind == Kind::kArms)
+    system.setting.links.arms = {{0, 1, fixed_length(kLength)}};
+  else
+    // The spring has the force of the push from the start.
+    system.setting.links.springs = {{0, 1, 1e3, kLength + push / 1e3}};
+  auto simulation = system.simulation(constant_drag(kDrag));
+  // The first step of a fluid with inertia has the forces of half of it.
+  if (density > 0) simulation.step(1e9);
+  return simulation.step(1e9).buckling;
+}
+
+TEST(TensionInFluid, ADiscThatStandsOnALinkBucklesByItsForceOverTheDrag) {
+  // Across the arm the disc moves away at the rate force/(length drag) of its distance. A spring
+  // gives way by 1e-3 in a long step.
+  for (const auto kind : {Kind::kArms, Kind::kSprings})
+    for (const double h : {0.01, 0.5, 5.0})
+      EXPECT_NEAR(buckling_of_standing(kind, h, 0, 0) / (h * 3 / 1.5 / 2), 1, 1e-2) << h;
+  EXPECT_NEAR(buckling_of_standing(Kind::kArms, 5, 0, 0), 5, 1e-6);
+  // A mass of which the drag resists less than the inertia in a step: z = h^2 force/(length mass).
+  EXPECT_NEAR(buckling_of_standing(Kind::kArms, 0.1, 100, 0), 0.01 * 3 / 1.5 / 100, 1e-6);
+  EXPECT_NEAR(buckling_of_standing(Kind::kArms, 0.1, 100, 1e-12), 0.01 * 3 / 1.5 / 100, 1e-6);
+  EXPECT_EQ(buckling_of_standing(Kind::kArms, 5, 0, 0, -3), 0) << "it is pulled";
+}
+
+/// A plate that hangs on a fixed disc by a film at its end, nearly along the force that pulls it
+/// down. `tilts` are its angles from this direction after each step.
+struct HangingPlate {
+  double h = 0.01;
+  double buckling = 0;  // the largest of a step
+  std::vector<double> tilts{};
+
+  void hang(int steps) {
+    constexpr double kHalf = 1, kEnd = 0.1, kDrag = 2, kTilt = 0.02;
+    auto system = in_fluid(2, 100, h, 0.01);
+    auto& fluid = *system.setting.fluid;
+    fluid.viscosity = kDrag / (4 * std::numbers::pi);
+    const double gap = 0.009, down = 0.2 + gap + kHalf - kEnd;
+    add_pushed(system, {50, 50, 0}, 0.1, 0, {});
+    add_pushed(system, {50 + down * std::sin(kTilt), 50 - down * std::cos(kTilt), 0}, kHalf, 0,
+               {0, -10, 0});
+    auto& p = system.state.particles;
+    p.angles = {0, kTilt - std::numbers::pi / 2};
+    p.angular_velocities.assign(2, 0);
+    fluid.semi_axes = {{0.1, 0.1}, {kHalf, kEnd}};
+    fluid.plates = {0, 1};
+    system.setting.given_motions[0] = {};
+    Pair pair{0, 1};
+    pair.gamma = -1e9;
+    system.state.pairs.push_back(pair);
+    auto simulation = system.simulation(constant_drag(kDrag));
+    for (int n = 0; n < steps; ++n) {
+      buckling = std::max(buckling, simulation.step(1e9).buckling);
+      tilts.push_back(simulation.state().particles.angles[1] + std::numbers::pi / 2);
+    }
+  }
+};
+
+TEST(TensionInFluid, FilmsOfPlatesThatVibrateWithAGrowingAmplitudeAreCounted) {
+  // (6.15) with the pull 10, the drags 2 of a motion and of a turn of the plate, the arm 0.9 of its
+  // end, and the distance 0.2 + the gap of the spines.
+  const auto half_of_z = [](double h) { return h * 10 * ((1 + 0.81) / 2 / 0.21 + 0.9 / 2) / 2; };
+  for (const double h : {0.01, 0.04}) {
+    HangingPlate plate{.h = h};
+    plate.hang(60);
+    // The first step pulls the film from the gap 0.009 to 0.01.
+    EXPECT_NEAR(plate.buckling / half_of_z(h), 1, 0.06);
+    EXPECT_LT(plate.buckling, 1);
+    EXPECT_LT(std::abs(plate.tilts.back()), 0.01);
+  }
+  HangingPlate plate{.h = 0.05};
+  plate.hang(60);
+  EXPECT_GT(half_of_z(0.05), 1);
+  EXPECT_GT(plate.buckling, 1);
+  EXPECT_GT(std::abs(plate.tilts.back()), 1);
+}
+
+/// Largest distance of the middle disc from the line of a chain of masses in 60 steps with
+/// Coupling::kSplitting, over that at the start. `buckling` is that of the second step.
+double growth_with_splitting(Kind kind, double share, bool has_inertia, double& buckling) {
+  const double period = 2 * std::numbers::pi / std::sqrt(1000 * 2 / 1.5);
+  const Chain chain{.kind = kind,
+                    .h = share * period,
+                    .aside = 0.01,
+                    .drag = 1e-6,
+                    .mass = 1,
+                    .has_inertia = has_inertia,
+                    .coupling = Coupling::kSplitting};
+  auto system = chain.system();
+  auto simulation = system.simulation(chain.resistance());
+  double largest = 0;
+  for (int n = 0; n < 60; ++n) {
+    const double now = simulation.step(1e9).buckling;
+    if (n == 1) buckling = now;
+    largest = std::max(largest, std::abs(simulation.state().particles.position(1)[0] - 50));
+  }
+  return largest / chain.aside;
+}
+
+TEST(TensionInFluid, WithSplittingLinksAreStableAndFilmsThatAreNotAreCounted) {
+  double buckling = 0;
+  for (const bool has_inertia : {false, true}) {
+    for (const double share : {1e-3, 0.05, 0.2, 0.35, 0.5, 1.0})
+      for (const auto kind : {Kind::kArms, Kind::kSprings}) {
+        EXPECT_LE(growth_with_splitting(kind, share, has_inertia, buckling), 1.1) << share;
+        EXPECT_EQ(buckling, 0) << share;
+      }
+    // z is the sum of h^2 T/(l m) over the films at the ends of the lower film: three of them.
+    EXPECT_LE(growth_with_splitting(Kind::kFilms, 0.1, has_inertia, buckling), 1.1);
+    EXPECT_NEAR(buckling, 3 * std::pow(0.2 * std::numbers::pi, 2) / 2 / 2, 0.02);
+    EXPECT_GT(growth_with_splitting(Kind::kFilms, 0.35, has_inertia, buckling), 10);
+    EXPECT_GT(buckling, 1);
+  }
 }
 
 TEST(TensionInFluid, ARunThatIsContinuedGivesTheSameBits) {

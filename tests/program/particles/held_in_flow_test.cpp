@@ -11,9 +11,13 @@
 
 #include "tests/program/particles/particles_command.hpp"
 #include "tests/program/sample_files.hpp"
+#include "viscontact/common/files/file.hpp"
 
 namespace viscontact {
 namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// A pendulum of two discs that falls from the horizontal, in units of length, time and mass.
 struct PendulumCase {
@@ -63,6 +67,46 @@ class HeldInFlow : public ParticlesCommand {
     return column("bodies.csv", "angle").back();
   }
 };
+
+// z = h F/(length 4 pi mu) = 1.99 of the disc that stands on the arm.
+TEST_F(HeldInFlow, AWarningNamesALinkThatPushesTooHard) {
+  const auto text = [](double step) {
+    return fmt::format(R"(title = "A disc on an arm"
+[space]
+dimension = 2
+[fluid]
+viscosity = 1.0
+edges_per_particle = 8
+[domain]
+box = {{ from = [0.0, 0.0], to = [4.0, 4.0] }}
+[viscous_contact]
+time_step = {}
+end_time = 0.3
+[output]
+every = 0.3
+[[particle]]
+centre = [2.0, 1.0]
+radius = 0.3
+fixed = true
+[[particle]]
+centre = [2.0, 2.2]
+radius = 0.3
+force = [0.0, -100.0]
+[[arm]]
+between = [0, 1]
+length = 1.2
+)",
+                       step);
+  };
+  auto result = run(put_case(text(0.3)), out());
+  EXPECT_EQ(result.exit_status, 0) << result.errors;
+  EXPECT_THAT(result.errors, HasSubstr("in 1 of 1 steps a link pushes so hard"));
+  EXPECT_THAT(result.errors, HasSubstr("a time_step of 0.15 resolves it"));
+  EXPECT_THAT(read_file(out() / "run.json"), HasSubstr("\"buckling_steps\": 1"));
+  result = run(put_case(text(0.15)), out());
+  EXPECT_EQ(result.exit_status, 0) << result.errors;
+  EXPECT_THAT(result.errors, Not(HasSubstr("pushes")));
+}
 
 TEST_F(HeldInFlow, APendulumFallsAndLosesEnergyToTheFluid) {
   PendulumCase pendulum{.end_time = 0.35, .every = 0.05};
