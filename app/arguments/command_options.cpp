@@ -127,6 +127,10 @@ CLI::Option* add_plots(CLI::App& command, std::string& plots) {
       ->check(one_of({"pdf"}));
 }
 
+void check_plots(const std::string& plots) {
+  if (!plots.empty()) report::require_pdf_converter();
+}
+
 void make_plots(const std::string& plots, const std::string& folder) {
   if (plots.empty()) return;
   const LockedFolder lock(folder, results::kFolderIsLocked);

@@ -81,6 +81,10 @@ void add_picture(CLI::App& command, results::PictureRequest& picture, const std:
 /// Adds the option --plots, which sets `plots` to "pdf". make_plots() then obeys it.
 CLI::Option* add_plots(CLI::App& command, std::string& plots);
 
+/// Checks before a run that make_plots() can do what --plots asks for. Throws
+/// Error(kExternalProgram) if it cannot.
+void check_plots(const std::string& plots);
+
 /// Writes the PDF files that --plots asks for, in the folder of a run, which must not be locked by
 /// this process. Does nothing if `plots` is empty. Throws the errors of report::write_pdfs(), and
 /// Error(kBadInput) if another process uses the folder.

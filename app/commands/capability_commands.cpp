@@ -39,6 +39,7 @@ void run_job(CLI::App& command, const std::shared_ptr<Request>& o, void (*run)(c
   add_json(command, o->json);
   command.callback([o, plots, run] {
     check_outputs({o->folder});
+    check_plots(*plots);
     o->stop = interrupt_token();
     run(*o);
     make_plots(*plots, o->folder);

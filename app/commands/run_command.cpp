@@ -50,6 +50,7 @@ void add_run(CLI::App& app) {
   add_json(*command, o->json);
   command->callback([o] {
     check_outputs({o->folder});
+    check_plots(o->plots);
     const case_file::Case c = case_file::read_case(o->case_file);
     {
       const LockedFolder lock(o->folder, results::kFolderIsLocked);
@@ -173,6 +174,7 @@ void add_report(CLI::App& app) {
       ->required();
   add_plots(*command, *plots);
   command->callback([folder, plots] {
+    check_plots(*plots);
     {
       std::optional<LockedFolder> lock;
       if (std::filesystem::is_directory(*folder)) lock.emplace(*folder, results::kFolderIsLocked);

@@ -21,15 +21,19 @@ namespace fs = std::filesystem;
 
 fs::path pdf_of(fs::path picture) { return picture.replace_extension(".pdf"); }
 
+[[noreturn]] void refuse_missing_converter(const std::string& reason) {
+  throw Error(
+      ErrorKind::kExternalProgram,
+      "rsvg-convert, which makes PDF files, cannot be run ({}); install it (apt-get install "
+      "librsvg2-bin)",
+      reason);
+}
+
 /// The PDF of a picture. The text in it stays text.
 std::string converted(const std::string& svg, const fs::path& picture, const StopToken& stop) {
   const auto result =
       run_process({"rsvg-convert", "--format=pdf"}, {"LC_ALL=C.UTF-8"}, svg, {}, {}, stop);
-  if (!result.started)
-    throw Error(ErrorKind::kExternalProgram,
-                "rsvg-convert, which makes PDF files, cannot be run ({}); install it (apt-get "
-                "install librsvg2-bin)",
-                result.output);
+  if (!result.started) refuse_missing_converter(result.output);
   if (result.exit_status != 0 || !result.output.starts_with("%PDF-"))
     throw Error(ErrorKind::kExternalProgram,
                 "rsvg-convert could not convert {} (exit status {}): {}", picture.string(),
@@ -38,6 +42,11 @@ std::string converted(const std::string& svg, const fs::path& picture, const Sto
 }
 
 }  // namespace
+
+void require_pdf_converter() {
+  const auto result = run_process({"rsvg-convert", "--version"}, {});
+  if (!result.started) refuse_missing_converter(result.output);
+}
 
 void write_pdfs(const fs::path& folder, const StopToken& stop) {
   std::vector<fs::path> pictures;

@@ -7,6 +7,9 @@
 
 namespace viscontact::report {
 
+/// Throws Error(kExternalProgram) if rsvg-convert is missing.
+void require_pdf_converter();
+
 /// Writes a PDF beside each SVG of Viscontact in `folder` and in its folder plots/. Throws
 /// Error(kExternalProgram) if rsvg-convert is missing or fails, Error(kBadInput) if a PDF would
 /// replace a file that Viscontact did not write or cannot be written, and Error(kInterrupted) if

@@ -137,7 +137,7 @@ TEST_F(ParticlesCommand, ARestartIsOfTheSameParticles) {
   refused(replaced(longer, "[particles]\nfile = \"discs.csv\"\n", ""), "3 particles, not 1",
           restart);
   refused(replaced(longer, "[[plane]]\npoint = [0.0, 0.0]\nnormal = [0.0, 1.0]\n", ""),
-          "a contact with plane 1, which the case does not have", restart);
+          "a contact with obstacle -1, which the case does not have", restart);
   refused(longer, "is not a restart file", (folder_.path() / "discs.csv").string());
   auto bytes = read_file(restart);
   refused(longer, "cut short",
