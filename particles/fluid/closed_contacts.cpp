@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace viscontact::particles {
@@ -41,7 +42,7 @@ ClosedContacts::ClosedContacts(const StepContacts& step, double mu_s,
                                std::span<const double> velocities,
                                const ContactConditions& conditions)
     : step_(step), conditions_(conditions) {
-  add_rows(mu_s);
+  add_rows(mu_s, velocities);
   if (!is_known_) return;
   find_values(velocities);
   if (is_known_ && !rows_.empty()) factorise();
@@ -55,7 +56,7 @@ double ClosedContacts::change(const Row& row, std::span<const double> velocities
              : opening(contact, velocities.data(), conditions_.layout);
 }
 
-void ClosedContacts::add_rows(double mu_s) {
+void ClosedContacts::add_rows(double mu_s, std::span<const double> velocities) {
   const auto& step = step_;
   const auto& contacts = step.contacts;
   std::size_t f = 0;
@@ -63,7 +64,11 @@ void ClosedContacts::add_rows(double mu_s) {
     const bool has_friction = f < step.frictions.size() && step.frictions[f].contact == c;
     const std::size_t friction = has_friction ? f++ : 0;
     const auto& contact = contacts[c];
-    if (!(contact.w > 0 && contact.impulse > contact.lowest)) continue;
+    if (!(contact.w > 0)) continue;
+    // A gap that the velocities close bears load, too.
+    if (!(contact.impulse > contact.lowest) &&
+        !(gap_after(contact, velocities.data(), conditions_.h, conditions_.layout) < 0))
+      continue;
     const auto take = [&](const std::vector<std::vector<double>>& all, std::size_t n, Row row) {
       if (n >= all.size() || all[n].empty()) {
         is_known_ = false;
@@ -189,21 +194,22 @@ void correct_impulses(StepContacts& step, double mu_s, const Mobility& mobility,
     return largest;
   };
   double before = std::numeric_limits<double>::infinity();
-  auto best = step;
+  std::optional<StepContacts> best;  // the allowed step with the smallest error
   for (int n = 0;; ++n) {
     const auto at_work = set_allowed(step.contacts, conditions);
     const ClosedContacts closed(step, mu_s, step.velocities, conditions);
-    if (!closed.is_known()) return;
+    if (!closed.is_known()) break;
     const auto changes = closed.corrections();
     const double error = error_of(changes, at_work);
-    // The step before was better.
-    if (!(error < before)) {
-      step = std::move(best);
-      return;
+    auto residuals = measure_residuals(step.contacts, step.velocities, conditions);
+    if (mu_s > 0) take_residuals_of_friction(step, mu_s, step.velocities, conditions, residuals);
+    // A correction may close further contacts, which the next one takes into account.
+    if (n == 0 || (residuals.converged && error < before)) {
+      if (error <= kShare * conditions.solver.impulse_tolerance) return;
+      best = step;
+      before = error;
     }
-    if (error <= kShare * conditions.solver.impulse_tolerance || n == kMostCorrections) return;
-    best = step;
-    before = error;
+    if (n == kMostCorrections) break;
     for (std::size_t c = 0; c < step.contacts.size(); ++c) {
       auto& contact = step.contacts[c];
       if (contact.w > 0)
@@ -224,15 +230,8 @@ void correct_impulses(StepContacts& step, double mu_s, const Mobility& mobility,
     for (std::size_t i = 0; i < loads.size(); ++i)
       step.velocities[i] = conditions.free_velocities[i] + moved[i];
     step.loads = std::move(loads);
-    // A correction must keep what is allowed.
-    auto residuals = measure_residuals(step.contacts, step.velocities, conditions);
-    if (mu_s > 0)
-      take_residuals_of_friction(step, mu_s, step.velocities, conditions, residuals);
-    if (!residuals.converged) {
-      step = std::move(best);
-      return;
-    }
   }
+  if (best) step = std::move(*best);
 }
 
 void take_errors_of_impulses(StepContacts& step, double mu_s, std::span<const double> velocities,
@@ -279,7 +278,7 @@ void take_errors_of_impulses(StepContacts& step, double mu_s, std::span<const do
     return error;
   };
   for (std::size_t c = 0; c < contacts.size(); ++c)
-    if (contacts[c].w > 0 && contacts[c].impulse > contacts[c].lowest)
+    if (allowed.of_contacts[c] > 0)
       errors[c] = take(found.of_contacts[c], by_rounding.of_contacts[c], contacts[c].impulse,
                        allowed.of_contacts[c], at_work[c]);
   for (std::size_t f = 0; f < step.frictions.size(); ++f)

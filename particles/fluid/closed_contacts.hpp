@@ -49,7 +49,7 @@ class ClosedContacts {
     double rest = 0;                    // what the friction lacks [M L/T]
   };
   double change(const Row& row, std::span<const double> velocities) const;
-  void add_rows(double mu_s);
+  void add_rows(double mu_s, std::span<const double> velocities);
   void find_values(std::span<const double> velocities);
   void factorise();
   Impulses in_order(const Eigen::VectorXd& scaled) const;

@@ -202,6 +202,7 @@ class ContactProblem {
   // The next two functions improve the impulses until the residuals are allowed, or until
   // SolverSettings::max_iterations are done.
   void solve_dense();
+  void correct();
   void solve_by_products();
   /// Sets the velocities by the responses of all contacts to their impulses.
   void take_velocities();
