@@ -50,10 +50,9 @@ ClosedContacts::ClosedContacts(const StepContacts& step, double mu_s,
 
 double ClosedContacts::change(const Row& row, std::span<const double> velocities) const {
   const auto& contact = step_.contacts[row.contact];
-  return row.is_slip
-             ? step_.frictions[row.friction].slip_rate(contact, velocities.data(),
-                                                       conditions_.layout)
-             : opening(contact, velocities.data(), conditions_.layout);
+  return row.is_slip ? step_.frictions[row.friction].slip_rate(contact, velocities.data(),
+                                                               conditions_.layout)
+                     : opening(contact, velocities.data(), conditions_.layout);
 }
 
 void ClosedContacts::add_rows(double mu_s, std::span<const double> velocities) {
@@ -99,8 +98,8 @@ void ClosedContacts::find_values(std::span<const double> velocities) {
   scales_.resize(std::ssize(rows_));
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const auto& row = rows_[r];
-    double value = row.is_slip ? step_.frictions[row.friction].displacement
-                               : step_.contacts[row.contact].gap;
+    double value =
+        row.is_slip ? step_.frictions[row.friction].displacement : step_.contacts[row.contact].gap;
     value += conditions_.h * change(row, velocities);
     for (const auto& sliding : sliding_)
       value += change(row, step_.of_slips[sliding.friction]) * sliding.rest;
@@ -269,8 +268,7 @@ void take_errors_of_impulses(StepContacts& step, double mu_s, std::span<const do
   const auto by_rounding = closed.changes_by(kRoundingOfDoubles * size);
   const auto take = [&](double correction, double rounded, double impulse, double most,
                         double work) {
-    const double error =
-        std::abs(correction) + rounded + kRoundingOfDoubles * std::abs(impulse);
+    const double error = std::abs(correction) + rounded + kRoundingOfDoubles * std::abs(impulse);
     residuals.take_impulse(std::abs(correction), work);
     residuals.take_error(std::abs(correction),
                          std::max({conditions.solver.impulse_tolerance * work, most,

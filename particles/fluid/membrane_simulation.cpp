@@ -335,8 +335,7 @@ StepContacts MembraneSimulation::Implementation::solve_contacts_of(
   auto contacts = solve_contacts(state_, *setting_.fluid, {}, positions_of(obstacles_, next),
                                  is_left_out, mobility, conditions, pool_);
   auto residuals = measure_residuals(contacts.contacts, contacts.velocities, conditions);
-  take_errors_of_impulses(contacts, 0, contacts.velocities, conditions,
-                          residuals);
+  take_errors_of_impulses(contacts, 0, contacts.velocities, conditions, residuals);
   refuse_deep_overlap(residuals, state_.particles, setting_, radius, report.time, [] {
     return "is the time step too long for the flow, or do walls leave the membranes too little "
            "room?";
