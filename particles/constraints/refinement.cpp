@@ -138,7 +138,8 @@ bool Refinement<D>::is_worth_it() const {
   const auto [least, largest] = std::ranges::minmax_element(mobility);
   const bool are_different = *largest > kDifferent * *least;
   if (products > kMostProducts) return false;
-  return rows <= kMany ? is_tree || are_different : is_tree && are_different;
+  if (are_different) return is_tree || rows <= kMost;
+  return is_tree && rows <= kMany;
 }
 
 /// Finds the entries of W, unit by unit.

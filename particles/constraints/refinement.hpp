@@ -27,8 +27,8 @@ template <int D>
 class Refinement {
  public:
   /// Refines `solution` and the impulses of `problem`, if this is worth its time: if the problem
-  /// has at most kFew rows, or is a tree of units, or has units of different masses, and is not too
-  /// large. Nothing changes if the impulses are not unique, or if the residual of a block would
+  /// has at most kFew rows, or is a tree of at most kMany rows, or has units of different masses
+  /// and is a tree or has at most kMost rows. Nothing changes if the impulses are not unique, or if the residual of a block would
   /// rise above what is allowed. `problem` must outlive the object.
   Refinement(ConstraintProblem<D>& problem, ConstraintSolution<D>& solution);
   ~Refinement();
@@ -44,9 +44,12 @@ class Refinement {
   std::vector<double> changes_by(const std::vector<double>& shifts) const;
   /// Most rows of a problem that is always refined.
   static constexpr std::size_t kFew = 32;
-  /// Most rows of a problem with loops that is refined, and of a tree of similar masses. A
-  /// factorisation of a larger one would take a large part of its step.
+  /// Most rows of a problem of similar masses that is refined. A factorisation of a larger one
+  /// would take a large part of its step.
   static constexpr std::size_t kMany = 256;
+  /// Most rows of a problem with loops and different masses that is refined. Sweeps and conjugate
+  /// gradients need so many iterations for it that the factorisation takes less.
+  static constexpr std::size_t kMost = 4000;
   /// Masses are called different if the largest mass that a row feels is this factor above the
   /// smallest one.
   static constexpr double kDifferent = 100;

@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/particles/fluid/closed_contacts.hpp"
 #include "viscontact/particles/fluid/fluid_contacts.hpp"
 #include "viscontact/particles/fluid/fluid_motion.hpp"
 #include "viscontact/particles/fluid/held_rows.hpp"
@@ -27,6 +28,8 @@ StepResiduals FluidSimulation::residuals_of(StepContacts& contact,
   if (setting_.laws.friction)
     take_residuals_of_friction(contact, setting_.laws.friction->coefficient, velocities, conditions,
                                residuals);
+  take_errors_of_impulses(contact, setting_.laws.friction ? setting_.laws.friction->coefficient : 0,
+                          velocities, conditions, residuals);
   return residuals;
 }
 
@@ -59,9 +62,13 @@ void FluidSimulation::examine(Motion& motion, double h, StepReport& report) cons
     report.excess = std::numeric_limits<double>::infinity();
   report_residuals(residuals, mean_radius_, report);
   if (blow) {
-    auto contacts = blow->contacts;
-    residuals =
-        measure_residuals(contacts, motion.after, contact_conditions(motion.free, kick_length(h)));
+    StepContacts of_blow;
+    of_blow.contacts = blow->contacts;
+    of_blow.of_gaps = blow->of_gaps;
+    of_blow.amplification = blow->amplification;
+    const auto of_kick = contact_conditions(motion.free, kick_length(h));
+    residuals = measure_residuals(of_blow.contacts, motion.after, of_kick);
+    take_errors_of_impulses(of_blow, 0, motion.after, of_kick, residuals);
     report_residuals(residuals, mean_radius_, report);
   }
   motion.impulse_errors = std::move(residuals.impulse_errors);

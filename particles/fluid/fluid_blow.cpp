@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "viscontact/particles/fluid/closed_contacts.hpp"
 #include "viscontact/particles/fluid/fluid_motion.hpp"
 
 namespace viscontact::particles {
@@ -346,6 +347,7 @@ std::optional<FluidBlow> Blow::solve() {
   const auto conditions = conditions_over(step_.kick);
   auto compressed = problem();
   solve_listed(compressed, mobility_, conditions);
+  correct_impulses(compressed, 0, mobility_, conditions);
   iterations_ += compressed.iterations;
   const bool knows_loads = take_load();
   if (!share_impulses(compressed.contacts)) return std::nullopt;
@@ -359,6 +361,7 @@ std::optional<FluidBlow> Blow::solve() {
           part.compressed + laws_.restitution.lowest_in_restitution(part.left, part.solid);
   }
   solve_listed(restored, mobility_, conditions);
+  correct_impulses(restored, 0, mobility_, conditions);
   iterations_ += restored.iterations;
   restrain(compressed, restored);
   FluidBlow blow;
@@ -366,6 +369,8 @@ std::optional<FluidBlow> Blow::solve() {
   blow.contacts = std::move(restored.contacts);
   blow.loads = std::move(restored.loads);
   blow.velocities = std::move(restored.velocities);
+  blow.of_gaps = std::move(restored.of_gaps);
+  blow.amplification = restored.amplification;
   book(blow);
   move(blow);
   blow.iterations = iterations_;

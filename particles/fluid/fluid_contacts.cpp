@@ -17,6 +17,7 @@
 #include <tuple>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/particles/fluid/closed_contacts.hpp"
 #include "viscontact/particles/links/link_rows.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
 #include "viscontact/particles/outline.hpp"
@@ -430,6 +431,11 @@ void solve_listed(StepContacts& step, const Mobility& mobility,
   }
   for (auto& contact : step.contacts) contact.impulse = 0;
   for (std::size_t i = 0; i < chosen.size(); ++i) step.contacts[chosen[i]] = problem.contacts()[i];
+  step.of_gaps.assign(step.contacts.size(), {});
+  auto responses = problem.responses();
+  for (std::size_t i = 0; i < responses.size(); ++i)
+    step.of_gaps[chosen[i]] = std::move(responses[i]);
+  step.amplification = problem.amplification();
   step.loads = problem.loads();
   step.velocities = problem.velocities();
   step.iterations += problem.iterations();
@@ -468,12 +474,13 @@ StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links&
                                            2 * conditions.h * fastest(free, conditions.layout) +
                                            1e-3 * conditions.mean_radius);
   const Mobility remembering = remembered(mobility);
+  const double mu_s = friction != nullptr ? friction->setting.laws.friction->coefficient : 0;
   const auto solve = [&](StepContacts& step) {
     if (friction != nullptr)
-      solve_with_friction(step, friction->setting.laws.friction->coefficient, remembering,
-                          conditions);
+      solve_with_friction(step, mu_s, remembering, conditions);
     else
       solve_listed(step, mobility, conditions);
+    correct_impulses(step, mu_s, mobility, conditions);
   };
   int iterations = 0;
   for (;;) {

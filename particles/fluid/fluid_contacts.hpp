@@ -143,6 +143,11 @@ StepResiduals measure_residuals(std::span<Contact<2>> contacts, std::span<const 
 /// gradients compute products with W. The number is a free choice: it changes the time that a
 /// solution takes, and results within the tolerances.
 inline constexpr std::size_t kMostDenseContacts = 24;
+/// The same number where the velocities of single particles by unit forces differ by more than the
+/// factor kDifferentMobilities: conjugate gradients would need very many products, and the errors of
+/// impulses would remain unknown.
+inline constexpr std::size_t kMostDifferentContacts = 300;
+inline constexpr double kDifferentMobilities = 100;
 
 /// Finds the impulses p of contacts such that for each contact p >= gamma; the gap after the step
 /// is >= 0 if p = gamma, and 0 if p > gamma. The gap after the step is gap_after() with the
@@ -185,11 +190,19 @@ class ContactProblem {
   int iterations() const { return iterations_; }
   /// True if the last solution was rough.
   bool is_rough() const { return is_rough_; }
+  /// Velocities of all particles by a unit force of each contact; empty if the last solution did
+  /// without them.
+  std::vector<std::vector<double>> responses() const {
+    return is_dense_ ? responses_ : std::vector<std::vector<double>>{};
+  }
+  /// StepContacts::amplification.
+  double amplification() const { return amplification_; }
 
  private:
   // The next two functions improve the impulses until the residuals are allowed, or until
   // SolverSettings::max_iterations are done.
   void solve_dense();
+  void correct();
   void solve_by_products();
   /// Sets the velocities by the responses of all contacts to their impulses.
   void take_velocities();
@@ -199,6 +212,8 @@ class ContactProblem {
   std::vector<Contact<2>> contacts_;
   std::vector<std::vector<double>> responses_;  // velocities by a unit force of each contact
   std::vector<double> velocities_;
+  double amplification_ = 1;
+  bool is_dense_ = true, are_different_ = false;
   int iterations_ = 0;
   bool is_rough_ = false;
 };
@@ -275,6 +290,12 @@ struct StepContacts {
   /// The friction of the contacts whose solids may touch, that is with a finite capacity, in the
   /// order of `contacts`; empty without friction.
   std::vector<ContactFrictionInFluid> frictions;
+  /// Velocities of all particles by a unit force of each contact, and of each friction along its
+  /// tangent [T/M] and [T/(M L)]; empty where they are not known, which may be in a problem of many contacts.
+  std::vector<std::vector<double>> of_gaps, of_slips;
+  /// The largest error of a scaled impulse sqrt(w) p over the largest residual/sqrt(w) [1], >= 1,
+  /// where of_gaps is not known. It is an estimate.
+  double amplification = 1;
   std::vector<double> loads;       ///< forces and torques of contacts and friction on particles
   std::vector<double> velocities;  ///< velocities of all particles with these forces [L/T, 1/T]
   int iterations = 0;     ///< products with the mobility, and iterations of a dense problem, >= 0

@@ -19,6 +19,7 @@
 #include "viscontact/common/matrices/decompositions.hpp"
 #include "viscontact/particles/constraints/constraint_solver.hpp"
 #include "viscontact/particles/domain/domain.hpp"
+#include "viscontact/particles/fluid/closed_contacts.hpp"
 #include "viscontact/particles/fluid/fluid_contacts.hpp"
 
 namespace viscontact::particles {
@@ -196,6 +197,18 @@ class FrictionSolver {
   /// Finds the normal and tangential impulses of the step. If Coulomb's law is not reached,
   /// step.is_solved becomes false, and given loads bound the friction.
   void solve() {
+    solve_in_rounds();
+    share_responses();
+  }
+
+ private:
+  void share_responses() {
+    for (std::size_t c = 0; c < of_gaps_.size(); ++c)
+      if (step_.of_gaps[c].empty()) step_.of_gaps[c] = of_gaps_[c];
+    step_.of_slips = of_slips_;
+  }
+
+  void solve_in_rounds() {
     // One round is enough unless further contacts are added after the round; a packing takes a few
     // more rounds. The limit is a free choice.
     constexpr int kMostRounds = 30;
@@ -204,7 +217,12 @@ class FrictionSolver {
     step_.has_given_loads = false;
     for (int round = 0; round < kMostRounds; ++round) {
       solve_gaps(round > 0);
-      const double excess = excess_of_coulomb();
+      double excess = excess_of_coulomb();
+      if (excess > 1 && round > 0) {
+        share_responses();
+        correct_impulses(step_, mu_s_, mobility_, conditions_);
+        excess = excess_of_coulomb();
+      }
       if (excess <= 1) return;
       if (excess < least) {
         least = excess;
@@ -217,7 +235,6 @@ class FrictionSolver {
     step_.is_solved = false;
   }
 
- private:
   /// Normal and tangential impulses of all contacts [M L/T].
   using Impulses = std::pair<std::vector<double>, std::vector<double>>;
 

@@ -68,6 +68,8 @@ struct FluidBlow {
   /// For each contact the impulse [M L/T] with which FilmLaw::absorb() computes the new gamma: the
   /// whole impulse, or, if its solids rebound, gamma before the step minus gamma after it.
   std::vector<double> absorbed;
+  std::vector<std::vector<double>> of_gaps;  ///< StepContacts::of_gaps, in the same order
+  double amplification = 1;                  ///< StepContacts::amplification
   std::vector<double> loads;       ///< contact forces on each particle: impulses over `kick`
   std::vector<double> velocities;  ///< velocities after the blow
   std::vector<double> moved;       ///< displacements in the step divided by its length [L/T, 1/T]

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "viscontact/particles/domain/domain.hpp"
+#include "viscontact/particles/fluid/closed_contacts.hpp"
 #include "viscontact/particles/fluid/fluid_contacts.hpp"
 #include "viscontact/particles/membranes/membrane_motion.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
@@ -333,7 +334,8 @@ StepContacts MembraneSimulation::Implementation::solve_contacts_of(
                                      setting_.solver, radius, kErrorOfAnswers};
   auto contacts = solve_contacts(state_, *setting_.fluid, {}, positions_of(obstacles_, next),
                                  is_left_out, mobility, conditions, pool_);
-  const auto residuals = measure_residuals(contacts.contacts, contacts.velocities, conditions);
+  auto residuals = measure_residuals(contacts.contacts, contacts.velocities, conditions);
+  take_errors_of_impulses(contacts, 0, contacts.velocities, conditions, residuals);
   refuse_deep_overlap(residuals, state_.particles, setting_, radius, report.time, [] {
     return "is the time step too long for the flow, or do walls leave the membranes too little "
            "room?";

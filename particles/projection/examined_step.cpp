@@ -17,10 +17,11 @@ namespace {
 
 /// Adds a residual of a gap or link [L] to `result`. Returns true if the residual is larger than
 /// allowed or NaN. A residual > scale.rounding also counts as an error of an impulse, which is the
-/// residual divided by scale.w [M L/T]; smaller residuals are rounding errors.
+/// residual divided by scale.w [M L/T] times `ratio`; smaller residuals are rounding errors.
 bool take(double residual, const ResidualScale& scale, const SolverSettings& settings,
-          double mean_radius, ProjectionResult& result) {
-  if (residual > scale.rounding) result.residuals.take_impulse(residual / scale.w, scale.impulse);
+          double mean_radius, ProjectionResult& result, double ratio = 1) {
+  if (residual > scale.rounding)
+    result.residuals.take_impulse(ratio * residual / scale.w, scale.impulse);
   return result.residuals.take(residual, scale.allowed_gap(settings, mean_radius));
 }
 
@@ -35,8 +36,9 @@ double allowed_error(const ImpulseError& error, const ResidualScale& scale,
 /// Adds the residual of a gap or link [L], and the error of its impulse if it is known, to `result`.
 /// Returns true if one of them is larger than allowed or NaN.
 bool take(double residual, const ImpulseError& error, const ResidualScale& scale,
-          const SolverSettings& settings, double mean_radius, ProjectionResult& result) {
-  if (!(error.estimate >= 0)) return take(residual, scale, settings, mean_radius, result);
+          const SolverSettings& settings, double mean_radius, ProjectionResult& result,
+          double ratio = 1) {
+  if (!(error.estimate >= 0)) return take(residual, scale, settings, mean_radius, result, ratio);
   // Particles in touch without load have impulses that are rounding errors themselves.
   if (error.estimate > std::max(error.rounding, scale.rounding / scale.w))
     result.residuals.take_impulse(error.estimate, scale.impulse);
@@ -157,6 +159,7 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
   result.unsolved_links.clear();
   result.contact_contradicts = result.turns_too_far = false;
   result.residuals.impulse_errors.resize(system_.contacts.size());
+  const auto factors = is_final ? understated() : std::vector<Understated>{};
   for (std::size_t c = 0; is_final && c < chosen_.size(); ++c) {
     const auto& here = system_.contacts[c];
     const auto scale = scales.of(here);
@@ -165,12 +168,14 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
                                 ? constraints_->residual(c).normal
                                 : contact_residual(gap, here.w * (here.impulse - here.lowest));
     const auto error = error_of_contact(c);
-    take(residual, error, scale, settings, mean_radius, result);
+    take(residual, error, scale, settings, mean_radius, result, factors[c].by_masses);
     if (constraints_)
       result.residuals.take(
           constraints_->residual(c).tangential,
           scale.allowed(settings.tolerance * mean_radius / 2, fraction_of_slips(settings)));
-    result.residuals.impulse_errors[c] = error.estimate >= 0 ? error.estimate : residual / scale.w;
+    result.residuals.impulse_errors[c] =
+        error.estimate >= 0 ? error.estimate
+                            : factors[c].by_masses * factors[c].by_chains * residual / scale.w;
     result.residuals.take_gap(gap - here.tolerated, pair(chosen_[c]));
     if ((here.impulse != 0 || here.lowest < 0) &&
         turns_too_far(state_.particles, here, displacements_))

@@ -1,6 +1,7 @@
 // The refinement of the impulses of a step without friction, bodies and links.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -101,7 +102,34 @@ bool StepProjection<D>::is_worth_refining(const std::vector<std::size_t>& island
     }
   }
   const auto root = system_.island(system_.body_of(system_.contacts[island.front()].second));
-  return pairs < system_.size_of_island(root) && largest > Refinement<D>::kDifferent * least;
+  return (pairs < system_.size_of_island(root) || island.size() <= Refinement<D>::kMost) &&
+         largest > Refinement<D>::kDifferent * least;
+}
+
+/// For each contact the factors by which the residual over w may understate the error of its
+/// impulse.
+template <int D>
+std::vector<typename StepProjection<D>::Understated> StepProjection<D>::understated() {
+  std::vector<double> least(system_.bodies().size(), std::numeric_limits<double>::infinity());
+  const auto root = [&](const auto& contact) {
+    return system_.island(system_.body_of(contact.second));
+  };
+  for (const auto& contact : system_.contacts)
+    for (const auto particle : {contact.first_entry(), contact.second})
+      if (particle >= 0 && mobilities_[index_of(particle)] > 0) {
+        auto& of_island = least[index_of(root(contact))];
+        of_island = std::min(of_island, mobilities_[index_of(particle)]);
+      }
+  std::vector<Understated> factors;
+  for (const auto& contact : system_.contacts) {
+    double mobility = mobilities_[index_of(contact.second)];
+    if (contact.first_entry() >= 0)
+      mobility = std::max(mobility, mobilities_[index_of(contact.first_entry())]);
+    const auto size = static_cast<double>(system_.size_of_island(root(contact)));
+    factors.push_back({std::max(1.0, mobility / least[index_of(root(contact))]),
+                       D == 2 ? size : std::cbrt(size * size)});
+  }
+  return factors;
 }
 
 template <int D>
@@ -114,6 +142,8 @@ template bool StepProjection<2>::is_worth_refining(const std::vector<std::size_t
 template bool StepProjection<3>::is_worth_refining(const std::vector<std::size_t>&);
 template void StepProjection<2>::refine();
 template void StepProjection<3>::refine();
+template std::vector<StepProjection<2>::Understated> StepProjection<2>::understated();
+template std::vector<StepProjection<3>::Understated> StepProjection<3>::understated();
 template ImpulseError StepProjection<2>::error_of_contact(std::size_t) const;
 template ImpulseError StepProjection<3>::error_of_contact(std::size_t) const;
 

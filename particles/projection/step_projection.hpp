@@ -139,7 +139,7 @@ struct ProjectionResult {
   bool has_given_loads = false;
   bool lacks_springs = false;  ///< StepReport::lacks_springs of this part
   double buckling = 0;         ///< StepReport::buckling of this part
-  double link_residual = 0;  ///< largest residual of a link [L], >= 0
+  double link_residual = 0;    ///< largest residual of a link [L], >= 0
   /// Names of the hinges and arms that contradict each other, for messages. Empty if the residuals
   /// of all links are allowed, or no residual or overlap is more than kBroken mean radii.
   std::vector<std::string> unsolved_links;
@@ -171,7 +171,8 @@ struct ProjectionResult {
 /// |min(d, w (p - gamma))|, without the tolerated overlap, must be at most half of
 /// SolverSettings::tolerance mean radii. The error of the impulse must be at most the fraction
 /// SolverSettings::impulse_tolerance of the impulse at work, or within rounding errors. It is the
-/// estimate of a Refinement, or, where there is none, the residual divided by w. Links must meet
+/// estimate of a Refinement, or, where there is none, the residual divided by w, times the ratio of
+/// the masses of a contact's set if this is a contact. Links must meet
 /// the same two conditions with their own residuals.
 template <int D>
 class StepProjection {
@@ -284,6 +285,13 @@ class StepProjection {
                       double mean_radius);
   void choose(const std::vector<std::size_t>& pairs);
   void refine();
+  struct Understated {
+    /// The mobility of the lighter particle of a contact over the least one of its island.
+    double by_masses = 1;
+    /// The square of the number of contacts across the island.
+    double by_chains = 1;
+  };
+  std::vector<Understated> understated();
   bool is_worth_refining(const std::vector<std::size_t>& island);
   ImpulseError error_of_contact(std::size_t c) const;
   int solve_contacts(bool is_rough, double length, int iterations, int max_iterations);

@@ -272,6 +272,62 @@ TEST(MassRatio, RandomColumnsBearTheirWeights) {
   }
 }
 
+/// A wall of 20 x 20 discs between planes, whose top row has the mass `ratio` and the others 1:
+/// more than 256 contacts, with loops. The outer discs are pushed inwards with the force `push`.
+Simulation wall(double ratio, double push, Setting setting) {
+  constexpr int kSide = 20;
+  setting.gravity = {0, -9.81, 0};
+  setting.time_step = 0.01;
+  setting.planes = {plane_at_rest({}, {0, 1, 0}), plane_at_rest({}, {1, 0, 0}),
+                    plane_at_rest({2.0 * kSide, 0, 0}, {-1, 0, 0})};
+  State state = no_particles(2);
+  for (int j = 0; j < kSide; ++j)
+    for (int i = 0; i < kSide; ++i) {
+      const auto k = static_cast<std::int32_t>(state.particles.count());
+      add_particle(state, {2.0 * i + 1, 2.0 * j + 1, 0}, 1, j == kSide - 1 ? ratio : 1);
+      if (push > 0 && (i == 0 || i == kSide - 1))
+        setting.forces[k] = constant({i == 0 ? push : -push, 0, 0});
+    }
+  if (setting.laws.friction) add_rotation(state.particles);
+  return {setting, state, 1};
+}
+
+TEST(MassRatio, AWallUnderAHeavyRowBearsIt) {
+  constexpr int kSide = 20, kSteps = 5;
+  for (const double ratio : {1e3, 1e4, 1e6}) {
+    SCOPED_TRACE(ratio);
+    const Setting setting;
+    auto simulation = wall(ratio, 0, setting);
+    for (int step = 1; step <= kSteps; ++step) {
+      const auto report = simulation.step(1e300);
+      EXPECT_TRUE(report.converged) << report.excess;
+      for (std::int32_t k = kSide; k < kSide * kSide; ++k) {
+        const auto pair = pair_of(simulation.state(), k - kSide, k);
+        const double exact = (ratio + kSide - 1 - k / kSide) * 9.81 * 0.01;
+        // 1.3e-9 was seen, with an impulse residual of 0.
+        EXPECT_NEAR(pair.impulse, exact, setting.solver.impulse_tolerance * exact);
+        EXPECT_LE(std::abs(pair.gamma + step * exact), pair.gamma_error);
+      }
+    }
+  }
+}
+
+TEST(MassRatio, AWallThatIsNotRefinedSaysItsError) {
+  // Masses of a ratio up to 100 are not refined in sets with loops.
+  constexpr int kSide = 20, kSteps = 5;
+  for (const double ratio : {1.0, 30.0, 100.0}) {
+    SCOPED_TRACE(ratio);
+    auto simulation = wall(ratio, 5, Setting{});
+    take_steps(simulation, kSteps);
+    for (std::int32_t k = kSide; k < kSide * kSide; ++k) {
+      const auto pair = pair_of(simulation.state(), k - kSide, k);
+      const double exact = (ratio + kSide - 1 - k / kSide) * 9.81 * 0.01 * kSteps;
+      // 120 times the error that was reported was seen.
+      EXPECT_LE(std::abs(pair.gamma + exact), pair.gamma_error);
+    }
+  }
+}
+
 TEST(MassRatio, HingedDiscHoldsAHeavyBob) {
   for (const double ratio : {1.0, 3e5, 1e9}) {
     SCOPED_TRACE(ratio);
