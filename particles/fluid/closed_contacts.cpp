@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "viscontact/common/matrices/decompositions.hpp"
+
 namespace viscontact::particles {
 namespace {
 
