@@ -79,6 +79,7 @@ std::vector<LinkRow> rows_across(const LinkPart& first, const LinkPart& second, 
       row.parts[0].direction = -1 * direction;
       row.parts[1].direction = direction;
       row.stiffness = tension / length;
+      row.length = length;
       rows.push_back(std::move(row));
     }
   const Vector pull = (tension / length) * apart;

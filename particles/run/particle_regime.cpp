@@ -35,8 +35,18 @@ Vector relative_velocity(const ParticlesCase& c, const Particles& particles, std
 
 }  // namespace
 
-void ParticleRegime::add(const ParticlesCase& c, const Particles& particles, bool contact) {
+void ParticleRegime::add(const ParticlesCase& c, const State& state, bool contact) {
+  const auto& particles = state.particles;
   has_contact = has_contact || contact;
+  const auto solids_touch = [&](const Pair& pair) {
+    const double other = pair.first < 0 ? std::numeric_limits<double>::infinity()
+                                        : particles.radii[index_of(pair.first)];
+    return pair.gamma < 0 && pair.gamma <= c.setting.laws.film.lowest_gamma(
+                                               particles.radii[index_of(pair.second)], other);
+  };
+  have_solids_touched = have_solids_touched || (contact && !c.setting.fluid &&
+                                                (std::ranges::any_of(state.pairs, solids_touch) ||
+                                                 std::ranges::any_of(state.walls, solids_touch)));
   const double mu = viscosity_of(c);
   const double density = has_inertia_of_fluid(c) ? c.setting.fluid->density : c.fluid_density;
   const bool per_length = c.setting.fluid && particles.dimension == 2;
@@ -68,7 +78,7 @@ std::vector<std::string> warnings_of(const ParticlesCase& c, const ParticleRegim
   if (!has_inertia_of_fluid(c))
     if (const auto warning = lubrication::reynolds_warning(regime.reynolds))
       warnings.push_back(*warning);
-  if (regime.has_contact && regime.film > 0)
+  if (regime.have_solids_touched && regime.film > 0)
     if (const auto warning = lubrication::film_warning(
             regime.film, "a case of one sphere or a case with [fluid] resolves the drag"))
       warnings.push_back(*warning);

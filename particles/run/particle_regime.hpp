@@ -16,10 +16,11 @@ struct ParticleRegime {
   double stokes = -1;
   /// Without a fluid around the particles: m |V|/|gamma_min|, with gamma_min of a film at a plane.
   double film = -1;
-  bool has_contact = false;  ///< whether there was a contact in a step
+  bool has_contact = false;          ///< whether there was a contact in a step
+  bool have_solids_touched = false;  ///< whether a film has absorbed all that it can
 
-  /// Takes the particles at the end of a step into account, and whether they were in contact.
-  void add(const ParticlesCase& c, const Particles& particles, bool contact);
+  /// Takes the state at the end of a step into account, and whether it has contacts.
+  void add(const ParticlesCase& c, const State& state, bool contact);
 };
 
 /// The largest Stokes and Reynolds numbers in words; empty if the case has no viscosity.

@@ -32,7 +32,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FileEnd, bytes, last_line)
 namespace viscontact::particles {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RelativeErrors, best, of_one_mesh, of_penalty)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ParticleRegime, reynolds, stokes, film, has_contact)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ParticleRegime, reynolds, stokes, film, has_contact,
+                                                have_solids_touched)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(
     StepTotals, steps, unconverged, failed, iterations, most_iterations, first_time, last_time,
     largest_residual, largest_overlap, largest_impulse_residual, divided, unresolved, buckling,

@@ -124,7 +124,7 @@ void RunLog::add_step(const StepReport& report, const State& state,
   if (case_.average_from_given && duration > 0)
     record_.totals.add_means(values_to_average(case_.setting, state), duration);
   record_.totals.add(report, case_.average_from);
-  record_.totals.regime.add(case_, state.particles, report.glued > 0);
+  record_.totals.regime.add(case_, state, report.glued > 0);
   const auto steps = record_.totals.steps;
   if (steps <= kMostRows || steps % kOneIn == 0 || !report.converged) {
     files_.at("steps.csv").append(step_row(state.steps, report, case_.setting.fluid));
