@@ -21,7 +21,8 @@ class ClosedContacts {
   /// Numbers of impulses [M L/T] in the order of StepContacts::contacts and frictions; 0 for those
   /// that are not closed.
   struct Impulses {
-    std::vector<double> of_contacts, of_frictions;
+    std::vector<double> of_contacts;   ///< one for each of StepContacts::contacts
+    std::vector<double> of_frictions;  ///< one for each of StepContacts::frictions
   };
 
   /// `velocities` [L/T, 1/T] are those with the impulses of `step`. `mu_s` is the coefficient of

@@ -147,6 +147,7 @@ inline constexpr std::size_t kMostDenseContacts = 24;
 /// factor kDifferentMobilities: conjugate gradients would need very many products, and the errors of
 /// impulses would remain unknown.
 inline constexpr std::size_t kMostDifferentContacts = 300;
+/// The factor by which mobilities count as different [1].
 inline constexpr double kDifferentMobilities = 100;
 
 /// Finds the impulses p of contacts such that for each contact p >= gamma; the gap after the step
@@ -290,9 +291,11 @@ struct StepContacts {
   /// The friction of the contacts whose solids may touch, that is with a finite capacity, in the
   /// order of `contacts`; empty without friction.
   std::vector<ContactFrictionInFluid> frictions;
-  /// Velocities of all particles by a unit force of each contact, and of each friction along its
-  /// tangent [T/M] and [T/(M L)]; empty where they are not known, which may be in a problem of many contacts.
-  std::vector<std::vector<double>> of_gaps, of_slips;
+  /// Velocities of all particles by a unit force of each contact [T/M, T/(M L)]; empty where they
+  /// are not known, which may be in a problem of many contacts.
+  std::vector<std::vector<double>> of_gaps;
+  /// The same by a unit force of each friction along its tangent.
+  std::vector<std::vector<double>> of_slips;
   /// The largest error of a scaled impulse sqrt(w) p over the largest residual/sqrt(w) [1], >= 1,
   /// where of_gaps is not known. It is an estimate.
   double amplification = 1;

@@ -74,6 +74,7 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
           Found("particles/case/start_checks.cpp", "plane"),
           Found("particles/case/fluid_start_checks.cpp", "plane"),
           Found("particles/steps/step_report.cpp", "plane"),
+          Found("particles/simulation.cpp", "plane"),
           // a key in the head of a file of a sweep
           Found("sweep/sphere_study.cpp", "reference"),
           // a part of the boundary, which FreeFEM's scripts print
