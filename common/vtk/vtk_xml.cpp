@@ -89,10 +89,9 @@ std::string vtk_array_of_bytes(const char* type, std::string_view name, int comp
   std::size_t end = 0;
   for (std::size_t at = 0; at < bytes.size(); at += kBlock) {
     uLongf size = data.size() - end;
-    const int status =
-        compress2(reinterpret_cast<Bytef*>(data.data() + end), &size,
-                  reinterpret_cast<const Bytef*>(bytes.data() + at),
-                  std::min(kBlock, bytes.size() - at), kLevel);
+    const int status = compress2(reinterpret_cast<Bytef*>(data.data() + end), &size,
+                                 reinterpret_cast<const Bytef*>(bytes.data() + at),
+                                 std::min(kBlock, bytes.size() - at), kLevel);
     if (status != Z_OK) throw std::bad_alloc();  // the only failure with enough room
     header.push_back(size);
     end += size;

@@ -172,8 +172,8 @@ class ConstraintSystem {
   bool has_given_up() const { return has_given_up_; }
 
   /// Writes the friction of contact number `c`, from 0 in the order of add(), the impulse that its
-  /// solids carry, and the impulse of its film across the normal to `memory` [M L/T]. solve() must have been called before this and the next
-  /// functions.
+  /// solids carry, and the impulse of its film across the normal to `memory` [M L/T]. solve() must
+  /// have been called before this and the next functions.
   void remember(std::size_t c, PairMemory& memory) const {
     memory.set_friction(contact_states_[c].friction);
     memory[Remembered::kCarried] = contact_states_[c].carried;
@@ -278,7 +278,8 @@ class ConstraintSystem {
   std::vector<LinkRow> tension_rows(const ContactSystem<D>& system, const Island& island,
                                     std::size_t b) const;
   // For each unit kappa of its films, share_of_film(); empty if no film is a spring.
-  std::vector<double> kappas_of_films(const ContactSystem<D>& system, const Island& island) const;
+  std::vector<double> film_kappas_of_units(const ContactSystem<D>& system,
+                                           const Island& island) const;
   // Compares the geometric stiffness in the problem with that of its impulses. Takes over the latter
   // if the difference changes a motion by more than half of what is allowed, or if `is_always`.
   // Returns the change of `motions` divided by what is allowed [1].

@@ -28,8 +28,8 @@ class Refinement {
  public:
   /// Refines `solution` and the impulses of `problem`, if this is worth its time: if the problem
   /// has at most kFew rows, or is a tree of at most kMany rows, or has units of different masses
-  /// and is a tree or has at most kMost rows. Nothing changes if the impulses are not unique, or if the residual of a block would
-  /// rise above what is allowed. `problem` must outlive the object.
+  /// and is a tree or has at most kMost rows. Nothing changes if the impulses are not unique, or if
+  /// the residual of a block would rise above what is allowed. `problem` must outlive the object.
   Refinement(ConstraintProblem<D>& problem, ConstraintSolution<D>& solution);
   ~Refinement();
 

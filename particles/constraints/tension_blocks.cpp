@@ -59,8 +59,8 @@ std::vector<LinkRow> ConstraintSystem<D>::tension_rows(const ContactSystem<D>& s
 }
 
 template <int D>
-std::vector<double> ConstraintSystem<D>::kappas_of_films(const ContactSystem<D>& system,
-                                                         const Island& island) const {
+std::vector<double> ConstraintSystem<D>::film_kappas_of_units(const ContactSystem<D>& system,
+                                                              const Island& island) const {
   const auto& problem = island.problem;
   std::vector<double> kappas(problem.units.size());
   double largest = 0;
@@ -111,7 +111,7 @@ double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Isla
       for (std::size_t k = 0; k < coefficients.size(); ++k)
         changes[index_of(unit)][k] += impulse * coefficients[k];
   };
-  const auto of_films = kappas_of_films(system, island);
+  const auto of_films = film_kappas_of_units(system, island);
   for (std::size_t b = 0; b < sources; ++b) {
     const bool is_film = b < island.contacts.size();
     if (is_film && of_films.empty()) continue;
@@ -275,16 +275,16 @@ void ConstraintSystem<D>::take_impulses_across(const Island& island,
 
 template std::vector<LinkRow> ConstraintSystem<2>::tension_rows(const ContactSystem<2>&,
                                                                 const Island&, std::size_t) const;
-template std::vector<double> ConstraintSystem<2>::kappas_of_films(const ContactSystem<2>&,
-                                                                  const Island&) const;
+template std::vector<double> ConstraintSystem<2>::film_kappas_of_units(const ContactSystem<2>&,
+                                                                       const Island&) const;
 template double ConstraintSystem<2>::change_tensions(const ContactSystem<2>&, Island&,
                                                      std::span<const Motion<2>>, bool);
 template double ConstraintSystem<2>::buckling() const;
 template void ConstraintSystem<2>::take_impulses_across(const Island&, std::span<const Motion<2>>);
 template std::vector<LinkRow> ConstraintSystem<3>::tension_rows(const ContactSystem<3>&,
                                                                 const Island&, std::size_t) const;
-template std::vector<double> ConstraintSystem<3>::kappas_of_films(const ContactSystem<3>&,
-                                                                  const Island&) const;
+template std::vector<double> ConstraintSystem<3>::film_kappas_of_units(const ContactSystem<3>&,
+                                                                       const Island&) const;
 template double ConstraintSystem<3>::change_tensions(const ContactSystem<3>&, Island&,
                                                      std::span<const Motion<3>>, bool);
 template double ConstraintSystem<3>::buckling() const;

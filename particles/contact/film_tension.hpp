@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -14,7 +13,7 @@ namespace viscontact::particles {
 
 /// The share of the geometric stiffness of a film that is a spring in the step. `kappa` is that of
 /// the particle of the film with the larger one: the sum over its films that pull, with impulses p,
-/// of |p|/(l m), with the distance l of the centres. Without springs a step is stable if no kappa is
+/// of h |p|/(l m), with the sum l of both radii. Without springs a step is stable if no kappa is
 /// above 2. A pair that collides pulls for a step only, with a kappa of its displacement over l: it
 /// shall keep its angular momentum exactly, so that springs begin late.
 inline double share_of_film(double kappa) { return std::clamp(2 * (kappa - 1), 0.0, 1.0); }

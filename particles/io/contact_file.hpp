@@ -33,9 +33,10 @@ namespace viscontact::particles {
 std::string write_contacts(const Particles& particles, std::span<const CurrentContact> contacts,
                            bool has_friction = false);
 
-/// The table of the planes under a load, which a run with such planes writes: the number of the plane as in walls.csv; how far it has moved along its
-/// normal since time 0 [L], and at which velocity [L/T]; its load, and the sum of the normal forces
-/// of its contacts, both means over the last step [M L/T^2].
+/// The table of the planes under a load, which a run with such planes writes: the number of the
+/// plane as in walls.csv; how far it has moved along its normal since time 0 [L], and at which
+/// velocity [L/T]; its load, and the sum of the normal forces of its contacts, both means over the
+/// last step [M L/T^2].
 inline constexpr const char* kPlanesFile = "planes.csv";
 /// The columns of kPlanesFile.
 inline constexpr const char* kPlanesHeader = "time,wall,displacement,velocity,load,contact_force\n";

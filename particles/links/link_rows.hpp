@@ -45,7 +45,7 @@ struct LinkRow {
   // In rows of springs, `value` and `compliance` are computed from the next two members.
   double extension = 0;  ///< extension of the spring before the step [L, rad]
   double stiffness = 0;  ///< > 0 [M/T^2, M L^2/T^2]; 0 for other links
-  double length = 0;  ///< of the link that a row of rows_across() belongs to [L]; otherwise 0
+  double length = 0;     ///< of the link that a row of rows_across() belongs to [L]; otherwise 0
 };
 
 /// The equations of one link. All rows have parts of the same units in the same order.

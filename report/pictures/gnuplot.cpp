@@ -88,7 +88,8 @@ std::string panel_script(const Panel& panel, std::size_t index) {
   for (std::size_t i = 0; i < panel.curves.size(); ++i)
     script += data_block(fmt::format("panel{}curve{}", index, i), panel.curves[i]);
   script += fmt::format(
-      "unset logscale\nunset rmargin\nset format x\nset format y\nset title {}\nset xlabel {}\nset ylabel {}\n",
+      "unset logscale\nunset rmargin\nset format x\nset format y\nset title {}\nset xlabel {}\nset "
+      "ylabel {}\n",
       quoted_for_gnuplot(panel.title), quoted_for_gnuplot(panel.x_label),
       quoted_for_gnuplot(panel.y_label));
   std::vector<double> xs, ys;

@@ -129,9 +129,10 @@ TEST_F(FrictionSection, TablesThatACaseCannotHaveAreRefused) {
                         "walls, stress"));
   EXPECT_THAT(refused("", "[output]\ntables = [\"walls\"]", ""),
               HasSubstr("case.toml:9: output.tables has 'walls', but the case has no walls"));
-  EXPECT_THAT(refused("", "[output]\ntables = [\"stress\"]", ""),
-              HasSubstr("case.toml:9: output.tables has 'stress', which needs a [domain], or planes "
-                        "that bound a region"));
+  EXPECT_THAT(
+      refused("", "[output]\ntables = [\"stress\"]", ""),
+      HasSubstr("case.toml:9: output.tables has 'stress', which needs a [domain], or planes "
+                "that bound a region"));
 }
 
 }  // namespace
