@@ -8,6 +8,7 @@
 // units of the case. Nothing is checked or thrown. simulation.cpp calls move_freely() at the
 // beginning of each step; a change must set displacements and turns of all particles, also of those
 // in rigid bodies.
+#include "viscontact/particles/links/tension.hpp"
 #include "viscontact/particles/particles.hpp"
 #include "viscontact/particles/simulation.hpp"
 
@@ -99,17 +100,19 @@ std::vector<BodyLoad> Simulation::loads_of_bodies(
     loads[b].force = body.mass * setting_.gravity;
     for (std::size_t m = 0; m < body.members.size(); ++m) {
       const auto member = body.members[m];
-      if (const auto force = setting_.forces.find(member); force != setting_.forces.end()) {
-        const Vector value = mean(force->second);
-        loads[b].force = loads[b].force + value;
-        loads[b].torque = loads[b].torque + cross(present_offset(body, m, p.dimension), value);
-      }
+      const Vector offset = present_offset(body, m, p.dimension);
+      const auto add = [&](const Vector& force) {
+        if (force == Vector{}) return;
+        loads[b].force = loads[b].force + force;
+        loads[b].torque = loads[b].torque + cross(offset, force);
+        loads[b].forces.push_back({force, offset});
+      };
+      if (const auto force = setting_.forces.find(member); force != setting_.forces.end())
+        add(mean(force->second));
       if (const auto torque = setting_.torques.find(member); torque != setting_.torques.end())
         loads[b].torque = loads[b].torque + mean(torque->second);
-      const Vector added = added_force(setting_, index_of(member), p.dimension);
-      loads[b].force = loads[b].force + added;
-      loads[b].torque = loads[b].torque + cross(present_offset(body, m, p.dimension), added) +
-                        added_torque(setting_, index_of(member), p.dimension);
+      add(added_force(setting_, index_of(member), p.dimension));
+      loads[b].torque = loads[b].torque + added_torque(setting_, index_of(member), p.dimension);
     }
   }
   return loads;
@@ -123,10 +126,13 @@ void Simulation::move_bodies_freely(double h, double next) {
       [&](const PiecewiseConstant& function) { return mean_of(function, h, next); });
   const auto numbers = static_cast<std::size_t>(p.dimension);
   const auto components = turn_components(p.dimension);
+  const LinkTimes times{h, kick_length(h), next, is_first_part()};
   body_steps_.clear();
   for (std::size_t b = 0; b < loads.size(); ++b) {
     const auto& body = p.bodies.bodies[b];
-    body_steps_.push_back(free_step(body, loads[b], h, kick_length(h), p.dimension));
+    auto load = loads[b];
+    load.stiffness = stiffness_in_step(body, load.forces, times, p.dimension);
+    body_steps_.push_back(free_step(body, load, times.h, times.kick, times.is_first, p.dimension));
     const auto& step = body_steps_.back();
     for (std::size_t m = 0; m < body.members.size(); ++m) {
       const auto k = index_of(body.members[m]);

@@ -266,7 +266,7 @@ ProjectionResult Simulation::project(double h, double next) {
                                      obstacles_,
                                      state_.time,
                                      next,
-                                     state_.steps == 0 && state_.time == first_time_,
+                                     is_first_part(),
                                      kick_length(h),
                                      turns ? turns_ : no_turns,
                                      turns ? turn_mobilities_ : no_turn_mobilities,

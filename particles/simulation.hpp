@@ -161,6 +161,7 @@ class Simulation {
   // a load.
   void move_as_given(double h, double next);
   void move_bodies_freely(double h, double next);
+  bool is_first_part() const { return state_.steps == 0 && state_.time == first_time_; }
   bool has_constraints() const {
     return setting_.laws.friction || !setting_.links.empty() || !state_.particles.bodies.empty();
   }

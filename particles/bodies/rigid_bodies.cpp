@@ -323,10 +323,16 @@ Matrix3 scaled(double factor, Matrix3 a) {
 
 namespace {
 
+Matrix3 operator+(Matrix3 a, const Matrix3& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] += b[i];
+  return a;
+}
+
 /// Turn [rad] of a body of spheres in a step of length h by the implicit midpoint rule: the fixed
-/// point of turn = h I^-1 L, with the angular momentum L and the inertia I after half of the turn.
-Vector midpoint_turn(const RigidBody& body, const Vector& angular_momentum, double h) {
-  Vector turn = h * (inverse_of(present_inertia(body, 3)) * angular_momentum);
+/// point of turn = h (I + added)^-1 L, with the inertia I after half of the turn.
+Vector midpoint_turn(const RigidBody& body, const Vector& angular_momentum, const Matrix3& added,
+                     double h) {
+  Vector turn = h * (inverse_of(present_inertia(body, 3) + added) * angular_momentum);
   // Each iteration multiplies the error by about the turn in radians, so that 50 iterations, a free
   // choice, are enough for turns up to 0.5. A step in which a body turns by a radian does not
   // resolve the motion, so that its iteration need not converge.
@@ -335,7 +341,7 @@ Vector midpoint_turn(const RigidBody& body, const Vector& angular_momentum, doub
   for (int n = 0; n < kMost; ++n) {
     RigidBody middle = body;
     middle.orientation = turned(body.orientation, 0.5 * turn);
-    const Vector next = h * (inverse_of(present_inertia(middle, 3)) * angular_momentum);
+    const Vector next = h * (inverse_of(present_inertia(middle, 3) + added) * angular_momentum);
     const double change = norm(next - turn);
     turn = next;
     if (change <= kExact * norm(turn)) break;
@@ -345,35 +351,35 @@ Vector midpoint_turn(const RigidBody& body, const Vector& angular_momentum, doub
 
 }  // namespace
 
-/// The motion of a body without contacts in a step of length h [T]; the force [M L/T^2] and the
-/// torque [M L^2/T^2] of the load act for the time `kick` [T].
 BodyStep free_step(const RigidBody& body, const BodyLoad& load, double h, double kick,
-                   int dimension) {
+                   bool is_first, int dimension) {
   BodyStep step;
   step.mobility = h / body.mass;
   step.displacement = h * (body.velocity + (kick / body.mass) * load.force);
-  step.angular_momentum = body.angular_momentum + kick * load.torque;
+  const auto inertia = present_inertia(body, dimension);
+  const auto added = scaled(h * kick, load.stiffness);
+  step.momentum_of_turn = scaled(1 / h, inertia);
+  step.inverse_turn_mobility = scaled(1 / h, inertia + added);
+  const Vector rest = is_first ? Vector{} : h * body.angular_velocity;
+  const Vector momentum =
+      body.angular_momentum + kick * load.torque + kick * (load.stiffness * rest);
   if (dimension == 3) {
-    const auto inertia = present_inertia(body, dimension);
-    step.inverse_turn_mobility = scaled(1 / h, inertia);
-    step.turn_mobility = scaled(h, inverse_of(inertia));
-    step.turn = midpoint_turn(body, step.angular_momentum, h);
+    step.turn_mobility = scaled(h, inverse_of(inertia + added));
+    step.turn = midpoint_turn(body, momentum, added, h);
   } else {
-    step.inverse_turn_mobility[8] = body.inertia[8] / h;
-    step.turn_mobility[8] = h / body.inertia[8];
-    step.turn[2] = step.turn_mobility[8] * step.angular_momentum[2];
+    step.turn_mobility[8] = h / (inertia[8] + added[8]);
+    step.turn[2] = step.turn_mobility[8] * momentum[2];
   }
+  step.angular_momentum = momentum - kick * (load.stiffness * step.turn);
   return step;
 }
 
-/// Replaces the motion of `step` by the displacement [L] and the turn [rad] that contacts and links
-/// allow, and computes the angular momentum [M L^2/T] that belongs to the new turn.
 void constrain(BodyStep& step, const Vector& displacement, const Vector& turn, int dimension) {
   const Vector change = turn - step.turn;
   if (dimension == 3)
-    step.angular_momentum = step.angular_momentum + step.inverse_turn_mobility * change;
+    step.angular_momentum = step.angular_momentum + step.momentum_of_turn * change;
   else
-    step.angular_momentum[2] = step.inverse_turn_mobility[8] * turn[2] + step.late_momentum[2];
+    step.angular_momentum[2] = step.momentum_of_turn[8] * turn[2] + step.late_momentum[2];
   step.displacement = displacement;
   step.turn = turn;
 }

@@ -162,10 +162,20 @@ Matrix3 inverse_of(const Matrix3& a);
 /// The product of a number and a matrix, in the product of their units.
 Matrix3 scaled(double factor, Matrix3 a);
 
+/// A force on a point of a body.
+struct ForceAtArm {
+  Vector force{};  ///< [M L/T^2]
+  Vector arm{};    ///< vector from the centre of the body to the point [L]
+};
+
 /// Mean force on a body in a step, and mean torque about its centre.
 struct BodyLoad {
   Vector force{};   ///< [M L/T^2]
   Vector torque{};  ///< [M L^2/T^2]
+  std::vector<ForceAtArm> forces{};  ///< those on members, which `force` and `torque` contain
+  /// Positive semidefinite stiffness against turns that the forces have in the step, (5.21)
+  /// [M L^2/T^2], times the parameter of Newmark's method; of discs the last entry.
+  Matrix3 stiffness{};
 };
 
 /// The motion of a body in a step of length h [T], with the velocity u [L/T], angular velocity w
@@ -181,22 +191,25 @@ struct BodyStep {
   /// For discs: angular momentum at the end of the step minus moment of inertia times turn/h
   /// [M L^2/T]; 0 without rebounds.
   Vector late_momentum{};
-  double mobility = 0;              ///< h/m [T/M]
-  Matrix3 turn_mobility{};          ///< h I^-1 [T/(M L^2)]; discs use only the last entry
-  Matrix3 inverse_turn_mobility{};  ///< I/h [M L^2/T]
+  double mobility = 0;  ///< h/m [T/M]
+  /// h J^-1 with J = I + h kick BodyLoad::stiffness [T/(M L^2)]; discs use only the last entry.
+  Matrix3 turn_mobility{};
+  Matrix3 inverse_turn_mobility{};  ///< J/h [M L^2/T]
+  Matrix3 momentum_of_turn{};       ///< I/h [M L^2/T]
 };
 
 /// The motion of a body without contacts and links in a step of length `h` > 0 [T]. Mass and
 /// inertia of the body must be > 0; with 0 the result is infinite or NaN. `load` changes momentum
 /// and angular momentum by the load times `kick` [T], which is h, or another time with the leapfrog
-/// scheme (Simulation::kick_length()).
+/// scheme (Simulation::kick_length()), and by -kick BodyLoad::stiffness times the turn minus h w, in
+/// the first step of a simulation (`is_first`) times the turn.
 ///
 /// For spheres the turn is that of the implicit midpoint rule: h w = h I^-1 L, with the angular
 /// momentum L and the moment of inertia I after half of the turn. If the iteration for the turn
 /// does not converge in 50 rounds (for turns of more than about half a radian), its last value is
 /// taken.
 BodyStep free_step(const RigidBody& body, const BodyLoad& load, double h, double kick,
-                   int dimension);
+                   bool is_first, int dimension);
 
 /// Replaces displacement [L] and turn [rad] of `step` by the arguments, which are those with
 /// contacts and links, and adds the moments of the impulses of contacts and links to the angular

@@ -71,17 +71,6 @@ Motion<D> row_of(const LinkPart& part) {
   return row;
 }
 
-/// The share of the geometric stiffness K that is a spring in the step, (5.21). `kappa` is the time
-/// for which forces act times K w, with the mobility w of its row. Without springs the step is
-/// stable if kappa, summed over the links of a particle, is below 4. Below 0.05 the directions of
-/// the beginning of the step are as good, and keep angular momentum exactly; above 0.1 everything is
-/// a spring. In between the share is linear, because a change of the scheme at each oscillation of a
-/// tension would change the energy. A particle may have up to 80 links.
-inline double share_of_tension(double kappa) {
-  constexpr double kNone = 0.05;
-  return std::clamp(kappa / kNone - 1, 0.0, 1.0);
-}
-
 /// The contacts, rigid bodies and links of a step as one ConstraintProblem, and its solution.
 template <int D>
 class ConstraintSystem {

@@ -24,15 +24,6 @@ double mobility_of(std::span<const RowPart<D>> parts, const ConstraintProblem<D>
   return w;
 }
 
-/// Parameter of Newmark's method for the springs across [1]. With 1/4 the phase of a vibration goes
-/// up to half a turn a step; where it is a quarter, the change of the tension that a larger
-/// vibration causes is in resonance with it, and a double pendulum grows. With 1/2 the phase stays
-/// below a quarter. In the first step a velocity at the start has, with 3/8, the amplitude that it
-/// has in reality, if the step resolves it, and a smaller one otherwise.
-double beta_across(const LinkTimes& times) {
-  return times.is_first ? 0.375 * times.h / times.kick : 0.5;
-}
-
 }  // namespace
 
 template <int D>
@@ -155,7 +146,7 @@ double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Isla
       row.block.is_contact = false;
       row.block.is_geometric = true;
       row.block.allowed = allowed / (first.is_turn ? mean_radius_ : 1);
-      row.block.compliance = 1 / (beta_across(times_) * times_.kick * stiffness);
+      row.block.compliance = 1 / (times_.beta_across() * times_.kick * stiffness);
       row.value = (times_.is_first ? 0 : -times_.h * rate) + given;
       double value = row.value;
       for (const auto& [unit, coefficients] : row.parts)

@@ -52,11 +52,12 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
       } else {
         auto still = step_.bodies[index_of(body)];
         still.displacement = still.turn = {};
-        if (D == 3) {
-          const auto inertia = present_inertia(body_at(k, time), D);
+        const auto inertia = present_inertia(body_at(k, time), D);
+        still.inverse_turn_mobility = scaled(1 / step_.h, inertia);
+        if (D == 3)
           still.turn_mobility = scaled(step_.h, inverse_of(inertia));
-          still.inverse_turn_mobility = scaled(1 / step_.h, inertia);
-        }
+        else
+          still.turn_mobility[8] = step_.h / inertia[8];
         problem.units.push_back(unit_of_body<D>(still));
       }
     }

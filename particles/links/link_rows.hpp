@@ -96,6 +96,13 @@ struct LinkTimes {
   /// 1/2 the phase stays below a quarter. The first step takes twice the value, because no step
   /// before it has a share in the force.
   double beta() const { return is_first ? 1 : 0.5; }
+
+  /// Parameter of Newmark's method for the geometric stiffness, (5.21) [1]. With 1/4 the phase of a
+  /// vibration goes up to half a turn a step; where it is a quarter, the change of the tension that a
+  /// larger vibration causes is in resonance with it, and a double pendulum grows. With 1/2 the phase
+  /// stays below a quarter. In the first step a velocity at the start has, with 3/8, the amplitude
+  /// that it has in reality, if the step resolves it, and a smaller one otherwise.
+  double beta_across() const { return is_first ? 0.375 * h / kick : 0.5; }
 };
 
 /// The equations of all links, in the order of their forces in State::link_forces. Springs are

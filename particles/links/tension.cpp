@@ -2,6 +2,7 @@
 #include "viscontact/particles/links/tension.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -29,39 +30,43 @@ std::vector<Vector> directions_across(const Vector& along, int dimension) {
   return {first, (1 / norm(second)) * second};
 }
 
-LinkRow row_of_turn(const LinkPart& part, const Vector& axis, double stiffness) {
-  LinkRow row;
-  row.parts = {{part.particle, axis, part.arm, true, part.image}};
-  row.stiffness = stiffness;
-  return row;
-}
-
 }  // namespace
 
-std::vector<LinkRow> rows_of_turn(const LinkPart& part, const Vector& force, int dimension) {
-  const auto& arm = part.arm;
-  const double along = dot(force, arm);
-  const double largest = norm(force) * norm(arm);
-  if (!(largest > 0)) return {};
-  std::vector<LinkRow> rows;
-  if (dimension == 2) {
-    if (along > 0) rows.push_back(row_of_turn(part, {0, 0, 1}, along));
-    return rows;
+std::vector<AxisStiffness> stiffness_of_turns(std::span<const ForceAtArm> forces, int dimension) {
+  double along = 0, largest = 0;
+  for (const auto& [force, arm] : forces) {
+    along += dot(force, arm);
+    largest = std::max(largest, norm(force) * norm(arm));
   }
-  Eigen::Matrix3d stiffness;
-  for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k) {
-      const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(k);
-      stiffness(i, k) =
-          ((i == k ? along : 0) - (force[a] * arm[b] + force[b] * arm[a]) / 2) / largest;
-    }
+  if (!(largest > 0)) return {};
+  std::vector<AxisStiffness> result;
+  if (dimension == 2) {
+    if (along > 0) result.push_back({{0, 0, 1}, along});
+    return result;
+  }
+  Eigen::Matrix3d stiffness = along / largest * Eigen::Matrix3d::Identity();
+  for (const auto& [force, arm] : forces) {
+    const Eigen::Vector3d f(force.data()), a(arm.data());
+    stiffness -= (f * a.transpose() + a * f.transpose()) / (2 * largest);
+  }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(stiffness);
   // An eigenvalue that is 0, as that of the line along the force, has rounding errors.
   constexpr double kRounding = 1e-12;
   for (int i = 2; i >= 0 && solver.eigenvalues()[i] > kRounding; --i) {
     const Eigen::Vector3d axis = solver.eigenvectors().col(i);
-    rows.push_back(
-        row_of_turn(part, {axis[0], axis[1], axis[2]}, largest * solver.eigenvalues()[i]));
+    result.push_back({{axis[0], axis[1], axis[2]}, largest * solver.eigenvalues()[i]});
+  }
+  return result;
+}
+
+std::vector<LinkRow> rows_of_turn(const LinkPart& part, const Vector& force, int dimension) {
+  const std::array<ForceAtArm, 1> own = {{{force, part.arm}}};
+  std::vector<LinkRow> rows;
+  for (const auto& [axis, stiffness] : stiffness_of_turns(own, dimension)) {
+    LinkRow row;
+    row.parts = {{part.particle, axis, part.arm, true, part.image}};
+    row.stiffness = stiffness;
+    rows.push_back(std::move(row));
   }
   return rows;
 }
@@ -105,6 +110,23 @@ std::vector<LinkRow> rows_of_tension(const LinkEquations& link, std::span<const 
                                         particles.position(index_of(parts[0].particle)));
   if (!(norm(apart) > 0)) return {};
   return rows_across(parts[0], parts[1], apart, -forces.front(), particles.dimension);
+}
+
+Matrix3 stiffness_in_step(const RigidBody& body, std::span<const ForceAtArm> forces,
+                          const LinkTimes& times, int dimension) {
+  Matrix3 sum{};
+  const auto stiffnesses = stiffness_of_turns(forces, dimension);
+  if (stiffnesses.empty()) return sum;
+  const auto inertia = present_inertia(body, dimension);
+  const auto inverse = dimension == 3 ? inverse_of(inertia) : Matrix3{};
+  for (const auto& [axis, stiffness] : stiffnesses) {
+    const double w = times.h * (dimension == 3 ? dot(axis, inverse * axis) : 1 / inertia[8]);
+    const double acting =
+        times.beta_across() * share_of_tension(times.kick * stiffness * w) * stiffness;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k) sum[3 * i + k] += acting * axis[i] * axis[k];
+  }
+  return sum;
 }
 
 double rate_of(const LinkRow& row, const Particles& particles) {

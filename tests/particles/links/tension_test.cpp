@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tests/particles/systems.hpp"
+#include "viscontact/particles/bodies/rigid_bodies.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -504,6 +505,71 @@ TEST(TensionOf, AMembraneUnderPressureDoesNotGrow) {
         if (HasFailure()) return;
       }
     }
+}
+
+TEST_P(Tension, OfABodyThatGivenForcesPullApartDoesNotGrowAtAnyStep) {
+  // Three particles in a row whose ends are pulled with F: a turn has w^2 = 2 F a/I.
+  constexpr double force = 40, arm = 1.5, start = 0.02;
+  for (const double part : {1e-3, 0.03, 0.1, 0.2, 0.5, 1.0, 30.0})
+    for (const auto scheme : {Scheme::kLeapfrog, Scheme::kEuler}) {
+      Setting setting;
+      setting.scheme = scheme;
+      State state = no_particles(GetParam());
+      for (int k = -1; k < 2; ++k) {
+        // In space it begins to turn about an axis between y and z.
+        add_particle(state, {k * arm, 0, 0}, 0.1, 1,
+                     {0, k * arm * start, GetParam() == 3 ? k * arm * start : 0});
+        if (k != 0) setting.forces[k + 1] = constant({k * force, 0, 0});
+      }
+      add_rotation(state.particles);
+      add_rigid_body(state.particles, {{0, 1, 2}});
+      const auto& body = state.particles.bodies.bodies.front();
+      const double inertia = present_inertia(body, GetParam())[8];
+      const double w = std::sqrt(2 * force * arm / inertia);
+      setting.time_step = part * 2 * kPi / w;
+      const double exact = start / w * arm;
+      Simulation simulation(setting, state, 1);
+      double early = 0, late = 0;
+      for (int n = 0; n < 400; ++n) {
+        EXPECT_TRUE(simulation.step(1e99).converged);
+        const auto at = simulation.state().particles.position(2);
+        auto& largest = n < 200 ? early : late;
+        largest = std::max(largest, std::abs(at[1]));
+        EXPECT_NEAR(at[2], GetParam() == 3 ? at[1] : 0, 1e-9 * exact);
+      }
+      // With kappa = 0.036 the directions of the beginning of the step act, and the amplitude is
+      // larger by up to kappa/8.
+      EXPECT_LT(std::max(early, late), 1.005 * exact) << part;
+      // A start that the step does not resolve has a smaller amplitude, as in the double pendulum.
+      const double kappa = std::pow(2 * kPi * part, 2);
+      const double begin = (1 + kappa / 2) / ((1 + 3 * kappa / 8) * std::sqrt(1 + kappa / 4));
+      const double least = part > 0.01 ? (scheme == Scheme::kEuler ? 0.5 : 0.95) * begin : 0;
+      EXPECT_GT(late, least * exact) << part;
+    }
+}
+
+TEST_P(Tension, OfASwingingBodyIsOfSecondOrder) {
+  // A force on one end; the turn does not depend on the motion of the centre.
+  const auto angle_at = [](int dimension, int steps) {
+    Setting setting;
+    setting.scheme = Scheme::kLeapfrog;
+    setting.time_step = 2.0 / steps;
+    setting.forces[0] = constant({30, 40, 0});
+    State state = no_particles(dimension);
+    add_particle(state, {1, 0, 0}, 0.2, 1);
+    add_particle(state, {-1, 0, 0}, 0.2, 2);
+    add_rotation(state.particles);
+    add_rigid_body(state.particles, {{0, 1}});
+    Simulation simulation(setting, state, 1);
+    take_steps(simulation, steps);
+    const auto& p = simulation.state().particles;
+    const Vector along = p.position(0) - p.position(1);
+    return std::atan2(along[1], along[0]);
+  };
+  // The angle goes from 0 to 106 degrees and back, with kappa = h² F a/I from 1.5 to 0.01.
+  const double exact = angle_at(GetParam(), 20000);
+  for (const int n : {8, 12, 16, 24, 32, 50, 100})
+    EXPECT_LT(std::abs(angle_at(GetParam(), n) - exact), 60.0 / (n * n)) << n;
 }
 
 TEST(TensionOf, LinksThatPushBuckleByWhatTheReportSays) {
