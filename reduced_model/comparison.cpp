@@ -206,7 +206,8 @@ void fields_of(JsonFields& json, Comparison& comparison) {
       [](ModelComparison & model) -> auto& { return model; });
   json.by_name(
       "failed_models", comparison.failed_models, &ModelWithoutTrajectory::model,
-      [](ModelWithoutTrajectory & failed) -> auto& { return failed.reason; }, Absence::kAllowed);
+      [](ModelWithoutTrajectory & failed) -> auto& { return failed.reason; },
+      Absence::kLeftOutIfEmpty);
   json.foreign_object("provenance");
 }
 

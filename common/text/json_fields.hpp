@@ -138,6 +138,7 @@ class JsonFields {
   void by_name(const std::string& key, std::vector<Value>& values, std::string Value::*name,
                const Part& part, Absence absence = Absence::kRefused) {
     if (!reads()) {
+      if (values.empty() && absence == Absence::kLeftOutIfEmpty) return;
       written_[key] = Json::object();
       for (auto& value : values) written_[key][value.*name] = json_of(part(value));
     } else if (is_there(key, absence)) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "viscontact/particles/dual_problem/dual_problem.hpp"
+#include "viscontact/particles/vector.hpp"
 
 namespace viscontact::particles {
 
@@ -30,8 +31,7 @@ namespace viscontact::particles {
 /// The method converges fast near the solution and may cycle far from it. It stops after
 /// `max_iterations` solutions with the factor. If it has not converged then, or if factorise()
 /// returns false, problem.z is what it was before the call, and the returned residual is infinite.
-/// Otherwise the returned residual is at most 1. A contact with a gradient NaN does not count in
-/// it.
+/// Otherwise the returned residual is at most 1.
 template <SolvableDualProblem Problem, class Factor>
 SolverResult active_set_newton(Problem& problem, Factor& factor, int max_iterations) {
   const auto start = problem.z;
@@ -74,7 +74,8 @@ SolverResult active_set_newton(Problem& problem, Factor& factor, int max_iterati
     bool within_bounds = true;
     for (std::size_t c = 0; c < problem.count(); ++c) {
       within_bounds = within_bounds && problem.z[c] >= problem.bound[c];
-      solved.residual = std::max(solved.residual, problem.residual(c, problem.z[c], gradient[c]));
+      solved.residual =
+          largest_or_nan(solved.residual, problem.residual(c, problem.z[c], gradient[c]));
     }
     if (within_bounds && solved.residual <= 1) return solved;
   }

@@ -23,8 +23,7 @@ namespace viscontact::particles {
 struct SolverResult {
   int iterations = 0;  ///< number of iterations done, >= 0
   /// Largest DualProblem::residual() of all contacts [1], >= 0; infinite if the method gave up. All
-  /// contacts have converged if it is at most 1. The methods of this folder do not count a contact
-  /// whose residual is NaN.
+  /// contacts have converged if it is at most 1. NaN if a number of the problem is NaN.
   double residual = 0;
 };
 

@@ -144,7 +144,7 @@ SolverResult solve_dual_problem(MassDualProblem<D>& problem, int max_iterations,
   bool fresh = true, factorisable = true;
   for (;;) {
     solved.residual = mprgp.residual();
-    if (solved.residual <= 1 || solved.iterations >= max_iterations) {
+    if (!(solved.residual > 1) || solved.iterations >= max_iterations) {
       if (fresh) return solved;
       mprgp.refresh();  // the updated gradient has accumulated rounding errors
       fresh = true;

@@ -71,8 +71,12 @@ class Mprgp {
 
   /// Largest DualProblem::residual() of all contacts [1], >= 0. It is at most 1 if all contacts
   /// have converged. It may be that of up to three steps before; after refresh() it is the present
-  /// one. A contact with a residual NaN does not count.
-  double residual() const { return statistics_.residual; }
+  /// one. NaN if a number of some contact is NaN.
+  double residual() const {
+    // The sums are NaN if a gradient is; the largest residual, without branches, is not.
+    const double sums = statistics_.free_slope + statistics_.chopped_square;
+    return std::isnan(sums) ? sums : statistics_.residual;
+  }
 
   /// From now on omits the regularisation, the 1e-14 that the object adds to the diagonal of W.
   void drop_regularisation() {

@@ -287,7 +287,7 @@ int solve_by_gradients(Problem& problem, int most) {
   Mprgp mprgp(problem, IdentityPreconditioner<Problem>(problem));
   bool is_fresh = true;
   for (int products = 1;;) {
-    if (mprgp.residual() <= 1 || products >= most) {
+    if (!(mprgp.residual() > 1) || products >= most) {
       if (is_fresh) return products;
       mprgp.refresh();  // the updated gradient has accumulated rounding errors
       ++products;

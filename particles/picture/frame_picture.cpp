@@ -351,9 +351,8 @@ std::string colour_of(const Scene& scene, const CurrentContact& contact) {
       rounded(mobilised_friction(scene.playback, contact), kFrictionColours));
 }
 
-/// Width of the line of a contact [page units]. `radius` [page units] is the smaller radius of the
-/// two particles, with plates at most the smaller semi-axis of the second particle. At an obstacle
-/// it is the radius of the particle.
+/// Width of the line of a contact [page units]. `radius` [page units] is the smaller one of its
+/// particles; of a plate it is half of the thickness.
 double width_of(const PanelSettings& d, const CurrentContact& contact, double radius) {
   const auto width = [](const LineWidth& line, double r) {
     return std::clamp(line.share * r, line.least, line.most);
@@ -398,7 +397,12 @@ void move_to_spines(const Playback& playback, const Frame& frame, std::size_t fi
 ContactLine line_of(const PanelSettings& d, const Frame& frame, const CurrentContact& contact) {
   const auto second = static_cast<std::size_t>(contact.second);
   Vector to = position(d.scene.playback, frame, second);
-  double radius = d.scene.playback.radii[second];
+  const auto half_thickness = [&](std::size_t k) -> double {
+    const auto& playback = d.scene.playback;
+    const bool is_plate = !playback.plates.empty() && playback.plates[k] != 0;
+    return is_plate ? playback.semi_axes[k][1] : playback.radii[k];
+  };
+  double radius = half_thickness(second);
   Vector from{};
   const Vector shift = shift_of(cell_at(d.scene.playback, frame), contact.image);
   if (contact.first < 0) {
@@ -408,12 +412,11 @@ ContactLine line_of(const PanelSettings& d, const Frame& frame, const CurrentCon
   } else {
     const auto first = static_cast<std::size_t>(contact.first);
     from = position(d.scene.playback, frame, first);
-    radius = std::min(radius, static_cast<double>(d.scene.playback.radii[first]));
+    radius = std::min(radius, half_thickness(first));
     if (const auto& playback = d.scene.playback; !playback.plates.empty()) {
       to = to + shift;
       move_to_spines(playback, frame, first, second, from, to);
       to = to - shift;
-      radius = std::min(radius, playback.semi_axes[second][1]);
     }
   }
   ContactLine line;

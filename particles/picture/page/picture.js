@@ -319,12 +319,12 @@ function colourOf(i) {
     : ofFriction.length + Math.round(level / 255 * (motion.colours.length - 1));
 }
 
-// The ends of the middle line of plate k on the canvas, which are the centres of its round ends. If
-// particle k is a disc, both ends are its centre.
-function spineOf(k) {
+// The ends of the middle line of plate k, whose centre is at `place` on the canvas; they are the
+// centres of its round ends. If particle k is a disc, both ends are its centre.
+function spineOf(k, place) {
   const half = plates[k] ? pageRadius[k] / radii[k] * (semiAxes[2 * k] - semiAxes[2 * k + 1]) : 0;
   const x = half * Math.cos(angles[k]), y = -half * Math.sin(angles[k]);
-  return [[pageX[k] + x, pageY[k] + y], [pageX[k] - x, pageY[k] - y]];
+  return [[place.x + x, place.y + y], [place.x - x, place.y - y]];
 }
 
 // The point of the line from a to b that is nearest to the point x; all are places on the canvas.
@@ -335,9 +335,10 @@ function nearestOnLine([a, b], x) {
   return [a[0] + at * along[0], a[1] + at * along[1]];
 }
 
-// Traces the shortest line between the middle lines (spineOf()) of two plates or discs.
-function traceBetweenSpines(first, second) {
-  const one = spineOf(first), other = spineOf(second);
+// Traces the shortest line between the middle lines (spineOf()) of two plates or discs with these
+// centres on the canvas.
+function traceBetweenSpines(first, second, firstPlace, secondPlace) {
+  const one = spineOf(first, firstPlace), other = spineOf(second, secondPlace);
   const lines = [...one.map(x => [x, nearestOnLine(other, x)]),
                  ...other.map(x => [nearestOnLine(one, x), x])];
   const length = ([a, b]) => Math.hypot(a[0] - b[0], a[1] - b[1]);
@@ -379,17 +380,15 @@ function traceContact(i) {
     pen.lineTo(pageX[second], pageY[second]);
     return;
   }
+  const trace = (from, to) =>
+    plates ? traceBetweenSpines(first, second, from, to) : traceLine(from.x, from.y, to.x, to.y);
+  const centre = k => ({x: pageX[k], y: pageY[k]});
   const shift = shiftOf(i);
-  if (shift.some(s => s)) {
-    // The line to a shifted image is drawn at both sides of the cell.
-    const beyond = {...shifted(second, shift, 1)}, before = shifted(first, shift, -1);
-    traceLine(pageX[first], pageY[first], beyond.x, beyond.y);
-    traceLine(before.x, before.y, pageX[second], pageY[second]);
-  } else if (plates) {
-    traceBetweenSpines(first, second);
-  } else {
-    traceLine(pageX[first], pageY[first], pageX[second], pageY[second]);
-  }
+  if (!shift.some(s => s)) return trace(centre(first), centre(second));
+  // The line to a shifted image is drawn at both sides of the cell.
+  const beyond = {...shifted(second, shift, 1)};
+  trace(centre(first), beyond);
+  trace(shifted(first, shift, -1), centre(second));
 }
 
 // The width of a line for a radius on the canvas. The list is a LineWidth of
@@ -400,10 +399,14 @@ const lineWidth = ([share, least, most], radius) => {
   return between(unit * least, share * radius, unit * most);
 };
 
+// The radius of a disc, or the smaller semi-axis of a plate, on the canvas.
+const halfThickness = k =>
+  plates && plates[k] ? pageRadius[k] / radii[k] * semiAxes[2 * k + 1] : pageRadius[k];
+
 // The width of the line of contact i on the canvas.
 function widthOf(i) {
   const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
-  const r = first < 0 ? pageRadius[second] : Math.min(pageRadius[first], pageRadius[second]);
+  const r = Math.min(halfThickness(second), first < 0 ? Infinity : halfThickness(first));
   const isFilm = lines.level[i] > 0;
   if (!motion.hasForces)
     return lineWidth(isFilm || slides(i) ? style.filmLine : style.touchingLine, r);

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "tests/particles/dual_problem/dense_problem.hpp"
 #include "tests/particles/dual_problem/random_problem.hpp"
 #include "tests/particles/systems.hpp"
+#include "viscontact/particles/dual_problem/active_set_newton.hpp"
 #include "viscontact/particles/dual_problem/mass_dual_problem.hpp"
 
 namespace viscontact::particles {
@@ -66,6 +68,29 @@ TEST(FreeSetFactor, IsTheInverseBetweenContactsThatWereFreeAndStillAre) {
       expected_product += expected[c] * gradient[c];
     }
     EXPECT_NEAR(product, expected_product, static_cast<double>(dual.count()) * rounding);
+  }
+}
+
+TEST(DualSolver, DoesNotCountAProblemWithANumberThatIsNoneAsSolved) {
+  Random random(11);
+  ThreadPool pool(1);
+  for (int i = 0; i < 40; ++i) {
+    const auto problem = random_problem<2>(random);
+    if (problem.contacts.empty()) continue;
+    const auto with_nan = [&] {
+      MassDualProblem<2> dual(problem.contacts, problem.displacements, problem.mobilities, pool);
+      const int last = static_cast<int>(dual.count()) - 1;
+      dual.linear_term[static_cast<std::size_t>(random.integer(0, last))] =
+          std::numeric_limits<double>::quiet_NaN();
+      return dual;
+    };
+    FreeSetFactor<2> factor, of_newton;
+    auto dual = with_nan();
+    const auto solved = solve_dual_problem(dual, 1000, factor);
+    EXPECT_FALSE(solved.residual <= 1) << i;
+    EXPECT_LT(solved.iterations, 100) << i;
+    auto other = with_nan();
+    EXPECT_FALSE(active_set_newton(other, of_newton, 10).residual <= 1) << i;
   }
 }
 
