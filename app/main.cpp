@@ -1,9 +1,4 @@
-// The program viscontact: reads the command line and runs the command that it names
-// (commands/commands.hpp). main() catches every Error, prints its message and returns its exit code
-// (results/exit_code.hpp): 0 for success, 2 for kWrongUsage, 3 for kBadInput, 4 for kNotConverged,
-// 5 for kExternalProgram, 130 for kInterrupted. main() also catches all other exceptions: too
-// little memory has the exit code 4, any other exception 3. Texts of --help and the order of the
-// commands may be changed. A change must keep that no exception leaves main().
+// Reads the command line and runs the command that it names. No exception leaves main().
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -38,7 +33,7 @@ std::string version_text() {
                      results::freefem_version_or_not_found(interrupt_token()), text);
 }
 
-/// Adds the commands `completion` and `man`, which print the texts of self_description.hpp.
+/// The commands `completion` and `man`, which print the texts of self_description.hpp.
 void add_self_description(CLI::App& app) {
   auto* completion = app.add_subcommand(
       "completion", "print the completion for a shell: source <(viscontact completion bash)");
@@ -54,8 +49,6 @@ void add_self_description(CLI::App& app) {
   });
 }
 
-/// Reads the command line, runs the command and returns the exit code, 0 to 255. Throws the errors
-/// of the command, and Error(kWrongUsage) if the first argument is not the name of a command.
 int run(int argc, char** argv) {
   CLI::App app("Lubrication force of a sphere near contact: tabulate, fit, simulate, compare.",
                "viscontact");
@@ -93,7 +86,7 @@ int run(int argc, char** argv) {
     std::ranges::reverse(arguments);  // parse(vector) reads the last element first
     app.parse(arguments);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    if (error.get_exit_code() == 0) return app.exit(error);
     terminal::complain(fmt::format("viscontact: {}; see viscontact --help", error.what()));
     return results::exit_code_of(ErrorKind::kWrongUsage);
   }

@@ -1,6 +1,5 @@
-// Benchmark of viscous contact: computing time per step and per row of motions of one sphere, in
-// the units of the lecture's case. Google Benchmark prints the times; `per_step` is in seconds. An
-// Error ends the program. bench/run runs it.
+// Computing time of viscous contact, per step and per row of motions of one sphere, in the units of
+// the lecture's case; `per_step` is in seconds.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -32,7 +31,7 @@ void count_steps(benchmark::State& state, double steps) {
       steps, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-/// Time of a motion with rows; the benchmark's argument is the number of steps.
+/// Motion with rows; the benchmark's argument is the number of steps.
 void single_sphere(benchmark::State& state) {
   const auto steps = static_cast<double>(state.range(0));
   const auto motion = lecture_motion(4 / steps);
@@ -45,7 +44,7 @@ void single_sphere(benchmark::State& state) {
 }
 BENCHMARK(single_sphere)->Arg(4000)->Arg(400000)->Unit(benchmark::kMicrosecond);
 
-/// Time of the same steps without rows: that of the scheme and of the mean forces alone.
+/// The same steps without rows: the scheme and the mean forces alone.
 void single_sphere_without_rows(benchmark::State& state) {
   const int steps = static_cast<int>(state.range(0));
   const auto motion = lecture_motion(4.0 / steps);
@@ -66,7 +65,7 @@ void single_sphere_without_rows(benchmark::State& state) {
 }
 BENCHMARK(single_sphere_without_rows)->Arg(4000)->Arg(400000)->Unit(benchmark::kMicrosecond);
 
-/// Time of reference_exact for each output time; the argument is the number of output times.
+/// reference_exact for each output time; the argument is the number of output times.
 void reference_exact(benchmark::State& state) {
   const auto times = static_cast<double>(state.range(0));
   const auto motion = lecture_motion(4 / times);

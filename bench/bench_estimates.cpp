@@ -1,16 +1,5 @@
-// Measures how often the error of a row is at most its error estimate. The rows are random rows of
-// every geometry with an exact solution; gaps, sizes, velocity ratios and accuracies are random
-// (accuracies log-uniform from FINEST_ACCURACY to 1e-5). Errors and estimates are relative, gaps
-// and sizes in radii of the sphere. A row that fails is printed with the message of its Error and
-// left out of the shares. bench/run does not run it, because with the defaults it takes hours on
-// one core.
-//
-//   bench_estimates [ROWS_PER_GEOMETRY=100 [FINEST_ACCURACY=1e-7 [SEED=1 [GEOMETRY]]]]
-//
-// Prints every row whose error is above its estimate or whose estimate is above the accuracy. Then
-// prints for each geometry the share of rows whose error is at most the estimate, median and
-// largest value of error/estimate, the share of rows whose estimate is above the accuracy (est >
-// asked), and the share of the other rows whose error is above the accuracy (err > asked).
+// Measures how often the error of a row is at most its error estimate, for random rows of every
+// geometry with an exact solution.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -93,6 +82,14 @@ void measure(std::size_t rows_per_geometry, double finest_accuracy, unsigned see
 }  // namespace
 }  // namespace viscontact
 
+// bench_estimates [ROWS_PER_GEOMETRY=100 [FINEST_ACCURACY=1e-7 [SEED=1 [GEOMETRY]]]]
+//
+// Accuracies are log-uniform from FINEST_ACCURACY to 1e-5. Prints every row whose error is above
+// its estimate or whose estimate is above the accuracy, and those that fail, which do not count.
+// Then prints for each geometry the share of rows whose error is at most the estimate, median and
+// largest value of error/estimate, the share of rows whose estimate is above the accuracy (est >
+// asked), and the share of the other rows whose error is above the accuracy (err > asked). With the
+// defaults it takes hours on one core.
 int main(int argc, char** argv) {
   try {
     const std::vector<std::string> words(argv, argv + argc);

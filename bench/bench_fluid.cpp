@@ -1,6 +1,5 @@
 // Accuracy and cost of the FreeFEM fluid solver: errors of velocities, the ratio to the lecture's
-// mesh at equal CPU time, and seconds and memory of a step with many discs. Viscosity and radius
-// are 1. bench/README.md has the figures.
+// mesh at equal CPU time, and a step with many discs. Viscosity and radius are 1.
 #include <fmt/format.h>
 #include <sys/resource.h>
 

@@ -1,8 +1,5 @@
-// Benchmark of the model `inertial` on the lecture's case with the shipped fit: computing time, and
-// relative error of the gap against an oracle in long double. With STATES.csv, writes a file with
-// which radau.py compares SciPy's Radau. bench/run runs it.
-//
-// usage: bench_inertial [STATES.csv]
+// The model `inertial` on the lecture's case with the shipped fit: computing time, and relative
+// error of the gap against an oracle in long double.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -102,4 +99,5 @@ int run(const std::vector<std::string>& arguments) {
 }  // namespace
 }  // namespace viscontact
 
+// bench_inertial [STATES.csv]: a file with which radau.py compares SciPy's Radau.
 int main(int argc, char** argv) { return viscontact::run({argv + 1, argv + argc}); }

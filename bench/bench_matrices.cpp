@@ -1,13 +1,5 @@
-// Measures errors, error estimates, time and memory of resistance matrices of three spheres on a
-// line in unbounded fluid, beside exact ones (tests/oracles/collinear_spheres.hpp). Gaps are
-// random, log-uniform from 0.02 to 8 of the smaller radius beside them; every second row has
-// unequal radii, from 0.5 to 2.
-//
-//   bench_matrices [ROWS=20 [SEED=1]]
-//
-// Prints every entry whose error is above its estimate, then sums over all entries; last, the time
-// [s] and the peak memory of one row of ten spheres. Errors and estimates are relative. An Error of
-// a row ends the program.
+// Errors, error estimates, time and memory of resistance matrices of three spheres on a line in
+// unbounded fluid, beside exact ones (tests/oracles/collinear_spheres.hpp).
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -87,6 +79,8 @@ void measure_ten() {
 }  // namespace
 }  // namespace viscontact
 
+// bench_matrices [ROWS=20 [SEED=1]]: prints every entry whose error is above its estimate, then
+// sums over all entries; last, the time [s] and the peak memory of one row of ten spheres.
 int main(int argc, char** argv) {
   viscontact::measure(argc > 1 ? std::atoi(argv[1]) : 20,
                       argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1);

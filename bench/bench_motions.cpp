@@ -1,13 +1,5 @@
-// Measures errors, error estimates and times of the motions across the axis and around it, at
-// random gaps (log-uniform from 0.001 to 10 radii) beside a plane, a free surface, spheres of
-// random size at rest or with a velocity of their own, and in a cavity. The reference is the same
-// row at a hundredth of the accuracy, whose own error was checked above a plane against exact
-// values (tests/freefem_axi/motions).
-//
-//   bench_motions [ROWS=12 [SEED=1]]
-//
-// Prints every entry whose error is above its estimate and every row whose cost is high, then sums
-// over all entries, and the time of all motions over that of the approach alone.
+// Errors, error estimates and times of the motions across the axis and around it at random gaps,
+// beside a plane, a free surface, spheres, and in a cavity.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -112,6 +104,10 @@ void measure_motions(int rows, std::uint64_t seed) {
 }  // namespace
 }  // namespace viscontact
 
+// bench_motions [ROWS=12 [SEED=1]]: prints every entry whose error is above its estimate and every
+// row whose cost is high, then sums over all entries, and the time of all motions over that of the
+// approach alone. The reference is the same row at a hundredth of the accuracy, whose own error was
+// checked above a plane against exact values (tests/freefem_axi/motions).
 int main(int argc, char** argv) {
   viscontact::measure_motions(argc > 1 ? std::atoi(argv[1]) : 12,
                               argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1);

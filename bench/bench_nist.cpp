@@ -1,6 +1,5 @@
-// Prints how many certified digits the least squares of the fit reach on the data sets for linear
-// regression of the NIST Statistical Reference Datasets. Numbers have no dimension. An Error ends
-// the program. bench/run runs it.
+// How many certified digits the least squares of the fit reach on the data sets for linear
+// regression of the NIST Statistical Reference Datasets.
 #include <fmt/format.h>
 
 #include "tests/fitting/nist/nist_sets.hpp"

@@ -1,6 +1,5 @@
-// Benchmark of the C++ parts on the shipped tables and fits: computing times of reading, fitting,
-// simulating and comparing. Google Benchmark prints the times; `per_step` is in seconds. An Error
-// ends the program. bench/run runs it.
+// Computing times of the C++ parts on the shipped tables and fits: reading, fitting, simulating and
+// comparing; `per_step` is in seconds.
 #include <benchmark/benchmark.h>
 
 #include "viscontact/case_file/case_file.hpp"

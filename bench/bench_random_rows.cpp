@@ -1,15 +1,5 @@
-// Rows at random gaps, geometries, containers, motions and units, none of which may fail. Gaps are
-// log-uniform from 1e-6 to 10 radii, asked accuracies from 1e-5 to 1e-2; the units of radius,
-// viscosity and velocity each vary over ten decades.
-//
-//   bench_random_rows [ROWS=2000 [SEED=1]]
-//
-// Prints every row that fails, that has a larger error than its estimate, or that took longer than
-// all rows before it. Then prints for each kind of row how many there were and how many failed, the
-// median and the largest ratio of error to estimate where the exact drag is known, the largest
-// estimate over the asked accuracy, the largest difference between reactions and stress (row.idp),
-// and the CPU seconds of the median and the longest row. Ends with exit code 1 if a row failed.
-// 2000 rows take an hour of one core.
+// Rows at random gaps, geometries, containers, motions and units, none of which may fail; the units
+// of radius, viscosity and velocity each vary over ten decades.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -45,7 +35,6 @@ double cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-/// A row of the bench, in its own units.
 struct RandomRow {
   std::string kind;
   freefem_axi::Tabulation tabulation;
@@ -219,6 +208,14 @@ int measure(int rows, std::uint64_t seed) {
 }  // namespace
 }  // namespace viscontact
 
+// bench_random_rows [ROWS=2000 [SEED=1]]
+//
+// Prints every row that fails, that has a larger error than its estimate, or that took longer than
+// all rows before it. Then prints for each kind of row how many there were and how many failed, the
+// median and the largest ratio of error to estimate where the exact drag is known, the largest
+// estimate over the asked accuracy, the largest difference between reactions and stress (row.idp),
+// and the CPU seconds of the median and the longest row. Ends with exit code 1 if a row failed.
+// 2000 rows take an hour of one core.
 int main(int argc, char** argv) {
   try {
     return viscontact::measure(argc > 1 ? std::atoi(argv[1]) : 2000,

@@ -1,7 +1,5 @@
-// Benchmark of rows of the tabulation: error against exact solutions, error estimate, computing
-// time and memory; then the error of a textbook script (textbook.edp) in the same computing time.
-// Radius, viscosity and speed are 1; times are CPU times in seconds. An Error ends the program with
-// its message. bench/run runs it.
+// Rows of the tabulation: error against exact solutions, error estimate, CPU time [s] and memory;
+// then the error of a textbook script (textbook.edp) in the same time.
 #include <fmt/format.h>
 #include <sys/resource.h>
 

@@ -1,16 +1,5 @@
-// Benchmark of many particles: N discs or spheres fall into a box. Prints CPU time, iterations,
-// residual and memory for each STRETCH of time.
-//
-//   box2d [--count N] [--until T] [--max-iterations K] [--tolerance X] [--impulse-tolerance X]
-//         [--threads N] [--print STRETCH] [--friction MU] [--method fixed_point|convex]
-//         [--gamma-min G] [--dimension 2|3] [--sides walls|periodic]
-//
-// The discs start on a lattice of spacing 2.1 with random displacements up to 0.05, in a box of
-// width 2.1 ceil(sqrt N) with a floor and two walls. Radii are 0.8 to 1, m = r^2, gravity is 1, the
-// time step is 0.05; gamma_min is -2 unless --gamma-min gives it. Spheres (m = r^3) start in the
-// same way in a cube of width 2.1 (N^(1/3)) with a floor and four walls. With `--sides periodic`
-// only the floor is there, and the other sides are periodic. CPU time is in seconds, the residual
-// in units of the mean radius.
+// Many particles: N discs or spheres fall into a box. CPU time [s], iterations, residual (in mean
+// radii) and memory for each STRETCH of time.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -45,6 +34,14 @@ double cpu_seconds() {
 
 }  // namespace
 
+// box2d [--count N] [--until T] [--max-iterations K] [--tolerance X] [--impulse-tolerance X]
+//       [--threads N] [--print STRETCH] [--friction MU] [--method fixed_point|convex]
+//       [--gamma-min G] [--dimension 2|3] [--sides walls|periodic]
+//
+// The discs start on a lattice of spacing 2.1 with random displacements up to 0.05, in a box of
+// width 2.1 ceil(sqrt N) with a floor and two walls. Radii are 0.8 to 1, m = r^2, gravity is 1, the
+// time step is 0.05. Spheres (m = r^3) start in the same way in a cube of width 2.1 (N^(1/3)) with
+// a floor and four walls. With `--sides periodic` only the floor is there.
 int main(int argc, char** argv) {
   std::map<std::string, std::string> o = {{"--count", "1000"},
                                           {"--until", "10"},

@@ -1,7 +1,5 @@
-// Benchmark of many particles: columns of equal discs or spheres under gravity, and chains that are
-// pushed at one end. Prints iterations, CPU time and relative error of gamma for each number of
-// particles and dimension. Radii, masses and gravity are 1. It takes no arguments; an Error ends
-// the program.
+// Columns of equal discs or spheres under gravity, and chains that are pushed at one end:
+// iterations, CPU time and relative error of gamma. Radii, masses and gravity are 1.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
-// Random lengths and medians for benchmarks over random rows. Numbers have any dimension; nothing
-// is checked or thrown. The benchmarks of this folder use it.
+// Random lengths and medians for benchmarks over random rows.
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <vector>
 
@@ -10,13 +10,15 @@
 
 namespace viscontact {
 
-/// A random number between `from` and `to`, both > 0, whose logarithm is uniformly distributed.
+/// A random number between `from` and `to`, whose logarithm is uniformly distributed.
 inline double log_uniform(SplitMix64& random, double from, double to) {
+  assert(from > 0 && to > 0);
   return from * std::pow(to / from, random.unit());
 }
 
-/// The median of at least one value; of an even number, the larger of the two in the middle.
+/// Of an even number of values, the larger of the two in the middle.
 inline double median(std::vector<double> values) {
+  assert(!values.empty());
   std::ranges::sort(values);
   return values[values.size() / 2];
 }

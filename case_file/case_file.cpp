@@ -1,12 +1,7 @@
-// Reads the case file of one sphere, for app/, pipeline/, sweep/, report/, results/ and python/.
-// Numbers are in any consistent units, and finite: radius [L], viscosity [M/(L T)], mass [M], gaps
-// [L] and times [T] are positive; velocities [L/T], forces [M L/T^2] and gravity [L/T^2] have any
-// sign. A wrong value is an Error(kBadInput) that names the line; a missing file or section is an
-// Error(kBadInput) without a line. A change must keep the keys and their defaults, because users
-// have written cases with them. A new key must be added to docs/case-file.md. A new parameter of a
-// model needs no change here, because reduced_model/models/ lists the parameters.
+// The keys of the case of one sphere, and the checks of their values.
 #include "viscontact/case_file/case_file.hpp"
 
+#include <cassert>
 #include <cmath>
 #include <system_error>
 #include <utility>
@@ -28,8 +23,8 @@ using lubrication::BelowInterval;
 using reduced_model::ExternalForce;
 using reduced_model::Motion;
 
-/// Reads the key `fix`, which fixes the coefficient of 1/q in the force, with the gap q. The value
-/// of the key is the coefficient [M L^2/T^2], or "theory" for that of lubrication theory.
+/// The key `fix`, which fixes the coefficient of 1/q in the force, with the gap q. The value of the
+/// key is the coefficient [M L^2/T^2], or "theory" for that of lubrication theory.
 void read_fix(const TomlSection& section, std::string_view key, fitting::FitSettings& settings) {
   settings.fix_leading = true;
   if (!section.is_text(key))
@@ -40,10 +35,9 @@ void read_fix(const TomlSection& section, std::string_view key, fitting::FitSett
                     section.text(key));
 }
 
-/// Declares the keys of [fit]: a fit file, relative to `folder` (the folder of the case), or the
-/// exact drag, or else the settings of a fit of the table; and what replaces the fit at gaps
-/// outside its interval. Throws Error(kBadInput) for a wrong value, and for `terms` together with
-/// `basis`.
+/// The keys of [fit]: a fit file, relative to `folder` (the folder of the case), or the exact drag,
+/// or else the settings of a fit of the table; and what replaces the fit outside its interval.
+/// Throws Error(kBadInput) for `terms` together with `basis`.
 void fit_keys(Keys& keys, FitRequest& fit, const fs::path& folder) {
   const auto read_file_name = [&](const TomlSection& section, std::string_view key) {
     fit.file = folder / section.file_name(key);
@@ -106,9 +100,8 @@ void fit_keys(Keys& keys, FitRequest& fit, const fs::path& folder) {
                  "\"stokes_limit\""});
 }
 
-/// The keys of a piece of the external force: `until` [T], and `value` [M L/T^2] or a polynomial of
-/// the time. The piece begins at the time at which the piece before it ends. Throws
-/// Error(kBadInput) if the case gives both, or none.
+/// A piece of the external force: `until` [T], and `value` [M L/T^2] or a polynomial of the time
+/// since the end of the piece before. Throws Error(kBadInput) if the case gives both, or none.
 void piece_keys(Keys& keys, ExternalForce::Piece& piece) {
   keys.required("until", number(piece.until, kPositive),
                 {"end of a piece of the force; the pieces follow each other from time 0"});
@@ -127,8 +120,7 @@ void piece_keys(Keys& keys, ExternalForce::Piece& piece) {
                   {"the constant force of the piece", "required without `polynomial`"});
 }
 
-/// Declares the keys of a sinusoidal force: the amplitude [M L/T^2], the angular frequency
-/// [1/T], > 0, and the phase in radians.
+/// A force with amplitude [M L/T^2], angular frequency [1/T] and phase in radians.
 void sinusoid_keys(Keys& keys, ExternalForce::Sinusoid& sinusoid) {
   keys.required("amplitude", number(sinusoid.amplitude, kFinite),
                 {"the force is `amplitude` sin(`angular_frequency` t + `phase`)"});
@@ -143,7 +135,7 @@ void force_file_keys(Keys& keys, std::string& file) {
 
 /// The path of a file that the case names relative to `folder`, the folder of the case. If there is
 /// no such file, but `folder` itself contains a file of the same name, returns the path of that
-/// file, because a run copies the case and the files that it names into one folder. Throws nothing.
+/// file, because a run copies the case and the files that it names into one folder.
 fs::path force_file(const fs::path& folder, const fs::path& file) {
   const auto copy = folder / file.filename();
   // exists() fails for a text that cannot be the name of a file; reading the file reports it.
@@ -151,9 +143,8 @@ fs::path force_file(const fs::path& folder, const fs::path& file) {
   return !fs::exists(folder / file, ignored) && fs::exists(copy, ignored) ? copy : folder / file;
 }
 
-/// Reads `external_force` [M L/T^2]. The entries with `until` follow each other and make one force.
-/// Every other entry, a sinusoid or a file, is added to this force. Throws Error(kBadInput) for a
-/// wrong entry or file, and if the entries with `until` end before `end_time`.
+/// The entries with `until` follow each other and make one force [M L/T^2]. Every other entry, a
+/// sinusoid or a file, is added to it. Throws Error(kBadInput) if those with `until` end early.
 void read_forces(const TomlSection& section, std::string_view key, Motion& motion, Case& c) {
   const double end_time = motion.end_time;
   std::vector<ExternalForce::Piece> pieces;
@@ -180,7 +171,7 @@ void read_forces(const TomlSection& section, std::string_view key, Motion& motio
   for (const auto& summand : summands) motion.external_force += summand;
 }
 
-/// Reads a list of different gaps > 0.
+/// The gaps are > 0 and differ.
 void read_gaps_to_reach(const TomlSection& section, std::string_view key, Motion& motion) {
   motion.gaps_to_reach = section.numbers(key, kPositive);
   auto sorted = motion.gaps_to_reach;
@@ -190,8 +181,7 @@ void read_gaps_to_reach(const TomlSection& section, std::string_view key, Motion
                   twice == sorted.end() ? 0 : *twice);
 }
 
-/// A list of names of models. Reading throws Error(kBadInput) if one of them is not the name of a
-/// model.
+/// A list of names of models.
 auto models(std::vector<std::string>& place) {
   return custom("a list of names", [&](const TomlSection& section, std::string_view key) {
     place = section.texts(key);
@@ -200,8 +190,8 @@ auto models(std::vector<std::string>& place) {
   });
 }
 
-/// The keys of [motion]. `time_scale` [1], > 0, keeps its value if the case does not give it.
-/// Throws Error(kBadInput) for a wrong value, and if the weight is not finite.
+/// `time_scale` [1], > 0, keeps its value if the case does not give it. Throws Error(kBadInput) if
+/// the weight is not finite.
 void motion_keys(Keys& keys, Case& c, Motion& motion, double& time_scale) {
   keys.required("end_time", number(motion.end_time, kPositive),
                 {.meaning = "end of the motion", .example = "4.0"});
@@ -241,8 +231,7 @@ void motion_keys(Keys& keys, Case& c, Motion& motion, double& time_scale) {
                  "the first six of `viscontact simulate --help`",
                  {},
                  "[\"inertial\", \"viscous_contact\"]"});
-  // The first and the last row are always written. The upper limit is a free choice within int: a
-  // file of 1e8 rows has about 12 GB.
+  // The first and the last row are always written. A file of 1e8 rows has about 12 GB.
   keys.optional("rows", count(motion.output_rows, 2, 100'000'000),
                 {"about how many rows a trajectory file has",
                  "[all](file-formats.md#fewer-rows)",
@@ -255,8 +244,8 @@ void motion_keys(Keys& keys, Case& c, Motion& motion, double& time_scale) {
        "and the times of files are those of the unscaled time"});
 }
 
-/// Reads the heights of the roughness of sphere and plane [L] into `place`. Throws Error(kBadInput)
-/// unless they are two numbers >= 0 whose sum is less than `radius`.
+/// The heights of the roughness of sphere and plane [L]. Throws Error(kBadInput) unless they are
+/// two numbers >= 0 whose sum is less than `radius`.
 void read_roughness(const TomlSection& section, std::string_view key, const double& radius,
                     std::array<double, 2>& place) {
   const auto heights = section.numbers(key, kNotNegative);
@@ -270,11 +259,10 @@ void read_roughness(const TomlSection& section, std::string_view key, const doub
   place = {heights[0], heights[1]};
 }
 
-/// The keys of `section`: those parameters of models that belong to this section, and in one
-/// section the roughness, which is a property of the surfaces and no parameter of a model. The
-/// caller has given each parameter of the motion its default (set_default_parameters). Throws
-/// Error(kBadInput) for a value that is not allowed, a time step that is longer than the motion, or
-/// a coefficient of restitution without roughness.
+/// Those parameters of models that belong to `section`, and in one section the roughness, which is
+/// a property of the surfaces and no parameter of a model. Each parameter of the motion has its
+/// default already (set_default_parameters). Throws Error(kBadInput) for a time step that is longer
+/// than the motion, or a coefficient of restitution without roughness.
 void model_keys(Keys& keys, Case& c, Motion& motion, std::string_view section) {
   const double radius = c.radius;
   for (const auto& parameter : reduced_model::model_parameters()) {
@@ -302,18 +290,19 @@ void model_keys(Keys& keys, Case& c, Motion& motion, std::string_view section) {
                  motion.restitution());
 }
 
-/// Gives each parameter of the models its default for this motion and this radius [L]. All defaults
-/// are computed before the first one is set, so that none depends on another one.
+/// Sets the defaults for this motion and this radius [L]. All defaults are computed before the
+/// first one is set, so that none depends on another one.
 void set_default_parameters(Motion& motion, double radius) {
+  assert(radius > 0);
   const auto parameters = reduced_model::model_parameters();
   std::vector<double> values;
   for (const auto& parameter : parameters) values.push_back(parameter.fallback(motion, radius));
   for (std::size_t i = 0; i < values.size(); ++i) motion.set(parameters[i], values[i]);
 }
 
-/// Multiplies all times of the motion by `scale` > 0. Throws Error(kBadInput) if a time is then no
-/// normal double.
+/// Multiplies all times by `scale`. Throws Error(kBadInput) if one is then no normal double.
 void stretch(const TomlSection& section, double scale, Motion& motion) {
+  assert(scale > 0);
   bool representable = std::isnormal(motion.end_time);
   const auto stretched = [&](double time) {
     representable = representable && std::isnormal(time * scale);
@@ -328,11 +317,10 @@ void stretch(const TomlSection& section, double scale, Motion& motion) {
                   scale);
 }
 
-/// A motion without a force. Its other values are set later, where the keys are read or described.
+/// Its values are set later, where the keys are read or described.
 Motion empty_motion() { return {0, 0, 0, 0, ExternalForce({{1, 0}})}; }
 
-/// Reads [motion] and the sections with parameters of models. A section that exists is checked even
-/// if no model uses it.
+/// A section with parameters of models is checked even if no model uses it.
 Motion read_motion(const TomlSection& root, double mass, Case& c) {
   const auto section = root.section("motion");
   auto motion = empty_motion();
@@ -352,8 +340,6 @@ void published_keys(Keys& keys, PublishedGap& published) {
   keys.required("source", text(published.source), {"where it was published"});
 }
 
-/// Declares the keys of [sweep]. Throws Error(kBadInput) for an unknown model. Whether the varied
-/// keys and the columns exist is not checked here.
 void sweep_keys(Keys& keys, SweepRequest& sweep) {
   keys.required("vary", texts(sweep.vary), {"`KEY=RANGE` each, as on the command line"});
   keys.optional("models", models(sweep.models), {"the models that are run", "that of the command"});
@@ -362,8 +348,7 @@ void sweep_keys(Keys& keys, SweepRequest& sweep) {
   points_and_plot_keys(keys, sweep);
 }
 
-/// Throws Error(kBadInput) if the fit or a model uses the exact drag near a plane although the
-/// geometry is another one.
+/// Refuses the exact drag near a plane for other geometries.
 void check_exact_drag(const TomlSection& root, const Case& c) {
   if (!c.tabulation || freefem_axi::find_geometry(c.tabulation->geometry).has_exact_drag) return;
   if (c.fit)
@@ -378,8 +363,7 @@ void check_exact_drag(const TomlSection& root, const Case& c) {
         model, c.tabulation->geometry);
 }
 
-/// The part of the case that its section `section` gives. Throws Error(kBadInput), which names the
-/// section, if the case does not have it.
+/// Throws Error(kBadInput), which names the section, if the case does not have this part.
 template <class Part>
 const Part& required(const std::optional<Part>& part, const Case& c, std::string_view section) {
   if (!part)
@@ -389,9 +373,6 @@ const Part& required(const std::optional<Part>& part, const Case& c, std::string
 
 }  // namespace
 
-/// The kind of a case: that of the first of the sections [space] (particles), [swimmer] and
-/// [rolling] that it has, and one sphere if it has none of them. Throws Error(kBadInput) for a
-/// pipe, and for a file that cannot be read or is not valid TOML.
 CaseKind kind_of_case(const fs::path& path) {
   std::error_code none;  // read_toml_file() says what is wrong
   if (fs::is_fifo(path, none))
@@ -403,9 +384,6 @@ CaseKind kind_of_case(const fs::path& path) {
   return root.has("rolling") ? CaseKind::kRolling : CaseKind::kSphere;
 }
 
-/// Reads all members of `c` but `text` and `path` from the root table of the file. c.path must be
-/// set before, because the case names files relative to its folder. Throws Error(kBadInput) for a
-/// wrong, missing or unknown key.
 void read_root(const TomlSection& root, Case& c) {
   read_title_and_units(root, c, true);
   read_keys(root.section("fluid"), fluid_keys, c.viscosity, c.fluid_density);
@@ -429,9 +407,6 @@ void read_root(const TomlSection& root, Case& c) {
   root.finish();
 }
 
-/// The fit, scaled to radius and viscosity of the case. Throws Error(kBadInput) if it has an
-/// unknown term, or was made for another radius and for a geometry or container whose lengths in
-/// radii are not those of the case.
 lubrication::Fit fit_for(const Case& c, lubrication::Fit fit, const fs::path& file) {
   const double radius = fit.radius;
   fit = lubrication::scaled_to(std::move(fit), c.viscosity, c.radius);
@@ -457,12 +432,9 @@ std::vector<std::string_view> sections_with_defaults<Case>() {
 
 Case read_case(const fs::path& path) { return read_case_file<Case>(path); }
 
-/// The tables of docs/case-file.md, one for each section, in the order of the page. Nothing is
-/// thrown.
 std::vector<KeyTable> tables_of_sphere_case() {
-  // docs/case-file.md shows the default of a model's parameter as its example. The default can
-  // depend on the motion and the radius, which therefore get here the values that are the examples
-  // of their own keys.
+  // docs/case-file.md shows the default of a model's parameter as its example. It can depend on the
+  // motion and the radius, which get here the examples of their own keys.
   auto motion = empty_motion();
   motion.end_time = 4;
   motion.initial_gap = 1;

@@ -1,24 +1,9 @@
-// Declarations of the keys of a case file. A function with a Keys object as its first argument
-// declares the keys of a section, each once, with its name, its place (the variable into which its
-// value is read), allowed values, default and meaning. The same function reads the section of a
-// case, with the errors of TomlSection, and describes it for the tables of docs/case-file.md and
-// for `viscontact init`:
-//
-//     void solver_keys(Keys& keys, SolverSettings& settings) {
-//       keys.optional("tolerance", number(settings.tolerance, kTolerance), {"tolerance of the
-//       gaps"});
-//     }
-//     read_keys(root.section("solver"), solver_keys, settings);
-//     describe_keys("[solver]", solver_keys);
-//
-// The readers of cases in case_file/, particles/, rolling/ and swimmer/ use this file. Values have
-// the units of the case. Reading throws Error(kBadInput) with file, line and key; describing throws
-// nothing. Words and examples in declarations may be changed; a change must keep keys and defaults,
-// on which users' cases rely. After a change of a declaration the tables of docs/case-file.md must
-// be made again; the test CaseFilePage makes them and says where.
+// Declarations of the keys of case files. One function of a Keys object declares the keys of a
+// section, reads them, and describes them for docs/case-file.md and `viscontact init`.
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <functional>
 #include <initializer_list>
@@ -35,9 +20,8 @@
 
 namespace viscontact::case_file {
 
-/// Calls `check`, a function of another part of the program that tests the value of `key`, and
-/// returns its result. If it throws an Error of any kind, throws an Error(kBadInput) that also
-/// names the key and its line in the case file.
+/// Returns check(), which tests the value of `key`. If it throws an Error of any kind, throws an
+/// Error(kBadInput) that also names the key and its line in the case file.
 template <class Check>
 auto at_key(const TomlSection& section, std::string_view key, const Check& check)
     -> decltype(auto) {
@@ -48,72 +32,81 @@ auto at_key(const TomlSection& section, std::string_view key, const Check& check
   }
 }
 
-/// What docs/case-file.md says about a section: a table with a row for each key.
+/// A section in docs/case-file.md (made by the test CaseFilePage): a table with a row for each key.
 struct KeyTable {
-  /// A row of the table, which describes a key in Markdown.
+  /// The texts are in Markdown.
   struct Row {
-    std::string key;       ///< its name
-    std::string value;     ///< which values are allowed
+    std::string key;
+    std::string value;     ///< allowed values
     std::string fallback;  ///< its default, or "required"
-    std::string meaning;   ///< what it does
-    std::string example;   ///< a value for `viscontact init`; empty: none
+    std::string meaning;
+    std::string example;  ///< for `viscontact init`; empty: none
   };
   std::string section;    ///< such as "[solver]" or "[[plane]]"
   std::vector<Row> rows;  ///< in the order of the declarations
 
-  /// The rows as a table in Markdown.
+  /// The table in Markdown.
   std::string markdown() const;
 };
 
-/// The text of a case with these sections, for `viscontact init`: each key has a value as an
-/// example, under a comment with its meaning. Keys with a default are commented out. A table is
-/// left out if a required key has no example, or if its name does not begin with "[", because it
-/// then describes keys within a value.
+/// The text of a case with these sections, for `viscontact init`: each key has its example as
+/// value, under a comment with its meaning. Keys with a default are commented out. A table is left
+/// out if a required key has no example, or if its name does not begin with "[", because it then
+/// describes keys within a value.
 std::string commented_case(std::span<const KeyTable> tables);
 
-/// What a declaration says about a key in words, in Markdown. An empty text means that there are no
-/// such words.
+/// The words of a declaration, in Markdown; each text may be empty.
 struct Help {
-  std::string_view meaning = {};   ///< what the key does
+  std::string_view meaning = {};
   std::string_view fallback = {};  ///< the default, if the place does not contain it
   std::string_view value = {};     ///< the allowed values, if KeyValue::words is not enough
   std::string_view example = {};   ///< for `viscontact init`, if it is not the default
 };
 
-/// How the value of a key is read and described. A KeyValue has a reference to the place into which
-/// it reads, such as a member of a struct; the place must outlive the KeyValue.
+/// How the value of a key is read and described. The place must outlive the KeyValue.
 struct KeyValue {
-  /// Reads the value of a key that the section has.
+  /// Called only if the section has the key.
   std::function<void(const TomlSection& section, std::string_view key)> read;
-  std::function<std::string()> words;  ///< which values are allowed, in Markdown
-  /// The value that the place has now, which is the default, in Markdown; empty: none.
+  std::function<std::string()> words;  ///< allowed values, in Markdown
+  /// The value of the place, which is the default, in Markdown; empty: none.
   std::function<std::string()> fallback = [] { return std::string(); };
 };
 
-/// The first argument of a declaration. It either reads the keys of a section into their places, or
-/// describes them in a table.
+/// The first argument of a declaration. It either reads a section or describes it in a table:
+///
+///     void solver_keys(Keys& keys, SolverSettings& settings) {
+///       keys.optional("tolerance", number(settings.tolerance, kTolerance), {"of the gaps"});
+///     }
+///     read_keys(root.section("solver"), solver_keys, settings);
+///     describe_keys("[solver]", solver_keys);
+///
+/// Each key is declared once, with its name, its place (the variable into which its value is read),
+/// allowed values, default and meaning.
 class Keys {
  public:
-  explicit Keys(const TomlSection& section) : section_(&section) {}  ///< for reading this section
-  explicit Keys(KeyTable& table) : table_(&table) {}                 ///< for describing: adds rows
+  explicit Keys(const TomlSection& section) : section_(&section) {}
+  explicit Keys(KeyTable& table) : table_(&table) {}  ///< adds rows
 
-  bool reads() const { return section_ != nullptr; }        ///< true: reads; false: describes
-  const TomlSection& section() const { return *section_; }  ///< only if reads() (not checked)
-  /// True if this object reads (reads() is true) and the section has the key.
+  bool reads() const { return section_ != nullptr; }
+  const TomlSection& section() const {
+    assert(reads());
+    return *section_;
+  }
+  /// False if this object describes.
   bool has(std::string_view key) const { return reads() && section_->has(key); }
 
   // If this object reads, the declarations below throw Error(kBadInput) with file, line and key for
   // a key that is missing or has a value that is not allowed.
-  /// Declares a key that a case must have.
+
+  /// A key that a case must have.
   void required(std::string_view key, const KeyValue& value, const Help& help);
-  /// Declares a key that a case may have. If the case does not have it, the place keeps its value,
-  /// which is the default. Returns true if the key was read.
+  /// A key that a case may have. If the case does not have it, the place keeps its value, which is
+  /// the default. Returns true if the key was read.
   bool optional(std::string_view key, const KeyValue& value, const Help& help);
-  /// Declares a key that the case must have if the condition is true, and may have otherwise.
+  /// A key that the case must have if the condition is true, and may have otherwise.
   void required_if(bool condition, std::string_view key, const KeyValue& value, const Help& help);
 
-  /// Throws Error(kBadInput) with file, line and key if this object reads and the condition is
-  /// false; `what` is a format with these arguments.
+  /// Throws Error(kBadInput) if this object reads and the condition is false.
   template <class... Arguments>
   void require(bool condition, std::string_view key, fmt::format_string<Arguments...> what,
                Arguments&&... arguments) const {
@@ -121,6 +114,8 @@ class Keys {
   }
 
  private:
+  // Adds a row. A text of `help` that is not empty replaces that of `value` or `fallback`; without
+  // an example in `help` the default is the example.
   void describe(std::string_view key, const KeyValue& value, std::string fallback,
                 const Help& help);
 
@@ -128,13 +123,12 @@ class Keys {
   KeyTable* table_ = nullptr;
 };
 
-/// True if the error says that a key is missing.
 bool names_missing_key(const Error& error);
-/// Throws Error(kBadInput) for a key of the section that is not in the table.
+/// Throws Error(kBadInput) for a key that is not in the table.
 void refuse_unknown_keys(const TomlSection& section, const KeyTable& table);
 
-/// Reads the section into `places` by its declaration. Throws Error(kBadInput) for a key that is
-/// missing, has a value that is not allowed, or is not declared.
+/// Reads the section into `places`. Throws Error(kBadInput) for a key that is missing, has a value
+/// that is not allowed, or is not declared.
 template <class Declaration, class... Places>
 void read_keys(const TomlSection& section, const Declaration& declaration, Places&&... places) {
   Keys keys(section);
@@ -153,9 +147,8 @@ void read_keys(const TomlSection& section, const Declaration& declaration, Place
   section.finish();
 }
 
-/// The table of `section`, with a row for each key that `declaration` declares. The first place of
-/// the declaration is a new object, whose values are the defaults in the table; `more` are its
-/// other places.
+/// The table of `section`. The first place of the declaration is a new object, whose values are the
+/// defaults in the table; `more` are its other places.
 template <class Place, class... More>
 KeyTable describe_keys(std::string section, void (*declaration)(Keys&, Place&, More...),
                        std::type_identity_t<More>... more) {
@@ -166,24 +159,23 @@ KeyTable describe_keys(std::string section, void (*declaration)(Keys&, Place&, M
   return table;
 }
 
-/// A whole number that may be greater than the largest int, such as a number of rows. The limit
-/// 1e12 is a free choice up to 9e15, up to which a double holds each whole number;
-/// sweep/variation.cpp has the same limit for the points of a sweep.
+/// A whole number that may be greater than the largest int, such as a number of rows. A double
+/// holds each whole number up to 9e15. sweep/variation.cpp has the same limit.
 inline constexpr Allowed kWholeNumber = {
     [](double v) { return v >= 1 && v <= 1e12 && v == std::floor(v); },
     "from 1 to 1e12 without a fraction"};
 
-/// A number between 0 and 1, both excluded, such as an accuracy.
+/// A number such as an accuracy.
 inline constexpr Allowed kFraction = {[](double v) { return v > 0 && v < 1; }, "> 0 and < 1"};
 
-/// A number as text for the tables, such as "1e-6".
+/// The number in its shortest form, such as "1e-6".
 std::string number_in_words(double number);
 
-// Each function below returns the KeyValue of a key with the described type of value. It has a
-// reference to `place`, which must live until the key is declared.
+// Each function below returns the KeyValue of a key, with a reference to `place`, which must live
+// until the key is declared.
 
-/// A value of any type. `words` says which values are allowed, and read(section, key, places...)
-/// reads the value into the places and throws if it is not allowed.
+/// A value of any type. `words` says which are allowed; read(section, key, places...) throws for
+/// others.
 template <class Read, class... Places>
 KeyValue custom(std::string_view words, Read read, Places&... places) {
   return {[read, &places...](const TomlSection& section, std::string_view key) {
@@ -211,6 +203,7 @@ KeyValue number(Place& place, const Allowed& allowed) {
 /// A whole number in [least, most], which the case gives without a decimal point.
 template <class Place>
 KeyValue count(Place& place, int least, int most) {
+  assert(least <= most);
   return {[&place, least, most](const TomlSection& section, std::string_view key) {
             place = static_cast<Place>(section.count(key, least, most));
           },
@@ -220,7 +213,7 @@ KeyValue count(Place& place, int least, int most) {
 
 /// A text, which may be empty.
 KeyValue text(std::string& place);
-/// The name of a file, which is not empty.
+/// A text that is not empty.
 KeyValue file_name(std::string& place);
 /// A list of at least one text.
 KeyValue texts(std::vector<std::string>& place);
@@ -229,7 +222,7 @@ KeyValue texts(std::vector<std::string>& place);
 KeyValue numbers(std::vector<double>& place, const Allowed& allowed, std::string_view words);
 
 /// A text that parse(text) turns into the value. An Error that `parse` throws becomes an
-/// Error(kBadInput) with file, line and key. `words` says which texts are allowed.
+/// Error(kBadInput) with file, line and key.
 template <class Place, class Parse>
 KeyValue parsed(std::string_view words, Place& place, const Parse& parse) {
   return custom(words, [&place, parse](const TomlSection& section, std::string_view key) {
@@ -238,11 +231,11 @@ KeyValue parsed(std::string_view words, Place& place, const Parse& parse) {
   });
 }
 
-/// A text that must be one of `words`, the first parts of pairs. `place` gets the second part of
-/// the pair. Another text throws Error(kBadInput). `words` must live as long as the KeyValue, as
-/// they do if both are made in one expression.
+/// A text that must be one of `words`, each of which stands before its value. `words` must live as
+/// long as the KeyValue, as they do if both are made in one expression.
 template <class Meaning>
 KeyValue one_of(Meaning& place, std::initializer_list<std::pair<std::string_view, Meaning>> words) {
+  assert(words.size() > 0);
   using Word = std::pair<std::string_view, Meaning>;
   const std::span<const Word> allowed(words.begin(), words.size());
   const auto joined = [allowed](std::string_view between) {
@@ -265,7 +258,7 @@ KeyValue one_of(Meaning& place, std::initializer_list<std::pair<std::string_view
           }};
 }
 
-/// Declares the key `viscosity` [M/(L T)], > 0, of the section [fluid].
+/// The key `viscosity` [M/(L T)], > 0, of the section [fluid].
 void viscosity_keys(Keys& keys, double& viscosity);
 
 }  // namespace viscontact::case_file

@@ -1,13 +1,8 @@
-// Reads the sections [fluid], [sphere] and [tabulation] (gaps, velocities, geometry, container) of
-// one sphere or a rolling one, for case_file.cpp and rolling/. Numbers are in the units of the
-// case: viscosity [M/(L T)], radius and lengths [L], mass [M] are positive; the density of the
-// fluid [M/L^3] is >= 0; reference velocities [L/T] (angular ones [1/T]) are not 0; gaps [L] are at
-// least 1e-8 radii. A wrong value is an Error(kBadInput) with its line. A change must keep the gaps
-// of a grid bit for bit, because finished rows and tables are found again by their gaps.
-// docs/case-file.md repeats kSmallestGap and kLargestLength.
+// The keys of [fluid], [sphere] and [tabulation].
 #include "viscontact/case_file/shared_sections.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -22,33 +17,29 @@ namespace {
 using freefem_axi::Container;
 using freefem_axi::Tabulation;
 
-// Smallest gap divided by the radius. At smaller gaps the matrices of FreeFEM are too
-// ill-conditioned for double precision.
+// In radii. At smaller gaps FreeFEM's matrices are too ill-conditioned for double precision.
 constexpr double kSmallestGap = 1e-8;
 
 double ball_volume(double radius) { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
 
-/// `count` >= 2 gaps from `from` > 0 to `to` > `from` [L], with equal ratios of neighbours if
-/// is_logarithmic, else with equal differences.
+/// `count` gaps [L] with equal ratios of neighbours if is_logarithmic, else with equal differences.
 struct GapGrid {
   double from = 0, to = 0;
   int count = 0;
   bool is_logarithmic = true;
 };
 
-/// Declares the keys of a grid of gaps: `from` and `to` [L], `count` and `spacing`.
 void grid_keys(Keys& keys, GapGrid& grid) {
   keys.required("from", number(grid.from, kPositive), {"the smallest gap"});
   keys.required("to", number(grid.to, kPositive), {"the largest gap, greater than `from`"});
-  // The largest number of gaps is a free choice.
   keys.required("count", count(grid.count, 2, 100000), {"the number of gaps"});
   keys.required("spacing", one_of(grid.is_logarithmic, {{"log", true}, {"linear", false}}),
                 {"equal ratios of neighbours, or equal differences"});
 }
 
-/// Reads a list of gaps [L], or a grid, into tabulation.gaps, in rising order. Throws
-/// Error(kBadInput) for a gap that occurs twice, a grid whose `to` is not greater than `from`, or a
-/// grid with more gaps than there are doubles between its ends.
+/// A list of gaps [L], or a grid, which is sorted. Finished rows and tables are found again by
+/// their gaps, bit for bit. Throws Error(kBadInput) for a gap that occurs twice, a grid whose `to`
+/// is not greater than `from`, or a grid with more gaps than there are doubles between its ends.
 void read_gaps(const TomlSection& section, std::string_view key, Tabulation& tabulation) {
   auto& gaps = tabulation.gaps;
   if (section.is_array(key)) {
@@ -73,10 +64,8 @@ void read_gaps(const TomlSection& section, std::string_view key, Tabulation& tab
                 count, from, to);
 }
 
-/// Declares the keys of tabulation.geometry other than `kind`: one for each parameter of this
-/// geometry, in the order of geometry.parameters. Their values are added to
-/// tabulation.geometry_parameters in the same order. A key whose parameter has no default is
-/// required.
+/// One key for each parameter of this geometry; the values are added to
+/// tabulation.geometry_parameters in the order of geometry.parameters.
 void geometry_keys(Keys& keys, Tabulation& tabulation, const freefem_axi::Geometry& geometry) {
   for (const auto& parameter : geometry.parameters) {
     double& value = tabulation.geometry_parameters.emplace_back(parameter.fallback.value_or(0));
@@ -87,8 +76,7 @@ void geometry_keys(Keys& keys, Tabulation& tabulation, const freefem_axi::Geomet
   }
 }
 
-/// Reads tabulation.geometry: the name of the geometry (`kind`) and its parameters. Throws
-/// Error(kBadInput) for an unknown geometry or key, or a wrong value.
+/// The name of the geometry (`kind`) and its parameters.
 void read_geometry(const TomlSection& parent, std::string_view key, Tabulation& tabulation) {
   const auto section = parent.section(key);
   tabulation.geometry = section.text("kind");
@@ -102,10 +90,8 @@ void container_keys(Keys& keys, Container& container) {
   keys.required("height", number(container.height, kPositive), {"distance of its ends"});
 }
 
-/// Reads a container. Throws Error(kBadInput) if the sphere and its neighbour, such as a plane, do
-/// not fit into it at every gap. The container is a closed cylinder, or "unbounded". Throws the
-/// same error if the geometry takes no container, and if the container is longer or wider than 2e5
-/// radii.
+/// A closed cylinder, or "unbounded". Throws Error(kBadInput) if the sphere and its neighbour, such
+/// as a plane, do not fit into it at every gap, or if it is longer or wider than 2e5 radii.
 void read_container(const TomlSection& section, std::string_view key, Tabulation& tabulation) {
   const auto& geometry = freefem_axi::find_geometry(tabulation.geometry);
   section.require(geometry.takes_container, key,
@@ -140,8 +126,7 @@ void read_container(const TomlSection& section, std::string_view key, Tabulation
   tabulation.container = container;
 }
 
-/// Reads the motions: a name, a list of names, or "all", which are all motions of the geometry.
-/// Throws Error(kBadInput) for a motion that the geometry does not have.
+/// A name, a list of names, or "all", which are all motions of the geometry.
 void read_motions(const TomlSection& section, std::string_view key, Tabulation& tabulation) {
   const auto names = section.is_array(key) ? section.texts(key) : std::vector{section.text(key)};
   tabulation.motions =
@@ -151,6 +136,7 @@ void read_motions(const TomlSection& section, std::string_view key, Tabulation& 
 /// Throws Error(kBadInput) unless all gaps, which rise, are from kSmallestGap radii to the largest
 /// gap for which the geometry has room.
 void check_gaps(const TomlSection& section, const Tabulation& tabulation) {
+  assert(!tabulation.gaps.empty());
   const double narrowest = tabulation.gaps.front(), widest = tabulation.gaps.back();
   section.require(narrowest >= kSmallestGap * tabulation.radius, "gaps",
                   "goes down to {}; a gap must be at least {} sphere radii, which is {}", narrowest,
@@ -159,15 +145,13 @@ void check_gaps(const TomlSection& section, const Tabulation& tabulation) {
                          .required_space(tabulation.radius, widest, tabulation.geometry_parameters);
   section.require(space.largest_gap > 0, "geometry",
                   "leaves no room for the sphere; give it a larger radius");
-  // largest_gap is the difference of two lengths, so that a gap of this size may exceed it by
-  // rounding errors.
+  // largest_gap is a difference of lengths, which a gap of this size may exceed by rounding.
   section.require(widest <= space.largest_gap * (1 + 1e-12), "gaps",
                   "goes up to {}; in this {} a gap must be at most {}", widest, tabulation.geometry,
                   space.largest_gap);
 }
 
-/// Reads the reference velocities [L/T] (angular ones [1/T]), in the order of the case. Throws
-/// Error(kBadInput) if one is 0 or occurs twice.
+/// The velocities stay in the order of the case. None is 0 or occurs twice.
 void read_velocities(const TomlSection& section, std::string_view key, Tabulation& tabulation) {
   auto velocities = tabulation.reference_velocities = section.numbers(key, kNotZero);
   std::ranges::sort(velocities);
@@ -175,8 +159,7 @@ void read_velocities(const TomlSection& section, std::string_view key, Tabulatio
                   "contains the same velocity twice; each velocity must be given once");
 }
 
-/// Declares the keys of [tabulation]. The order of the declarations must stay: the gaps and the
-/// geometry are read first, because motions and container are checked against them.
+/// Gaps and geometry come first, because motions and container are checked against them.
 void tabulation_keys(Keys& keys, Tabulation& tabulation) {
   keys.required("gaps", custom("a list, or `{ from, to, count, spacing }`", read_gaps, tabulation),
                 {.meaning = "the gaps q at which FreeFEM computes the force, at least 1e-8 r each",
@@ -214,9 +197,8 @@ void tabulation_keys(Keys& keys, Tabulation& tabulation) {
 
 }  // namespace
 
-/// Reads [tabulation] for a fluid of this viscosity [M/(L T)] and a sphere of this radius [L]. Both
-/// must be positive, which is not checked here. The gaps of the result rise.
 Tabulation read_tabulation(const TomlSection& section, double viscosity, double radius) {
+  assert(viscosity > 0 && radius > 0);
   Tabulation tabulation;
   tabulation.viscosity = viscosity;
   tabulation.radius = radius;
@@ -224,15 +206,12 @@ Tabulation read_tabulation(const TomlSection& section, double viscosity, double 
   return tabulation;
 }
 
-/// The tables of docs/case-file.md for [tabulation], its gaps and its container. Nothing is thrown.
 std::vector<KeyTable> tables_of_tabulation() {
   return {describe_keys("[tabulation]", tabulation_keys),
           describe_keys("tabulation.gaps", grid_keys),
           describe_keys("tabulation.container", container_keys)};
 }
 
-/// Declares the keys of [fluid]: the viscosity and the density. A density that is not given stays
-/// as it is.
 void fluid_keys(Keys& keys, double& viscosity, double& density) {
   viscosity_keys(keys, viscosity);
   keys.optional(
@@ -241,10 +220,6 @@ void fluid_keys(Keys& keys, double& viscosity, double& density) {
        .example = "0.0"});
 }
 
-/// Declares the keys of [sphere]: the radius [L], and the mass [M] or the density [M/L^3], all > 0.
-/// A density that is given sets `mass`, too; otherwise what is not given stays as it is. Throws
-/// Error(kBadInput) if both mass and density are given, if none of the two is although `needs_mass`
-/// is true, or if a double does not hold the mass.
 void sphere_keys(Keys& keys, double& radius, double& density, double& mass, bool needs_mass) {
   keys.required("radius", number(radius, kPositive),
                 {.meaning = "radius r of the sphere", .example = "1.0"});
@@ -273,9 +248,8 @@ void sphere_keys(Keys& keys, double& radius, double& density, double& mass, bool
                     "20.0"});
 }
 
-/// The mass [M] of a sphere minus that of the fluid that it displaces; negative if the fluid is
-/// denser. Nothing is checked, and the result may be infinite.
 double mass_less_displaced_fluid(double mass, double fluid_density, double radius) {
+  assert(mass > 0 && fluid_density >= 0 && radius > 0);
   return mass - fluid_density * ball_volume(radius);
 }
 

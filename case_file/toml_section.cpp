@@ -1,14 +1,11 @@
-// Reads TOML tables with toml++, for all readers of cases in case_file/, particles/, rolling/ and
-// swimmer/. Numbers are in the units of the file; each must be finite and pass the caller's test
-// `allowed`. Lists have at least one element. Every fault (also a missing file, invalid TOML, a
-// missing or unknown key, a wrong type) is an Error(kBadInput) with the file and, where there is
-// one, the line, counted from 1. In a change, every function that reads a key must note it in
-// `asked`, because finish() reports all other keys as unknown; has() does so.
+// Reads TOML by toml++. Every function that reads a key notes it in Node::asked (has() does so),
+// because finish() reports all other keys as unknown.
 #include "viscontact/case_file/toml_section.hpp"
 
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 #include <set>
@@ -21,20 +18,19 @@
 
 namespace viscontact::case_file {
 
-/// A table, where it stands, and which of its keys were asked for.
 struct TomlSection::Node {
   std::shared_ptr<const toml::table> root;  ///< keeps `table` alive
-  const toml::table* table = nullptr;       ///< the table of this section, in `root`
-  std::string file;                         ///< name of the file in messages
-  std::string path;                         ///< "tabulation.container"; empty for the root
-  std::set<std::string> asked;              ///< keys that were asked for
+  const toml::table* table = nullptr;
+  std::string file;             ///< in messages
+  std::string path;             ///< "tabulation.container"; empty for the root
+  std::set<std::string> asked;  ///< keys that were asked for
 };
 
 namespace {
 
 int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
 
-/// The value of a node as text for a message; a decimal number in its shortest form.
+/// The value for a message; a decimal number in its shortest form.
 std::string show(const toml::node& node) {
   if (const auto number = node.value_exact<double>()) return fmt::format("{}", *number);
   std::ostringstream text;
@@ -42,15 +38,15 @@ std::string show(const toml::node& node) {
   return text.str();
 }
 
-/// The value of a node, or nothing if it is not a finite number that is allowed.
+/// Nothing if the node is not a finite number that is allowed.
 std::optional<double> allowed_number(const toml::node& node, const Allowed& allowed) {
   const auto value = node.is_number() ? node.value<double>() : std::nullopt;
   return value && std::isfinite(*value) && allowed.test(*value) ? value : std::nullopt;
 }
 
-/// Position after the string whose opening quote is at `at`; the end of the text if there is no
-/// closing quote.
+/// Position after the string that opens at `at`; the end of the text if it is not closed.
 std::size_t end_of_string(std::string_view text, std::size_t at) {
+  assert(at < text.size());
   const char quote = text[at];
   const std::string three(3, quote);
   const bool is_long = text.substr(at).starts_with(three);
@@ -79,13 +75,12 @@ std::size_t end_of_bare_word(std::string_view text, std::size_t at) {
   return at;
 }
 
-/// Throws Error(kBadInput), which names `file` and the line, if a key or the name of a section in
-/// the TOML text has more than 16 parts joined by dots. The text is scanned before it is parsed,
-/// because toml++ 3.3 makes a nested table for each part and visits these tables by recursion, so
-/// that a key of 40 000 parts overflows the stack. toml++ itself limits nested arrays and inline
-/// tables to 256 levels. Dots in strings and comments separate no keys.
+/// Throws Error(kBadInput) with the line if a key or the name of a section has more than 16 parts
+/// joined by dots. The text is scanned before it is parsed, because toml++ 3.3 makes a nested table
+/// for each part and visits these tables by recursion, so that a key of 40 000 parts overflows the
+/// stack. toml++ itself limits nested arrays and inline tables to 256 levels.
 void check_dotted_keys(const std::string& text, const std::string& file) {
-  constexpr int kMostParts = 16;  // a free limit; the longest key of a case has five
+  constexpr int kMostParts = 16;  // the longest key of a case has five
   const std::string_view all = text;
   int line = 1, parts = 0;
   bool after_dot = false;
@@ -120,10 +115,9 @@ void check_dotted_keys(const std::string& text, const std::string& file) {
   }
 }
 
-/// True if the number can be stored as an integer without loss. A double holds each integer up to
-/// 2^53.
+/// True if the number can be stored as an integer without loss.
 bool is_integer(double value) {
-  constexpr double kLargestInteger = 1e15;  // any limit works that is at most 2^53
+  constexpr double kLargestInteger = 1e15;  // a double holds each integer up to 2^53
   return value == std::floor(value) && std::abs(value) <= kLargestInteger &&
          !(value == 0 && std::signbit(value));
 }
@@ -144,8 +138,6 @@ const toml::array& elements(const TomlSection& section, std::string_view key,
 
 TomlSection::TomlSection(Node node) : node_(std::make_shared<Node>(std::move(node))) {}
 
-/// The root table of a TOML text; messages call it `file`. Throws Error(kBadInput) with the line if
-/// the text is not valid TOML, or by check_dotted_keys().
 TomlSection TomlSection::parse(const std::string& text, const std::string& file) {
   refuse_utf16(text, file);
   check_dotted_keys(text, file);
@@ -162,15 +154,11 @@ std::string TomlSection::full_name(std::string_view key) const {
   return fmt::format("{}{}{}", node_->path, node_->path.empty() ? "" : ".", key);
 }
 
-/// Throws Error(kBadInput): "section [key] what" without a line if this is the root table, and
-/// otherwise the error of fail().
 void TomlSection::fail_of_section(std::string_view key, const std::string& what) const {
   if (node_->path.empty()) throw_bad_input({node_->file}, "section [{}] {}", key, what);
   fail(key, what);
 }
 
-/// Throws Error(kBadInput) "path.of.key what" with the line of the key, or that of the table if the
-/// key does not exist.
 void TomlSection::fail(std::string_view key, const std::string& what) const {
   throw_bad_input({node_->file, line(key)}, full_name(key) + " " + what);
 }
@@ -194,8 +182,6 @@ bool TomlSection::is_table(std::string_view key) const {
 
 int TomlSection::line() const { return line_of(*node_->table); }
 
-/// The line of the key, or that of the table if the key does not exist; 0 in a copy with other
-/// numbers or texts.
 int TomlSection::line(std::string_view key) const {
   const auto* node = node_->table->get(key);
   return node != nullptr ? line_of(*node) : line();
@@ -205,16 +191,12 @@ std::string TomlSection::shown(std::string_view key) const {
   return has(key) ? show(*node_->table->get(key)) : "";
 }
 
-/// True if the key exists and its value is an array whose first element is a table. The other
-/// elements are not looked at.
 bool TomlSection::is_array_of_tables(std::string_view key) const {
   if (!is_array(key)) return false;
   const auto* array = node_->table->get(key)->as_array();
   return !array->empty() && array->front().is_table();
 }
 
-/// The number of the key, decimal or integer. Throws Error(kBadInput) unless it is there, finite
-/// and `allowed`.
 double TomlSection::number(std::string_view key, const Allowed& allowed) const {
   if (!has(key)) fail(key, "is missing; it must be a number {}", allowed.words);
   const auto* node = node_->table->get(key);
@@ -223,9 +205,8 @@ double TomlSection::number(std::string_view key, const Allowed& allowed) const {
   return *value;
 }
 
-/// The whole number of the key. Throws Error(kBadInput) unless it is there, from `least` to `most`,
-/// and written without a decimal point.
 int TomlSection::count(std::string_view key, int least, int most) const {
+  assert(least <= most);
   const std::string allowed = fmt::format("it must be a whole number from {} to {}", least, most);
   if (!has(key)) fail(key, "is missing; " + allowed);
   const auto* node = node_->table->get(key);
@@ -237,7 +218,6 @@ int TomlSection::count(std::string_view key, int least, int most) const {
   return *value;
 }
 
-/// The text of the key, which may be empty. Throws Error(kBadInput) if it is missing or no text.
 std::string TomlSection::text(std::string_view key) const {
   if (!has(key)) fail(key, "is missing; it must be a text in quotes");
   const auto* node = node_->table->get(key);
@@ -246,14 +226,12 @@ std::string TomlSection::text(std::string_view key) const {
   return *value;
 }
 
-/// The text of the key. Throws Error(kBadInput) if it is missing, no text, or empty.
 std::string TomlSection::file_name(std::string_view key) const {
   auto name = text(key);
   require(!name.empty(), key, "is empty; it must be the name of a file");
   return name;
 }
 
-/// The value of the key. Throws Error(kBadInput) unless it is true or false.
 bool TomlSection::truth(std::string_view key) const {
   if (!has(key)) fail(key, "is missing; it must be true or false");
   const auto value = node_->table->get(key)->value_exact<bool>();
@@ -261,8 +239,6 @@ bool TomlSection::truth(std::string_view key) const {
   return *value;
 }
 
-/// The `count` values of the key, each true or false. Throws Error(kBadInput) for any other value
-/// or number of values.
 std::vector<bool> TomlSection::truths(std::string_view key, std::size_t count) const {
   const auto allowed = fmt::format("it must be a list of {} values, each true or false", count);
   require(has(key), key, "is missing; {}", allowed);
@@ -276,7 +252,6 @@ std::vector<bool> TomlSection::truths(std::string_view key, std::size_t count) c
   return values;
 }
 
-/// The numbers of the key, at least one. Throws Error(kBadInput) if one of them is not `allowed`.
 std::vector<double> TomlSection::numbers(std::string_view key, const Allowed& allowed) const {
   const auto many = fmt::format("numbers {}", allowed.words);
   std::vector<double> values;
@@ -289,8 +264,6 @@ std::vector<double> TomlSection::numbers(std::string_view key, const Allowed& al
   return values;
 }
 
-/// The lists of the key, at least one, each of exactly `columns` numbers. Throws Error(kBadInput)
-/// for another length or a number that is not `allowed`.
 std::vector<std::vector<double>> TomlSection::rows(std::string_view key, std::size_t columns,
                                                    const Allowed& allowed) const {
   const auto many = fmt::format("lists of {} numbers {}", columns, allowed.words);
@@ -309,8 +282,6 @@ std::vector<std::vector<double>> TomlSection::rows(std::string_view key, std::si
   return rows;
 }
 
-/// The texts of the key, at least one; a text may be empty. Throws Error(kBadInput) for other
-/// elements.
 std::vector<std::string> TomlSection::texts(std::string_view key) const {
   std::vector<std::string> values;
   for (const auto& element :
@@ -324,8 +295,7 @@ std::vector<std::string> TomlSection::texts(std::string_view key) const {
 
 namespace {
 
-/// True if at most two letters must be inserted, removed or replaced to change one word into the
-/// other (Levenshtein's distance), and less than half of its letters.
+/// True if Levenshtein's distance of the words is at most 2, and less than half of the letters.
 bool is_similar(std::string_view word, std::string_view other) {
   std::vector<std::size_t> row(other.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -341,7 +311,6 @@ bool is_similar(std::string_view word, std::string_view other) {
 
 }  // namespace
 
-/// The table of the key. Throws Error(kBadInput) if it is missing or no table.
 TomlSection TomlSection::section(std::string_view key) const {
   if (!has(key) && node_->path.empty())
     for (const auto& [name, value] : *node_->table)
@@ -356,8 +325,6 @@ TomlSection TomlSection::section(std::string_view key) const {
   return TomlSection(Node{node_->root, table, node_->file, full_name(key), {}});
 }
 
-/// The tables of the key, at least one, in the order of the file. Throws Error(kBadInput) for other
-/// elements.
 std::vector<TomlSection> TomlSection::sections(std::string_view key) const {
   std::vector<TomlSection> sections;
   for (const auto& element :
@@ -371,8 +338,6 @@ std::vector<TomlSection> TomlSection::sections(std::string_view key) const {
   return sections;
 }
 
-/// Throws Error(kBadInput), which lists the known keys, if the table has a key that was not asked
-/// for.
 void TomlSection::finish() const {
   for (const auto& [key, value] : *node_->table)
     if (!node_->asked.contains(std::string(key.str()))) {
@@ -385,13 +350,10 @@ void TomlSection::finish() const {
     }
 }
 
-/// A copy of this root table in which each number stands at its path, such as
-/// "motion.external_force[0].value"; its unit is that of the key. The numbers are not checked here.
-/// Throws Error(kBadInput) without a line if the value at a path is not a number, or if more than
-/// the last key of a path does not exist. Lines of the copy are 0.
 TomlSection TomlSection::with_numbers(
     std::span<const std::pair<std::string, double>> numbers) const {
   auto root = std::make_shared<toml::table>(*node_->root);
+  assert(node_->path.empty());
   for (const auto& number : numbers) {
     const std::string& path = number.first;
     const double value = number.second;
@@ -427,11 +389,10 @@ TomlSection TomlSection::with_numbers(
   return TomlSection(Node{root, root.get(), node_->file, "", {}});
 }
 
-/// A copy of this root table in which each text replaces the text at its path. Throws
-/// Error(kBadInput) without a line if there is no text at a path.
 TomlSection TomlSection::with_texts(
     std::span<const std::pair<std::string, std::string>> texts) const {
   auto root = std::make_shared<toml::table>(*node_->root);
+  assert(node_->path.empty());
   for (const auto& [path, text] : texts) {
     auto* place = root->at_path(path).as_string();
     if (place == nullptr) throw_bad_input({node_->file}, "{} is not a text in this case", path);
@@ -440,16 +401,12 @@ TomlSection TomlSection::with_texts(
   return TomlSection(Node{root, root.get(), node_->file, "", {}});
 }
 
-/// This root table as TOML, without comments and with the keys in alphabetical order.
 std::string TomlSection::as_toml() const {
   std::ostringstream text;
   text << *node_->root << "\n";
   return text.str();
 }
 
-/// Reads a TOML file. The root table gets an empty table for each of `sections` that the file does
-/// not have; the returned text stays that of the file. Throws Error(kBadInput) if the file cannot
-/// be read or is not valid TOML.
 TomlFile read_toml_file(const std::filesystem::path& path,
                         const std::vector<std::string_view>& sections) {
   auto text = read_file(path);

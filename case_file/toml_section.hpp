@@ -1,9 +1,4 @@
-// A table of a TOML file, read strictly: the reader asks for every key by name, and a key that was
-// not asked for is an error. keys.hpp reads sections from declarations of their keys by means of
-// this class. Numbers are in the units of the file and have no unit here. Every fault of a file
-// throws Error(kBadInput). All readers of cases (case_file/, particles/, rolling/, swimmer/) use
-// this class; further types of values may be added, but a change must keep that messages name file,
-// line, key and what is allowed.
+// A table of a TOML file, read strictly: a key that the reader did not ask for is an error.
 #pragma once
 
 #include <fmt/format.h>
@@ -25,53 +20,51 @@ namespace viscontact::case_file {
 /// the value is not finite or not allowed.
 class TomlSection {
  public:
-  /// The root table of a TOML text. `file` is its name in messages. Throws Error(kBadInput) with
-  /// the line if the text is not valid TOML, nests more than 256 arrays or tables, or if a key or
-  /// the name of a section has more than 16 parts joined by dots.
+  /// The root table of a TOML text, which messages call `file`. Throws Error(kBadInput) with the
+  /// line if the text is not valid TOML, nests more than 256 arrays or tables, or if a key or the
+  /// name of a section has more than 16 parts joined by dots.
   static TomlSection parse(const std::string& text, const std::string& file);
 
   /// A copy of this root table with other numbers, each at a path such as
   /// "motion.external_force[0].value". Only the last key of a path need not exist yet. A number
   /// without a fraction is stored as an integer, unless it replaces a decimal number. Throws
-  /// Error(kBadInput), without a line, if another part of a path does not exist, or if there is a
-  /// value at the path that is not a number. The numbers are not checked here; the reader of the
-  /// case checks them.
+  /// Error(kBadInput), without a line, if another part of a path does not exist, or if the value at
+  /// a path is not a number.
   TomlSection with_numbers(std::span<const std::pair<std::string, double>> numbers) const;
 
-  /// A copy of this root table with other texts, each at a path of the same form. Throws
-  /// Error(kBadInput), without a line, if there is no text at a path yet.
+  /// A copy with other texts, each at a path of the same form. Throws Error(kBadInput), without a
+  /// line, if there is no text at a path yet.
   TomlSection with_texts(std::span<const std::pair<std::string, std::string>> texts) const;
 
-  /// This root table as TOML, without the comments of the file and with its keys in alphabetical
-  /// order. Tables with equal keys and values give equal texts. Numbers read back exactly.
+  /// This root table without the comments of the file and with its keys in alphabetical order, so
+  /// that tables with equal keys and values give equal texts. Numbers read back exactly.
   std::string as_toml() const;
 
-  /// True if the key exists. This function and the four below return false for a missing key and
-  /// throw nothing; finish() counts the key as asked for.
+  /// This and the next four return false for a missing key; finish() counts the key as asked for.
   bool has(std::string_view key) const;
-  bool is_text(std::string_view key) const;   ///< the key exists and its value is a text
-  bool is_array(std::string_view key) const;  ///< the key exists and its value is an array
-  bool is_table(std::string_view key) const;  ///< the key exists and its value is a table
+  bool is_text(std::string_view key) const;
+  bool is_array(std::string_view key) const;
+  bool is_table(std::string_view key) const;
 
-  /// True if the key exists and its value is an array whose first element is a table.
+  /// Only the first element of the array is looked at.
   bool is_array_of_tables(std::string_view key) const;
 
-  /// A finite number, decimal or integer, that is `allowed`.
+  /// A decimal or an integer.
   double number(std::string_view key, const Allowed& allowed) const;
-  int count(std::string_view key, int least, int most) const;  ///< an integer in [least, most]
-  std::string text(std::string_view key) const;                ///< a text, which may be empty
-  std::string file_name(std::string_view key) const;           ///< a text that is not empty
-  bool truth(std::string_view key) const;                      ///< true or false
-  /// An array of exactly `count` values, each true or false.
+  int count(std::string_view key, int least, int most) const;  ///< written without a decimal point
+  std::string text(std::string_view key) const;                ///< may be empty
+  std::string file_name(std::string_view key) const;           ///< not empty
+  bool truth(std::string_view key) const;
+  /// An array of exactly `count` values.
   std::vector<bool> truths(std::string_view key, std::size_t count) const;
-  /// An array of at least one number, each finite and `allowed`.
+  /// An array of at least one number.
   std::vector<double> numbers(std::string_view key, const Allowed& allowed) const;
-  /// An array of at least one array, each of `columns` numbers, all finite and `allowed`.
+  /// An array of at least one array, each of `columns` numbers.
   std::vector<std::vector<double>> rows(std::string_view key, std::size_t columns,
                                         const Allowed& allowed) const;
-  std::vector<std::string> texts(std::string_view key) const;  ///< an array of at least one text
-  TomlSection section(std::string_view key) const;             ///< a table inside this one
-  /// An array of at least one table.
+  std::vector<std::string> texts(std::string_view key) const;  ///< at least one
+  TomlSection section(std::string_view key) const;
+  /// An array of at least one table, in the order of the file.
   std::vector<TomlSection> sections(std::string_view key) const;
 
   /// Throws Error(kBadInput), which lists the known keys, if this table has a key for which none of
@@ -79,21 +72,20 @@ class TomlSection {
   void finish() const;
 
   // Lines are counted from 1; they are 0 in a copy by with_numbers() or with_texts().
-  int line() const;                               ///< line of this table in the file
-  int line(std::string_view key) const;           ///< line of a key; if it is missing, of the table
+  int line() const;
+  int line(std::string_view key) const;           ///< of the table if the key is missing
   std::string shown(std::string_view key) const;  ///< the value, for a message; empty if missing
 
-  /// Throws Error(kBadInput) with the message "section.key what" at the line of this key, or at the
-  /// line of this table if the key does not exist.
+  /// Throws Error(kBadInput) with the message "section.key what" at the line of this key, or of
+  /// this table if the key does not exist.
   [[noreturn]] void fail(std::string_view key, const std::string& what) const;
-  /// Throws the same error; `what` is a format with these arguments.
   template <class First, class... Rest>
   [[noreturn]] void fail(std::string_view key, fmt::format_string<First, Rest...> what,
                          First&& first, Rest&&... rest) const {
     fail(key, fmt::format(what, std::forward<First>(first), std::forward<Rest>(rest)...));
   }
 
-  /// Throws the same error if the condition is false; `what` is a format with these arguments.
+  /// Throws the error of fail() if the condition is false.
   template <class... Arguments>
   void require(bool condition, std::string_view key, fmt::format_string<Arguments...> what,
                Arguments&&... arguments) const {
@@ -102,22 +94,21 @@ class TomlSection {
 
  private:
   struct Node;
-  /// Throws the error of fail() for a missing section. If the section is missing from the root
-  /// table, the message has no line, because the file has no such line.
+  /// The error of fail() for a missing section. If the section is missing from the root table, the
+  /// message has no line, because the file has no such line.
   [[noreturn]] void fail_of_section(std::string_view key, const std::string& what) const;
   std::string full_name(std::string_view key) const;  // "tabulation.gaps"
   explicit TomlSection(Node node);
   std::shared_ptr<Node> node_;
 };
 
-/// A TOML file that was read.
 struct TomlFile {
-  std::string text;  ///< its content
-  TomlSection root;  ///< its root table
+  std::string text;
+  TomlSection root;
 };
 
-/// Reads a TOML file. The root table has an empty table for each of `sections` that the file lacks.
-/// Throws Error(kBadInput) if the file cannot be read or is not valid TOML.
+/// The root table has an empty table for each of `sections` that the file lacks; the text stays
+/// that of the file. Throws Error(kBadInput) if the file cannot be read or is not valid TOML.
 TomlFile read_toml_file(const std::filesystem::path& path,
                         const std::vector<std::string_view>& sections = {});
 

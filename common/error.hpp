@@ -1,7 +1,4 @@
-// The error type of Viscontact, which all parts throw. Every error that a user can cause or meet is
-// thrown as viscontact::Error. Unless a caller handles it, app/main.cpp prints its message and ends
-// with the exit code of its kind. Words of messages may be changed. A new kind needs an exit code
-// in results/exit_code.cpp and a row in docs/command-line.md.
+// The error type of Viscontact: every error that a user can cause or meet.
 #pragma once
 
 #include <fmt/core.h>
@@ -12,9 +9,8 @@
 
 namespace viscontact {
 
-/// Kind of an error. results/exit_code.hpp gives the exit code of each kind.
+/// A new kind needs an exit code in results/exit_code.cpp and a row in docs/command-line.md.
 enum class ErrorKind {
-  /// An option, or a combination of options, is wrong.
   kWrongUsage,
   /// A file, or a value in a file, is wrong.
   kBadInput,
@@ -27,27 +23,23 @@ enum class ErrorKind {
   kInterrupted,
 };
 
-/// An error with a message for users. `what()` has the form "FILE:LINE: what is wrong (the value);
-/// what is allowed or what to do".
+/// `what()` has the form "FILE:LINE: what is wrong (the value); what is allowed or what to do".
 class Error : public std::runtime_error {
  public:
-  /// `message` becomes what() of the error. It is not a format, so that braces in it stay. Whether
-  /// it has the form of the comment of this class is not checked.
+  /// `message` is not a format, so that braces in it stay.
   Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
-  /// Makes an error of this kind whose message is fmt::format(text, first, rest...).
   template <class First, class... Rest>
   Error(ErrorKind kind, fmt::format_string<First, Rest...> text, First&& first, Rest&&... rest)
       : Error(kind, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...)) {}
 
-  ErrorKind kind() const { return kind_; }  ///< the kind, which decides the exit code
+  ErrorKind kind() const { return kind_; }  ///< decides the exit code
 
  private:
   ErrorKind kind_;
 };
 
-/// Calls `call` and returns its value. An Error that it throws is thrown again with "PLACE: "
-/// before its message, except an Error(kInterrupted), which passes unchanged because a stop has no
-/// place. Other exceptions pass unchanged.
+/// Returns call(). An Error that it throws is thrown again with "PLACE: " before its message,
+/// except an Error(kInterrupted), which passes unchanged because a stop has no place.
 template <class Call>
 auto with_place(const std::string& place, const Call& call) {
   try {
@@ -58,19 +50,16 @@ auto with_place(const std::string& place, const Call& call) {
   }
 }
 
-/// A position in an input file.
 struct FilePosition {
-  std::string file;  ///< its path, as the user gave it
-  int line = 0;      ///< counted from 1; 0 or less: the file as a whole
+  std::string file;  ///< as the user gave it
+  int line = 0;      ///< from 1; 0 or less: the file as a whole
 };
 
-/// Throws Error(kBadInput) with the message "FILE:LINE: message", or "FILE: message" if `at` means
-/// the whole file.
+/// Throws Error(kBadInput) with the message "FILE:LINE: message", or without the line.
 [[noreturn]] inline void throw_bad_input(const FilePosition& at, const std::string& message) {
   const std::string line = at.line > 0 ? ":" + std::to_string(at.line) : "";
   throw Error(ErrorKind::kBadInput, at.file + line + ": " + message);
 }
-/// Throws the same error with the message fmt::format(text, first, rest...).
 template <class First, class... Rest>
 [[noreturn]] void throw_bad_input(const FilePosition& at, fmt::format_string<First, Rest...> text,
                                   First&& first, Rest&&... rest) {

@@ -1,12 +1,4 @@
-// Finds rows by name in tables, such as those of geometries, bases, terms, models and kinds of
-// pictures. Each row of a table has a member `name`. A name that is not in the table gives a null
-// pointer (find_named) or throws Error(kBadInput) (require_named). All parts with such tables use
-// this file. Whether a name stands twice in a table is not checked. A change must keep the words of
-// the error, which users see for a wrong name.
-//
-// find_named and require_named return a row of the table itself and not a copy. Therefore their
-// argument is a table that outlives the call, or a view of such a table (std::span); a call with a
-// temporary container does not compile.
+// Rows by name in tables, such as those of geometries, bases, terms and models.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +10,11 @@
 
 namespace viscontact {
 
-/// All names in a table, in its order, separated by commas or by another text; empty for an empty
-/// table.
+// Each row has a member `name`. find_named() and require_named() return a row of the table itself.
+// Therefore their argument is a table that outlives the call, or a view of such a table
+// (std::span); a call with a temporary container does not compile.
+
+/// The names in the order of the table.
 template <class Table>
 std::string names_of(const Table& table, const char* separator = ", ") {
   std::string names;

@@ -1,26 +1,24 @@
-// Root finding in one unknown: bisection of a condition, and Newton's method in a bracket. Used by
-// lubrication/, reduced_model/ and rolling/. A change must keep the points at which functions are
-// evaluated, because results of these parts depend on them in their last digits. Arguments and
-// functions have the units of the caller. Nothing is checked or thrown here. Boost.Math 1.74 is not
-// used, because it evaluates functions at other points, and because its header takes 1.2 s to
-// compile.
+// Root finding in one unknown. Boost.Math 1.74 is not used, because results depend in their last
+// digits on the points at which it evaluates functions, and its header takes 1.2 s to compile.
 #pragma once
+
+#include <cassert>
 
 namespace viscontact {
 
-/// Returns the smallest double x at which holds(x) is true. holds() must be false at `from` and
-/// true at `to` >= `from`; neither is checked. The result is `to` if the condition is true only
-/// there, or if `from` or `to` is NaN. If the condition changes more than once between both, the
-/// result is one of the places where it becomes true. to - from must be finite (not checked).
+/// The smallest double x at which holds(x) is true. holds() must be false at `from` and true at
+/// `to` >= `from`. The result is `to` if the condition is true only there, or if `from` or `to` is
+/// NaN. If the condition changes more than once, the result is one place where it becomes true.
 template <class Condition>
 double bisect_first_true(double from, double to, const Condition& holds) {
+  assert(!(to < from));
   for (double middle = from + (to - from) / 2; from < middle && middle < to;
        middle = from + (to - from) / 2)
     (holds(middle) ? to : from) = middle;
   return to;
 }
 
-/// Says what happens if a step of Newton's method ends on an end of the bracket, the interval that
+/// What happens if a step of Newton's method ends on an end of the bracket, the interval that
 /// contains the root: with kClosed it is taken, with kOpen bisection replaces it.
 enum class Bracket { kOpen, kClosed };
 
@@ -28,13 +26,12 @@ enum class Bracket { kOpen, kClosed };
 /// [low, high]. A step that leaves the bracket, as it does with a slope of 0, is replaced by
 /// bisection. `excess_and_slope(x)` returns the function and its derivative. The search ends where
 /// the function is 0, or if settled(x, next) returns true, which means that the step from x to
-/// `next` is only round-off, or after 200 steps. The result is the last point. It is not checked
-/// that low <= x <= high, that there is a root, or that values are finite.
+/// `next` is only round-off, or after 200 steps.
 template <class ExcessAndSlope, class Settled>
 double bracketed_newton(double x, double low, double high, Bracket bracket,
                         const ExcessAndSlope& excess_and_slope, const Settled& settled) {
-  // This limit prevents endless loops; any larger number would do. It is hardly ever reached,
-  // because 60 steps of bisection alone shorten the bracket by a factor of 1e18.
+  assert(!(x < low) && !(x > high));
+  // 60 steps of bisection alone shorten the bracket by a factor of 1e18.
   constexpr int kMaxSteps = 200;
   for (int step = 0; step < kMaxSteps; ++step) {
     const auto [excess, slope] = excess_and_slope(x);

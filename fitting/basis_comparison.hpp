@@ -1,10 +1,5 @@
-// Fits of one force table in several bases (a basis is a list of functions of the gap, which a fit
-// combines linearly), and the choice between them by Akaike's information criterion. Lengths,
-// masses and times are in the units of the table; the criterion is a number without unit. If a fit
-// in a basis fails, nothing is thrown: its result has the reason. Only a requested stop throws,
-// Error(kInterrupted). Used by pipeline/fit_stages.cpp and report/ for the command `fit
-// --compare-bases`. A change must keep that a basis that cannot be fitted does not prevent the fits
-// in the other bases.
+// Fits of one force table in several bases, and the choice between them by Akaike's information
+// criterion.
 #pragma once
 
 #include <optional>
@@ -26,18 +21,15 @@ struct BasisResult {
 };
 
 /// Fits the table in each of all_bases(), or bases_beside_walls() if it has a second wall, in this
-/// order, and then in settings.basis if this is a
-/// user's list of terms. The other members of `settings` are the same for each fit. An Error of a
-/// fit is stored in its result and not thrown, except Error(kInterrupted) if `stop` requests a
-/// stop, which is checked before each fit and during a fit with a robust loss. The table must have
-/// at least one row (not checked).
+/// order, and then in settings.basis if this is a user's list of terms. Rows and weights are the
+/// same for each fit, because the criteria could not be compared otherwise. An Error of a fit is
+/// stored in its result and not thrown, except Error(kInterrupted) if `stop` requests a stop, which
+/// is checked before each fit and during a fit with a robust loss.
 std::vector<BasisResult> compare_bases(const lubrication::MotionTable& table,
                                        const FitSettings& settings, const StopToken& stop = {});
 
-/// The element of `results` whose fit has the smallest FitDiagnostics::information_criterion; null
-/// if no fit has a criterion, as with robust losses or too few rows. Every fit must have
-/// diagnostics (not checked), as the fits of compare_bases() have. Among equal criteria the first
-/// one counts.
+/// The element of `results` whose fit has the smallest FitDiagnostics::information_criterion, the
+/// first among equal ones; null if no fit has a criterion, as with robust losses or too few rows.
 const BasisResult* best_basis(const std::vector<BasisResult>& results);
 
 }  // namespace viscontact::fitting

@@ -1,13 +1,4 @@
-// Assembles the equations of a fit, F = sum of coefficient * term(q) for each row of a table,
-// solves them by least squares, and sets the members of the fit and its diagnostics. In the units
-// of the table, q > 0 is the gap [L], F the force [M L/T^2] and u the velocity [L/T], not 0, of a
-// row, r > 0 the radius of the sphere [L]; relative residuals, fit/F - 1, have no dimension. A
-// table with fewer different gaps than coefficients, or fewer than 2, rows that contradict each
-// other, and a result that a double cannot hold throw Error(kBadInput), dependent terms throw
-// Error(kNotConverged), and a requested stop throws Error(kInterrupted). Used by pipeline/,
-// motions/fit/, basis_comparison.cpp, examples/ and python/. A change must keep that units and
-// order of the rows change the fit by rounding only. It must also keep the numbers 0.99 and 5
-// below, which lubrication/fit.hpp repeats.
+// Assembles and solves the equations of a fit (docs/physics.md (3.2)), and diagnoses the result.
 #include "viscontact/fitting/fit_force_table.hpp"
 
 #include <fmt/format.h>
@@ -15,6 +6,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -28,10 +20,8 @@
 namespace viscontact::fitting {
 namespace {
 
-/// The solved least squares problem. Its matrix and vectors have a row for each row of the table;
-/// the matrix has a column for each fitted coefficient. `weight` is Equations::weight; `row weight`
-/// is RobustSolution::row_weights, the factor from 0 to 1 that a robust loss gives the square of
-/// the residual of a row (1 without a robust loss).
+/// The solved least squares problem, with a row for each row of the table and a column for each
+/// fitted coefficient. `weight` is Equations::weight; `row weight` is RobustSolution::row_weights.
 struct FittedSystem {
   /// weight * sqrt(row weight) * term(gap).
   Eigen::MatrixXd weighted_matrix;
@@ -57,8 +47,7 @@ double largest_gap_of(const lubrication::MotionTable& table) {
   return wall ? wall->largest_gap : lubrication::kNoWall;
 }
 
-/// The number of rows of the table at each of its gaps. Rows of one gap at several velocities are
-/// one measurement, because Stokes flow is linear in the velocity.
+/// The number of rows of the table at each of its gaps, which are one measurement.
 std::map<double, std::size_t> rows_by_gap(const lubrication::MotionTable& table) {
   std::map<double, std::size_t> rows;
   for (const auto& row : table.rows) ++rows[row.gap];
@@ -69,16 +58,17 @@ double gap_of_row(const lubrication::MotionTable& table, Eigen::Index row) {
   return table.rows[static_cast<std::size_t>(row)].gap;
 }
 
-/// The 99 % quantile of the chi-squared distribution with this number of degrees of freedom, > 0.
-/// The type is double, because it compiles faster than long double.
+/// The 99 % quantile of the chi-squared distribution; lubrication/fit.hpp repeats the number. The
+/// type is double, because it compiles faster than long double.
 double chi_squared_quantile(double degrees_of_freedom) {
+  assert(degrees_of_freedom > 0);
   using DoublePolicy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
   const boost::math::chi_squared_distribution<double, DoublePolicy> chi_squared(degrees_of_freedom);
   return boost::math::quantile(chi_squared, 0.99);
 }
 
-/// True for an outlier: |residual| > 5 times the scale of all residuals. Of Gaussian residuals only
-/// one in two million is so large.
+/// True for an outlier: |residual| > 5 times the scale of all residuals; lubrication/fit.hpp
+/// repeats the number. Of Gaussian residuals only one in two million is so large.
 bool is_far(double scaled_residual) { return std::abs(scaled_residual) > 5; }
 
 /// True for an outlier of a fit with a robust loss. Plain least squares has no outliers.
@@ -122,7 +112,7 @@ void compare_with_estimates(const lubrication::MotionTable& table, const FittedS
                                                            : lubrication::Misfit::kData;
 }
 
-/// Leverages of the rows, from 0 to 1: the diagonal of the projection onto the columns of `matrix`.
+/// The leverages of the rows: the diagonal of the projection onto the columns of `matrix`.
 Eigen::VectorXd leverages(const Eigen::MatrixXd& matrix) {
   if (matrix.cols() == 0) return Eigen::VectorXd::Zero(matrix.rows());
   // The columns are scaled to length 1. The leverages do not depend on the scale of the columns,
@@ -147,7 +137,6 @@ std::vector<bool> end_rows(const lubrication::MotionTable& table) {
   return is_end;
 }
 
-/// Replaces `largest` by `row` if the residual of `row` is larger.
 void take_largest(std::optional<lubrication::LeftOutRow>& largest,
                   const lubrication::LeftOutRow& row) {
   if (!largest || row.relative_residual > largest->relative_residual) largest = row;
@@ -160,7 +149,7 @@ void leave_one_out(const lubrication::MotionTable& table, const FittedSystem& sy
   if (d.degrees_of_freedom == 0) return;
   const Eigen::VectorXd leverage = leverages(system.weighted_matrix);
   const auto is_end = end_rows(table);
-  // Rounding errors of a leverage are smaller; a free choice.
+  // Rounding errors of a leverage are smaller.
   const double round_off = 100 * std::numeric_limits<double>::epsilon();
   double squares = 0;
   std::optional<lubrication::LeftOutRow> inner, end;
@@ -192,8 +181,6 @@ std::optional<double> information_criterion(const FittedSystem& system,
   return n * std::log(squares / n) + 2 * k + 2 * k * (k + 1) / (n - k - 1);
 }
 
-/// The outliers of a fit with a robust loss, in the order of the table: gap [L], velocity [L/T] and
-/// relative residual [1].
 std::vector<lubrication::Outlier> outliers(const lubrication::MotionTable& table,
                                            const FittedSystem& system) {
   std::vector<lubrication::Outlier> found;
@@ -205,8 +192,6 @@ std::vector<lubrication::Outlier> outliers(const lubrication::MotionTable& table
   return found;
 }
 
-/// Adds a warning if `shape` demands that the resistance be positive, or decrease with the gap, and
-/// the fitted resistance does not.
 void warn_of_shape(const lubrication::Fit& fit, lubrication::FittedShape shape,
                    std::vector<std::string>& warnings) {
   bool positive = shape != lubrication::FittedShape::kAny,
@@ -235,7 +220,6 @@ void warn_of_shape(const lubrication::Fit& fit, lubrication::FittedShape shape,
   }
 }
 
-/// The names of the first rows that could not be computed. Any small number of them would do.
 std::string names_of_failed_rows(const lubrication::MotionTable& table) {
   constexpr std::size_t kNamed = 5;
   std::vector<std::string> names;
@@ -279,7 +263,6 @@ void warn_of_coefficients(const lubrication::Fit& fit, const FittedSystem& syste
   }
 }
 
-/// The diagnostics of `fit`, whose other members are complete.
 lubrication::FitDiagnostics diagnose(const lubrication::MotionTable& table,
                                      const FittedSystem& system, const lubrication::Fit& fit,
                                      lubrication::FittedShape shape) {
@@ -304,9 +287,8 @@ lubrication::FitDiagnostics diagnose(const lubrication::MotionTable& table,
                     d.failed_rows, d.failed_rows + d.rows, names_of_failed_rows(table)));
   warn_of_shape(fit, shape, d.warnings);
   warn_of_coefficients(fit, system, d, d.warnings);
-  // The warning is for gaps that are too few or terms that do not suit. The number is a free
-  // choice, but a sound fit must not get the warning: the default basis (1/q, 1, q, q^2, q^3) on
-  // forty gaps misses a left-out row by 0.05.
+  // The warning is for gaps that are too few or terms that do not suit. A sound fit must not get
+  // it: the default basis (1/q, 1, q, q^2, q^3) on forty gaps misses a left-out row by 0.05.
   constexpr double kFar = 0.1;
   if (d.left_out_inner && d.left_out_inner->relative_residual > kFar)
     d.warnings.push_back(
@@ -318,8 +300,7 @@ lubrication::FitDiagnostics diagnose(const lubrication::MotionTable& table,
 }
 
 /// Throws Error(kBadInput) if F/u of two rows of equal gap differs by more than the sum of their
-/// relative error estimates. F/u is equal there in theory, because Stokes flow is linear in the
-/// velocity. Two rows without error estimates (0) are not compared.
+/// relative error estimates. Two rows without error estimates (0) are not compared.
 void check_linearity(const lubrication::MotionTable& table) {
   std::map<double, const lubrication::MotionRow*> first_at;
   for (const auto& row : table.rows) {
@@ -364,8 +345,8 @@ void check_second_wall(const lubrication::MotionTable& table, const lubrication:
                   term.name, largest, table.geometry, table.container);
 }
 
-/// Throws Error(kBadInput) if the table has fewer different gaps than coefficients to fit, or fewer
-/// than two, or if the only coefficient is fixed.
+/// Throws Error(kBadInput) if the table has too few different gaps, or if the only coefficient is
+/// fixed.
 void check_gaps(const lubrication::MotionTable& table, const FitSettings& settings) {
   if (settings.fix_leading && settings.basis.terms.size() == 1)
     throw Error(ErrorKind::kBadInput,
@@ -383,8 +364,8 @@ void check_gaps(const lubrication::MotionTable& table, const FitSettings& settin
             : fmt::format("; {} of its rows could not be computed", table.failed_rows.size()));
 }
 
-/// The least squares problem: minimise the sum over the rows of (weight (terms x - left))^2, with
-/// the coefficients x. There is a row for each row of the table.
+/// The least squares problem: minimise the sum over the rows of the table of (weight (terms x -
+/// left))^2, with the coefficients x.
 struct Equations {
   // F u0/u [M L/T^2]: the force at the velocity u0 of the first row.
   Eigen::VectorXd force;
@@ -399,9 +380,9 @@ struct Equations {
   Eigen::VectorXd weight;
 };
 
-/// If `term` is f ln q or ln(L-q) and the basis contains the factor f or 1, the index of this factor
-/// in the basis; otherwise nothing. Such a term is fitted with the logarithm of a length over r,
-/// and the coefficient of the factor is corrected afterwards.
+/// If `term` is f ln q or ln(L-q) and the basis contains the factor f or 1, the index of this
+/// factor in the basis. Such a term is fitted with the logarithm of a length over r, and the
+/// coefficient of the factor is corrected afterwards.
 std::optional<std::size_t> partner_of(const lubrication::Term& term, const lubrication::Basis& b) {
   const auto factor = lubrication::factor_of_logarithm(term.name);
   if (!factor) return std::nullopt;
@@ -414,9 +395,8 @@ bool is_fixed(const lubrication::Term& term, const FitSettings& settings) {
   return settings.fix_leading && term.name == lubrication::kLeadingTerm;
 }
 
-/// The equations of the fit; the table has a row. `fixed` [M L^2/T^2] is the coefficient of 1/q,
-/// without effect unless the settings fix it. Nothing is checked: a term that overflows gives an
-/// entry that is not finite.
+/// The equations of the fit. `fixed` [M L^2/T^2] is the coefficient of 1/q, without effect unless
+/// the settings fix it. A term that overflows gives an entry that is not finite.
 Equations assemble(const lubrication::MotionTable& table, const FitSettings& settings,
                    double fixed) {
   const auto rows = static_cast<Eigen::Index>(table.rows.size());
@@ -470,8 +450,8 @@ void shift_logarithms(const FitSettings& settings, double radius, lubrication::F
   }
 }
 
-/// Sets terms and covariance of `fit`. The covariance of a fixed coefficient is 0. `fixed`
-/// [M L^2/T^2] is the value of the fixed coefficient of 1/q; it has no effect if none is fixed.
+/// Sets terms and covariance of `fit`. The covariance of a fixed coefficient is 0. `fixed` is that
+/// of assemble().
 void set_coefficients(const LeastSquaresSolution& solution, const FitSettings& settings,
                       double fixed, lubrication::Fit& fit) {
   std::vector<Eigen::Index> columns;  // column in the solution; -1 if fixed
@@ -494,7 +474,6 @@ void set_coefficients(const LeastSquaresSolution& solution, const FitSettings& s
         fit.covariance[i][j] = solution.covariance(columns[i], columns[j]);
 }
 
-/// All members of FittedSystem but fitted_terms, for the solution of the equations.
 FittedSystem residuals_of(const Equations& equations, const RobustSolution& solution) {
   const Eigen::VectorXd residual =
       equations.terms * solution.least_squares.coefficients - equations.left;
@@ -510,10 +489,9 @@ FittedSystem residuals_of(const Equations& equations, const RobustSolution& solu
 
 }  // namespace
 
-/// Fits the table with these settings. Sets all members of the fit but table_sha256 and versions. A
-/// poor fit throws nothing: its diagnostics have warnings.
 lubrication::Fit fit_force_table(const lubrication::MotionTable& table, const FitSettings& settings,
                                  const StopToken& stop) {
+  assert(!settings.basis.terms.empty());
   check_linearity(table);
   check_gaps(table, settings);
   check_second_wall(table, settings.basis);
@@ -567,8 +545,6 @@ lubrication::Fit fit_force_table(const lubrication::MotionTable& table, const Fi
   return fit;
 }
 
-/// Fits the table with the basis of this name, these weights, and otherwise the default settings.
-/// Throws the errors of the function above, and Error(kBadInput) for an unknown name.
 lubrication::Fit fit_force_table(const lubrication::MotionTable& table, std::string_view basis,
                                  lubrication::Weights weights) {
   FitSettings settings;

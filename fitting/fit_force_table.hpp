@@ -1,11 +1,5 @@
-// The fit of a force table: the coefficients in F(q) = sum of coefficient * term(q), with the force
-// F at the gap q, by linear least squares (docs/physics.md (3.2)). Lengths, masses and times are in
-// the units of the table. A table and settings that determine no fit throw Error(kBadInput) or
-// Error(kNotConverged). For a poor fit nothing is thrown, but its diagnostics have warnings. Used
-// by pipeline/ (commands `fit` and `run`), motions/fit/fit_pair.cpp (one fit for each resistance of
-// a pair), case_file/, examples/ and the Python module. Defaults of FitSettings are those of the
-// command `fit`. A change must keep that another system of units or another order of the rows
-// changes the fit by rounding errors only.
+// The fit of a force table: the coefficients in F(q) = sum of coefficient * term(q), by linear
+// least squares (docs/physics.md (3.2)).
 #pragma once
 
 #include <optional>
@@ -19,9 +13,9 @@
 
 namespace viscontact::fitting {
 
-/// The choices of a fit.
+/// The choices of a fit. The defaults are those of the command `fit`.
 struct FitSettings {
-  /// The terms (functions of the gap) that the fit combines, at least one (asserted).
+  /// The terms (functions of the gap) that the fit combines, at least one.
   lubrication::Basis basis = lubrication::default_basis();
   /// kRelative minimises the residuals (fit - force)/force, kAbsolute the residuals fit - force.
   lubrication::Weights weights = lubrication::Weights::kRelative;
@@ -32,8 +26,7 @@ struct FitSettings {
   /// velocity of its first row.
   bool fix_leading = false;
   /// The fixed coefficient of 1/q in the force at the velocity u0 of the table's first row [M
-  /// L^2/T^2], any finite number. In theory it is -k u0 if the resistance is k/q near contact. It
-  /// has no effect if `fix_leading` is false.
+  /// L^2/T^2]. In theory it is -k u0 if the resistance is k/q near contact.
   std::optional<double> leading_value{};
   /// Empty, or a force > 0 [M L/T^2] for each row of the table, in the order of the rows. The
   /// residual of a row is then divided by this force in place of the force of the row.
@@ -43,17 +36,18 @@ struct FitSettings {
   lubrication::FittedShape shape = lubrication::FittedShape::kDrag;
 };
 
-/// Fits a table with at least one row (not checked). A row with the force 0 throws Error(kBadInput)
-/// if the weights are relative and `row_scales` is empty. A force F at the velocity u counts as F
-/// u0/u at the velocity u0 of the first row, because Stokes flow is linear in the velocity. All
-/// members of the fit are set except table_sha256 and versions. Throws Error(kBadInput) if the
-/// table has fewer different gaps than coefficients to fit, or fewer than two; if `row_scales` has
-/// another number of entries or an entry that is not > 0; if F/u of two rows with equal gaps
-/// differs relatively by more than the sum of their error estimates, unless both estimates are 0
-/// (not known); if `fix_leading` is true but the basis lacks 1/q, has no other term, or there is no
-/// value for the coefficient; or if double precision cannot hold the result. Throws
-/// Error(kNotConverged) if the terms are linearly dependent on these gaps or the robust loss does
-/// not converge; Error(kInterrupted) if `stop` requests a stop during a robust fit.
+/// Fits a table, in its units; another system of units or another order of the rows changes the fit
+/// by rounding errors only. A force F at the velocity u counts as F u0/u at the velocity u0 of the
+/// first row, because Stokes flow is linear in the velocity. All members of the fit are set except
+/// table_sha256 and versions; a poor fit has warnings in its diagnostics. Throws Error(kBadInput)
+/// if a force is 0, the weights are relative and `row_scales` is empty; if the table has fewer
+/// different gaps than coefficients to fit, or fewer than two; if `row_scales` has another number
+/// of entries or an entry that is not > 0; if F/u of two rows with equal gaps differs relatively by
+/// more than the sum of their error estimates, unless both estimates are 0 (not known); if
+/// `fix_leading` is true but the basis lacks 1/q, has no other term, or there is no value for the
+/// coefficient; or if double precision cannot hold the result. Throws Error(kNotConverged) if the
+/// terms are linearly dependent on these gaps or the robust loss does not converge;
+/// Error(kInterrupted) if `stop` requests a stop during a robust fit.
 lubrication::Fit fit_force_table(const lubrication::MotionTable& table, const FitSettings& settings,
                                  const StopToken& stop = {});
 

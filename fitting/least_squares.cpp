@@ -1,10 +1,5 @@
-// Solves min |A x - b| in three steps: the columns of A are divided by powers of two, Ceres solves
-// the scaled problem, and the solution is refined in extended precision. Numbers have any units. A
-// has at least one column and at least as many rows as columns, and b an entry for each row (only
-// asserted). Entries that are not finite and a |b|^2 that overflows are an Error(kBadInput), and
-// dependent columns and a failure of Ceres are an Error(kNotConverged). The covariance is 0 if A is
-// square. Used by robust_least_squares.cpp. A change must keep the number of correct digits that
-// tests/fitting/ demands for NIST's reference problems.
+// The columns of A are divided by powers of two, Ceres solves the scaled problem, and the solution
+// is refined in extended precision.
 #include "viscontact/fitting/least_squares.hpp"
 
 #include <ceres/ceres.h>
@@ -23,18 +18,16 @@ namespace {
 
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The residuals A x - b, with A = `matrix` and b = `right_hand_side`, as one block of Ceres; their
-/// Jacobian is A. Both references must outlive the object.
+/// The residuals A x - b as one block of Ceres, whose Jacobian is A. Both references must outlive
+/// the object.
 class LinearResiduals : public ceres::CostFunction {
  public:
-  /// `matrix` has at least one column; `right_hand_side` has an entry for each row of `matrix`.
   LinearResiduals(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_side)
       : matrix_(matrix), right_hand_side_(right_hand_side) {
     set_num_residuals(static_cast<int>(matrix.rows()));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(matrix.cols()));
   }
 
-  /// Computes the residuals and, if Ceres asks for it, the Jacobian. Always succeeds.
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
     const Eigen::Map<const Eigen::VectorXd> x(parameters[0], matrix_.cols());
@@ -50,8 +43,8 @@ class LinearResiduals : public ceres::CostFunction {
   const Eigen::VectorXd& right_hand_side_;
 };
 
-/// For each column the largest power of two that is not larger than its length; 1 for a column of
-/// zeros. A division by a power of two rounds no entry.
+/// For each column the largest power of two that is not larger than its length, because a division
+/// by it rounds no entry; 1 for a column of zeros.
 Eigen::VectorXd binary_scale(const Eigen::MatrixXd& matrix) {
   return matrix.colwise().norm().unaryExpr(
       [](double norm) { return norm > 0 ? std::exp2(std::floor(std::log2(norm))) : 1.0; });
@@ -59,8 +52,7 @@ Eigen::VectorXd binary_scale(const Eigen::MatrixXd& matrix) {
 
 /// Iterative refinement of the solution x and the residual r together (Bjorck 1967): solves r + A
 /// x = b, A^T r = 0 with sums in extended precision. Refinement of x alone would lose digits if r
-/// is not small. `solution` stays unchanged if a refined entry is not finite. `matrix` must have
-/// full rank.
+/// is not small. `solution` stays unchanged if a refined entry is not finite.
 void refine(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_side,
             Eigen::VectorXd& solution) {
   using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
@@ -88,8 +80,7 @@ void refine(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_sid
   if (refined.allFinite()) solution = refined;
 }
 
-/// Condition number of the matrix with its columns scaled to length 1. Throws Error(kNotConverged)
-/// if the columns are linearly dependent in double precision.
+/// Throws Error(kNotConverged) if the columns are linearly dependent in double precision.
 double condition_number_of(const Eigen::MatrixXd& matrix) {
   const Eigen::VectorXd length =
       matrix.colwise().norm().cwiseMax(std::numeric_limits<double>::min());
@@ -106,8 +97,7 @@ double condition_number_of(const Eigen::MatrixXd& matrix) {
   return singular(0) / smallest;
 }
 
-/// The covariance of `x`, the parameters of `problem`, for residuals of variance 1. Throws
-/// Error(kNotConverged) if Ceres cannot compute it.
+/// The covariance of `x`, the parameters of `problem`, for residuals of variance 1.
 RowMajorMatrix unit_covariance(ceres::Problem& problem, const Eigen::VectorXd& x) {
   ceres::Covariance::Options options;
   options.algorithm_type = ceres::DENSE_SVD;
@@ -124,9 +114,6 @@ RowMajorMatrix unit_covariance(ceres::Problem& problem, const Eigen::VectorXd& x
 
 }  // namespace
 
-/// The x that minimises |A x - b| with A = `matrix` and b = `right_hand_side`, its covariance (for
-/// residuals whose variance is |A x - b|^2/(rows - columns)), and the condition number of A with
-/// columns of length 1.
 LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
                                          const Eigen::VectorXd& right_hand_side) {
   assert(matrix.rows() >= matrix.cols() && matrix.cols() > 0 &&

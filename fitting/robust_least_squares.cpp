@@ -1,18 +1,12 @@
-// Iteratively reweighted least squares with the losses of Huber and Cauchy: each step solves a
-// weighted least squares problem, whose weights depend on the residuals of the step before. The
-// unknowns x minimise the sum of the losses of the residuals A x - b. A has at least one column and
-// at least as many rows, b an entry for each row (only asserted). Residuals and their scale, >= 0,
-// have the unit of b; weights of rows are > 0 and at most 1. Weights that do not converge in 1000
-// steps are an Error(kNotConverged), and a requested stop is an Error(kInterrupted);
-// solve_least_squares() throws Error(kBadInput) for numbers that are not finite and
-// Error(kNotConverged) for dependent columns. Used by fit_force_table.cpp. A change must keep that
-// with Loss::kSquared the result is that of solve_least_squares(), to the last bit.
+// Each step solves a least squares problem, whose weights depend on the residuals of the step
+// before.
 #include "viscontact/fitting/robust_least_squares.hpp"
 
 #include <ceres/loss_function.h>
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -23,9 +17,9 @@
 namespace viscontact::fitting {
 namespace {
 
-/// The loss as a function of the square of residual/scale. The constants make the standard errors
-/// on Gaussian residuals nearly those of least squares (95 % efficiency). The comment of Loss in
-/// lubrication/fit.hpp repeats them.
+/// The loss as a function of the square of residual/scale. The constants, which lubrication/fit.hpp
+/// repeats, make the standard errors on Gaussian residuals nearly those of least squares (95 %
+/// efficiency).
 std::unique_ptr<ceres::LossFunction> make_loss(lubrication::Loss loss) {
   switch (loss) {
     case lubrication::Loss::kHuber:
@@ -38,11 +32,10 @@ std::unique_ptr<ceres::LossFunction> make_loss(lubrication::Loss loss) {
   return std::make_unique<ceres::TrivialLoss>();
 }
 
-/// The scale of the residuals of a fit with `columns` coefficients, in the unit of the residuals,
-/// >= 0: the median of their absolute values times sqrt(rows/(rows - columns)) and 1.4826, the
-/// ratio of the standard deviation to the median of |z| for Gaussian z. The number of rows must be
-/// > 0.
+/// RobustSolution::scale of a fit with `columns` coefficients. 1.4826 is the ratio of the standard
+/// deviation to the median of |z| for Gaussian z.
 double scale_of(const Eigen::VectorXd& residual, Eigen::Index columns) {
+  assert(residual.size() > 0);
   std::vector<double> sizes(static_cast<std::size_t>(residual.size()));
   std::ranges::transform(residual, sizes.begin(), [](double r) { return std::abs(r); });
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
@@ -53,8 +46,7 @@ double scale_of(const Eigen::VectorXd& residual, Eigen::Index columns) {
 }
 
 /// Reweights the rows and solves again, from the coefficients in `solution`, until the residuals no
-/// longer change. Sets all members of `solution` but the covariance of the M-estimate. Throws the
-/// errors of solve_robust_least_squares().
+/// longer change. Sets all members of `solution` but the covariance of the M-estimate.
 void iterate(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_side,
              const ceres::LossFunction& loss, const StopToken& stop, RobustSolution& solution) {
   // In the first 20 steps the scale follows the residuals. Then it is kept, because the sum of the
@@ -90,9 +82,8 @@ void iterate(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_si
   throw Error(ErrorKind::kNotConverged, "the robust fit does not converge; try another loss");
 }
 
-/// The covariance of the coefficients with the weights of the loss, from the least squares solution
-/// `plain` without them. `plain` has the covariance s^2 (A^T A)^-1 with s^2 = |A x - b|^2/(rows -
-/// columns); here another variance takes the place of s^2 (Huber 1981, section 7.6).
+/// The covariance of the M-estimate (RobustSolution). `plain`, the least squares solution without
+/// weights, has the covariance s^2 (A^T A)^-1, in which another variance takes the place of s^2.
 Eigen::MatrixXd robust_covariance(const Eigen::MatrixXd& matrix,
                                   const Eigen::VectorXd& right_hand_side,
                                   const LeastSquaresSolution& plain,
@@ -117,8 +108,6 @@ Eigen::MatrixXd robust_covariance(const Eigen::MatrixXd& matrix,
 
 }  // namespace
 
-/// The x that minimises the sum of the losses, the weights of the rows, and the scale of the
-/// residuals, with A = `matrix` and b = `right_hand_side`.
 RobustSolution solve_robust_least_squares(const Eigen::MatrixXd& matrix,
                                           const Eigen::VectorXd& right_hand_side,
                                           lubrication::Loss loss, const StopToken& stop) {

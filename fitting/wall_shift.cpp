@@ -1,14 +1,8 @@
-// Finds the depth below its crests at which a rough wall acts like a smooth one, the only unknown
-// of a least squares problem, by Gauss-Newton iteration. In the units of the table gaps [L] are
-// positive, resistances [M/T] positive, and the common shift [L] is >= 0; relative residuals have
-// no dimension. The table must have a row, which is not checked. A table and a force that do not
-// belong together are an Error(kBadInput), and an iteration that does not end within 100 steps is
-// an Error(kNotConverged). Used by pipeline/fit_stages.cpp and report/. A change must keep the sign
-// of the shift and the Error(kBadInput) that names a row whose resistance no gap of the smooth wall
-// has.
+// Gauss-Newton iteration for the one unknown, the depth of the smooth wall below the crests.
 #include "viscontact/fitting/wall_shift.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "viscontact/common/equal_up_to_rounding.hpp"
@@ -17,14 +11,13 @@
 namespace viscontact::fitting {
 namespace {
 
-/// The resistance of a row, minus the force over the velocity [M/T].
 double resistance_of(const lubrication::MotionRow& row) {
   return -row.force / row.reference_velocity;
 }
 
-/// The gap [L] at which the smooth wall has this resistance [M/T], by bisection of ln(gap) to
-/// round-off, for a resistance that decreases with the gap. `row` is for the message of
-/// Error(kBadInput), which is thrown if no gap of the fitted interval has this resistance.
+/// The gap [L] at which the smooth wall has this resistance [M/T], which decreases with the gap, by
+/// bisection of ln(gap) to round-off. `row` is for the message of Error(kBadInput), which is thrown
+/// if no gap of the fitted interval has this resistance.
 double smooth_gap_of(const lubrication::LubricationForce& smooth, double resistance,
                      const lubrication::MotionRow& row) {
   auto [low, high] = smooth.interval();
@@ -42,15 +35,9 @@ double smooth_gap_of(const lubrication::LubricationForce& smooth, double resista
 
 }  // namespace
 
-/// The common shift q_s >= 0 [L], in [`least`, `most`] below, that minimises the sum over the rows
-/// of (R_smooth(q + q_s)/R_rough(q) - 1)^2, where q is the gap from the crests and R the
-/// resistance. It is > 0 if the rough wall resists less than a smooth wall at its crests. The
-/// result also has for each row, in the order of the table, the shift [L], of any sign, that fits
-/// this row alone. Throws Error(kBadInput) if viscosity or radius of both differ, if `smooth` has a
-/// formula outside its fitted interval, if no gap of `smooth` has the resistance of a row, or if no
-/// shift brings all gaps into the fitted interval.
 WallShift fit_wall_shift(const lubrication::MotionTable& rough,
                          const lubrication::LubricationForce& smooth) {
+  assert(!rough.rows.empty());
   if (!equal_up_to_rounding(rough.viscosity, smooth.viscosity()) ||
       !equal_up_to_rounding(rough.radius, smooth.radius()))
     throw Error(ErrorKind::kBadInput,

@@ -1,15 +1,10 @@
-// Makes the command line and the environment of FreeFEM processes, and finds the scripts and the
-// Debian package of FreeFEM. Used by freefem_axi/journal/freefem.cpp and
-// freefem_flow/freefem_solver.cpp. Time limits are whole numbers of seconds from 1 to 10 million.
-// Missing scripts are an Error(kExternalProgram), a wrong time limit is an Error(kWrongUsage), and
-// a stop request while dpkg answers is an Error(kInterrupted). That FreeFEM exists is not checked
-// here. A change must keep that files in a user's folder and a user's settings of FreeFEM have no
-// effect on a script.
+// The command line and the environment of FreeFEM, its scripts, and its Debian package.
 #include "viscontact/freefem/freefem_command.hpp"
 
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <cassert>
 #include <charconv>
 #include <cstdlib>
 #include <sstream>
@@ -27,7 +22,7 @@ constexpr std::string_view kIncludeFolder = "/usr/include/freefem++/idp";
 constexpr std::string_view kLoadFolder = "/usr/lib/freefem++";
 
 /// The path of the file of a program, with symbolic links resolved. `name` is a path, or a name to
-/// look for on PATH. Nothing if there is no such file.
+/// look for on PATH.
 std::optional<std::filesystem::path> path_of_program(const std::string& name) {
   std::vector<std::filesystem::path> candidates = {name};
   if (name.find('/') == std::string::npos) {
@@ -78,16 +73,11 @@ std::string owner_in(const std::string& answer, const std::string& path) {
 
 }  // namespace
 
-/// The value of the environment variable VISCONTACT_FREEFEM, or FreeFem++-nw if it is not set or
-/// empty.
 std::string executable_of_user() {
   const char* named = std::getenv("VISCONTACT_FREEFEM");
   return named != nullptr && *named != '\0' ? named : "FreeFem++-nw";
 }
 
-/// The time limit of a process [s] from the environment variable VISCONTACT_FREEFEM_TIME_LIMIT.
-/// Nothing if the variable is not set or empty. Throws Error(kWrongUsage) if it is no whole number
-/// from 1 to 10 million.
 std::optional<std::chrono::seconds> time_limit_of_user() {
   // Four months; the check finds typing errors, and any longer time works too.
   constexpr int kLongest = 10'000'000;
@@ -103,11 +93,8 @@ std::optional<std::chrono::seconds> time_limit_of_user() {
   return std::chrono::seconds(seconds);
 }
 
-/// Name and version of the Debian package that owns the program `executable`, a path or a name to
-/// look for on PATH. Nothing without dpkg, without an answer within 10 s, or if no package owns the
-/// program. Throws Error(kInterrupted) if `stop` requests a stop.
 std::optional<Package> package_of(const std::string& executable, const StopToken& stop) {
-  // dpkg answers within a second. If it takes longer than this free limit, the system counts as one
+  // dpkg answers within a second. If it takes longer than this limit, the system counts as one
   // without dpkg.
   constexpr std::chrono::seconds kLongest(10);
   const auto file = path_of_program(executable);
@@ -124,10 +111,8 @@ std::optional<Package> package_of(const std::string& executable, const StopToken
   return package;
 }
 
-/// The folder share/viscontact/PART that contains the file `script`, with PART = `part`. It is
-/// looked for beside the program and one folder above it, and from a shared library also beside the
-/// library and in all folders above it. Throws Error(kExternalProgram) if there is no such folder.
 std::filesystem::path find_script_folder(std::string_view part, std::string_view script) {
+  assert(!part.empty() && !script.empty());
   namespace fs = std::filesystem;
   const auto program_folder = fs::read_symlink("/proc/self/exe").parent_path();
   std::vector<fs::path> beside = {program_folder, program_folder.parent_path()};
@@ -150,11 +135,9 @@ std::filesystem::path find_script_folder(std::string_view part, std::string_view
       program_folder.string());
 }
 
-/// The arguments, the environment and the working folder with which `executable` runs the script
-/// `script` of `script_folder`, without graphics. `arguments` are passed to the script. Nothing is
-/// checked.
 Command make_command(const std::string& executable, const std::filesystem::path& script_folder,
                      std::string_view script, const std::vector<std::string>& arguments) {
+  assert(!executable.empty() && !script.empty());
   const auto scripts = std::filesystem::absolute(script_folder);
   // A name with a slash is a path relative to the working folder of Viscontact. It is made
   // absolute, because FreeFEM runs in another folder.

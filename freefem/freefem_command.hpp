@@ -1,10 +1,4 @@
-// How a process of FreeFEM (the finite element program) is started: which program, where its
-// scripts are, with which arguments, environment and working folder. Times are in seconds. Missing
-// scripts throw Error(kExternalProgram), a wrong time limit throws Error(kWrongUsage), and a
-// requested stop throws Error(kInterrupted). Whether FreeFEM exists is not checked here; the code
-// that starts a process finds out. Used by freefem_axi/ and freefem_flow/. The upper limit of times
-// only finds typing errors and is a free choice. A change must keep each process on one thread,
-// because as many processes as cores can run at once.
+// How a process of FreeFEM is started: program, scripts, arguments, environment and working folder.
 #pragma once
 
 #include <chrono>
@@ -22,7 +16,7 @@ namespace viscontact::freefem {
 inline constexpr const char* kTimeLimit = "VISCONTACT_FREEFEM_TIME_LIMIT";
 
 /// The value of the environment variable VISCONTACT_FREEFEM if it is set and not empty, else
-/// FreeFem++-nw: a name to look for on PATH, or a path. Whether the program exists is not checked.
+/// FreeFem++-nw: a name to look for on PATH, or a path, whether the program exists or not.
 std::string executable_of_user();
 
 /// The value of VISCONTACT_FREEFEM_TIME_LIMIT [s], or nothing if it is not set or empty. Throws
@@ -46,7 +40,7 @@ struct Command {
 /// The command that runs a script of `script_folder` without graphics and on one thread.
 /// `executable` is a name to look for on PATH, or a path relative to the current folder.
 /// `arguments` are passed to the script: "-name" and "value" alternate, each an element of its own.
-/// Whether program and script exist is not checked.
+/// Whether program and script exist shows when the process is started.
 Command make_command(const std::string& executable, const std::filesystem::path& script_folder,
                      std::string_view script, const std::vector<std::string>& arguments);
 

@@ -1,14 +1,8 @@
-// The table of the bodies beside a sphere, its neighbours: plane, free surface, sphere, cavity,
-// rough plane. q > 0 is the gap [L], r > 0 the radius of the sphere [L], mu the viscosity
-// [M/(L T)], R the resistance [M/T]; lengths are in any one unit, curvatures in the inverse of this
-// unit, ratios and factors without dimension. The functions of a row do not check their parameters,
-// which must be complete. An unknown name or motion is an Error(kBadInput). Used by tabulation.cpp,
-// case_file/ and rolling/. A change must keep the names, which case files and tables contain; the
-// flags, which the scripts read; the order of the parameters, which functions here find by their
-// index; and motions in the order of MotionKind.
+// The table of geometries. Case files and tables contain their names and keys.
 #include "viscontact/freefem_axi/geometry.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 
 #include "viscontact/common/named.hpp"
@@ -19,8 +13,7 @@ namespace {
 using lubrication::MotionKind;
 using Parameters = std::span<const double>;
 
-// The parameters of each geometry: its key in a case, the flag of the script, the allowed values,
-// and the default (none: a case must give the key). Radii, amplitude and wavelength are lengths
+// The functions below find parameters by their index. Radii, amplitude and wavelength are lengths
 // [L]; ratios are those of the neighbour's velocity or angular velocity to that of the sphere [1].
 constexpr std::array kSphereParameters = {
     GeometryParameter{
@@ -44,8 +37,7 @@ constexpr std::array kRoughPlaneParameters = {
         .key = "wavelength", .flag = "-wavelength", .allowed = kPositive, .fallback = {}},
 };
 
-/// The radius and the height that a container must exceed [L], so that it holds the sphere at this
-/// gap above a floor. The functions below return the same for other neighbours.
+/// The radius and the height that a container must exceed.
 RequiredSpace space_above_floor(double radius, double gap, Parameters) {
   return {radius, gap + 2 * radius};
 }
@@ -55,37 +47,40 @@ RequiredSpace space_above_ripples(double radius, double gap, Parameters) {
   return {2 * radius, gap + 2 * radius};
 }
 
-/// The space for two spheres, with the middle of their gap at half the height of the container.
-/// Each half of the height must hold half the gap and the larger diameter.
+/// The middle of the gap is at half the height of the container.
 RequiredSpace space_of_pair(double radius, double gap, Parameters parameters) {
+  assert(!parameters.empty());
   const double larger = std::max(radius, parameters[0]);
   return {larger, gap + 4 * larger};
 }
 
-/// The neighbour's angular velocity over that of the sphere for motions about an axis
-/// (rotation_ratio), the velocity over that of the sphere for the others (velocity_ratio).
+/// Motions about an axis have the ratio of angular velocities, the others that of velocities.
 double ratio_of_pair(MotionKind motion, Parameters parameters) {
+  assert(parameters.size() > 2);
   return parameters[motion == MotionKind::kRoll || motion == MotionKind::kSpin ? 2 : 1];
 }
 
-/// A cavity needs no container, but it limits the gap [L], the distance to its nearest wall. The
-/// gap is largest if sphere and cavity are concentric.
+/// A cavity needs no container. The gap, the distance to its nearest wall, is largest if sphere and
+/// cavity are concentric.
 RequiredSpace space_in_cavity(double radius, double, Parameters parameters) {
+  assert(!parameters.empty());
   return {0, 0, parameters[0] - radius};
 }
 
 // These functions give k/(6 pi mu r^2), where R = k/q + ... is the resistance near contact. Theory
-// (Cox & Brenner 1967; Jeffrey & Onishi 1984) gives k = 6 pi mu r_eff^2 with
-// 1/r_eff = 1/r + 1/r_neighbour, where the radius of a cavity counts as negative. If the neighbour
-// moves, k is multiplied by the rate of change of the gap over the velocity of the sphere. Beside a
-// shear-free plane k is a quarter of that beside a plane without slip.
+// (Cox & Brenner 1967; Jeffrey & Onishi 1984) gives k = 6 pi mu r_eff^2 with 1/r_eff = 1/r +
+// 1/r_neighbour, where the radius of a cavity counts as negative. If the neighbour moves, k is
+// multiplied by the rate of change of the gap over the velocity of the sphere. Beside a shear-free
+// plane k is a quarter of that beside a plane without slip.
 double leading_of_plane(double, Parameters) { return 1; }
 double leading_of_free_surface(double, Parameters) { return 0.25; }
 double leading_of_pair(double radius, Parameters parameters) {
+  assert(parameters.size() > 1);
   const double share = parameters[0] / (radius + parameters[0]);
   return share * share * (1 - parameters[1]);
 }
 double leading_in_cavity(double radius, Parameters parameters) {
+  assert(!parameters.empty());
   const double share = parameters[0] / (parameters[0] - radius);
   return share * share;
 }
@@ -94,13 +89,17 @@ constexpr std::array kAllMotions = {MotionKind::kApproach, MotionKind::kSlide, M
                                     MotionKind::kSpin};
 constexpr std::array kAlongAndAroundTheAxis = {MotionKind::kApproach, MotionKind::kSpin};
 
-// The curvature of the neighbour, 1 over its radius; that of a cavity is negative.
 double flat(Parameters) { return 0; }
-double curvature_of_sphere(Parameters parameters) { return 1 / parameters[0]; }
-double curvature_of_cavity(Parameters parameters) { return -1 / parameters[0]; }
+double curvature_of_sphere(Parameters parameters) {
+  assert(!parameters.empty());
+  return 1 / parameters[0];
+}
+double curvature_of_cavity(Parameters parameters) {
+  assert(!parameters.empty());
+  return -1 / parameters[0];
+}
 
-// The first row is default_geometry(). Members that a row leaves out have the values of
-// geometry.hpp. relative_cost only changes the estimates of time.
+// The first row is default_geometry().
 constexpr std::array kGeometries = {
     Geometry{.name = "plane",
              .script = "plane.edp",
@@ -158,8 +157,6 @@ constexpr std::array kGeometries = {
 
 std::span<const Geometry> all_geometries() { return kGeometries; }
 
-/// The geometries in which the drag on a sphere near a body has an exact solution
-/// (Geometry::has_exact_drag).
 std::vector<Geometry> geometries_with_exact_drag() {
   std::vector<Geometry> geometries;
   std::ranges::copy_if(kGeometries, std::back_inserter(geometries), &Geometry::has_exact_drag);
@@ -172,9 +169,6 @@ bool has_motion(const Geometry& geometry, lubrication::MotionKind motion) {
   return std::ranges::find(geometry.motions, motion) != geometry.motions.end();
 }
 
-/// The motions with these names, in the order of MotionKind; {"all"} are those of the geometry.
-/// Throws Error(kBadInput) for an unknown geometry or name, a name twice, and a motion that the
-/// geometry lacks.
 std::vector<lubrication::MotionKind> parse_motions(const std::vector<std::string>& names,
                                                    std::string_view geometry_name) {
   const auto& geometry = find_geometry(geometry_name);
@@ -199,7 +193,6 @@ std::vector<lubrication::MotionKind> parse_motions(const std::vector<std::string
   return motions;
 }
 
-/// Throws Error(kBadInput), which lists the names, if there is none with this name.
 const Geometry& find_geometry(std::string_view name) {
   return require_named(kGeometries, name, "geometry");
 }

@@ -1,15 +1,8 @@
-// Calls the FreeFEM script of a geometry with the argument -motion, and reads the lines
-// "viscontact-action" that scripts/row.idp prints: forces and torques in units of viscosity, sphere
-// radius and velocity of the motion. The rows are in the units of the case: gap > 0 [L] (the script
-// refuses others), velocity 1 [L/T] or angular velocity 1 [1/T], forces [M L/T^2], torques
-// [M L^2/T^2], factors and error estimates [1]. Lines that are missing or contradict each other,
-// and a FreeFEM that fails, are an Error(kExternalProgram), an unknown geometry is an
-// Error(kBadInput), and a requested stop is an Error(kInterrupted). Used by motion_table_plan.cpp,
-// row_picture.cpp and bench/. A change must agree with scripts/row.idp, which numbers its solutions
-// in the order of motions_of().
+// Calls the FreeFEM script of a geometry with the argument -motion, and reads what row.idp prints.
 #include "viscontact/freefem_axi/motion_row.hpp"
 
 #include <array>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -35,12 +28,12 @@ struct ActionLine {
   /// The solution is the index in motions_of(); body 0 is the sphere, 1 the neighbour.
   std::size_t solution = 0, body = 0;
   /// Force and torque in units of viscosity, radius and velocity; the error estimates of their
-  /// factors, both divided by the sphere's force factor if the sphere slides, or by its torque
-  /// factor if it turns; and the observed order of convergence.
+  /// factors, over the sphere's force factor if the sphere slides, or over its torque factor if it
+  /// turns; and the observed order of convergence.
   std::array<double, 5> numbers{};
 };
 
-/// All lines "viscontact-action". Nothing if a number of one of them is missing or not finite.
+/// Nothing if a number of a line "viscontact-action" is missing or not finite.
 std::optional<std::vector<ActionLine>> read_action_lines(const std::string& output) {
   std::vector<ActionLine> actions;
   std::istringstream lines(output);
@@ -60,8 +53,7 @@ std::optional<std::vector<ActionLine>> read_action_lines(const std::string& outp
   return actions;
 }
 
-/// The factors of force and torque, and the estimates of their errors. Force and torque themselves
-/// are not a number; complete() computes them from the factors.
+/// Force and torque are NaN; complete() computes them from the factors.
 Action action_of(const ActionLine& line) {
   // 0 - x is 0 if x is 0, whereas -x is -0 and would be written as "-0".
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -73,9 +65,10 @@ Action action_of(const ActionLine& line) {
           line.numbers[3]};
 }
 
-/// Copies the lines into `rows`, which has an element for each solution. Returns false if the lines
-/// are not one for each solution and body, in this order.
+/// Copies the lines into `rows`, an element for each solution. Returns false if the lines are not
+/// one for each solution and body, in this order.
 bool take(const std::vector<ActionLine>& lines, std::size_t bodies, std::vector<MotionRow>& rows) {
+  assert(bodies == 1 || bodies == 2);
   if (lines.size() != rows.size() * bodies) return false;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (lines[i].solution != i / bodies || lines[i].body != i % bodies) return false;
@@ -92,8 +85,8 @@ bool take(const std::vector<ActionLine>& lines, std::size_t bodies, std::vector<
 
 /// The reciprocal theorem says: the forces and torques of rolling, multiplied by the velocities of
 /// sliding, give the same power as the forces and torques of sliding, multiplied by the velocities
-/// of rolling. Returns |difference of both powers| over what the error estimates allow, >= 0; more
-/// than 1 contradicts the theorem. `rows` are those of sliding and rolling.
+/// of rolling. Returns |difference of both powers| over what the error estimates allow; more than 1
+/// contradicts the theorem. `rows` are those of sliding and rolling.
 double asymmetry(const Tabulation& tabulation, const std::vector<MotionRow>& rows) {
   const auto& slide = rows.at(0);
   const auto& roll = rows.at(1);
@@ -116,28 +109,22 @@ double asymmetry(const Tabulation& tabulation, const std::vector<MotionRow>& row
 
 }  // namespace
 
-/// The motions of a group, in the order in which scripts/row.idp numbers its solutions.
 std::vector<MotionKind> motions_of(MotionGroup group) {
   if (group == MotionGroup::kAlong) return {MotionKind::kApproach};
   if (group == MotionGroup::kAround) return {MotionKind::kSpin};
   return {MotionKind::kSlide, MotionKind::kRoll};
 }
 
-/// True if the body beside the sphere is a sphere outside it. Throws Error(kBadInput) for an
-/// unknown geometry.
 bool neighbour_is_sphere(const Tabulation& tabulation) {
   const auto& geometry = find_geometry(tabulation.geometry);
   return geometry.curvature != nullptr && geometry.curvature(tabulation.geometry_parameters) > 0;
 }
 
-/// Solves the motions of `group`, kAcross or kAround (not checked), at `gap` [L], and returns a row
-/// for each, in the order of motions_of(). `further_arguments` are added to the arguments of the
-/// script. If `output` is not null, it gets all that FreeFEM printed. Throws
-/// Error(kExternalProgram), too, if sliding and rolling contradict the reciprocal theorem.
 std::vector<MotionRow> solve_motions(const FreeFem& freefem, const Tabulation& tabulation,
                                      MotionGroup group, double gap,
                                      const std::vector<std::string>& further_arguments,
                                      std::string* output) {
+  assert(group != MotionGroup::kAlong);
   const auto start = std::chrono::steady_clock::now();
   auto scaled = tabulation;
   scaled.viscosity = 1;

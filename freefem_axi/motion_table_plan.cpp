@@ -1,16 +1,10 @@
-// Makes the plans of the tables of one sphere: which rows they have, how FreeFEM solves them, and a
-// text of everything that the numbers depend on, from which a hash is made. In the units of the
-// case, viscosity [M/(L T)], radius [L] and gaps [L] are positive, velocities [L/T] or [1/T] not 0,
-// the relative accuracy [1] in (0, 1); none of this is checked here. An unknown geometry is an
-// Error(kBadInput). Solving a row throws Error(kExternalProgram) if FreeFEM fails, Error(kBadInput)
-// for a force that a double cannot hold, and Error(kInterrupted) for a requested stop. Used by
-// pipeline/tabulate/. A change must keep this text: with another hash all tables that users have
-// count as out of date and are computed again.
+// Which rows the tables of one sphere have, how FreeFEM solves them, and what they depend on.
 #include "viscontact/freefem_axi/motion_table_plan.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -29,8 +23,8 @@ using lubrication::MotionRow;
 // number are then computed again.
 constexpr int kDragMethod = 3, kMotionMethod = 2;
 
-/// The text of everything that the numbers of the tables of a group depend on: geometry, container,
-/// viscosity, radius, accuracy, revision of the scripts, gaps and velocities, in this order.
+/// Everything that the numbers of the tables of a group depend on. With another text all tables
+/// that users have count as out of date and are computed again.
 std::string inputs_of(const Tabulation& tabulation, MotionGroup group) {
   const bool along = group == MotionGroup::kAlong;
   std::string text = fmt::format(
@@ -46,12 +40,10 @@ std::string inputs_of(const Tabulation& tabulation, MotionGroup group) {
 }
 
 /// The time of one row on one core [s], from measurements on two cores of 2.1 GHz with one row on
-/// each, at gaps of 0.01 and 0.3 radii. For a relative accuracy of 1e-5 (kKnee) and more the time
-/// is constant, because the coarsest meshes suffice. For smaller values it grows as the power -0.45
-/// (-kPower) of the accuracy.
+/// each, at gaps of 0.01 and 0.3 radii. For a relative accuracy of kKnee and more the coarsest
+/// meshes suffice; for smaller values the time grows as the power -kPower of the accuracy.
 double typical_seconds(const Tabulation& tabulation, MotionGroup group) {
-  // swimmer/tabulation/resistance_table_plan.cpp repeats both numbers. They only change the time
-  // that users are told.
+  // swimmer/tabulation/resistance_table_plan.cpp has both numbers, too.
   constexpr double kKnee = 1e-5, kPower = 0.45;
   const double coarse = group == MotionGroup::kAlong    ? 1.3
                         : group == MotionGroup::kAcross ? 2.5
@@ -60,8 +52,8 @@ double typical_seconds(const Tabulation& tabulation, MotionGroup group) {
          find_geometry(tabulation.geometry).relative_cost;
 }
 
-/// The head of the table of a motion: inputs, and the leading coefficient of the resistance
-/// (approach) or the leading factors of force and torque (other motions), where theory knows them.
+/// With the leading coefficient of the resistance (approach) or the leading factors of force and
+/// torque (other motions), where theory knows them.
 lubrication::TableHead head_of(const Tabulation& tabulation, MotionKind motion) {
   const auto& geometry = find_geometry(tabulation.geometry);
   lubrication::TableHead head;
@@ -88,8 +80,8 @@ lubrication::TableHead head_of(const Tabulation& tabulation, MotionKind motion) 
   return head;
 }
 
-/// The row at another velocity, [L/T] or [1/T]. Its forces and torques are NaN, which complete()
-/// replaces by values that it computes from the factors.
+/// The row at another velocity. Its forces and torques are NaN, which complete() replaces by values
+/// from the factors.
 MotionRow with_velocity(MotionRow row, double velocity) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   row.reference_velocity = velocity;
@@ -100,7 +92,6 @@ MotionRow with_velocity(MotionRow row, double velocity) {
 
 }  // namespace
 
-/// The motions of the group that are among tabulation.motions, in the order of motions_of().
 std::vector<MotionKind> asked_motions(const Tabulation& tabulation, MotionGroup group) {
   auto asked = motions_of(group);
   std::erase_if(asked, [&](MotionKind motion) {
@@ -109,7 +100,6 @@ std::vector<MotionKind> asked_motions(const Tabulation& tabulation, MotionGroup 
   return asked;
 }
 
-/// The groups with at least one of tabulation.motions, in the order of MotionGroup.
 std::vector<MotionGroup> motion_groups(const Tabulation& tabulation) {
   std::vector<MotionGroup> groups = {MotionGroup::kAlong, MotionGroup::kAcross,
                                      MotionGroup::kAround};
@@ -118,10 +108,6 @@ std::vector<MotionGroup> motion_groups(const Tabulation& tabulation) {
   return groups;
 }
 
-/// The plan of the tables of a group. A point of the approach is a gap and a velocity, and a point
-/// of the other motions is a gap alone. A table has, for each velocity, a row for each gap.
-/// `path_of(motion)` is the path of the table of a motion. At least one motion of the group must be
-/// asked for, which is not checked.
 TablePlan motion_table_plan(const Tabulation& tabulation, MotionGroup group,
                             const TablePath& path_of) {
   PlanParts<MotionRow> parts;
@@ -129,6 +115,7 @@ TablePlan motion_table_plan(const Tabulation& tabulation, MotionGroup group,
   parts.relative_accuracy = tabulation.relative_accuracy;
   parts.typical_seconds = typical_seconds(tabulation, group);
   const auto asked = asked_motions(tabulation, group);
+  assert(!asked.empty());
   for (const auto motion : motions_of(group)) {
     const bool is_asked = std::ranges::find(asked, motion) != asked.end();
     auto& row = parts.rows.emplace_back(PlannedRow<MotionRow>{

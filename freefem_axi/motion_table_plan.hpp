@@ -1,10 +1,5 @@
-// Makes plans of the tables of force and torque on one sphere that approaches its neighbour (the
-// body beside it), slides, rolls or spins, for pipeline/tabulate/. A row of the approach is
-// computed for each gap [L] and velocity [L/T]. A row of another motion is computed for each gap
-// only, because force and torque are proportional to the velocity. Numbers are in the units of the
-// case. An unknown geometry throws Error(kBadInput). Gaps and velocities are not checked here. A
-// change must keep the order of the rows, and that the numbers in a table do not depend on which
-// other tables are made with it.
+// Plans of the tables of one sphere that approaches its neighbour, slides, rolls or spins. The
+// numbers in a table do not depend on which other tables are made with it.
 #pragma once
 
 #include <filesystem>
@@ -16,24 +11,25 @@
 
 namespace viscontact::freefem_axi {
 
-/// The groups that contain at least one of tabulation.motions, in the order of MotionGroup.
+/// The groups with at least one of tabulation.motions, in the order of MotionGroup.
 std::vector<MotionGroup> motion_groups(const Tabulation& tabulation);
 
 /// The motions of the group that are among tabulation.motions, in the order of motions_of().
 std::vector<lubrication::MotionKind> asked_motions(const Tabulation& tabulation, MotionGroup group);
 
-/// A function that returns the path of the table of a motion.
+/// The path of the table of a motion.
 using TablePath = std::function<std::filesystem::path(lubrication::MotionKind)>;
 
-/// The plan of the tables of a group that has at least one of tabulation.motions (not checked).
-/// Slide and roll form one group and are both solved, even if only one of their tables is asked
-/// for. The plan itself writes the table of the first asked motion, to the path that its caller
-/// gives. If the table of the other motion is asked for, it is a companion of the plan, with the
-/// path `path_of(motion)`. A table has for each velocity all gaps, both in the order of
-/// `tabulation`. Throws Error(kBadInput) for an unknown geometry, and std::out_of_range if
-/// geometry_parameters are missing. TablePlan::solve throws Error(kExternalProgram) if FreeFEM
-/// fails, Error(kBadInput) if a double cannot hold the force of an approach, and
-/// Error(kInterrupted) if a stop is requested.
+/// The plan of the tables of a group that has at least one of tabulation.motions. Slide and roll
+/// form one group and are both solved, even if only one of their tables is asked for. The plan
+/// itself writes the table of the first asked motion, to the path that its caller gives. If the
+/// table of the other motion is asked for, it is a companion of the plan, with the path
+/// `path_of(motion)`. A table has for each velocity all gaps, both in the order of `tabulation`. A
+/// point is a gap and a velocity for the approach; for the other motions it is a gap alone, because
+/// force and torque are proportional to the velocity. Throws Error(kBadInput) for an unknown
+/// geometry, and std::out_of_range if geometry_parameters are missing. TablePlan::solve throws
+/// Error(kExternalProgram) if FreeFEM fails, Error(kBadInput) if a double cannot hold the force of
+/// an approach, and Error(kInterrupted) at a stop.
 TablePlan motion_table_plan(const Tabulation& tabulation, MotionGroup group,
                             const TablePath& path_of);
 

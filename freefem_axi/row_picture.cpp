@@ -1,15 +1,8 @@
 // Reads the meshes and the flow that scripts/pictures.idp prints, and writes them for ParaView.
-// Results are in the units of the case: places [L], velocities [L/T], pressure [M/(L T^2)], stream
-// function [L^3/T], all finite, one number for each node. The gap must be > 0 [L], which FreeFEM
-// checks, and the velocity [L/T] or [1/T] must not be 0, which FreeFEM checks for the approach
-// only. A FreeFEM that fails and an incomplete mesh are an Error(kExternalProgram), an unknown
-// geometry or a force beyond a double is an Error(kBadInput), and a requested stop is an
-// Error(kInterrupted). Used by report/flow/ and pipeline/tabulate/. A change must keep that this
-// file reads the format that is described in scripts/pictures.idp, and kWords in the order of
-// BoundaryKind.
 #include "viscontact/freefem_axi/row_picture.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <sstream>
 
@@ -19,16 +12,17 @@
 namespace viscontact::freefem_axi {
 namespace {
 
-/// Reads the meshes in the output of FreeFEM, one after the other.
+/// Reads the meshes in the output of FreeFEM, one after the other, in the format of pictures.idp.
 class PictureReader {
  public:
   explicit PictureReader(const std::string& output) : stream_(output) {}
 
-  /// Reads the next mesh and its boundary. Each node has `columns` numbers, >= 2: its distance rho
-  /// from the axis, its height z, and values. `fields` gets a vector over the nodes for each value.
-  /// Throws Error(kExternalProgram) if a number is missing, not finite or out of range.
+  /// Each node has `columns` numbers, >= 2: its distance rho from the axis, its height z, and
+  /// values. `fields` gets a vector over the nodes for each value. Throws Error(kExternalProgram)
+  /// if a number is missing, not finite or out of range.
   QuadraticMesh read_mesh(std::size_t columns, std::vector<std::vector<double>>& fields,
                           std::vector<BoundaryEdge>& boundary) {
+    assert(columns >= 2);
     std::string line;
     while (std::getline(stream_, line) && !line.starts_with("viscontact-mesh ")) {
     }
@@ -60,12 +54,10 @@ class PictureReader {
   }
 
  private:
-  /// Throws Error(kExternalProgram).
   [[noreturn]] static void fail() {
     throw Error(ErrorKind::kExternalProgram,
                 "the mesh and flow that FreeFEM wrote for a picture are incomplete");
   }
-  /// The next word of `stream`, a number of nodes, triangles or edges.
   static std::size_t size_from(std::istream& stream) {
     // A larger number comes from a damaged line, and would exhaust the memory. Any limit far above
     // the number of nodes for which FreeFEM can solve (some 1e5) works.
@@ -88,7 +80,6 @@ class PictureReader {
     if (found == kWords.end()) fail();
     return static_cast<BoundaryKind>(found - kWords.begin());
   }
-  /// The next word, the number of a node, which must be less than `nodes`.
   std::size_t node_below(std::size_t nodes) {
     std::size_t node = 0;
     if (!(stream_ >> node) || node >= nodes) fail();
@@ -99,9 +90,7 @@ class PictureReader {
 };
 
 /// The factors from FreeFEM's units to those of the case, for the velocities u_rho and u_z, the
-/// pressure and the last column, which is the stream function for the approach and the velocity
-/// u_phi about the axis for other motions. `velocity` is in [L/T], or in [1/T] for rolling and
-/// spinning.
+/// pressure and the last column: the stream function for the approach, u_phi for other motions.
 std::array<double, 4> factors_of_approach(const Tabulation& tabulation, double velocity) {
   const auto scale = solve_scale(tabulation, velocity);
   return {scale.speed, scale.speed, scale.viscosity * scale.speed, scale.speed};
@@ -113,7 +102,6 @@ std::array<double, 4> factors_of_motion(const Tabulation& tabulation,
   return {speed, speed, tabulation.viscosity * speed / tabulation.radius, speed};
 }
 
-/// The output of FreeFEM for a sphere that slides, rolls or spins.
 std::string picture_of_motion(const FreeFem& freefem, const Tabulation& tabulation,
                               lubrication::MotionKind motion, double gap) {
   const bool spins = motion == lubrication::MotionKind::kSpin;
@@ -126,9 +114,6 @@ std::string picture_of_motion(const FreeFem& freefem, const Tabulation& tabulati
 
 }  // namespace
 
-/// Solves the flow at `gap` and `reference_velocity` and returns the flow on the finest mesh, the
-/// edges of its boundary, and the coarsest mesh. The stream function is empty for motions other
-/// than the approach, and the velocity about the axis is empty for the approach.
 RowPicture solve_row_for_picture(const FreeFem& freefem, const Tabulation& tabulation, double gap,
                                  double reference_velocity, lubrication::MotionKind motion) {
   RowPicture picture;
@@ -158,8 +143,6 @@ RowPicture solve_row_for_picture(const FreeFem& freefem, const Tabulation& tabul
   return picture;
 }
 
-/// The text of a VTK file of the flow in the half-plane (rho, z), with the array "stream_function"
-/// or "azimuthal_velocity". Throws nothing.
 std::string write_vtu(const RowPicture& picture) {
   return picture.azimuthal_velocity.empty()
              ? write_flow(picture.flow, false, "stream_function", picture.stream_function)

@@ -1,8 +1,5 @@
-// Computes the flow around a sphere at one gap and one velocity, with its meshes, for pictures. rho
-// [L] is the distance from the axis of symmetry, z [L] the height, phi the angle about the axis.
-// Lengths, masses and times are in the units of the case. Error(kExternalProgram) says that FreeFEM
-// failed, also because its scripts refuse the gap. report/flow/ and pipeline/tabulate/ use this
-// file. A change must agree with scripts/pictures.idp, which writes what row_picture.cpp reads.
+// The flow around a sphere at one gap and one velocity, with its meshes, for pictures. rho is the
+// distance from the axis of symmetry, z the height, phi the angle about the axis.
 #pragma once
 
 #include <array>
@@ -26,11 +23,11 @@ struct BoundaryEdge {
   std::array<std::size_t, 3> nodes{};
 };
 
-/// The flow of one row of a table, as a picture shows it.
+/// The flow of one row of a table, in the units of the case.
 struct RowPicture {
   lubrication::MotionKind motion = lubrication::MotionKind::kApproach;  ///< of the sphere
-  double gap = 0;                                                       ///< q [L], > 0
-  double reference_velocity = 0;  ///< u0 [L/T], or w0 [1/T] of a sphere that turns; not 0
+  double gap = 0;                                                       ///< [L], > 0
+  double reference_velocity = 0;  ///< [L/T], or [1/T] of a sphere that turns; not 0
   /// The flow on the finest mesh in the half-plane (rho, z), whose origin is the point of the
   /// neighbour that is nearest to the sphere: places [L], velocity [L/T] and pressure [M/(L T^2)]
   /// at the nodes. The pressure has the mean 0 in a container, and is 0 far away in unbounded
@@ -48,16 +45,15 @@ struct RowPicture {
 };
 
 /// Solves the flow at the gap `gap` [L] > 0 and the velocity `reference_velocity` [L/T], or angular
-/// velocity [1/T] for kRoll and kSpin. It must not be 0; only FreeFEM checks this, and only for the
-/// approach. Throws Error(kExternalProgram) if FreeFEM fails or writes an incomplete mesh,
-/// Error(kBadInput) for an unknown geometry or a force that a double cannot hold, std::out_of_range
-/// if geometry_parameters are missing, and Error(kInterrupted) if freefem.stop requests a stop.
+/// velocity [1/T] for kRoll and kSpin, not 0. Throws Error(kExternalProgram) if FreeFEM fails, also
+/// because its scripts refuse a number, or writes an incomplete mesh, Error(kBadInput) for an
+/// unknown geometry or a force that a double cannot hold, std::out_of_range if geometry_parameters
+/// are missing, and Error(kInterrupted) at a stop.
 RowPicture solve_row_for_picture(
     const FreeFem& freefem, const Tabulation& tabulation, double gap, double reference_velocity,
     lubrication::MotionKind motion = lubrication::MotionKind::kApproach);
 
-/// The text of a VTK file (.vtu) for ParaView: the flow, and stream_function or azimuthal_velocity,
-/// in the units of `picture`. Throws nothing; sizes of the arrays are not checked.
+/// The text of a VTK file (.vtu) for ParaView: the flow, and stream_function or azimuthal_velocity.
 std::string write_vtu(const RowPicture& picture);
 
 }  // namespace viscontact::freefem_axi

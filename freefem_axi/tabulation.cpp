@@ -1,12 +1,4 @@
-// Computes the force on a sphere at one gap and velocity: makes the arguments of a FreeFEM script,
-// runs it and reads the result. In the units of the case, viscosity [M/(L T)], radius and gap [L]
-// are positive, the velocity [L/T] not 0, the force in [M L/T^2]; only FreeFEM checks this, and it
-// writes the force in the units of solve_scale(). A row without a result is an
-// Error(kExternalProgram), an unknown geometry and a force beyond the range of a double are an
-// Error(kBadInput), and a requested stop is an Error(kInterrupted). Used by motion_row.cpp,
-// row_picture.cpp, case_file/, rolling/, app/ and bench/. A change must agree with the flags in
-// scripts/sphere_arguments.idp and the output of row.idp, and keep the words for geometry and
-// container, on which the hashes of tables depend.
+// Makes the arguments of a FreeFEM script, runs it and reads the result.
 #include "viscontact/freefem_axi/tabulation.hpp"
 
 #include <fmt/format.h>
@@ -24,14 +16,13 @@ namespace viscontact::freefem_axi {
 namespace {
 
 /// The first numbers of the line "viscontact-result" of a script: the force in the units of
-/// solve_scale(), its relative error estimate [1], the number of unknowns, and the observed order
-/// of convergence.
+/// solve_scale(), its relative error estimate, the number of unknowns, and the observed order.
 struct Answer {
   double force = 0, estimate = 0, unknowns = 0, order = 0;
 };
 
-/// Reads that line. Throws Error(kExternalProgram), which names gap and velocity, if FreeFEM
-/// failed, was killed after `time_limit`, or did not print the line.
+/// Throws Error(kExternalProgram), which names gap and velocity, if FreeFEM failed, was killed
+/// after `time_limit`, or did not print the line.
 Answer read_answer(const ProcessResult& result, double gap, double reference_velocity,
                    std::chrono::seconds time_limit) {
   std::istringstream answer(line_after(result.output, "viscontact-result"));
@@ -51,8 +42,6 @@ Answer read_answer(const ProcessResult& result, double gap, double reference_vel
 
 }  // namespace
 
-/// The container in words, such as "closed cylinder, radius 40, height 80", "unbounded", or "none"
-/// if the neighbour encloses the fluid.
 std::string container_in_words(const Tabulation& tabulation) {
   if (!find_geometry(tabulation.geometry).takes_container) return "none";
   if (!tabulation.container) return "unbounded";
@@ -61,8 +50,6 @@ std::string container_in_words(const Tabulation& tabulation) {
                      format_number(tabulation.container->height));
 }
 
-/// The neighbour in words, such as "sphere, radius 2, velocity_ratio 0". Throws std::out_of_range
-/// if tabulation.geometry_parameters is too short; so does row_arguments().
 std::string geometry_in_words(const Tabulation& tabulation) {
   const auto& geometry = find_geometry(tabulation.geometry);
   std::string words(geometry.name);
@@ -75,16 +62,12 @@ std::string geometry_in_words(const Tabulation& tabulation) {
   return words;
 }
 
-/// The velocity of the neighbour (angular velocity for kRoll and kSpin) divided by that of the
-/// sphere [1]; 0 if the neighbour is always at rest.
 double neighbour_ratio(const Tabulation& tabulation, lubrication::MotionKind motion) {
   const auto& geometry = find_geometry(tabulation.geometry);
   if (geometry.neighbour_ratio == nullptr) return 0;
   return geometry.neighbour_ratio(motion, tabulation.geometry_parameters);
 }
 
-/// The coefficient k > 0 [M L/T] of 1/gap in the resistance, by lubrication theory; nothing if it
-/// is not known.
 std::optional<double> leading_coefficient(const Tabulation& tabulation) {
   const auto& geometry = find_geometry(tabulation.geometry);
   if (geometry.leading_factor == nullptr) return std::nullopt;
@@ -97,7 +80,6 @@ std::optional<double> leading_coefficient(const Tabulation& tabulation) {
   return coefficient;
 }
 
-/// The arguments of the script for the row at this gap and velocity: "-name" and "value" alternate.
 std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
                                        double reference_velocity) {
   const auto& geometry = find_geometry(tabulation.geometry);
@@ -117,8 +99,6 @@ std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
   return arguments;
 }
 
-/// The units of viscosity [M/(L T)] and speed [L/T] in which FreeFEM computes. Both are 1 if
-/// viscosity and |velocity| are in [1e-9, 1e9]; otherwise they are viscosity and |velocity|.
 SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity) {
   // Other limits work, too, if the products of viscosity and speed within them stay normal doubles.
   constexpr double kLeast = 1e-9, kMost = 1e9;
@@ -128,10 +108,6 @@ SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity) 
   return {tabulation.viscosity, speed};
 }
 
-/// Solves the approach at `gap` and `reference_velocity`. Returns the row with the force, its
-/// relative error estimate [1] (which may exceed relative_accuracy) and the time [s].
-/// `further_arguments` are added to the arguments of the script. If `output` is not null, it gets
-/// all that FreeFEM printed.
 lubrication::MotionRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap,
                                  double reference_velocity,
                                  const std::vector<std::string>& further_arguments,

@@ -1,11 +1,5 @@
-// Describes the inputs of a table of the lubrication force F_lub(q, u0) on a sphere at the gap q
-// and the velocity u0, and solves one of its rows by FreeFEM (docs/physics.md, section 2). Lengths,
-// masses and times are in any consistent units. An unknown geometry throws Error(kBadInput). Ranges
-// are not checked here: the scripts of FreeFEM refuse wrong numbers, which throws
-// Error(kExternalProgram). motion_row.hpp, row_picture.hpp, case_file/, rolling/, bench/ and the
-// command `doctor` use this file. A change must keep the texts of geometry_in_words() and
-// container_in_words(), because the heads of tables contain them and their hash decides whether a
-// table is up to date.
+// The inputs of a table of the lubrication force F_lub(q, u0) on a sphere, and the solution of one
+// of its rows by FreeFEM, docs/physics.md (2.1) to (2.3), in any consistent units.
 #pragma once
 
 #include <optional>
@@ -21,12 +15,12 @@ namespace viscontact::freefem_axi {
 
 /// A closed no-slip cylinder on the axis [L].
 struct Container {
-  double radius = 0;  ///< of the cylinder [L], > 0
-  double height = 0;  ///< distance of its ends [L], > 0
+  double radius = 0;  ///< > 0
+  double height = 0;  ///< distance of its ends, > 0
 };
 
-/// The inputs of a table of F_lub over a grid of gaps and velocities. The sphere and its neighbour,
-/// the body that it approaches, have a common axis of symmetry.
+/// The inputs of a table over a grid of gaps and velocities. The sphere and its neighbour, the body
+/// that it approaches, have a common axis of symmetry. The scripts of FreeFEM refuse wrong numbers.
 struct Tabulation {
   double viscosity = 0;      ///< mu [M/(L T)], > 0
   double radius = 0;         ///< r [L], > 0
@@ -44,15 +38,13 @@ struct Tabulation {
   std::vector<lubrication::MotionKind> motions = {lubrication::MotionKind::kApproach};
 };
 
-/// The container in words for the head of a table: "closed cylinder, radius 40, height 80",
-/// "unbounded", or "none" if the neighbour encloses the fluid. This function and the next four
-/// throw Error(kBadInput) if there is no geometry with the name tabulation.geometry. The
-/// geometry_parameters must be complete: if some are missing, geometry_in_words() and
-/// row_arguments() throw std::out_of_range, and neighbour_ratio() and leading_coefficient() read
-/// beyond the array.
+/// In words for the head of a table: "closed cylinder, radius 40, height 80", "unbounded", or
+/// "none" if the neighbour encloses the fluid. The hash of a table depends on these words. This
+/// function and the next four throw Error(kBadInput) for an unknown geometry. geometry_in_words()
+/// and row_arguments() throw std::out_of_range if geometry_parameters are missing.
 std::string container_in_words(const Tabulation& tabulation);
 
-/// The neighbour in words for the head of a table: "sphere, radius 2, velocity_ratio 0".
+/// In words for the head and the hash of a table: "sphere, radius 2, velocity_ratio 0".
 std::string geometry_in_words(const Tabulation& tabulation);
 
 /// The neighbour's velocity (approach, slide) or angular velocity (roll, spin) over that of the
@@ -64,13 +56,12 @@ double neighbour_ratio(const Tabulation& tabulation, lubrication::MotionKind mot
 /// least as fast as the sphere follows, so that k <= 0.
 std::optional<double> leading_coefficient(const Tabulation& tabulation);
 
-/// The arguments of the FreeFEM script of the geometry for the row at the gap q = `gap` [L] and the
-/// velocity u0 = `reference_velocity` [L/T]: "-name" and "value" in turn.
+/// The arguments of the FreeFEM script of the geometry: "-name" and "value" in turn.
 std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
                                        double reference_velocity);
 
-/// The units of viscosity and speed in which FreeFEM writes the force. The force is proportional to
-/// both, so in the units of the case it is FreeFEM's number times both members.
+/// The units of viscosity and speed in which FreeFEM writes the force: in the units of the case the
+/// force is FreeFEM's number times both members.
 struct SolveScale {
   double viscosity = 1;  ///< [M/(L T)], > 0
   double speed = 1;      ///< [L/T], > 0
@@ -85,9 +76,9 @@ SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity);
 /// [1], which may be above relative_accuracy. `further_arguments` are added to the command line of
 /// FreeFEM. If `output` is not null, it is set to everything that FreeFEM printed, in the units of
 /// solve_scale(). Throws Error(kExternalProgram) with the error or the last lines that FreeFEM
-/// printed if FreeFEM fails or exceeds its time limit, Error(kBadInput) if the force is outside the
-/// range of a double or the geometry is not known, std::out_of_range if geometry_parameters are
-/// missing, and Error(kInterrupted) if freefem.stop requests a stop.
+/// printed if FreeFEM fails, also because its scripts refuse a number, or exceeds its time limit,
+/// Error(kBadInput) if the force is outside the range of a double or the geometry is not known,
+/// std::out_of_range if geometry_parameters are missing, and Error(kInterrupted) at a stop.
 lubrication::MotionRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap,
                                  double reference_velocity,
                                  const std::vector<std::string>& further_arguments = {},

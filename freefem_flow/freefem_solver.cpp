@@ -1,18 +1,11 @@
-// The commands of fluid solvers, and the units in which FreeFEM computes, for app/ and python/.
-// Numbers are in the units of the case if no other units are named: lengths [L] and the viscosity
-// [M/(L T)] are > 0, velocities in [L/T, 1/T], forces and torques in [M L/T^2, M L^2/T^2]; in the
-// plane a mass is that of a unit length of the third dimension. Time limits are 1 to 10 million
-// seconds. A solver that does not start is an Error(kExternalProgram), a particle too small for its
-// mesh or a wrong domain an Error(kBadInput), a gap too narrow for the mesh an
-// Error(kNotConverged), a wrong time limit in the environment an Error(kWrongUsage), and a
-// requested stop an Error(kInterrupted). A change must keep units that are powers of 2, because
-// their scaling has no rounding error, and the names of the scripts in scripts/.
+// The commands of fluid solvers, and the units in which FreeFEM computes.
 #include "viscontact/freefem_flow/freefem_solver.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -31,33 +24,31 @@
 namespace viscontact::freefem_flow {
 namespace {
 
-/// The units in which FreeFEM computes. The members are the powers of 2 with which the radius of
-/// the smallest particle or membrane, and the viscosity, become numbers between 0.7 and 1.5. The
-/// unit of time is that of the case.
+/// The units in which FreeFEM computes: the powers of 2, whose scaling has no rounding error, with
+/// which the radius of the smallest particle or membrane, and the viscosity, become numbers between
+/// 0.7 and 1.5. The unit of time is that of the case.
 struct SolverUnits {
-  double length = 1;     ///< [L], > 0
-  double viscosity = 1;  ///< [M/(L T)], > 0
+  double length = 1;     ///< [L]
+  double viscosity = 1;  ///< [M/(L T)]
 };
 
-/// The units for the smallest of `radii` [L], or for the size of the domain if there are none.
+/// For the smallest of `radii`, or for the size of the domain if there are none.
 SolverUnits solver_units(const particles::Fluid& fluid, const particles::Domain& domain,
                          std::span<const double> radii);
 
-/// The fluid, the domain and lengths [L] with their numbers divided by the units of the solver. The
-/// penalty, the viscosity ratios and all times stay, and so do angles and rates [1/T].
+/// Lengths, masses and what depends on them, divided by the units of the solver. The penalty, the
+/// viscosity ratios, times, angles and rates [1/T] stay.
 particles::Fluid in_units(particles::Fluid fluid, const SolverUnits& units);
 particles::Domain in_units(particles::Domain domain, const SolverUnits& units);
 std::vector<double> in_units(std::span<const double> lengths, const SolverUnits& units);
 
-/// A fluid solver whose arguments and results are in the units of the case. It changes the
-/// arguments to SolverUnits, asks another solver, and changes the results back.
+/// A fluid solver that changes arguments in the units of the case to SolverUnits, asks another
+/// solver, and changes the results back.
 class ScaledSolver : public particles::FluidSolver {
  public:
-  /// `dimension`: 2 in the plane, 1 on the axis of a cylinder.
   ScaledSolver(const SolverUnits& units, int dimension,
                std::unique_ptr<particles::FluidSolver> solver);
 
-  // These functions are those of FluidSolver, with its errors.
   void place(const particles::FluidParticles& bodies) override;
   std::vector<double> velocities(std::span<const double> forces, bool driving) override;
   std::vector<double> mobility(std::size_t components) override;
@@ -74,21 +65,23 @@ class ScaledSolver : public particles::FluidSolver {
   double peak_memory_mebibytes() const override { return solver_->peak_memory_mebibytes(); }
 
  private:
-  /// Forces and torques in the units of the solver.
   std::vector<double> scaled_forces(std::span<const double> forces) const;
-  /// Changes velocities from the units of the solver to those of the case.
   void unscale_velocities(std::vector<double>& velocities) const;
 
   SolverUnits units_;
-  std::size_t components_;  ///< of the motion of one particle: 3 in the plane, 1 on axis
-  // The solver's units of these components, and of the forces and torques on a particle.
+  std::size_t components_;  // of the motion of one particle
+  // The solver's units of these components, of the forces and torques on a particle, and of a
+  // power.
   std::array<double, 3> velocity_units_{}, force_units_{};
-  double power_unit_ = 1;  ///< the solver's unit of a power, per unit length in the plane
+  double power_unit_ = 1;
   std::unique_ptr<particles::FluidSolver> solver_;
 };
 
-/// The power of 2 whose logarithm is nearest to that of `number`, which must be > 0 (not checked).
-double power_of_2(double number) { return std::exp2(std::round(std::log2(number))); }
+/// The power of 2 whose logarithm is nearest to that of `number`.
+double power_of_2(double number) {
+  assert(number > 0);
+  return std::exp2(std::round(std::log2(number)));
+}
 
 SolverUnits solver_units(const particles::Fluid& fluid, const particles::Domain& domain,
                          std::span<const double> radii) {
@@ -147,6 +140,7 @@ ScaledSolver::ScaledSolver(const SolverUnits& units, int dimension,
     : units_(units),
       components_(particles::motion_components(dimension)),
       solver_(std::move(solver)) {
+  assert(solver_ != nullptr);
   // In the plane forces and powers are per unit length of the third dimension.
   const double length = units.length, force = units.viscosity * length;
   if (components_ == 3) {
@@ -160,10 +154,8 @@ ScaledSolver::ScaledSolver(const SolverUnits& units, int dimension,
   }
 }
 
-/// Gives the solver the particles with positions and radii [L], inertia [M/T, M L^2/T], driven
-/// velocities [L/T, 1/T] and masses [M, M L^2] in its units. Arrays have `components_` numbers for
-/// each particle; angles and time steps stay.
 void ScaledSolver::place(const particles::FluidParticles& bodies) {
+  assert(bodies.particles != nullptr);
   particles::Particles scaled;
   scaled.dimension = bodies.particles->dimension;
   scaled.positions = in_units(bodies.particles->positions, units_);
@@ -197,16 +189,14 @@ void ScaledSolver::unscale_velocities(std::vector<double>& velocities) const {
     velocities[i] *= velocity_units_[i % components_];
 }
 
-/// `forces` and the result have `components_` numbers for each particle, in the units of the case.
 std::vector<double> ScaledSolver::velocities(std::span<const double> forces, bool driving) {
   auto velocities = solver_->velocities(scaled_forces(forces), driving);
   unscale_velocities(velocities);
   return velocities;
 }
 
-/// `components` x `components` numbers [T/M, T/(M L), T/(M L^2)]: row i has the velocities under a
-/// unit force or torque on component i.
 std::vector<double> ScaledSolver::mobility(std::size_t components) {
+  assert(components % components_ == 0);
   auto matrix = solver_->mobility(components);
   for (std::size_t i = 0; i < components; ++i)
     for (std::size_t j = 0; j < components; ++j)
@@ -215,8 +205,6 @@ std::vector<double> ScaledSolver::mobility(std::size_t components) {
   return matrix;
 }
 
-/// Powers [M L^2/T^3], energy [M L^2/T^2], flows [L^2/T], pressures [M/(L T^2)], forces and torques
-/// in the units of the case. The apparent viscosity and the Courant number have no unit.
 particles::FlowQuantities ScaledSolver::quantities() {
   auto quantities = solver_->quantities();
   quantities.dissipation *= power_unit_;
@@ -236,7 +224,6 @@ void ScaledSolver::keep_flow(bool at_rest, std::span<const double> motions) {
   solver_->keep_flow(at_rest, scaled);
 }
 
-/// Places [L], velocities [L/T] and pressures [M/(L T^2)] of the nodes in the units of the case.
 particles::FlowField ScaledSolver::flow() {
   auto field = solver_->flow();
   for (auto* lengths : {&field.x, &field.y, &field.velocity_x, &field.velocity_y})
@@ -245,20 +232,18 @@ particles::FlowField ScaledSolver::flow() {
   return field;
 }
 
-/// The name of the FreeFEM script for this mesh and dimension (1 or 2).
 std::string script_of(particles::FluidMesh mesh, int dimension) {
   const std::string bodies = dimension == 1 ? "spheres" : "discs";
   return bodies + (mesh == particles::FluidMesh::kFixed ? "_on_fixed_mesh.edp" : ".edp");
 }
 
 /// The shortest edge of a mesh over the larger side of the rectangle around it. FreeFEM refuses
-/// points of the boundary that are closer than 1e-7 of that side. The factor 2.2 is needed because
-/// the mesh for the estimate of the error has edges half as long, and because straight edges are a
-/// little shorter than the arcs that they replace.
+/// points of the boundary that are closer than 1e-7 of that side. The mesh for the estimate of the
+/// error has edges half as long, and straight edges are a little shorter than the arcs that they
+/// replace.
 constexpr double kShortestEdge = 2.2e-7;
 
-/// The larger side [L] of the rectangle around a mesh. The mesh of a cylinder is half of its
-/// section.
+/// The larger side [L] of the rectangle around a mesh; that of a cylinder is half of its section.
 double extent_of(const particles::Domain& domain) {
   if (const auto* disc = std::get_if<particles::DiscDomain>(&domain)) return 2 * disc->radius;
   if (const auto* box = std::get_if<particles::BoxDomain>(&domain))
@@ -268,8 +253,7 @@ double extent_of(const particles::Domain& domain) {
   return 0;  // no domain: the solver refuses it when it starts
 }
 
-/// Throws Error(kBadInput) if FreeFEM would refuse the edges on the smallest of the particles with
-/// `radii` [L].
+/// Throws Error(kBadInput) if FreeFEM would refuse the edges on the smallest particle.
 void refuse_small_particles(const particles::Fluid& fluid, const particles::Domain& domain,
                             std::span<const double> radii) {
   if (radii.empty()) return;
@@ -303,12 +287,10 @@ void refuse_short_edges(const MeshBoundary& boundary, double size, double unit) 
     }
 }
 
-/// The advice for a user whose solver did not answer in time: the end of a message.
 std::string if_silent() {
   return fmt::format("on a slow machine set {} to more seconds", freefem::kTimeLimit);
 }
 
-/// The command that runs FreeFEM with this script.
 SolverCommand freefem_command(const std::string& script) {
   const auto folder = freefem::find_script_folder("freefem_flow", script);
   auto command = freefem::make_command(freefem::executable_of_user(), folder, script, {});
@@ -329,9 +311,6 @@ SolverCommand freefem_command(const std::string& script) {
 
 }  // namespace
 
-/// The command of the case's own solver, if the case names one, or else of FreeFEM with the script
-/// for the mesh. `dimension` is 2 in the plane and 1 on the axis of a cylinder. Throws
-/// Error(kExternalProgram) if the script does not exist; that the program exists is not checked.
 SolverCommand solver_command(const particles::Fluid& fluid, int dimension) {
   if (!fluid.solver.empty()) {
     SolverCommand own;
@@ -343,8 +322,6 @@ SolverCommand solver_command(const particles::Fluid& fluid, int dimension) {
   return freefem_command(script_of(fluid.mesh, dimension));
 }
 
-/// Returns the default limits, or with a time limit in the user's environment this limit for each
-/// answer and for the start. Throws Error(kWrongUsage) if the time limit is not allowed.
 SolverLimits solver_limits(const StopToken& stop) {
   SolverLimits limits;
   limits.stop = stop;
@@ -352,9 +329,6 @@ SolverLimits solver_limits(const StopToken& stop) {
   return limits;
 }
 
-/// Starts the solver of the fluid and waits until it is ready. `radii` [L], > 0, are those of all
-/// particles; `dimension` is 2 in the plane and 1 on an axis. The result is never null. A program
-/// of the user's gets the units of the case, FreeFEM gets SolverUnits.
 std::unique_ptr<particles::FluidSolver> start_fluid_solver(const particles::Fluid& fluid,
                                                            const particles::Domain& domain,
                                                            std::span<const double> radii,

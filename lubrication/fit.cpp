@@ -1,16 +1,10 @@
-// Reads and writes fit files, names the choices that they contain, and makes the fit object for the
-// exact drag of a plane and for another viscosity. In the units of the fit, viscosity [M/(L T)],
-// radius and gaps [L] are positive and the velocity u0 [L/T] is not 0, which is checked only when a
-// file is read. A coefficient has the unit of force [M L/T^2] over that of its term. A fault of a
-// file (also that it does not exist) or an unknown word is an Error(kBadInput). This file is used
-// by fitting/, motions/, case_file/, reduced_model/, sweep/, results/, pipeline/, app/ and python/.
-// A change must keep names and keys, which fit files contain, and agree with docs/fit.schema.json,
-// which repeats keys, types and ranges.
+// Fits of the lubrication force: names, files, another viscosity.
 #include "viscontact/lubrication/fit.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <tuple>
 
@@ -32,7 +26,6 @@ struct Named {
 template <class Value>
 Named(std::string_view, Value) -> Named<Value>;
 
-// The words of fit files for the values of Loss and Misfit.
 constexpr std::array kLosses = {Named{"none", Loss::kSquared}, Named{"huber", Loss::kHuber},
                                 Named{"cauchy", Loss::kCauchy}};
 constexpr std::array kMisfits = {Named{"basis", Misfit::kBasis}, Named{"data", Misfit::kData},
@@ -63,10 +56,8 @@ std::string_view to_string(Misfit misfit) {
 
 Misfit parse_misfit(std::string_view word) { return require_named(kMisfits, word, "misfit").value; }
 
-/// A fit without terms, which stands for the exact drag of a sphere near a plane. `viscosity`
-/// [M/(L T)] and `radius` [L] must be positive, which is not checked. The reference velocity -1
-/// [L/T] is arbitrary.
 Fit exact_plane_fit(double viscosity, double radius) {
+  assert(viscosity > 0 && radius > 0);
   Fit fit;
   fit.basis = kExactPlane;
   fit.reference_velocity = -1;
@@ -92,10 +83,8 @@ double zero_of_impulse(const Fit& fit) {
 
 bool is_exact_plane(const Fit& fit) { return fit.basis == kExactPlane; }
 
-/// The fit with coefficients, errors and leading coefficient multiplied by `viscosity` [M/(L T)]
-/// over the viscosity of the fit, and variances by the square of this ratio. `viscosity` must be
-/// positive, which is not checked.
 Fit with_viscosity(Fit fit, double viscosity) {
+  assert(fit.viscosity > 0);
   const double scale = viscosity / fit.viscosity;
   fit.viscosity = viscosity;
   for (auto& term : fit.terms) {
@@ -114,8 +103,7 @@ constexpr auto kAllowed = Absence::kAllowed;  // for keys that files of earlier 
 constexpr Allowed kAtLeast1 = {[](double v) { return v >= 1; }, ">= 1"};
 constexpr auto kLeftOutIfEmpty = Absence::kLeftOutIfEmpty;
 
-/// Throws Error(kBadInput) if a term is named twice, if a fit of the exact drag has terms, or if
-/// another fit has none.
+/// Refuses a term named twice, a fit of the exact drag with terms, and another fit without terms.
 void check_terms(const JsonFields& json, const Fit& fit) {
   const bool exact = fit.basis == kExactPlane;
   if (fit.terms.empty() != exact)
@@ -128,8 +116,7 @@ void check_terms(const JsonFields& json, const Fit& fit) {
                   "is '{}' for the second time; each term may be named once", fit.terms[i].name);
 }
 
-/// Throws Error(kBadInput) unless the covariance has a row and a column for each term, and
-/// variances >= 0. That it is symmetric is not checked.
+/// Refuses a covariance without a row and a column for each term, and variances < 0.
 void check_covariance(const JsonFields& json, const Fit& fit) {
   const std::size_t size = fit.terms.size();
   const auto is_right = [&](const auto& list) { return list.size() == size; };
@@ -142,9 +129,8 @@ void check_covariance(const JsonFields& json, const Fit& fit) {
                 "is {}; it must be >= 0, since it is a variance", fit.covariance[i][i]);
 }
 
-/// Reads or writes the two keys of a row that was left out of its fit: its relative residual [1]
-/// and its gap [L]. `which` is "inner" or "end". If one of the keys is missing, `row` stays as it
-/// is.
+/// The two keys of a row that was left out of its fit; `which` is "inner" or "end". If one of them
+/// is missing, `row` stays as it is.
 void left_out_row(JsonFields& json, const std::string& which, std::optional<LeftOutRow>& row) {
   std::optional<double> residual, gap;
   if (row) std::tie(residual, gap) = std::tuple(row->relative_residual, row->gap);
@@ -153,9 +139,7 @@ void left_out_row(JsonFields& json, const std::string& which, std::optional<Left
   if (residual && gap) row = {*gap, *residual};
 }
 
-/// Reads or writes the three keys of the row whose residual is the largest multiple of its error
-/// estimate: this ratio [1], the gap [L] and the relative residual [1]. If one of the keys is
-/// missing, `worst` stays as it is.
+/// The three keys of the row; if one of them is missing, `worst` stays as it is.
 void worst_to_estimate(JsonFields& json, std::optional<WorstToEstimate>& worst) {
   std::optional<double> ratio, gap, residual;
   if (worst)
@@ -168,16 +152,12 @@ void worst_to_estimate(JsonFields& json, std::optional<WorstToEstimate>& worst) 
 
 }  // namespace
 
-// Each fields_of() reads or writes the keys of its object, in the order of the calls. Reading
-// throws Error(kBadInput) for a key that is missing or unknown, or whose value is not allowed.
 void fields_of(JsonFields& json, Outlier& outlier) {
   json("gap", outlier.gap);
   json("reference_velocity", outlier.reference_velocity);
   json("relative_residual", outlier.relative_residual);
 }
 
-// Gaps are in [L], residuals are relative to the force of the table [1], the other numbers are
-// counts or have no dimension.
 void fields_of(JsonFields& json, FitDiagnostics& d) {
   json("rows", d.rows);
   json("failed_rows", d.failed_rows, kLeftOutIfEmpty);
@@ -201,8 +181,6 @@ void fields_of(JsonFields& json, FitDiagnostics& d) {
   json("warnings", d.warnings);
 }
 
-// Coefficient and standard error have the unit of force [M L/T^2] over that of the term. A name
-// that is not in the table of terms is refused.
 void fields_of(JsonFields& json, FitTerm& term) {
   json("name", term.name);
   json("coefficient", term.coefficient);
@@ -213,8 +191,6 @@ void fields_of(JsonFields& json, FitTerm& term) {
               names_of(terms_beside_walls()));
 }
 
-// The reference velocity is in [L/T], the viscosity in [M/(L T)], radius and gaps are in [L], the
-// leading coefficient in [M L/T]; residuals and the condition number have no dimension.
 void fields_of(JsonFields& json, Fit& fit) {
   json("basis", fit.basis);
   json("reference_velocity", fit.reference_velocity, kNotZero);
@@ -243,16 +219,14 @@ Fit read_fit(const std::filesystem::path& path) {
   return parse_fit(read_file(path), path.string());
 }
 
-/// `text` is the content of the fit file; `file` is its name in messages.
 Fit parse_fit(const std::string& text, const std::string& file) {
   return JsonFields::read<Fit>(text, file);
 }
 
 std::string write_fit(const Fit& fit) { return JsonFields::text_of(fit); }
 
-/// Returns `count` >= 2 gaps [L] that increase by equal ratios from the first to the second end of
-/// `interval`. 0 < first < second must hold; neither this nor `count` is checked.
 std::vector<double> spread_gaps(const std::array<double, 2>& interval, int count) {
+  assert(count >= 2 && 0 < interval[0] && interval[0] < interval[1]);
   const double low = std::log(interval[0]);
   const double high = std::log(interval[1]);
   std::vector<double> gaps;

@@ -1,15 +1,10 @@
-// The resistance R(q) > 0 [M/T] of a sphere at the gap q > 0 [L], its derivative, its primitive
-// Gamma [M L/T], and the inverse of Gamma. In the interval [q1, q2] of a fit R is a sum of fitted
-// terms; at other gaps simple formulas replace it. Lengths, masses and times are in any consistent
-// units. A gap that is not allowed (outside [q1, q2] without such a formula, or NaN) and a fit
-// whose resistance is not positive are an Error(kBadInput), a result that a double cannot hold an
-// Error(kNotConverged). Used by reduced_model/, fitting/, rolling/, pipeline/, report/ and python/.
-// A change must keep R and Gamma continuous at q1 and q2, where one formula replaces another one.
+// R(q), its derivative, its primitive Gamma, and the inverse of Gamma (docs/physics.md (4.2)).
 #include "viscontact/lubrication/lubrication_force.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -28,20 +23,22 @@ constexpr std::array kExactRange = {1e-300, 1e300};
 
 }  // namespace
 
-/// The exact drag of a plane; `viscosity` [M/(L T)] and `radius` [L] must be > 0 (not checked).
 LubricationForce::LubricationForce(double viscosity, double radius)
     : exact_(true),
       radius_(radius),
       viscosity_(viscosity),
       leading_(stokes_resistance(viscosity, radius) * radius),
       fitted_interval_{kExactRange[0] * radius, kExactRange[1] * radius},
-      impulses_at_ends_{impulse(fitted_interval_[0]), impulse(fitted_interval_[1])} {}
+      impulses_at_ends_{impulse(fitted_interval_[0]), impulse(fitted_interval_[1])} {
+  assert(viscosity > 0 && radius > 0);
+}
 
 LubricationForce LubricationForce::exact_plane(double viscosity, double radius) {
   return {viscosity, radius};
 }
 
 LubricationForce LubricationForce::below_wall(double largest_gap) const {
+  assert(largest_gap > 0);
   LubricationForce bounded = *this;
   bounded.largest_gap_ = std::min(largest_gap_, largest_gap);
   return bounded;
@@ -52,14 +49,12 @@ OutsideInterval OutsideInterval::with_limits() const {
           AboveInterval::kStokesLimit};
 }
 
-/// The drag of a fit. `outside` says which formula or error applies at gaps outside [q1, q2].
-/// Throws Error(kBadInput) if R is not positive and finite at one of 201 gaps, if a term is not
-/// known, or if theory's coefficient is asked for and missing.
 LubricationForce::LubricationForce(const Fit& fit, const OutsideInterval& outside)
     : radius_(fit.radius),
       viscosity_(fit.viscosity),
       fitted_interval_(fit.gap_interval),
       outside_(outside) {
+  assert(fit.reference_velocity != 0 && fit.viscosity > 0 && fit.radius > 0);
   if (is_exact_plane(fit)) {
     *this = exact_plane(fit.viscosity, fit.radius);
     return;
@@ -92,10 +87,6 @@ LubricationForce::LubricationForce(const Fit& fit, const OutsideInterval& outsid
   impulses_at_ends_ = {impulse(fitted_interval_[0]), impulse(fitted_interval_[1])};
 }
 
-/// Sets the constants of the formulas outside [q1, q2], such that R is continuous: k [M L/T] and a
-/// constant [M/T] of R = k/q + constant below q1, and the length `image_` [L] of R = R_S (1 +
-/// image_/(q + r)) above q2, where R_S is Stokes' resistance 6 pi viscosity r [M/T] and r [L] the
-/// radius.
 void LubricationForce::set_limits(const Fit& fit) {
   const auto [smallest, largest] = fitted_interval_;
   if (outside_.below == BelowInterval::kLubricationLimit && leading_ > 0)
@@ -111,15 +102,11 @@ void LubricationForce::set_limits(const Fit& fit) {
   image_ = (resistance(largest) / stokes_resistance(viscosity_, radius_) - 1) * (largest + radius_);
 }
 
-/// The smallest and the largest gap [L] at which R is known. If R is known at all smaller gaps > 0,
-/// the first number is 0; if R is known at all larger gaps, the second one is infinite.
 std::array<double, 2> LubricationForce::interval() const {
   return {outside_.below == BelowInterval::kError ? fitted_interval_[0] : 0.0,
           outside_.above == AboveInterval::kError ? fitted_interval_[1] : largest_gap_};
 }
 
-/// Throws Error(kBadInput) if R is not known at `gap` [L], and Error(kNotConverged) for the exact
-/// drag if the gap is too small for a double.
 void LubricationForce::check_gap(double gap) const {
   const auto [smallest, largest] = fitted_interval_;
   const bool allowed =
@@ -159,7 +146,6 @@ std::string LubricationForce::remedy_above() const {
           : "tend to Stokes' drag");
 }
 
-/// The coefficient k > 0 [M L/T] of 1/q in R. Throws Error(kBadInput) if it is not positive.
 double LubricationForce::leading_coefficient() const {
   if (!(leading_ > 0))
     throw Error(ErrorKind::kBadInput,
@@ -169,15 +155,11 @@ double LubricationForce::leading_coefficient() const {
   return leading_;
 }
 
-/// The constants k > 0 [M L/T] and constant [M/T] of R = k/q + constant below q1. Throws
-/// Error(kBadInput) if the fit has no k > 0.
 LubricationForce::LubricationLimit LubricationForce::limit() const {
   if (!(limit_.k > 0)) (void)leading_coefficient();  // throws if the fit has no k
   return limit_;
 }
 
-/// R(q) - k/q [M/T], of any sign, with the fitted coefficient k [M L/T] of 1/q. The gap may be 0.
-/// Below the interval the result is the value at q1.
 double LubricationForce::regular_resistance(double gap) const {
   if (exact_)
     return leading_ / radius_ * plane_drag_factor_regular(std::max(gap / radius_, kExactRange[0]));
@@ -187,7 +169,6 @@ double LubricationForce::regular_resistance(double gap) const {
   return sum_values(regular_weights_, from, largest_gap_);
 }
 
-/// The integral of R - k/q over gaps from 0 to `gap` >= 0 [L], in [M L/T], of any sign.
 double LubricationForce::regular_impulse(double gap) const {
   if (exact_)
     return gap > 0 ? leading_ * plane_drag_regular_integral(std::max(gap / radius_, kExactRange[0]))
@@ -204,8 +185,6 @@ double LubricationForce::regular_impulse(double gap) const {
   return to_smallest + in_interval + above;
 }
 
-/// R [M/T], > 0. Throws the errors of check_gap(), and Error(kNotConverged) if R is too large for a
-/// double.
 double LubricationForce::resistance(double gap) const {
   check_gap(gap);
   if (exact_) return leading_ / radius_ * plane_drag_factor(gap / radius_);
@@ -222,7 +201,6 @@ double LubricationForce::resistance(double gap) const {
   return sum_values(weights_, gap, largest_gap_);
 }
 
-/// q dR/dq [M/T], of any sign.
 double LubricationForce::resistance_log_slope(double gap) const {
   check_gap(gap);
   if (exact_) return leading_ / radius_ * plane_drag_factor_log_slope(gap / radius_);
@@ -234,8 +212,6 @@ double LubricationForce::resistance_log_slope(double gap) const {
   return sum_log_slopes(weights_, gap, largest_gap_);
 }
 
-/// Gamma [M L/T]: the integral of R over gaps from the radius to `gap` [L]. It increases with the
-/// gap. Throws the errors of check_gap().
 double LubricationForce::impulse(double gap) const {
   check_gap(gap);
   if (exact_) return leading_ * plane_drag_integral(gap / radius_);
@@ -259,9 +235,6 @@ double LubricationForce::impulse(double gap) const {
 
 double LubricationForce::widest() const { return std::nextafter(largest_gap_, 0.0); }
 
-/// ln(q/r) [1] of two gaps q, between which lies the gap with Gamma = `impulse_wanted` [M L/T]; r
-/// is the radius. Throws Error(kBadInput) if this gap is not allowed or the impulse is not finite,
-/// and Error(kNotConverged) if it is too small for a double.
 std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted) const {
   if (!std::isfinite(impulse_wanted))
     throw Error(ErrorKind::kBadInput,
@@ -315,10 +288,8 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
   return {high, std::log((largest + beyond / std::min(stokes, resistance(largest))) / radius_)};
 }
 
-/// The gap [L] at which Gamma is `impulse_wanted` [M L/T]. The search begins at the gap `near` > 0
-/// [L] or, if `near` is infinite, in the middle of the possible gaps. Throws the errors of
-/// bracket_of_impulse().
 double LubricationForce::gap_of_impulse(double impulse_wanted, double near) const {
+  assert(near > 0);
   // Near contact Gamma is almost linear in s = ln(q/r), so Newton's method in s converges fast. ln
   // q instead of ln(q/r) would make rounding errors depend on the unit of length.
   const auto [low, high] = bracket_of_impulse(impulse_wanted);

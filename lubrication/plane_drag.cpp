@@ -1,10 +1,5 @@
-// Computes the drag factor K = drag/(6 pi mu r |u|) of a sphere that moves toward or away from a
-// plane, with the viscosity mu, the radius r and the velocity u, as a function of eps = gap/r, and
-// the derivative and integrals of K. It uses three expansions: near contact, far away, and in the
-// range between. K and eps have no dimension. For eps from 1e-300 to 1e300 relative errors are
-// below 1e-15 (plane_drag.hpp says which are absolute); eps < 0 and NaN give NaN. Nothing is
-// thrown. lubrication_force.cpp uses it. The constants are computed from Brenner's exact series
-// (Brenner 1961) and depend on each other, so that none may be changed alone.
+// Three expansions of the drag factor K of a plane: near contact, far away, and in between. The
+// constants are computed from Brenner's exact series and depend on each other.
 #include "viscontact/lubrication/plane_drag.hpp"
 
 #include <algorithm>
@@ -23,12 +18,12 @@ namespace {
 // K and dK/dx are sums of terms of equal sign (R > 0 > dR/dx) and lose no digits. R, dR/dx and the
 // mean M = S/eps of R vary slowly with x, so that polynomials represent them well.
 
-/// Coefficients of the powers 1, t, t^2, ... of a variable t.
+/// The coefficients of the powers 1, t, t^2, ...
 template <std::size_t count>
 using Polynomial = std::array<double, count>;
 
-/// Value of a polynomial at t. Estrin's scheme is a tree of products, which the processor computes
-/// in parallel. In Horner's rule each product needs the one before it.
+/// Estrin's scheme is a tree of products, which the processor computes in parallel. In Horner's
+/// rule each product needs the one before it.
 template <std::size_t count>
 double value(const Polynomial<count>& polynomial, double t) {
   if constexpr (count == 1) {
@@ -120,14 +115,13 @@ constexpr Polynomial<18> kFarRegular = {
     -0.088984817950404249, 0.07118790284039278, 0.0211582797930987, -0.036068701833045225,
     0.061473599154115988, -0.0055992376740436889};
 // clang-format on
-// The limit of S - eps - ln(1 + eps)/8 for large eps, from S at x = 4, which is computed in the
-// same way as kMean.
+// The limit of S - eps - ln(1 + eps)/8 for large eps, from S at x = 4, computed as kMean.
 constexpr double kFarConstant = 0.30139129923623441053;
 // S(1), computed in the same way as kMean.
 constexpr double kRegularIntegralToOne = 1.26158388768896730636;
 
-/// A function of eps, given by its coefficients in the three ranges. Those near contact are
-/// `constants` and `logarithms`, those in the range between are `pieces`, those far away `far`.
+/// The coefficients of a function of eps in the three ranges: near contact `constants` and
+/// `logarithms`, in between `pieces`, far away `far`.
 struct Expansion {
   Polynomial<5> constants, logarithms;
   std::array<Polynomial<20>, kPieces> pieces;
@@ -169,9 +163,9 @@ consteval Expansion slope_expansion() {
   return slope;
 }
 
-/// The coefficients of M near contact and in the range between. Far away they are those of S - eps
-/// - x/8 instead, which follow from R = 1 + h/8 + ..., int h^(k+1) d eps = -h^k/k and ln(1 + eps) -
-/// x = sum h^k/k.
+/// The coefficients of M near contact and in the range between; far away those of S - eps - x/8
+/// instead, which follows from R = 1 + h/8 + ..., int h^(k+1) d eps = -h^k/k and ln(1 + eps) - x =
+/// sum h^k/k.
 consteval Expansion mean_expansion() {
   Expansion mean = {kConstants, kLogarithms, kMean, {}};
   for (std::size_t k = 0; k < kConstants.size(); ++k) {
@@ -189,8 +183,7 @@ constexpr Expansion kRegular = regular_expansion();
 constexpr Expansion kSlope = slope_expansion();
 constexpr Expansion kMeanRegular = mean_expansion();
 
-/// The value of f at eps, with x = ln eps. If eps < 0, x is NaN: both comparisons are false, and
-/// the last line returns NaN.
+/// f at eps, with x = ln eps. If eps < 0, x and the result of the last line are NaN.
 double value(const Expansion& f, double eps, double x) {
   if (x >= kFar) return value(f.far, 1 / (1 + eps));
   if (x >= kNear) {

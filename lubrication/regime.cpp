@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <cmath>
 
 #include "viscontact/lubrication/stokes_drag.hpp"
@@ -9,10 +10,14 @@
 namespace viscontact::lubrication {
 
 double stokes_number(double mass, double radius, double speed, double viscosity) {
+  assert(viscosity > 0 && radius > 0);
   return mass * speed / (stokes_resistance(viscosity, radius) * radius);
 }
 
-double drag_over_stokes(double reynolds) { return 1 + 0.15 * std::pow(reynolds, 0.687); }
+double drag_over_stokes(double reynolds) {
+  assert(reynolds >= 0);
+  return 1 + 0.15 * std::pow(reynolds, 0.687);
+}
 
 std::optional<std::string> reynolds_warning(double reynolds) {
   if (!(reynolds > kLargestReynolds)) return {};

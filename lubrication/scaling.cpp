@@ -1,13 +1,8 @@
-// Changes a fit for a sphere of radius r [L] in a fluid of viscosity mu [M/(L T)] to the fit for
-// the radius r' and the viscosity mu'. All four are > 0, which is not checked. Numbers are in any
-// consistent units. An unknown term is an Error(kBadInput). This file is used by case_file/,
-// motions/, swimmer/, app/ and python/. A change must keep all bits of a fit whose radius and
-// viscosity do not change, because results of earlier versions were computed with such fits. It
-// must also still find the lengths in the words that freefem_axi/tabulation.cpp and
-// swimmer/tabulation/ make.
+// Scaling of fits to another radius and viscosity.
 #include "viscontact/lubrication/scaling.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -24,8 +19,8 @@ namespace {
 /// A matrix m: coefficient i of the scaled fit is sum_j m[i][j] * coefficient j of the given fit.
 using Mixing = std::vector<std::vector<double>>;
 
-/// Returns the Mixing for the factor `factor` = (mu'/mu) (r'/r)^power and `ratio` = r'/r. Appends a
-/// term q^n to `terms` if they contain q^n ln q but not q^n.
+/// `factor` is (mu'/mu) (r'/r)^power, `ratio` is r'/r. Appends a term q^n to `terms` if they
+/// contain q^n ln q but not q^n.
 Mixing mixing_of(std::vector<FitTerm>& terms, double factor, double ratio) {
   const auto place = [&](const std::string& name) {
     const auto found = std::ranges::find(terms, name, &FitTerm::name);
@@ -47,7 +42,6 @@ Mixing mixing_of(std::vector<FitTerm>& terms, double factor, double ratio) {
   return mixing;
 }
 
-/// Multiplies all gaps [L] in the diagnostics by `ratio` > 0 [1].
 void scale_gaps(FitDiagnostics& d, double ratio) {
   d.worst_gap *= ratio;
   if (d.leave_one_out_gap) *d.leave_one_out_gap *= ratio;
@@ -59,19 +53,16 @@ void scale_gaps(FitDiagnostics& d, double ratio) {
 
 }  // namespace
 
-/// Returns ratio^-n [1] for the term q^n or q^n ln q, with `ratio` = r'/r > 0 (not checked).
 double scale_of_term(std::string_view term, double ratio) {
+  assert(ratio > 0);
   const auto power = factor_of_logarithm(term);
   const double q = 1 / ratio;  // also the distance to the second wall, which scales as the gap
   return terms_beside_walls()[place_of(power ? std::string_view(*power) : term)].value.at(
       q, std::log(q), q, std::log(q));
 }
 
-/// Returns the fit for `viscosity` mu' and `radius` r'. Coefficients, standard errors, covariance,
-/// gaps and the lengths in words change; relative residuals stay. `power` is the exponent of the
-/// radius in the resistance: 1 for a force per velocity, 2 for a force per angular velocity or a
-/// torque per velocity, 3 for a torque per angular velocity. It is not checked.
 Fit scaled_to(Fit fit, double viscosity, double radius, int power) {
+  assert(viscosity > 0 && radius > 0 && fit.radius > 0 && power >= 1 && power <= 3);
   if (is_exact_plane(fit)) return exact_plane_fit(viscosity, radius);
   const double ratio = radius / fit.radius;
   if (equal_up_to_rounding(radius, fit.radius)) return with_viscosity(std::move(fit), viscosity);
@@ -110,10 +101,8 @@ Fit scaled_to(Fit fit, double viscosity, double radius, int power) {
   return fit;
 }
 
-/// Multiplies the lengths in `words`, such as "sphere, radius 2, velocity_ratio 0", by `factor`
-/// [1]. A number counts as a length if there is a word before it that does not end in "_ratio".
-/// Throws nothing.
 std::string with_lengths_scaled(const std::string& words, double factor) {
+  assert(factor > 0);
   std::istringstream in(words);
   std::string text, before;
   for (std::string word; in >> word;) {
@@ -127,8 +116,6 @@ std::string with_lengths_scaled(const std::string& words, double factor) {
   return text;
 }
 
-/// True if both texts have the same words in the same order. Two numbers that differ only by
-/// rounding count as the same.
 bool same_words(const std::string& one, const std::string& other) {
   std::istringstream first(one), second(other);
   std::string a, b;

@@ -9,7 +9,7 @@
 namespace viscontact::lubrication {
 namespace {
 
-/// The first word of `words`, without a comma.
+/// The first word, without a comma.
 std::string first_word(const std::string& words) {
   std::istringstream in(words);
   std::string word;

@@ -1,5 +1,4 @@
-// The wall opposite the neighbour, which a closed container or a cavity has: the gap at which the
-// sphere touches it, and the drag near it.
+// The wall opposite the neighbour, which a closed container or a cavity has.
 #pragma once
 
 #include <optional>
@@ -7,7 +6,6 @@
 
 namespace viscontact::lubrication {
 
-/// The wall that the sphere approaches as it leaves its neighbour.
 struct SecondWall {
   /// The gap L [L] to the neighbour at which the sphere touches this wall, > 0.
   double largest_gap = 0;

@@ -1,14 +1,8 @@
-// The names of the motions of a sphere, and the lines "# key: value" at the head of a table
-// (docs/file-formats.md). In the units of the table, viscosity [M/(L T)], radii [L] and the leading
-// coefficient of the approach [M L/T] are > 0; the leading factors have any sign; a row of spheres
-// along an axis has 2 to 10 radii. A fault of a file is an Error(kBadInput) with the file and the
-// key, or with the line and the name of the column. This file is used by motion_table.cpp,
-// table_codec.hpp, freefem_axi/ and swimmer/. A change must keep the names and keys of published
-// tables, because other files search for "# case: " and "# viscontact: resistance table". It must
-// also keep kMotions in the order of MotionKind.
+// Names of motions, and the lines "# key: value" at the head of a table (docs/file-formats.md).
 #include "viscontact/lubrication/table.hpp"
 
 #include <array>
+#include <cassert>
 #include <limits>
 #include <sstream>
 
@@ -18,6 +12,7 @@
 namespace viscontact::lubrication {
 namespace {
 
+// The order is that of MotionKind.
 constexpr std::array kMotions = {
     NamedMotion{"approach", MotionKind::kApproach}, NamedMotion{"slide", MotionKind::kSlide},
     NamedMotion{"roll", MotionKind::kRoll}, NamedMotion{"spin", MotionKind::kSpin}};
@@ -30,12 +25,10 @@ std::string_view to_string(MotionKind motion) {
   return kMotions.at(static_cast<std::size_t>(motion)).name;
 }
 
-/// The motion with this name. Throws Error(kBadInput), which lists the names, if there is none.
 MotionKind parse_motion(std::string_view name) {
   return require_named(kMotions, name, "motion").kind;
 }
 
-/// The names of the motions, separated by a comma and a blank.
 std::string motions_in_words(const std::vector<MotionKind>& motions) {
   std::string words;
   for (const auto motion : motions)
@@ -43,8 +36,6 @@ std::string motions_in_words(const std::vector<MotionKind>& motions) {
   return words;
 }
 
-/// The motions in a text that motions_in_words() made; none if it is empty. Throws Error(kBadInput)
-/// for an unknown name.
 std::vector<MotionKind> parse_motions_in_words(const std::string& words) {
   std::vector<MotionKind> motions;
   std::istringstream stream(words);
@@ -58,18 +49,18 @@ namespace {
 constexpr std::string_view kVersionOf = "version of ", kFailedRow = "failed row, ";
 const std::string kMotionTable = "motion table";
 
-/// A line "# key: number" of the head, which may be missing.
+/// A line "# key: number" of the head.
 struct OptionalNumber {
   std::string key;
   std::optional<double> TableHead::*number;
-  bool is_positive;  // the number must be > 0
+  bool is_positive;
 };
 const std::array kOptionalNumbers = {
     OptionalNumber{"leading_coefficient", &TableHead::leading_coefficient, true},
     OptionalNumber{"leading_force_factor", &TableHead::leading_force_factor, false},
     OptionalNumber{"leading_torque_factor", &TableHead::leading_torque_factor, false}};
 
-/// A line "# key: text" of the head, which may be missing or have an empty text.
+/// A line "# key: text" of the head, whose text may be empty.
 struct Text {
   std::string key;
   std::string TableHead::*text;
@@ -79,9 +70,8 @@ const std::array kTexts = {Text{"geometry", &TableHead::geometry, true},
                            Text{"container", &TableHead::container, true},
                            Text{"case", &TableHead::case_hash, false}};
 
-/// The radii [L], > 0, in the line "# radii:" of a head. Throws Error(kBadInput) for a word that is
-/// no number > 0, and if the number of radii is not from kFewestSpheres (2) to kMostSpheres (10).
-/// `file` is the name of the file in messages.
+/// The radii [L] in the line "# radii:" of a head. Throws Error(kBadInput) for a word that is no
+/// number > 0, and for too few or too many.
 std::vector<double> radii_in(const std::string& text, const std::string& file) {
   std::vector<double> radii;
   std::istringstream words(text);
@@ -99,10 +89,6 @@ std::vector<double> radii_in(const std::string& text, const std::string& file) {
 
 }  // namespace
 
-/// The head that `text`, the content of `file`, begins with. `is_of_line` says that the table is of
-/// several spheres along an axis, so that the head has "# radii" in place of "# radius". Throws
-/// Error(kBadInput) if viscosity or radius is missing, if a value is not allowed, or if the
-/// viscosity, a radius, the motion or a leading coefficient stands twice with different values.
 TableHead read_head(const std::string& text, const std::string& file, bool is_of_line) {
   std::set<std::string> contradictions;
   auto lines = read_csv_comments(text, &contradictions);
@@ -139,7 +125,6 @@ TableHead read_head(const std::string& text, const std::string& file, bool is_of
   return head;
 }
 
-/// The keys and values of the lines of `head` for a table with `rows` rows.
 CsvComments lines_of(const TableHead& head, std::size_t rows) {
   CsvComments lines = {{"viscosity", format_number(head.viscosity)},
                        {"rows", std::to_string(rows)}};
@@ -168,12 +153,9 @@ CsvComments lines_of(const TableHead& head, std::size_t rows) {
   return lines;
 }
 
-/// Stores the numbers of a line, `fields`, at the addresses in `columns`; both have the same length
-/// (not checked). A field without a number gives 0 or NaN, as the column says. Throws
-/// Error(kBadInput) with the position `here` if a required number is missing or a number is not
-/// allowed.
 void set_numbers(const std::vector<Column>& columns, std::span<const std::optional<double>> fields,
                  const FilePosition& here) {
+  assert(fields.size() == columns.size());
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const auto& [name, number, if_absent, allowed] = columns[i];
     if (!fields[i] && if_absent == IfAbsent::kRefused)

@@ -1,15 +1,4 @@
-// Reads and writes tables as text files (docs/file-formats.md), for any struct Row that holds the
-// numbers of a row. Numbers are in the units of the table. A wrong file throws Error(kBadInput).
-// motion_table.cpp, table.cpp, swimmer/resistance/ and freefem_axi/journal/make_plan.hpp use it. A
-// change must keep published tables readable. A Row needs these declarations in its namespace:
-//   static constexpr bool Row::kIsOfLine: true if the head has the radii of several spheres;
-//   void prepare(const TableHead&, Row&): gives the vectors and optional members of a row the sizes
-//     that columns_of() needs;
-//   std::vector<Column> columns_of(const TableHead&, Row&): the columns in the order of the file,
-//     with those that identify a row, such as the gap, first;
-//   void complete(const TableHead&, Row&): computes numbers that follow from others;
-//   void check(const TableHead&, const Row&, const FilePosition&): throws Error(kBadInput) if the
-//     numbers contradict each other.
+// Tables as text files (docs/file-formats.md), for any struct Row that holds the numbers of a row.
 #pragma once
 
 #include <span>
@@ -21,25 +10,35 @@
 
 namespace viscontact::lubrication {
 
-/// Reads the head, the lines "# key: value" in the text of a file. `file` is its name in messages,
-/// `is_of_line` is Row::kIsOfLine. The line viscosity is required, and radius (or radii, if
-/// `is_of_line`). Throws Error(kBadInput) with file and key if one of them is missing, if a number
-/// or motion is wrong, or if motion, viscosity, radius, radii or a leading coefficient stands twice
-/// with different values.
+// A Row has these declarations in its namespace:
+//   static constexpr bool Row::kIsOfLine: true if the head has the radii of several spheres;
+//   void prepare(const TableHead&, Row&): gives the vectors and optional members of a row the sizes
+//     that columns_of() needs;
+//   std::vector<Column> columns_of(const TableHead&, Row&): the columns in the order of the file,
+//     with those that identify a row, such as the gap, first;
+//   void complete(const TableHead&, Row&): computes numbers that follow from others;
+//   void check(const TableHead&, const Row&, const FilePosition&): throws Error(kBadInput) if the
+//     numbers contradict each other.
+
+/// Reads the lines "# key: value" in the text of a file, which messages call `file`; `is_of_line`
+/// is Row::kIsOfLine. Throws Error(kBadInput) with file and key if viscosity or radius (radii, if
+/// `is_of_line`) is missing, if a number or motion is wrong, or if motion, viscosity, radius, radii
+/// or a leading coefficient stands twice with different values.
 TableHead read_head(const std::string& text, const std::string& file, bool is_of_line);
 
-/// The lines of the head of a table with `rows` rows. Throws nothing.
+/// The lines of the head of a table with `rows` rows.
 CsvComments lines_of(const TableHead& head, std::size_t rows);
 
-/// Sets the numbers of a row from the fields of its line, one field for each column (not checked).
-/// A field without a value gives 0 or NaN (IfAbsent). Throws Error(kBadInput) for a number that is
-/// missing although it is required, or not allowed in its column.
+/// Sets the numbers of a row from the fields of its line, one for each column. A field without a
+/// value gives 0 or NaN (IfAbsent). Throws Error(kBadInput) for a number that is missing although
+/// it is required, or not allowed in its column.
 void set_numbers(const std::vector<Column>& columns, std::span<const std::optional<double>> fields,
                  const FilePosition& here);
 
 /// Reads a table. Throws Error(kBadInput) with file and line if a value is missing, not finite or
 /// out of range, if the line "# rows" of the head says another number of rows (the file is
-/// truncated), if there are no rows, or if the file cannot be read; and the errors of check().
+/// truncated), if there are no rows, or if the file cannot be read. Throws the errors of
+/// read_head() and check(), too.
 template <class Row>
 Table<Row> read_table(const std::filesystem::path& path) {
   const std::string file = path.string(), text = read_file(path);
@@ -64,9 +63,8 @@ Table<Row> read_table(const std::filesystem::path& path) {
   return table;
 }
 
-/// The text of the file: lines "# key: value", the line of column names, and the rows. Every number
-/// has as many digits as are needed to read the same double back. `table` must have at least one
-/// row; this is not checked, and without rows the line of column names is missing. Throws nothing.
+/// The text of the file. Every number has as many digits as are needed to read the same double
+/// back. Without rows the line of column names is missing.
 template <class Row>
 std::string write_table(const Table<Row>& table) {
   std::string text = write_csv_comments(lines_of(table, table.rows.size())), numbers;

@@ -1,14 +1,8 @@
-// The table of terms, which are the functions of the gap q > 0 that a fit combines, and the bases,
-// which are named lists of terms. q is a number in the unit of length of the fit, and l = ln q; a
-// term q^n or q^n ln q has the unit of length to the power n. That q > 0, and that there is a
-// weight for each term, is not checked. An unknown name, an empty name or a name that stands twice
-// in a list is an Error(kBadInput). This file is used by fitting/, motions/, rolling/, case_file/,
-// app/ and other files of lubrication/. A new term or basis needs only a row here. A change must
-// keep the names and the order of kTerms, in which sums are added. log_slope must be q times the
-// derivative of value, and antiderivative a primitive of value.
+// The table of terms, and the bases.
 #include "viscontact/lubrication/terms.hpp"
 
 #include <array>
+#include <cassert>
 #include <type_traits>
 #include <utility>
 
@@ -18,8 +12,7 @@
 namespace viscontact::lubrication {
 namespace {
 
-// Makes a Formula, text and code, of one expression in q and l, so that the exported text cannot
-// differ from the code.
+// A Formula of one expression, so that the exported text cannot differ from the code.
 #define FORMULA(expression)                                                                 \
   Formula {                                                                                 \
 #expression,                                                                            \
@@ -27,6 +20,7 @@ namespace {
            [[maybe_unused]] double m) -> double { return expression; }                      \
   }
 
+// Sums are added in this order.
 // clang-format off
 constexpr std::array kTerms = {
     //   name          value             log_slope                 antiderivative
@@ -46,36 +40,34 @@ constexpr std::array kTerms = {
 };
 // clang-format on
 
-constexpr std::size_t kWallTerms = 2;  // the last ones
+constexpr std::size_t kWallTerms = 2;  // the last ones of kTerms
 
 #undef FORMULA
 
-/// The text without blanks and tabs at both ends.
+/// The text without blanks and tabs at its ends.
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// Adds the term with this name. Throws Error(kBadInput) if there is none, or if `basis` has it.
+/// Throws Error(kBadInput) if there is no term with this name, or if `basis` has it.
 void add_term(Basis& basis, std::string_view name) {
   if (find_named(basis.terms, name) != nullptr)
     throw Error(ErrorKind::kBadInput, "the term '{}' is named twice; name it once", name);
   basis.terms.push_back(require_named(kTerms, name, "term"));
 }
 
-/// The basis with the name `name` and the terms whose names `terms` lists, separated by commas.
 Basis make_basis(std::string_view name, std::string_view terms) {
   Basis basis = parse_terms(terms);
   basis.name = name;
   return basis;
 }
 
-/// Sum of weight * formula over all terms at `gap` > 0. `weights` has one number for each term, in
-/// the order of kTerms; a term of weight 0 is left out. The sum has the unit of a weight times that
-/// of its formula. Each formula is known at compile time and inlined.
+/// Each formula is known at compile time and inlined.
 template <Formula Term::*formula>
 double sum_of(std::span<const double> weights, double gap, double largest_gap) {
+  assert(weights.size() == kTerms.size() || weights.size() == all_terms().size());
   const double log_gap = std::log(gap);
   const double to_wall = largest_gap - gap;
   const double log_to_wall = largest_gap < kNoWall ? std::log(to_wall) : kNoWall;
@@ -121,12 +113,10 @@ double sum_antiderivatives(std::span<const double> weights, double gap, double l
   return sum_of<&Term::antiderivative>(weights, gap, largest_gap);
 }
 
-/// The place of the term in kTerms, from 0.
 std::size_t place_of(std::string_view term) {
   return static_cast<std::size_t>(&require_named(kTerms, term, "term") - kTerms.data());
 }
 
-/// The term with this name. If there is none, returns nothing and throws no error.
 std::optional<Term> find_term(std::string_view name) {
   const auto* term = find_named(kTerms, name);
   return term == nullptr ? std::nullopt : std::optional(*term);
@@ -157,7 +147,6 @@ const Basis& find_basis(std::string_view name) {
   return require_named(bases_beside_walls(), name, "basis");
 }
 
-/// The basis of the terms in `names`, separated by commas, in this order.
 Basis parse_terms(std::string_view names) {
   Basis basis{kOwnTerms, {}};
   for (std::size_t begin = 0; begin <= names.size();) {

@@ -1,17 +1,11 @@
-// The names, bases and values of the resistances of a sphere beside a body at rest, and the keys of
-// their file (docs/file-formats.md). The file has an object for each resistance, with the keys of a
-// fit file. A resistance is also called an entry. In the units of the fit, squeeze and slide are in
-// [M/T], slide_roll in [M L/T], roll and spin in [M L^2/T]; viscosity [M/(L T)], radius and gaps
-// [L] are > 0, which is checked only in files. An unknown name, a missing resistance and a fault of
-// the file are an Error(kBadInput); terms of a fit are known, because its reader checks them. This
-// file is used by motions/fit/, motions/job/, rolling/, app/ and python/. A change must keep
-// published files readable, the text "pair fit", for which other files search, and pair_entries()
-// in the order of PairEntry. New bases may be added.
+// The names, bases and values of the resistances of a pair, and the keys of their file
+// (docs/file-formats.md).
 #include "viscontact/motions/pair_fit.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -25,7 +19,7 @@
 namespace viscontact::motions {
 namespace {
 
-/// A basis of a pair: the terms of the basis `base` of lubrication/terms.hpp, and further ones.
+/// The terms of the basis `base` of lubrication/terms.hpp, and further ones.
 struct PairBasis {
   std::string_view name;
   std::string_view base;
@@ -43,10 +37,6 @@ const std::vector<PairBasis>& bases_of_pairs() {
 
 }  // namespace
 
-/// The table of resistances. Each of them has a name, a meaning, the terms that it must not have by
-/// lubrication theory, its leading term near contact, and the shape that its fit must have. The
-/// velocity is u along x and u_z along z, the angular velocity w about y and w_z about z; F is a
-/// force and T a torque.
 std::span<const NamedEntry> pair_entries() {
   static const std::vector<NamedEntry> entries = {{"squeeze",
                                                    "F_z = -squeeze u_z: the sphere approaches",
@@ -82,9 +72,6 @@ std::vector<std::string_view> pair_bases() {
   return names;
 }
 
-/// The terms of the basis `name` without those that the resistance `entry` must not have. If
-/// `theory`, its coefficient of the leading term, is 0, this term is left out, too. Throws
-/// Error(kBadInput) for an unknown name.
 lubrication::Basis basis_of_entry(const NamedEntry& entry, std::string_view name,
                                   std::optional<double> theory) {
   const auto& pair_basis = require_named(bases_of_pairs(), name, "basis of a pair");
@@ -98,9 +85,6 @@ lubrication::Basis basis_of_entry(const NamedEntry& entry, std::string_view name
   return basis;
 }
 
-/// The resistance `entry` in its unit at the gap `gap` > 0 [L], also outside the fitted interval.
-/// For other gaps the result is NaN or infinite. Throws Error(kBadInput) if the fit lacks the
-/// entry.
 double entry_value(const PairFit& fit, PairEntry entry, double gap) {
   const auto found = fit.entries.find(entry);
   if (found == fit.entries.end())
@@ -112,10 +96,9 @@ double entry_value(const PairFit& fit, PairEntry entry, double gap) {
   return value;
 }
 
-/// The fit for another viscosity [M/(L T)] and radius [L], both > 0 (not checked). Lengths of the
-/// neighbour are multiplied by the same factor as the radius. If the radius is the same up to
-/// rounding, only the viscosity is changed, and lengths keep their bits.
 PairFit scaled_to(PairFit fit, double viscosity, double radius) {
+  assert(viscosity > 0 && radius > 0);
+  // If the radius is the same up to rounding, lengths keep their bits.
   const double ratio = radius / fit.radius;
   const bool has_radius = equal_up_to_rounding(radius, fit.radius);
   for (auto& [entry, one] : fit.entries) {
@@ -145,7 +128,7 @@ namespace {
 const std::string kPairFit = "pair fit";
 
 /// Throws Error(kBadInput) if an entry was fitted for another sphere, fluid or neighbour than those
-/// of `fit`, or at another velocity than -1. `name` is the key of the entry in the file.
+/// of `fit`, or at another velocity than -1.
 void check_same_pair(const JsonFields& json, const std::string& name, const lubrication::Fit& entry,
                      const PairFit& fit) {
   const auto differs = [&](const char* key) {
@@ -161,15 +144,13 @@ void check_same_pair(const JsonFields& json, const std::string& name, const lubr
 
 }  // namespace
 
-// Each fields_of() reads or writes the keys of its object. Reading throws Error(kBadInput) for a
-// key that is missing or unknown, or whose value is not allowed.
 void fields_of(JsonFields& json, EntryFit& entry) {
   fields_of(json, entry.fit);
   json("theory", entry.theory, Absence::kLeftOutIfEmpty);
 }
 
-// A resistance that the fit lacks has no key.
 void fields_of(JsonFields& json, std::map<PairEntry, EntryFit>& entries) {
+  // A resistance that the fit lacks has no key.
   for (std::size_t i = 0; i < pair_entries().size(); ++i) {
     const auto which = static_cast<PairEntry>(i);
     std::optional<EntryFit> entry;
@@ -196,9 +177,6 @@ void fields_of(JsonFields& json, PairFit& fit) {
   json.foreign_object("provenance");
 }
 
-/// True if the file contains the key "kind" with the value "pair fit". False for a pipe and for a
-/// missing file. Throws Error(kBadInput) if a file cannot be read, and
-/// std::filesystem::filesystem_error if the system cannot look up the path.
 bool is_pair_fit(const std::filesystem::path& path) {
   return std::filesystem::is_regular_file(path) &&
          read_file(path).find(fmt::format("\"kind\": \"{}\"", kPairFit)) != std::string::npos;

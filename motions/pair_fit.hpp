@@ -1,10 +1,5 @@
-// Defines the fits of a pair, and reads and writes their file. A pair is a sphere beside another
-// body at rest, its neighbour. The fits give the resistances of the sphere to all its motions as
-// functions of the gap (docs/physics.md (2.12)). Lengths, masses and times are in the units of the
-// tables from which the fits were made. motions/fit/ makes and exports the fits; rolling/ and the
-// Python module read them. A wrong file, an unknown basis and a resistance (entry) that a fit lacks
-// throw Error(kBadInput). Gaps, radii and viscosities of arguments are not checked. A change must
-// keep the names of entries, bases and keys, which files contain; further bases may be added.
+// The fits of a pair, which is a sphere beside a body at rest, its neighbour (docs/physics.md
+// (2.12)), and their file.
 #pragma once
 
 #include <array>
@@ -29,22 +24,22 @@ namespace viscontact::motions {
 ///   T_y = slide_roll u - roll w,   T_z = -spin w_z.
 enum class PairEntry { kSqueeze, kSlide, kRoll, kSlideRoll, kSpin };
 
-/// A resistance of a pair, and what its fits may contain.
+/// What the fits of a resistance may contain.
 struct NamedEntry {
   std::string_view name;         ///< such as "slide_roll", in files and in exported code
   std::string_view description;  ///< one line for the comment of exported code
   /// Terms that by lubrication theory this entry does not have near contact; they are not fitted.
   std::vector<std::string_view> absent_terms;
   std::string_view leading_term;  ///< the most singular term near contact, by lubrication theory
-  /// The shape that the fitted entry must have; the fit of another shape has a warning.
+  /// The shape that the fitted entry must have; another one gives a warning.
   lubrication::FittedShape shape;
 };
 
 /// All entries, in the order of PairEntry.
 std::span<const NamedEntry> pair_entries();
 
-/// Name of the basis that is fitted if the user chooses none. Any name of pair_bases() is possible,
-/// but another one changes the fits of all users who choose none.
+/// The basis that is fitted if the user chooses none. Another one would change the fits of all
+/// users who choose none.
 inline constexpr std::string_view kDefaultPairBasis = "asymptotic_cubic";
 
 /// The names of the bases for the entries of a pair. `asymptotic` has the terms 1/q, ln q, 1, q ln
@@ -58,18 +53,16 @@ std::vector<std::string_view> pair_bases();
 lubrication::Basis basis_of_entry(const NamedEntry& entry, std::string_view name,
                                   std::optional<double> theory = {});
 
-/// The fit of one entry.
 struct EntryFit {
   /// A fit at the reference velocity -1, so that its sum of coefficients times terms is the
   /// resistance itself: [M/T] squeeze and slide, [M L/T] slide_roll, [M L^2/T] roll and spin.
   lubrication::Fit fit;
-  /// The coefficient of NamedEntry::leading_term by lubrication theory, of any sign, in the unit of
-  /// the entry over that of the term; nothing if it is not known.
+  /// The coefficient of NamedEntry::leading_term by lubrication theory, in the unit of the entry
+  /// over that of the term; nothing if it is not known.
   std::optional<double> theory;
 };
 
-/// The fits of the resistances of a pair, which are the content of a fit file of a pair. Ranges are
-/// checked when a file is read.
+/// The fits of the resistances of a pair, in the units of the tables from which they were made.
 struct PairFit {
   double viscosity = 0;                         ///< mu [M/(L T)], > 0
   double radius = 0;                            ///< r [L], > 0
@@ -79,14 +72,13 @@ struct PairFit {
   std::map<std::string, std::string> versions;  ///< program name to version
 };
 
-/// The value of an entry at a gap [L] > 0, in the dimension that EntryFit gives. The fitted formula
-/// is also used outside fit.gap_interval. Throws Error(kBadInput) if the fit lacks the entry. A gap
-/// <= 0 is not refused: the value is NaN or infinite.
+/// The value of an entry at a gap [L], in the dimension that EntryFit gives. The fitted formula is
+/// also used outside fit.gap_interval; at a gap <= 0 it is NaN or infinite. Throws Error(kBadInput)
+/// if the fit lacks the entry.
 double entry_value(const PairFit& fit, PairEntry entry, double gap);
 
 /// The fit for another viscosity [M/(L T)] and another radius [L] of the sphere, beside a neighbour
-/// whose size in sphere radii stays the same (lubrication/scaling.hpp). Both must be > 0, which is
-/// not checked.
+/// whose size in sphere radii stays the same (lubrication/scaling.hpp).
 PairFit scaled_to(PairFit fit, double viscosity, double radius);
 
 /// True if the path is a regular file that contains the key of a fit of a pair, `"kind": "pair
@@ -101,7 +93,7 @@ bool is_pair_fit(const std::filesystem::path& path);
 /// file cannot be read.
 PairFit read_pair_fit(const std::filesystem::path& path);
 
-/// The text of the file of a pair (JSON), which read_pair_fit() reads. Throws nothing.
+/// The text of the file of a pair (JSON), which read_pair_fit() reads.
 std::string write_pair_fit(const PairFit& fit);
 
 }  // namespace viscontact::motions

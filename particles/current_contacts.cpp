@@ -1,13 +1,8 @@
-// Finds the contacts and overlaps of a state, in the units of the case. Gaps and branches (vectors
-// between the bodies of a contact) are in [L]; a gap is < 0 if its two bodies overlap. gamma <= 0,
-// minus the impulse that the film of a contact has absorbed, is in [M L/T], forces are in
-// [M L/T^2]; for discs in a fluid both are per unit length. Overlaps are divided by the mean radius
-// and are >= 0. Particles are numbered from 0, obstacle k is -1 - k. Nothing is checked or thrown.
-// A change must keep the order of contacts, because io/vtk_reader.cpp returns the contacts of a
-// file in the same order. io/, run/ and python/ use this file.
+// Contacts and overlaps of a state.
 #include "viscontact/particles/current_contacts.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/contact/contact.hpp"
@@ -18,15 +13,13 @@
 namespace viscontact::particles {
 namespace {
 
-/// How the two bodies of a pair are placed relative to each other.
 struct Place {
   double gap = 0;   ///< [L]
   Vector normal{},  ///< unit normal from the first to the second body
       branch{};     ///< vector to the centre of the second body (CurrentContact::branch) [L]
 };
 
-/// The place of a pair of discs or spheres, or of one of them and an obstacle. `places` are the
-/// positions of all obstacles.
+/// The place of a pair of discs or spheres, or of one of them and an obstacle.
 template <int D>
 Place place_of(const Particles& p, const Pair& pair, std::span<const PlanePosition> places) {
   const auto contact = contact_of<D>(p, pair, places);
@@ -38,9 +31,9 @@ Place place_of(const Particles& p, const Pair& pair, std::span<const PlanePositi
   return place;
 }
 
-/// The place of a pair in a fluid with ellipses or plates. The spine of a plate is the line between
-/// the centres of its round ends; two plates make contact as circles about the nearest points of
-/// their spines. At an obstacle Pair::place is the end of the spine that makes contact.
+/// The place of a pair in a fluid with ellipses or plates. Two plates make contact as circles about
+/// the nearest points of their spines. At an obstacle Pair::place is the end of the spine that
+/// makes contact.
 Place place_of_outlines(const Fluid& fluid, const Particles& p, const Pair& pair,
                         std::span<const PlanePosition> places) {
   const auto outline = [&](std::int32_t k, const Vector& shift = {}) {
@@ -55,6 +48,7 @@ Place place_of_outlines(const Fluid& fluid, const Particles& p, const Pair& pair
       place.branch = (place.gap + second.radius) * place.normal;
       return place;
     }
+    assert(pair.place == 0 || pair.place == 1);
     const Vector end = vector(second.spine()[index_of(pair.place)]);
     Place place{gap(obstacle, end, second.end_radius()), normal_at(obstacle, end)};
     place.branch = vector(second.centre) - end + (place.gap + second.end_radius()) * place.normal;
@@ -71,7 +65,6 @@ Place place_of_outlines(const Fluid& fluid, const Particles& p, const Pair& pair
       vector(second.centre) - vector(first.centre)};
 }
 
-/// The place of any pair, in any number of dimensions.
 Place place_of(const Setting& setting, const Particles& p, const Pair& pair,
                std::span<const PlanePosition> places) {
   if (setting.fluid && !setting.fluid->semi_axes.empty())
@@ -96,13 +89,11 @@ std::vector<ClosePair> overlapping_circles(const Particles& p) {
   return pairs;
 }
 
-/// Whether a contact slides or sticks, or has no friction, from the impulses of the last step that
-/// `memory` holds.
 ContactFriction friction_of(const Setting& setting, const PairMemory& memory) {
   // Solvers set the friction of a sliding contact to its largest value, the coefficient times the
-  // load, within rounding errors. If a step is computed in parts, friction and load are sums over
-  // the parts, and the friction has this value only if its direction was the same in all parts.
-  // kRounding is a free choice above rounding errors.
+  // load, within rounding errors, which are far below kRounding. If a step is computed in parts,
+  // friction and load are sums over the parts, and the friction has this value only if its
+  // direction was the same in all parts.
   constexpr double kRounding = 1e-9;
   const double carried = memory[Remembered::kCarried];
   if (!setting.laws.friction || !(carried > 0)) return ContactFriction::kNone;
@@ -113,7 +104,6 @@ ContactFriction friction_of(const Setting& setting, const PairMemory& memory) {
 
 }  // namespace
 
-/// The ids of both particles of a contact, or, at obstacle k, the id of the particle and -1 - k.
 std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
                                              const CurrentContact& contact) {
   const auto second = particles.id(index_of(contact.second));
@@ -121,9 +111,6 @@ std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
   return {particles.id(index_of(contact.first)), second};
 }
 
-/// The largest overlap of two particles, or of a particle and an obstacle, divided by the mean
-/// radius [1]; 0 if nothing overlaps. Particles of one body and neighbours on a membrane do not
-/// count.
 double largest_overlap(const Setting& setting, const State& state) {
   double smallest = 0;
   const auto& p = state.particles;
@@ -152,8 +139,6 @@ double largest_overlap(const Setting& setting, const State& state) {
   return (0 - smallest) / mean_radius(p);  // the subtraction returns 0 instead of -0
 }
 
-/// The largest estimate of the error of gamma of all pairs, in the unit of gamma, >= 0; 0 without
-/// pairs.
 double largest_gamma_error(const State& state) {
   double largest = 0;
   for (const auto* pairs : {&state.pairs, &state.walls})
@@ -161,10 +146,6 @@ double largest_gamma_error(const State& state) {
   return largest;
 }
 
-/// The contacts of a state: the pairs whose gamma is < 0, whose gap is at most the tolerance (in a
-/// fluid at most the threshold gap plus the tolerance), or that had a force in the last step. Pairs
-/// of particles come first, then pairs with obstacles, both in the order of the state. Forces are
-/// means over the last step.
 std::vector<CurrentContact> contacts_of(const Setting& setting, const State& state) {
   std::vector<CurrentContact> contacts;
   const auto& p = state.particles;

@@ -1,8 +1,4 @@
-// Lists the contacts of a state for output, and measures its overlaps. Lengths [L], masses [M] and
-// times [T] are in the units of the case. The tables, VTK files and HTML pages that a run writes
-// show these contacts; io/, run/ and python/ use this file. Nothing is checked or thrown. A change
-// must keep the order of contacts_of(), because io/vtk_reader.cpp returns the contacts of a file in
-// the same order.
+// The contacts of a state, for output, and its overlaps.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +10,6 @@
 
 namespace viscontact::particles {
 
-/// What friction did at a contact in the last step.
 enum class ContactFriction : std::int8_t {
   /// The case has no friction, or the solids carried no load. With FrictionMethod::kConvex such a
   /// contact may still have had friction, because a load that was given before the step bounds it.
@@ -27,12 +22,12 @@ enum class ContactFriction : std::int8_t {
 /// has absorbed. A contact with gamma < 0 is called glued, because the film can pull.
 struct CurrentContact {
   std::int32_t first;      ///< number of a particle, or -1 - k for obstacle k of obstacles_of()
-  std::int32_t second;     ///< number of a particle, its place in Particles, from 0
-  double gap;              ///< distance of the surfaces [L], < 0 if the two overlap
+  std::int32_t second;     ///< number of a particle
+  double gap;              ///< [L], < 0 if the two overlap
   double gamma;            ///< Pair::gamma [M L/T], of discs in a fluid [M/T]; <= 0
   double gamma_error = 0;  ///< estimate of the error of gamma, in its unit, >= 0
   std::int32_t image = 0;  ///< periodic image of `second` that meets `first`, -13 to 13; 0: itself
-  ContactFriction friction = ContactFriction::kNone;  ///< what friction did in the last step
+  ContactFriction friction = ContactFriction::kNone;
   /// Mean normal force in the last step [M L/T^2], of discs in a fluid per length: that of solids
   /// and film together, > 0 where it pushes the bodies apart.
   double normal_force = 0;
@@ -58,17 +53,17 @@ std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
 
 /// The pairs of the state that are glued, touch, or had a force in the last step. First come the
 /// pairs of particles in the order of State::pairs, then the particles at obstacles in the order of
-/// State::walls. A pair touches if its gap is at most SolverSettings::tolerance times the mean
-/// radius, to which Fluid::threshold_gap is added in a fluid. Before the first step all forces are
-/// 0.
+/// State::walls; io/vtk_reader.cpp returns the contacts of a file in the same order. A pair touches
+/// if its gap is at most SolverSettings::tolerance times the mean radius, to which
+/// Fluid::threshold_gap is added in a fluid. Before the first step all forces are 0.
 std::vector<CurrentContact> contacts_of(const Setting& setting, const State& state);
 
-/// Largest Pair::gamma_error of all pairs, in the unit of gamma, >= 0; 0 without pairs.
+/// The largest Pair::gamma_error, in the unit of gamma; 0 without pairs.
 double largest_gamma_error(const State& state);
 
 /// Largest overlap of two particles, or of a particle and an obstacle, divided by the mean radius
-/// [1], >= 0; 0 if nothing overlaps. It checks all particles, not only the pairs in the neighbour
-/// list. Two particles of one body, or neighbours on a membrane, may overlap and do not count.
+/// [1]. It checks all particles, not only the pairs in the neighbour list. Two particles of one
+/// body, or neighbours on a membrane, may overlap and do not count.
 double largest_overlap(const Setting& setting, const State& state);
 
 }  // namespace viscontact::particles

@@ -1,9 +1,5 @@
 // The fluid around the particles, as the sections [fluid], [[probe]] and [[membrane]] of a case
-// file describe it. Lengths [L], masses [M] and times [T] are in the units of the case; in two
-// dimensions masses and forces are per unit length of the third dimension. particles/case checks
-// the values; particles/fluid and freefem_flow read them. Nothing is checked or thrown here, also
-// not the number of a particle, which counts from 0. The defaults are free choices, but a change of
-// one changes the results of each case that does not set the value.
+// file describe it.
 #pragma once
 
 #include <array>
@@ -24,7 +20,6 @@ enum class RigidConstraint {
   kRigid,    ///< velocity and angular velocity of each particle are unknowns of the flow problem
 };
 
-/// Whether the mesh of the fluid follows the particles.
 enum class FluidMesh {
   kFitted,  ///< curved edges of the mesh follow the surfaces of the particles
   kFixed,   ///< one mesh of the whole domain, which does not depend on the particles
@@ -34,12 +29,11 @@ enum class FluidMesh {
 enum class Coupling {
   kConstrained,  ///< the fluid moves the particles under forces that include those of the contacts
   /// The velocities without contact forces are computed first. The particles then move with the
-  /// nearest velocities that close no gap. Particles without a given motion must have masses > 0.
+  /// nearest velocities that close no gap; masses must be > 0, except with a given motion.
   kSplitting,
 };
 
-/// How the term u.grad u, by which a fluid with inertia carries its velocity u along, is computed,
-/// docs/physics.md (6.9).
+/// How the term u.grad u of a fluid with inertia is computed, docs/physics.md (6.9).
 enum class Advection {
   kSemiImplicit,     ///< the first u of u.grad u is extrapolated in time: a linear problem
   kCharacteristics,  ///< earlier velocities are taken at the places where the fluid was
@@ -51,125 +45,116 @@ enum class FlowStart {
   kStokes,  ///< the fluid begins with the Stokes flow around particles that move without inertia
 };
 
-/// Velocity of a wall. It is constant along the wall, or a parabola that is 0 at both ends of the
-/// wall, or not given. In a fluid with inertia it may depend on time.
+/// Velocity of a wall. In a fluid with inertia it may depend on time.
 struct WallVelocity {
-  /// Which velocity the wall has.
   enum class Kind {
     kConstant,   ///< the velocity is `value` everywhere on the wall
-    kParabolic,  ///< along the inward normal; value[0] is the speed in the middle of the wall [L/T]
+    kParabolic,  ///< along the inward normal, 0 at both ends; value[0] is the largest speed
     kOpen,       ///< not given: no stress acts on this side, and fluid flows through it freely
   };
-  Kind kind = Kind::kConstant;  ///< which velocity the wall has
+  Kind kind = Kind::kConstant;
   /// x and y of a constant velocity [L/T]; of a parabola value[0] is the largest speed [L/T].
   std::array<double, 2> value{};
-  /// If this has pieces, their velocities [L/T] take the place of `value`; the third component of a
-  /// piece is not used.
+  /// If this has pieces, their velocities [L/T] take the place of `value`.
   PiecewiseConstant pieces{};
   /// If the period [T] is > 0, the velocity is multiplied by 1 + amplitude sin(2 pi time/period).
   double period = 0;
-  double amplitude = 0;  ///< amplitude above [1], any number; without a period it is not used
+  double amplitude = 0;  ///< [1], any number; not used without a period
 
-  /// True if the velocity depends on time.
   bool depends_on_time() const { return !pieces.pieces.empty() || period > 0; }
   /// The two numbers [L/T] that take the place of `value` at `time` [T], >= 0. If there are pieces
-  /// and `to` > `from` >= 0 [T], their mean between both times is taken.
+  /// and `to` > `from` >= 0 [T], the mean of the pieces between both times is exact, so that as
+  /// much fluid flows in as the case says.
   std::array<double, 2> at(double time, double from = 0, double to = 0) const;
 };
 
 /// The velocity E x at the points x of all walls, with the constant matrix E. If the domain is
 /// periodic along x and y, E is the mean velocity gradient. A shear with the rate s has E = (0, s;
-/// 0, 0) and the velocity (s y, 0). A strain with the rate s has E = (s, 0; 0, -s) and the velocity
-/// (s x, -s y).
+/// 0, 0) and the velocity (s y, 0). A strain with the rate s has E = (s, 0; 0, -s).
 struct LinearFlow {
   /// E as du/dx, du/dy, dv/dx, dv/dy [1/T]. If all are 0, the walls are at rest.
   std::array<double, 4> gradient{};
 };
 
-/// The velocities of the sides of a box: left, right, bottom, top. The entries of periodic sides
-/// are not used.
+/// Velocities of the sides of a box: left, right, bottom, top. Entries of periodic sides are not
+/// used.
 using SideVelocities = std::array<WallVelocity, 4>;
 
-/// A line across a channel: `[[probe]]` of a case. The flow through the line and the mean pressure
-/// on it are measured. The domain must be a box, and the fluid solver FreeFEM.
+/// A line across a channel, `[[probe]]` of a case, in a box. The flow through the line and the mean
+/// pressure on it are measured.
 struct Probe {
   std::string name;              ///< its name in the column `name` of the output file probes.csv
   std::array<double, 2> from{};  ///< a point on a wall [L]
   std::array<double, 2> to{};    ///< a point on another wall [L]
 };
 
-/// The fluid around the particles, and how its flow is computed: `[fluid]` of a case.
+/// The fluid around the particles, and how its flow is computed: `[fluid]` of a case. In two
+/// dimensions masses and forces are per unit length of the third dimension. Particles are given by
+/// their numbers, from 0.
 struct Fluid {
   double viscosity = 0;  ///< mu [M/(L T)], > 0
-  double density = 0;    ///< density of the fluid [M/L^3], >= 0; 0: Stokes flow, without inertia
+  double density = 0;    ///< [M/L^3], >= 0; 0: Stokes flow, without inertia
   // Of the members from here to `gradient_amplitude` Stokes flow has pressure_gradient only.
-  Advection advection = Advection::kSemiImplicit;  ///< how velocities are carried along
-  FlowStart start = FlowStart::kRest;              ///< the flow at time 0
+  Advection advection = Advection::kSemiImplicit;
+  FlowStart start = FlowStart::kRest;
   /// Uniform pressure gradient, x and y [M/(L^2 T^2)], which drives the fluid and also acts on
   /// particles.
   std::array<double, 2> pressure_gradient{};
   /// If the period [T] is > 0, the gradient is multiplied by 1 + amplitude sin(2 pi time/period).
   double gradient_period = 0;
-  double gradient_amplitude = 0;  ///< amplitude above [1], any number; not used without a period
+  double gradient_amplitude = 0;  ///< [1], any number; not used without a period
   /// How particles are kept rigid; kRigid needs FluidMesh::kFitted.
   RigidConstraint constraint = RigidConstraint::kPenalty;
-  /// The penalty [1] of docs/physics.md (6.1), 1e-12 to 1; only kPenalty uses it. Velocities have
+  /// The penalty of docs/physics.md (6.1) [1], 1e-12 to 1; only kPenalty uses it. Velocities have
   /// an error in proportion to it, and rounding errors of about 1e-16/penalty (docs/fluid.md).
   double penalty = 1e-7;
-  FluidMesh mesh = FluidMesh::kFitted;  ///< whether the mesh follows the particles
-  /// Number of edges of the mesh on the circumference of the smallest particle, 6 to 400. With 24,
-  /// velocities have relative errors of some 1e-4 at gaps of 0.1 radii and more (docs/fluid.md).
+  FluidMesh mesh = FluidMesh::kFitted;
+  /// Edges of the mesh on the circumference of the smallest particle, 6 to 400. With 24, velocities
+  /// have relative errors of some 1e-4 at gaps of 0.1 radii and more (docs/fluid.md).
   int edges_per_particle = 24;
-  Coupling coupling = Coupling::kConstrained;  ///< how contact acts on the particles
+  Coupling coupling = Coupling::kConstrained;
   /// Gap at which contact is made [L], > 0: D_c of docs/physics.md. While a case is read, it may be
   /// 0, which stands for a default that is set later.
   double threshold_gap = 0;
-  /// Velocities of the walls; or the mean velocity gradient, if the domain is periodic along x and
-  /// y.
+  /// Velocities of the walls, or the mean velocity gradient.
   std::variant<LinearFlow, SideVelocities> boundary;
   /// Command of a flow solver of the user's own, with its arguments; empty: FreeFEM is used.
   std::vector<std::string> solver;
   /// The two semi-axes of each particle in the plane [L], > 0. The first one points along the angle
-  /// of the particle. A disc has two equal ones. Those of a plate are half of its length and the
-  /// radius of its round ends. Empty: all particles are discs or spheres.
+  /// of the particle. Those of a plate are half of its length and the radius of its round ends.
+  /// Empty: all particles are discs or spheres.
   std::vector<std::array<double, 2>> semi_axes{};
-  /// Which particles are plates with round ends, one number for each: 1 or 0. Empty: none is.
+  /// For each particle 1 if it is a plate with round ends, or 0. Empty: none is.
   std::vector<char> plates{};
-  /// For each disc the part of its area [L^2], >= 0, that counts as area of another disc of its
-  /// rigid body, which it overlaps: the part beyond the chord through the points where both circles
-  /// meet (chords_of(), outline.hpp). Empty: no discs of bodies overlap.
+  /// For each disc the part of its area [L^2] beyond the chords at which it overlaps other discs of
+  /// its rigid body (cut_areas_of(), outline.hpp). Empty: no discs of bodies overlap.
   std::vector<double> cut_areas{};
 
-  /// Membranes in the fluid: closed chains of particles of the case, which are called beads.
   std::vector<Membrane> membranes{};
 
-  /// The lines on which flow and pressure are measured.
   std::vector<Probe> probes{};
 
   /// The pressure gradient at `time` >= 0 [T], x and y [M/(L^2 T^2)].
   std::array<double, 2> pressure_gradient_at(double time) const;
-  /// True if both particles, given by their numbers, are beads of one membrane. Such particles make
-  /// no contact with each other.
+  /// True if both particles are beads of one membrane. They make no contact with each other.
   bool are_of_one_membrane(std::int32_t first, std::int32_t second) const;
-  /// True if the fluid has inertia.
   bool has_inertia() const { return density > 0; }
-  /// True if particle k is a plate.
   bool is_plate(std::size_t k) const { return !plates.empty() && plates[k] != 0; }
-  /// True if particle k is an ellipse, and neither a disc nor a plate.
+  /// True if particle k is neither a disc nor a plate.
   bool is_ellipse(std::size_t k) const {
     return !semi_axes.empty() && semi_axes[k][0] != semi_axes[k][1] && !is_plate(k);
   }
   /// True if particle k is a disc or a sphere.
   bool is_disc(std::size_t k) const { return !is_plate(k) && !is_ellipse(k); }
-  /// The radius [L] of the round ends of particle k if it is a plate, otherwise `radius` [L].
+  /// The radius [L] of the round ends of a plate, otherwise `radius` [L].
   double end_radius(std::size_t k, double radius) const {
     return is_plate(k) ? semi_axes[k][1] : radius;
   }
   /// Area [L^2] of particle k without its cut area, if `dimension` is 2, or volume [L^3] of a
-  /// sphere on the axis, if it is 1. `radius` > 0 [L] is used for discs and spheres only.
+  /// sphere on the axis, if it is 1. `radius` [L] is used for discs and spheres only.
   double size_of(int dimension, std::size_t k, double radius) const;
-  /// Moment of inertia [M L^2] of particle k in the plane, if its mass `mass` >= 0 [M] is evenly
-  /// distributed. `radius` > 0 [L] is used for discs only.
+  /// Moment of inertia [M L^2] of particle k in the plane, if its mass [M] is evenly distributed.
+  /// `radius` [L] is used for discs only.
   double homogeneous_inertia_of(std::size_t k, double mass, double radius) const;
 };
 

@@ -1,23 +1,16 @@
-// This file has the members of Simulation that compute how particles would move in a step of length
-// h > 0 [T] without contacts and links. Other members compute the velocities at the present time,
-// because those of the leapfrog scheme are half a step behind. The velocities u* and angular
-// velocities w* of the motion without contacts give displacements h u* [L], 2 or 3 numbers for each
-// particle, and turns h w* [rad], 1 (discs) or 3, docs/physics.md (5.3) and (5.10). `next` is the
-// time at the end of the step [T], and kick_length(h) [T] is the time for which forces act on the
-// velocities of the step. Masses [M] and moments of inertia [M L^2] must be > 0; numbers are in the
-// units of the case. Nothing is checked or thrown. simulation.cpp calls move_freely() at the
-// beginning of each step; a change must set displacements and turns of all particles, also of those
-// in rigid bodies.
+// Members of Simulation that compute displacements h u* and turns h w* without contacts and links,
+// docs/physics.md (5.3) and (5.10), and reported velocities.
+#include <cassert>
+
 #include "viscontact/particles/links/tension.hpp"
 #include "viscontact/particles/particles.hpp"
 #include "viscontact/particles/simulation.hpp"
 
 namespace viscontact::particles {
 
-/// Sets displacements_ and turns_ of all particles, and mobilities_, the step over the mass [T/M].
-/// Adds gravity, the forces and torques of the case, and those of the caller.
 template <int D>
 void Simulation::move_freely(double h, double next) {
+  assert(h > 0);
   const auto& p = state_.particles;
   const double kick = kick_length(h);
   auto entries = p.count();
@@ -81,16 +74,11 @@ void Simulation::move_as_given(double h, double next) {
   }
 }
 
-/// Mean of a force or torque over the times in which it changes the velocities of this step: the
-/// whole step of Scheme::kEuler, or with the leapfrog from the middle of the last step to the
-/// middle of this one.
 Vector Simulation::mean_of(const PiecewiseConstant& function, double h, double next) const {
   if (setting_.scheme == Scheme::kEuler) return function.mean(state_.time, next);
   return function.mean(state_.time - state_.velocity_lag, state_.time + h / 2);
 }
 
-/// Sums of the forces [M L/T^2] and torques [M L^2/T^2] on each rigid body. `mean` returns the mean
-/// of a force or torque over the time that the caller needs.
 std::vector<BodyLoad> Simulation::loads_of_bodies(
     const std::function<Vector(const PiecewiseConstant&)>& mean) const {
   const auto& p = state_.particles;
@@ -118,8 +106,6 @@ std::vector<BodyLoad> Simulation::loads_of_bodies(
   return loads;
 }
 
-/// Sets body_steps_, the motions of rigid bodies without contacts and links, and the displacements,
-/// turns and mobilities of their members.
 void Simulation::move_bodies_freely(double h, double next) {
   const auto& p = state_.particles;
   const auto loads = loads_of_bodies(
@@ -146,9 +132,6 @@ void Simulation::move_bodies_freely(double h, double next) {
   }
 }
 
-/// Returns one number for each particle. It is 1 if only forces, gravity and torques changed the
-/// motion of the particle in the last step. It is 0 if the particle, or another one of its rigid
-/// body, has a link or had a contact with an impulse.
 std::vector<char> Simulation::free_particles() const {
   const auto& p = state_.particles;
   std::vector<char> is_free(p.count(), 1);
@@ -180,10 +163,6 @@ std::vector<char> Simulation::free_particles() const {
   return is_free;
 }
 
-/// Returns the particles with the velocities at the present time. With the leapfrog, velocities are
-/// behind by the time State::velocity_lag [T]. The particles that free_particles() marks with 1,
-/// and their bodies, get the changes of velocities that forces and torques cause in this time.
-/// Other particles keep the velocities of the state.
 Particles Simulation::reported_particles() const {
   auto reported = state_.particles;
   const double lag = state_.velocity_lag;
@@ -225,8 +204,6 @@ Particles Simulation::reported_particles() const {
   return reported;
 }
 
-/// Sets the turns h w* of the particles [rad], and turn_mobilities_, the step over the moment of
-/// inertia [T/(M L^2)].
 void Simulation::turn_freely(double h, double next) {
   const auto& p = state_.particles;
   const auto components = turn_components(p.dimension);

@@ -1,13 +1,8 @@
-// Computes distances to and between circles, ellipses and plates, and the points at which circles
-// meet. The spine of a plate is the line between the centres of its round ends, and that of a
-// circle its centre. Lengths [L] are in the unit of the case, > 0 for radii and semi-axes; a plate
-// has the larger semi-axis first; angles are in radians, counter-clockwise. A distance is < 0
-// inside. Particles are numbered from 0. Nothing is checked or thrown; circles that do not meet
-// give std::nullopt. A change must keep distances exact to rounding errors for circles and plates;
-// those of two ellipses are found by a search. Used by case/, fluid/, picture/ and freefem_flow/.
+// Distances to and between circles, ellipses and plates, and the points at which circles meet.
 #include "viscontact/particles/outline.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -23,12 +18,13 @@ using Point = std::array<double, 2>;
 /// For s > -1 the left side of the equation decreases and is convex, so that Newton's method,
 /// started below the root, approaches it from below and never passes it.
 double distance_to_ellipse(double a, double b, double x, double y) {
+  assert(a >= b && b > 0);
   const double square = (a / b) * (a / b);
   const double u = x / a, v = y / b;
   double near_x = 0, near_y = b;
   if (v > 0) {
     double s = std::max(v - 1, square * (u - 1));  // below the root, because one of the terms is 1
-    // Newton's method ends by itself when s no longer grows. The bound of 100 is a free choice.
+    // Newton's method ends by itself when s no longer grows.
     for (int n = 0; n < 100; ++n) {
       const double p = square * u / (s + square), q = v / (s + 1);
       const double value = p * p + q * q - 1;
@@ -55,7 +51,7 @@ double distance_to_ellipse(double a, double b, double x, double y) {
 /// spaced parameters, and ternary search then finds the minimum around the best of them.
 template <class Function>
 double least_on(const Outline& outline, const Function& function) {
-  constexpr int kSamples = 128;  // a free choice: the functions have at most two local minima
+  constexpr int kSamples = 128;  // the functions have at most two local minima
   constexpr double kStep = 2 * std::numbers::pi / kSamples;
   const auto value = [&](double t) { return function(outline.at(t)); };
   double least = std::numeric_limits<double>::infinity(), at = 0;
@@ -96,8 +92,7 @@ double side_of(const std::array<Point, 2>& line, const Point& x) {
          (line[1][1] - line[0][1]) * (x[0] - line[0][0]);
 }
 
-/// The four places of SpineContacts: first the two ends of the first spine, and then those of the
-/// second spine, each with the point of the other spine that is nearest to it.
+/// The four places of SpineContacts, in their order.
 std::array<SpinePoints, 4> places_of_ends(const Outline& first, const Outline& second) {
   const auto one = first.spine(), other = second.spine();
   const bool cross = side_of(one, other[0]) * side_of(one, other[1]) < 0 &&
@@ -126,31 +121,24 @@ std::size_t nearest_of(const std::array<SpinePoints, 4>& places, const Predicate
 
 }  // namespace
 
-/// The ends of the spine, of which the first lies in the direction `angle`.
 std::array<Point, 2> Outline::spine() const {
   const double half = is_plate ? semi_axes[0] - semi_axes[1] : 0;
   const double x = half * std::cos(angle), y = half * std::sin(angle);
   return {Point{centre[0] + x, centre[1] + y}, Point{centre[0] - x, centre[1] - y}};
 }
 
-/// The circumference of a circle or plate; wrong for an ellipse.
 double Outline::length() const {
+  assert(is_circle() || is_plate);
   return 2 * std::numbers::pi * end_radius() + (is_plate ? 4 * (semi_axes[0] - semi_axes[1]) : 0);
 }
 
-/// The points of two spines that are nearest to each other. At least one of them is an end of its
-/// spine, even if the spines cross.
 SpinePoints nearest_on_spines(const Outline& first, const Outline& second) {
   const auto places = places_of_ends(first, second);
   return places[nearest_of(places, [](std::size_t) { return true; })];
 }
 
-/// Finds the one or two contacts of two outlines, circles or plates. The first is the place with
-/// the shortest distance. The second is the place with the shortest distance among those of which
-/// both points are further than `apart` from the points of the first. Each other place belongs to
-/// the contact whose points are nearer.
 SpineContacts::SpineContacts(const Outline& first, const Outline& second) {
-  constexpr double kApart = 0.1;  // share of the smaller end radius [1], a free choice
+  constexpr double kApart = 0.1;  // share of the smaller end radius [1]
   const auto places = places_of_ends(first, second);
   const auto nearest = nearest_of(places, [](std::size_t) { return true; });
   places_ = {static_cast<int>(nearest)};
@@ -170,19 +158,14 @@ SpineContacts::SpineContacts(const Outline& first, const Outline& second) {
     if (between(place, other) < between(place, nearest)) contact_of_[place] = places_[1];
 }
 
-/// The points at which the contact of `place`, 0 to 3, acts after the outlines have moved: those
-/// with the shortest distance of all places that belong to this contact.
 SpinePoints SpineContacts::at(int place, const Outline& first, const Outline& second) const {
+  assert(place >= 0 && place < 4);
   const auto places = places_of_ends(first, second);
   const int contact = contact_of(place);
   return places[nearest_of(places,
                            [&](std::size_t other) { return contact_of_[other] == contact; })];
 }
 
-/// The point with the parameter t, which grows by 2 pi once around. On a circle t is the angle from
-/// the x axis. On an ellipse the point has the coordinates a cos t and b sin t along the semi-axes
-/// a and b. On a plate t is 2 pi times the share of the circumference that begins at the tip in the
-/// direction `angle`.
 Point Outline::at(double t) const {
   if (is_circle()) return {centre[0] + radius * std::cos(t), centre[1] + radius * std::sin(t)};
   if (is_plate) {
@@ -204,14 +187,12 @@ Point Outline::at(double t) const {
   return {centre[0] + c * x - s * y, centre[1] + s * x + c * y};
 }
 
-/// Length of the derivative of at() by t [L].
 double Outline::speed_at(double t) const {
   if (is_circle()) return radius;
   if (is_plate) return length() / (2 * std::numbers::pi);
   return std::hypot(semi_axes[0] * std::sin(t), semi_axes[1] * std::cos(t));
 }
 
-/// Radius of curvature at at(t) [L].
 double Outline::curvature_radius_at(double t) const {
   if (is_circle()) return radius;
   if (is_plate) return semi_axes[1];  // that of the ends; straight sides have none
@@ -219,7 +200,6 @@ double Outline::curvature_radius_at(double t) const {
   return speed * (speed / semi_axes[0]) * (speed / semi_axes[1]);
 }
 
-/// Distance of the point x from an outline.
 double distance_to(const Outline& outline, const Point& x) {
   const double dx = x[0] - outline.centre[0], dy = x[1] - outline.centre[1];
   // std::hypot takes ten times as long, and is better only for lengths beyond 1e150.
@@ -233,9 +213,6 @@ double distance_to(const Outline& outline, const Point& x) {
                : distance_to_ellipse(b, a, across, along);
 }
 
-/// Distance of two outlines of which neither contains the other. If they overlap, it is minus the
-/// depth to which one reaches into the other; for plates whose spines cross, minus the sum of the
-/// end radii.
 double gap(const Outline& first, const Outline& second) {
   if (first.is_circle()) return distance_to(second, first.centre) - first.radius;
   if (second.is_circle()) return distance_to(first, second.centre) - second.radius;
@@ -248,7 +225,6 @@ double gap(const Outline& first, const Outline& second) {
   return least_on(first, [&](const Point& x) { return distance_to(second, x); });
 }
 
-/// Distance of an outline from an obstacle; < 0 if a part of the outline is behind its surface.
 double gap(const PlanePosition& obstacle, const Outline& outline) {
   if (outline.is_circle())
     return gap(obstacle, Vector{outline.centre[0], outline.centre[1], 0}, outline.radius);
@@ -262,14 +238,14 @@ double gap(const PlanePosition& obstacle, const Outline& outline) {
   return least_on(outline, [&](const Point& x) { return gap(obstacle, Vector{x[0], x[1], 0}, 0); });
 }
 
-/// The outline of particle k, whose centre is moved by `shift` [L]. On an axis the centre is (0,
-/// z). `angles` are those of all particles; only ellipses and plates need them.
 Outline outline_of(const Fluid& fluid, const Particles& particles, std::span<const double> angles,
                    std::size_t k, const Vector& shift) {
+  assert(k < particles.count());
   const Vector x = particles.position(k) + shift;
   Outline outline{particles.dimension == 1 ? Point{0, x[0]} : Point{x[0], x[1]},
                   particles.radii[k]};
   if (fluid.is_ellipse(k) || fluid.is_plate(k)) {
+    assert(k < angles.size());
     outline.semi_axes = fluid.semi_axes[k];
     outline.angle = angles[k];
     outline.is_plate = fluid.is_plate(k);
@@ -277,10 +253,9 @@ Outline outline_of(const Fluid& fluid, const Particles& particles, std::span<con
   return outline;
 }
 
-/// The chord at which disc `other` cuts disc k: its ends, the angles of the arc of disc k inside
-/// the other disc, the area of disc k beyond the chord [L^2], and the angle between the circles in
-/// the fluid. Returns std::nullopt if the circles touch or do not meet.
 std::optional<Chord> chord_of(const Particles& particles, std::size_t k, std::size_t other) {
+  assert(particles.dimension == 2);
+  assert(k < particles.count() && other < particles.count());
   // The points are computed from the disc with the smaller number, so that they are the same to the
   // last bit if k and `other` are exchanged.
   const std::size_t i = std::min(k, other), j = std::max(k, other);
@@ -306,9 +281,6 @@ std::optional<Chord> chord_of(const Particles& particles, std::size_t k, std::si
   return chord;
 }
 
-/// The chords at which other discs of its rigid body cut disc k, in the order of the directions of
-/// their middles, without those whose arc is within that of another one. The result is empty if
-/// particle k belongs to no body or is no disc, or if the constraint of the fluid is not kRigid.
 std::vector<Chord> chords_of(const Fluid& fluid, const Particles& particles, std::size_t k) {
   std::vector<Chord> chords;
   const auto body = particles.bodies.body_of(static_cast<std::int32_t>(k));
@@ -328,7 +300,6 @@ std::vector<Chord> chords_of(const Fluid& fluid, const Particles& particles, std
   return chords;
 }
 
-/// For each particle the sum of the areas beyond its chords [L^2]; empty if all sums are 0.
 std::vector<double> cut_areas_of(const Fluid& fluid, const Particles& particles) {
   std::vector<double> areas(particles.count());
   for (std::size_t k = 0; k < areas.size(); ++k)

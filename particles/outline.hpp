@@ -1,10 +1,5 @@
-// Describes the outline of a particle in the plane (a circle, an ellipse, or a plate with round
-// ends) and computes gaps between outlines. If discs of one rigid body in a fluid overlap, each
-// disc is cut along the chords at which its circle meets those of the others, so that the cut discs
-// cover the union of the discs once. Lengths are in the unit of the case, angles in radians,
-// counter-clockwise. particles/ (case/, fluid/, picture/) and freefem_flow/ (meshes) use this file.
-// Nothing is checked or thrown. A change must keep gaps of circles and plates exact, and the total
-// area of cut discs that of their union. The 128 points and the tenth below are free choices.
+// Outlines of particles in the plane: circles, ellipses, and plates with round ends. Gaps between
+// them, and chords at which overlapping discs of a body are cut.
 #pragma once
 
 #include <array>
@@ -23,21 +18,19 @@ namespace viscontact::particles {
 /// points at the distance semi_axes[1] from its spine, a line of the length 2 (semi_axes[0] -
 /// semi_axes[1]) through the centre along `angle`. The spine of a circle is its centre.
 struct Outline {
-  std::array<double, 2> centre{};  ///< centre [L]
+  std::array<double, 2> centre{};  ///< [L]
   /// Radius of the circle, or the larger semi-axis of an ellipse or plate [L], > 0.
   double radius = 0;
-  /// Semi-axes of an ellipse or plate [L], > 0. If both are equal, for example 0, the outline is a
-  /// circle.
+  /// Semi-axes of an ellipse or plate [L]. Both are equal, for example 0, if it is a circle.
   std::array<double, 2> semi_axes{};
   double angle = 0;       ///< from the x axis to the first semi-axis of an ellipse or plate [rad]
   bool is_plate = false;  ///< whether it is a plate; then semi_axes[0] > semi_axes[1]
 
-  /// True if the outline is a circle.
   bool is_circle() const { return semi_axes[0] == semi_axes[1]; }
   /// The point [L] of the outline with the parameter t, which increases by 2 pi once around. On a
-  /// circle t is the angle from the x axis. On an ellipse with the semi-axes a, b along the unit
-  /// vectors e_1, e_2 the point is centre + a cos(t) e_1 + b sin(t) e_2. On a plate t is
-  /// proportional to the length along the outline from the tip in the direction `angle`.
+  /// circle t is the angle from the x axis. On an ellipse with the semi-axes a, b along e_1, e_2
+  /// the point is centre + a cos(t) e_1 + b sin(t) e_2. On a plate t is proportional to the length
+  /// along the outline from the tip in the direction `angle`.
   std::array<double, 2> at(double t) const;
   /// Length of the derivative of at() by t [L], > 0.
   double speed_at(double t) const;
@@ -50,35 +43,31 @@ struct Outline {
   /// Ends of the spine [L], of which the first lies in the direction `angle`. Both ends are the
   /// centre if the outline is no plate.
   std::array<std::array<double, 2>, 2> spine() const;
-  /// Circumference of a circle or plate [L]. For an ellipse the result is wrong, and nothing checks
-  /// this.
+  /// Circumference of a circle or plate [L].
   double length() const;
 };
 
-/// A point on the spine of each of two outlines, circles or plates.
 struct SpinePoints {
   std::array<double, 2> first{},  ///< on the first spine [L]
       second{};                   ///< on the second spine [L]
   bool cross = false;             ///< whether the spines cross each other
 };
-/// The points of two spines that are nearest to each other, of which one is an end of its spine
-/// even if the spines cross. If several pairs of points are equally near, the first one in the
-/// order of the places of SpineContacts is returned.
+/// The nearest points of two spines, of which one is an end of its spine even if the spines cross.
+/// Of equally near points, those of the first place (SpineContacts) are returned.
 SpinePoints nearest_on_spines(const Outline& first, const Outline& second);
 
 /// The one or two contacts that two outlines, circles or plates, may have. Two plates that lie side
 /// by side have two contacts, at both ends of the part where they face each other. An end of a
-/// spine and the point of the other spine that is nearest to it form a place. The ends of the first
-/// spine form the places 0 and 1, those of the second spine the places 2 and 3. The first contact
-/// is the place with the shortest distance between its two points. The second contact is the
-/// shortest of those places of which both points are further than a tenth of the smaller end radius
-/// from the points of the first contact. There is only one contact if no place is so far away, or
-/// if the spines cross. Each other place belongs to the contact whose points are nearer to its own.
+/// spine and the nearest point of the other spine form a place: the ends of the first spine the
+/// places 0 and 1, those of the second spine 2 and 3. The first contact is the place with the
+/// shortest distance between its two points. The second contact is the shortest of those places of
+/// which both points are further than a tenth of the smaller end radius from those of the first
+/// contact; there is none if the spines cross. Each other place belongs to the contact whose points
+/// are nearer to its own.
 class SpineContacts {
  public:
-  /// Finds the contacts of both outlines where they are.
   SpineContacts(const Outline& first, const Outline& second);
-  /// The place, 0 to 3, of each contact; one or two entries.
+  /// One or two places, 0 to 3.
   const std::vector<int>& places() const { return places_; }
   /// The place of the contact to which `place`, 0 to 3, belongs.
   int contact_of(int place) const { return contact_of_[static_cast<std::size_t>(place)]; }
@@ -94,12 +83,11 @@ class SpineContacts {
 /// Distance of the point x [L] from the outline [L]; < 0 inside.
 double distance_to(const Outline& outline, const std::array<double, 2>& x);
 
-/// Distance between two outlines of which neither contains the other [L]. It is exact to rounding
-/// errors if one is a circle or both are plates. Otherwise the minimum over the points of an
-/// ellipse is searched from 128 of them. If the outlines overlap, the result is minus the depth to
-/// which one outline reaches into the other: a circle into the other outline, an ellipse into a
-/// plate, the ellipse `first` into the ellipse `second`. For plates whose spines cross, the result
-/// is minus the sum of both end radii.
+/// Distance between two outlines of which neither contains the other [L], exact to rounding errors
+/// if one is a circle or both are plates; otherwise found by a search from 128 points of an
+/// ellipse. If the outlines overlap, the result is minus the depth to which one reaches into the
+/// other: a circle into the other outline, an ellipse into a plate, the ellipse `first` into the
+/// ellipse `second`. For plates whose spines cross, it is minus the sum of both end radii.
 double gap(const Outline& first, const Outline& second);
 
 /// Distance of the outline from an obstacle [L]; < 0 if a part of the outline is behind the surface
@@ -107,13 +95,11 @@ double gap(const Outline& first, const Outline& second);
 double gap(const PlanePosition& obstacle, const Outline& outline);
 
 /// Outline of particle k in the plane, or of a sphere on the axis with its centre at (0, z).
-/// `angles` are those of all particles [rad]; they are read for ellipses and plates only, and may
-/// be empty if there are none. Particle numbers count from 0 and are not checked. `shift` [L] is
-/// added to the centre, which gives the outline of a periodic image.
+/// `angles` are those of all particles [rad]; they may be empty if there are no ellipses and
+/// plates. `shift` [L] is added to the centre, which gives the outline of a periodic image.
 Outline outline_of(const Fluid& fluid, const Particles& particles, std::span<const double> angles,
                    std::size_t k, const Vector& shift = {});
 
-/// How a disc is cut by another disc that overlaps it.
 struct Chord {
   std::size_t other = 0;  ///< number of the disc that overlaps it
   // The ends of the chord, at which the circles meet. The arc from `from` to `to`,
@@ -133,14 +119,13 @@ struct Chord {
 /// ends, bit for bit.
 std::optional<Chord> chord_of(const Particles& particles, std::size_t k, std::size_t other);
 
-/// The chords at which other discs of the same rigid body cut disc k, in the order of their
-/// `middle`, without chords whose arc is within the arc of another chord. The result is empty if
-/// particle k is in no body, or is an ellipse or plate. It is also empty if Fluid::constraint is
-/// RigidConstraint::kPenalty, because discs may not overlap then.
+/// The chords at which other discs of its rigid body cut disc k, in the order of their `middle`,
+/// without chords whose arc is within the arc of another chord; none for ellipses and plates, and
+/// with RigidConstraint::kPenalty, with which discs may not overlap.
 std::vector<Chord> chords_of(const Fluid& fluid, const Particles& particles, std::size_t k);
 
-/// The areas that are cut off, for Fluid::cut_areas [L^2]: for each particle the sum of Chord::area
-/// over its chords_of(); empty if all sums are 0.
+/// For each particle the sum of Chord::area over its chords_of() [L^2], for Fluid::cut_areas; empty
+/// if all sums are 0.
 std::vector<double> cut_areas_of(const Fluid& fluid, const Particles& particles);
 
 }  // namespace viscontact::particles

@@ -1,15 +1,10 @@
-// Stores the numbers that contact laws remember from step to step of a pair of touching bodies
-// besides Pair::gamma (state.hpp), in the units of the case. The numbers are declared once, in
-// kMemoryFields, and the restart file, contacts.csv, final_contacts.csv and the VTK files take the
-// names of the numbers from there. To add a number, add a row to kMemoryFields and a place to
-// Remembered, with the unit in its comment. Names must not change, because restart files contain
-// them. A pair loses its memory when its gamma is 0 and it leaves the lists of close pairs. All
-// contact laws and solvers use this file. Nothing is thrown, and it is not checked whether a field
-// or a row exists.
+// Numbers that contact laws remember of a pair of bodies from step to step, besides Pair::gamma.
+// Restart files, tables and VTK files take their names from kMemoryFields.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -26,26 +21,26 @@ enum class Remembered : std::uint8_t {
   /// x of the impulse of friction on Pair::second in the last step [M L/T]. This vector is
   /// tangential; the solver of the next step takes it as its first guess.
   kFrictionX,
-  kFrictionY,  ///< y of the impulse of friction [M L/T]
-  kFrictionZ,  ///< z of the impulse of friction [M L/T]
+  kFrictionY,  ///< [M L/T]
+  kFrictionZ,  ///< [M L/T]
   kCarried,    ///< part of the normal impulse of the last step that the solids carried and not the
                ///< film [M L/T], >= 0: p_s of docs/physics.md (5.7), which bounds the friction
   /// x of the impulse across the normal [M L/T] with which a film that pulls acted on Pair::second
   /// in the last step, docs/physics.md (5.21). It acts on the centres and turns no particle.
   kAcrossX,
-  kAcrossY,  ///< y of the impulse across the normal [M L/T]
-  kAcrossZ,  ///< z of the impulse across the normal [M L/T]
-  kCount,    ///< how many numbers there are; it must stay the last one
+  kAcrossY,  ///< [M L/T]
+  kAcrossZ,  ///< [M L/T]
+  kCount,    ///< it must stay the last one
 };
 
-/// A number that a law remembers, as files show it.
 struct MemoryField {
   std::string_view name;  ///< name of the number in restart files and of its column in tables
   bool is_impulse;        ///< whether it is an impulse, added over the parts of a divided step
   bool is_shown;          ///< whether contacts.csv and the VTK files of output times have it
 };
 
-/// All numbers that laws remember. Restart files store them by name.
+/// All numbers that laws remember. Restart files store them by name, so that names stay as they
+/// are.
 inline constexpr std::array kMemoryFields = {
     MemoryField{"friction_x", true, false}, MemoryField{"friction_y", true, false},
     MemoryField{"friction_z", true, false}, MemoryField{"carried", true, false},
@@ -60,19 +55,15 @@ static_assert(kMemoryFields.size() == static_cast<std::size_t>(Remembered::kCoun
 using ShownMemory = std::array<double, static_cast<std::size_t>(std::ranges::count_if(
                                            kMemoryFields, &MemoryField::is_shown))>;
 
-/// All numbers of one pair. They are 0 if nothing is remembered.
+/// All numbers of one pair, which are 0 if nothing is remembered.
 class PairMemory {
  public:
-  /// The number in one place, in the unit that its comment in Remembered states.
   double& operator[](Remembered field) { return values_[static_cast<std::size_t>(field)]; }
-  /// The number in one place, in the unit that its comment in Remembered states.
   double operator[](Remembered field) const { return values_[static_cast<std::size_t>(field)]; }
-  /// All numbers, in the order of kMemoryFields.
+  /// The numbers in the order of kMemoryFields.
   std::array<double, kMemoryFields.size()>& values() { return values_; }
-  /// All numbers, in the order of kMemoryFields.
   const std::array<double, kMemoryFields.size()>& values() const { return values_; }
 
-  /// The numbers that files show.
   ShownMemory shown() const {
     ShownMemory numbers{};
     auto number = numbers.begin();
@@ -81,15 +72,10 @@ class PairMemory {
     return numbers;
   }
 
-  /// Impulse of friction [M L/T].
   Vector friction() const { return vector_at(Remembered::kFrictionX); }
-  /// Sets the impulse of friction [M L/T].
   void set_friction(const Vector& p) { set_vector(Remembered::kFrictionX, p); }
-  /// Impulse of a film across the normal [M L/T].
   Vector across() const { return vector_at(Remembered::kAcrossX); }
-  /// Sets the impulse of a film across the normal [M L/T].
   void set_across(const Vector& p) { set_vector(Remembered::kAcrossX, p); }
-  /// True if all members are equal.
   bool operator==(const PairMemory&) const = default;
 
  private:
@@ -105,7 +91,8 @@ class PairMemory {
 };
 
 /// The memories of the pairs of a state. A pair has a row here only if a law remembers something of
-/// it, so that cases without such laws need no space in memory.
+/// it, so that cases without such laws need no space in memory. A pair loses its memory when its
+/// gamma is 0 and it leaves the lists of close pairs.
 class PairMemories {
  public:
   /// Stands for the number of a row if the pair has no row.
@@ -113,24 +100,25 @@ class PairMemories {
 
   /// The memory with number `row` (Pair::memory), from 0; a memory of zeros if `row` is kNone.
   const PairMemory& of(std::int32_t row) const {
+    assert(row >= kNone && row < static_cast<std::int32_t>(rows_.size()));
     static constexpr PairMemory kZeros{};
     return row == kNone ? kZeros : rows_[static_cast<std::size_t>(row)];
   }
-  /// The memory with number `row`, which the caller may change. If `row` is kNone, a row of zeros
-  /// is made and `row` becomes its number; references to other rows are then no longer valid.
+  /// If `row` is kNone, a row of zeros is made and `row` becomes its number; references to other
+  /// rows are then no longer valid.
   PairMemory& make(std::int32_t& row) {
     if (row == kNone) {
       row = static_cast<std::int32_t>(rows_.size());
       rows_.emplace_back();
     }
+    assert(row >= 0 && row < static_cast<std::int32_t>(rows_.size()));
     return rows_[static_cast<std::size_t>(row)];
   }
-  /// Sets the row with number `row` to `memory`. If `row` is kNone, a row is made as by make(),
-  /// unless all numbers of `memory` are 0.
+  /// If `row` is kNone, a row is made as by make(), unless all numbers of `memory` are 0.
   void set(std::int32_t& row, const PairMemory& memory) {
     if (row != kNone || !(memory == PairMemory{})) make(row) = memory;
   }
-  bool empty() const { return rows_.empty(); }  ///< whether nothing is remembered
+  bool empty() const { return rows_.empty(); }
 
   /// Drops the rows of all pairs that are in none of `lists` (containers of Pair), and the rows of
   /// zeros. Pair::memory of each pair in `lists` becomes the new number of its row, or kNone.

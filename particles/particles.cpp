@@ -1,15 +1,11 @@
-// Computes rotations by quaternions (w, x, y, z) of length 1, and turns particles in a step. Turns
-// are in radians, 1 number for each disc and 3 for each sphere; angular velocities in [1/T], the
-// length of a step is > 0 [T], masses [M] and radii [L] are > 0. Nothing is checked or thrown; a
-// quaternion of zeros gives NaN. A change must keep quaternions at length 1, and the order of the
-// operations, on which the last bits of all results depend. Used by all of particles/.
+// Rotations by unit quaternions.
 #include "viscontact/particles/particles.hpp"
 
+#include <cassert>
 #include <cmath>
 
 namespace viscontact::particles {
 
-/// The orientation `from` after a turn by the angle |turn| about the direction of `turn`.
 Quaternion turned(const Quaternion& from, const Vector& turn) {
   const double angle = norm(turn);
   // sin(angle/2)/angle is 1/2 within rounding errors below this angle [rad].
@@ -25,16 +21,16 @@ Quaternion turned(const Quaternion& from, const Vector& turn) {
   return to;
 }
 
-/// The vector `a`, of any unit, rotated by the quaternion q.
 Vector rotated(const Quaternion& q, const Vector& a) {
   const Vector v = {q[1], q[2], q[3]};
   const Vector t = 2 * cross(v, a);
   return a + q[0] * t + cross(v, t);
 }
 
-/// Turns all particles by `turns` in a step of length `h`, and sets their angular velocities to the
-/// quotient of both.
 void turn_particles(Particles& particles, std::span<const double> turns, double h) {
+  assert(h > 0);
+  assert(turns.size() == particles.count() * turn_components(particles.dimension));
+  assert(particles.angular_velocities.size() == turns.size());
   for (std::size_t k = 0; k < turns.size(); ++k) particles.angular_velocities[k] = turns[k] / h;
   if (particles.dimension != 3) {
     for (std::size_t k = 0; k < turns.size(); ++k) particles.angles[k] += turns[k];
@@ -48,10 +44,8 @@ void turn_particles(Particles& particles, std::span<const double> turns, double 
   }
 }
 
-/// Gives rotation to particles that have none yet: angle 0 (discs) or no rotation (spheres),
-/// angular velocity 0, and the moment of inertia [M L^2] of a homogeneous disc or sphere. Values
-/// that exist stay.
 void add_rotation(Particles& particles) {
+  assert(particles.dimension == 2 || particles.dimension == 3);
   const auto count = particles.count();
   particles.angular_velocities.resize(count * turn_components(particles.dimension), 0.0);
   if (particles.dimension == 3)

@@ -1,14 +1,9 @@
-// Declares the particles of a simulation, rigid discs or spheres, and computes how they turn.
-// Lengths, masses and times are in any consistent units; turns and angles are in radians. The
-// number of a particle is its place in the arrays, from 0; its id is its name in the user's files.
-// Nothing is checked or thrown: the caller must pass numbers < count() and arrays of the stated
-// lengths. All of particles/ uses this file. A change must keep quaternions at length 1. The
-// restart file stores these arrays as they are (io/restart.cpp), so that a change of their layout
-// needs a new version of that file.
+// Particles of a simulation, rigid discs or spheres, and their rotation.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -21,118 +16,121 @@
 
 namespace viscontact::particles {
 
-/// The number of a particle, >= 0, as the type of an index in an array.
+/// The number of a particle, its place in the arrays, from 0, as the type of an index.
 constexpr std::size_t index_of(std::int32_t number) { return static_cast<std::size_t>(number); }
 
-/// The particles as flat arrays. Entry k of `radii`, `masses` and `ids` belongs to particle k, and
-/// so do the `dimension` entries from dimension * k on of `positions` and `velocities`.
+/// The particles as flat arrays, in any consistent units. Entry k of `radii`, `masses` and `ids`
+/// belongs to particle k, and so do the `dimension` entries from dimension * k on of `positions`
+/// and `velocities`. The restart file stores the arrays as they are (io/restart.cpp).
 struct Particles {
   /// 2: discs, 3: spheres, 1: spheres on the axis z of a cylinder. z is component 0 of a Vector.
   int dimension = 2;
-  std::vector<double> positions;   ///< positions of the centres [L]
-  std::vector<double> velocities;  ///< velocities of the centres [L/T]
-  std::vector<double> radii;       ///< radii [L], > 0
-  std::vector<double> masses;      ///< masses [M], of discs in a fluid [M/L]; > 0, in a fluid >= 0
-  /// Id of each particle, >= 0; no two are equal. Empty: particle k has the id k.
+  std::vector<double> positions;   ///< centres [L]
+  std::vector<double> velocities;  ///< of the centres [L/T]
+  std::vector<double> radii;       ///< [L], > 0
+  std::vector<double>
+      masses;  ///< [M], of discs in a fluid [M/L]; > 0; in a fluid or if the motion is given >= 0
+  /// Id of each particle, its name in the user's files, >= 0; no two are equal. Empty: particle k
+  /// has the id k.
   std::vector<std::int32_t> ids{};
-  // The next four arrays describe rotation. They are empty if nothing in the case depends on
-  // rotation (docs/particles.md), and for particles on an axis.
+  // The next four arrays are empty if nothing in the case depends on rotation (docs/particles.md),
+  // and for particles on an axis.
   std::vector<double> angles{};  ///< angles of discs, counter-clockwise [rad]; empty for spheres
-  /// Orientations of spheres: unit quaternions, four numbers (w, x, y, z) for each particle. They
-  /// are the rotations from the start until now; empty for discs.
+  /// Orientations of spheres: unit quaternions (w, x, y, z), the rotations from the start until
+  /// now; empty for discs.
   std::vector<double> orientations{};
   /// Angular velocities [1/T]: one for each disc, counter-clockwise; three for each sphere.
   std::vector<double> angular_velocities{};
-  /// Moments of inertia, one for each particle: [M L^2], of discs in a fluid [M L]; > 0, in a fluid
-  /// >= 0.
+  /// Moments of inertia, one for each particle: [M L^2], of discs in a fluid [M L].
   std::vector<double> inertias{};
-  /// The periodic cell, which says how images of particles are shifted. A simulation takes it from
-  /// its setting; the restart file does not store it.
+  /// The cell says how images of particles are shifted. A simulation takes it from its setting; the
+  /// restart file does not store it.
   PeriodicCell cell{};
   /// Rigid bodies of several particles, from the case. The restart file stores their motion only.
   RigidBodies bodies{};
-  /// For each particle of a membrane (a closed chain of particles) the numbers of its two
-  /// neighbours in the chain, and {-1, -1} for other particles; empty without membranes, and in a
-  /// fluid. The numbers come from the case; the restart file does not store them.
+  /// For each particle of a membrane (a closed chain of particles) its two neighbours in the chain,
+  /// and {-1, -1} for other particles; empty without membranes, and in a fluid. The restart file
+  /// does not store them.
   std::vector<std::array<std::int32_t, 2>> neighbours{};
 
-  std::size_t count() const { return radii.size(); }         ///< number of particles
+  std::size_t count() const { return radii.size(); }
   bool turn() const { return !angular_velocities.empty(); }  ///< whether rotation is computed
   /// True if the two particles belong to one body, or are neighbours on a membrane. Such particles
   /// make no contact.
   bool are_joined(std::int32_t first, std::int32_t second) const {
     if (bodies.are_one(first, second)) return true;
     if (neighbours.empty()) return false;
+    assert(static_cast<std::size_t>(first) < neighbours.size());
     const auto& next = neighbours[static_cast<std::size_t>(first)];
     return next[0] == second || next[1] == second;
   }
-  /// Id of particle k < count() in files.
+  /// Id of particle k in files.
   std::int32_t id(std::size_t k) const {
+    assert(ids.empty() || k < ids.size());
     return ids.empty() ? static_cast<std::int32_t>(k) : ids[k];
   }
-  /// Centre of particle k < count() [L].
+  /// Centre of particle k [L].
   Vector position(std::size_t k) const { return point_of(positions.data(), k, dimension); }
-  /// Velocity of particle k < count() [L/T].
+  /// Velocity of particle k [L/T].
   Vector velocity(std::size_t k) const { return point_of(velocities.data(), k, dimension); }
 };
 
-/// The largest id of a particle; -1 if there are no particles.
+/// The result is -1 without particles.
 inline std::int32_t largest_id(const Particles& particles) {
   return particles.ids.empty() ? static_cast<std::int32_t>(particles.count()) - 1
                                : std::ranges::max(particles.ids);
 }
 
-/// How many ids (numbers up to 2^31 - 1) are larger than largest_id(), and therefore free for
-/// particles that are added.
+/// How many ids (numbers up to 2^31 - 1) are larger than largest_id().
 inline std::size_t ids_left(const Particles& particles) {
   return static_cast<std::size_t>(std::int64_t{std::numeric_limits<std::int32_t>::max()} -
                                   largest_id(particles));
 }
 
 /// If `ids` is not empty but shorter than count(), the particles without an id get the largest id
-/// so far plus 1, 2, ... ids_left() must be at least their number.
+/// so far plus 1, 2, ...
 inline void add_missing_ids(Particles& particles) {
+  assert(particles.ids.size() + ids_left(particles) >= particles.count());
   if (particles.ids.empty()) return;
   auto largest = largest_id(particles);
   while (particles.ids.size() < particles.count()) particles.ids.push_back(++largest);
 }
 
-/// Area of a disc (dimension 2) [L^2], or volume of a sphere (dimension 1 or 3) [L^3], of the given
-/// radius [L].
+/// Area of a disc (dimension 2) [L^2], or volume of a sphere (dimension 1 or 3) [L^3].
 inline double size_of_particle(int dimension, double radius) {
+  assert(dimension >= 1 && dimension <= 3);
   constexpr double kPi = 3.141592653589793;
   return dimension == 2 ? kPi * radius * radius : 4 * kPi / 3 * radius * radius * radius;
 }
 
-/// Moment of inertia about its centre [M L^2] of a homogeneous disc (dimension 2) of the mass m and
-/// radius r, m r^2/2, or of a sphere (dimension 3), 2 m r^2/5. For dimension 1 the result is that
-/// of a disc, which is meaningless: spheres on an axis do not turn, and no code asks for it.
+/// Moment of inertia about the centre [M L^2] of a homogeneous disc (dimension 2) of the mass m and
+/// radius r, m r^2/2, or of a sphere (dimension 3), 2 m r^2/5.
 inline double homogeneous_inertia(int dimension, double mass, double radius) {
   return (dimension == 3 ? 0.4 : 0.5) * mass * radius * radius;
 }
 
-/// Area of an ellipse with these semi-axes [L], >= 0; [L^2].
 inline double size_of_ellipse(const std::array<double, 2>& semi_axes) {
   return size_of_particle(2, 1) * semi_axes[0] * semi_axes[1];
 }
 
-/// Moment of inertia of a homogeneous ellipse about its centre, m (a^2 + b^2)/4 [M L^2], where m is
-/// the mass and a, b are the semi-axes [L].
+/// Moment of inertia of a homogeneous ellipse about its centre, m (a^2 + b^2)/4 [M L^2].
 inline double homogeneous_inertia_of_ellipse(double mass, const std::array<double, 2>& semi_axes) {
   return mass / 4 * (semi_axes[0] * semi_axes[0] + semi_axes[1] * semi_axes[1]);
 }
 
 /// Area [L^2] of a plate of the length 2 semi_axes[0] with round ends of the radius semi_axes[1]
-/// [L], > 0 and at most semi_axes[0].
+/// [L].
 inline double size_of_plate(const std::array<double, 2>& semi_axes) {
+  assert(semi_axes[0] >= semi_axes[1]);
   const auto [a, b] = semi_axes;
   return size_of_particle(2, b) + 4 * (a - b) * b;
 }
 
-/// Moment of inertia of a homogeneous plate with the semi-axes a and b about its centre [M L^2]. It
-/// is the sum of those of a rectangle with the half sides l = a - b and b, and of two half discs,
-/// whose centroids are 4 b/(3 pi) beyond the ends of the rectangle.
+/// Moment of inertia of a homogeneous plate about its centre [M L^2]. It is the sum of those of a
+/// rectangle with the half sides l = a - b and b, and of two half discs, whose centroids are 4 b/(3
+/// pi) beyond the ends of the rectangle.
 inline double homogeneous_inertia_of_plate(double mass, const std::array<double, 2>& semi_axes) {
+  assert(semi_axes[0] >= semi_axes[1] && semi_axes[1] > 0);
   const auto [a, b] = semi_axes;
   const double l = a - b, discs = size_of_particle(2, b), rectangle = 4 * l * b;
   const double of_rectangle = (l * l + b * b) / 3;
@@ -140,13 +138,12 @@ inline double homogeneous_inertia_of_plate(double mass, const std::array<double,
   return mass / (discs + rectangle) * (rectangle * of_rectangle + discs * of_discs);
 }
 
-/// Extends `angular_velocities`, `inertias` and, for discs, `angles`, for spheres `orientations` to
-/// all particles, so that all can turn. Existing entries stay. The new entries say that a particle
-/// does not turn, has not turned since the start, and has its homogeneous_inertia(). The dimension
-/// must be 2 or 3.
+/// Extends the arrays of rotation to all discs or spheres, so that all can turn. Existing entries
+/// stay. The new entries say that a particle does not turn, has not turned since the start, and has
+/// its homogeneous_inertia().
 void add_rotation(Particles& particles);
 
-/// Mean radius [L], to which residuals of solvers and overlaps are compared; 1 if there are no
+/// The mean radius [L], to which residuals of solvers and overlaps are compared; 1 without
 /// particles.
 inline double mean_radius(const Particles& particles) {
   if (particles.count() == 0) return 1;
@@ -155,23 +152,21 @@ inline double mean_radius(const Particles& particles) {
   return sum / static_cast<double>(particles.count());
 }
 
-// Rotations in space, as unit quaternions.
-
-/// The components w, x, y, z of a quaternion. A rotation has w^2 + x^2 + y^2 + z^2 = 1.
+/// w, x, y, z.
 using Quaternion = std::array<double, 4>;
 
 /// The orientation after `from` and a rotation by |turn| [rad] about the direction of `turn`, whose
 /// components are along the fixed axes. The result has length 1; it is NaN if `from` is 0.
 Quaternion turned(const Quaternion& from, const Vector& turn);
 
-/// The vector `a`, of any unit, after the rotation `q`, a quaternion of length 1.
+/// The vector `a` after the rotation `q`, a quaternion of length 1.
 Vector rotated(const Quaternion& q, const Vector& a);
 
 /// Number of components of a rotation: 1 for discs, 3 for spheres.
 constexpr std::size_t turn_components(int dimension) { return dimension == 3 ? 3 : 1; }
 
-/// Turns all particles by `turns` [rad], which has turn_components() numbers for each particle, in
-/// a step of length h > 0 [T], and sets their angular velocities to turns/h [1/T].
+/// Turns all particles by `turns` [rad], turn_components() numbers for each particle, in a step of
+/// length h [T], and sets their angular velocities to turns/h [1/T].
 void turn_particles(Particles& particles, std::span<const double> turns, double h);
 
 }  // namespace viscontact::particles

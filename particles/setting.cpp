@@ -1,16 +1,12 @@
-// Computes the obstacles and the periodic cell of a setting (setting.hpp). Lengths [L], among them
-// radii > 0, velocities of planes [L/T] and the mean velocity gradient of the cell [1/T] are in the
-// units of the case. There may be no obstacle; a cell without periods has the lengths 0. Nothing is
-// checked or thrown. A change must keep the order of the obstacles, because files number them in
-// this order. The simulations and the files in io/ and run/ use this file.
+// Obstacles and the periodic cell of a setting.
 #include "viscontact/particles/setting.hpp"
+
+#include <cassert>
 
 #include "viscontact/particles/state.hpp"
 
 namespace viscontact::particles {
 
-/// The periodic cell of the domain, with the velocity gradient of the linear flow at the boundary
-/// of the fluid, if there is such a flow.
 PeriodicCell cell_of(const Setting& setting) {
   auto cell = cell_of(setting.domain);
   if (!setting.fluid) return cell;
@@ -19,7 +15,6 @@ PeriodicCell cell_of(const Setting& setting) {
   return cell;
 }
 
-/// All obstacles: first the walls of the domain, then the planes of the setting.
 std::vector<Plane> obstacles_of(const Setting& setting) {
   auto obstacles = obstacles_of(setting.domain);
   obstacles.insert(obstacles.end(), setting.planes.begin(), setting.planes.end());
@@ -27,6 +22,7 @@ std::vector<Plane> obstacles_of(const Setting& setting) {
 }
 
 std::vector<Plane> obstacles_of(const Setting& setting, std::span<const PlaneMotion> motions) {
+  assert(motions.size() <= setting.planes.size());
   auto obstacles = obstacles_of(setting);
   const auto walls = obstacles.size() - setting.planes.size();
   for (std::size_t k = 0; k < motions.size(); ++k) {

@@ -1,13 +1,8 @@
-// Declares the settings of a simulation, the content of a case file: what moves the particles, how
-// their motion is computed, and how accurately. Nothing is checked or thrown here; particles/case
-// checks the values. The number of a particle is its place in the arrays of Particles, from 0. The
-// simulations (simulation.hpp and fluid/) and the files in io/, picture/ and run/ read the
-// settings. Lengths, masses and times are in any consistent units; masses and forces of discs in a
-// fluid are per length. A change of a default of SolverSettings changes the results of every case
-// that does not set it.
+// The settings of a simulation, the content of a case file.
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -26,24 +21,24 @@
 
 namespace viscontact::particles {
 
-/// How accurately the projection of a step, the problem that gives its velocities and impulses, is
-/// solved. Tolerances have no dimension (docs/particles.md, "The projection").
+/// Accuracy of the projection of a step, the problem that gives its velocities and impulses.
+/// Tolerances have no dimension (docs/particles.md, "The projection").
 struct SolverSettings {
   /// Largest error of a gap after a step, divided by the mean radius; > 0.
   double tolerance = 1e-6;
   /// Largest error of the normal impulse of a contact, divided by the largest impulse that acts on
-  /// the less loaded of its two particles; > 0. For the impulse of friction the largest error is
-  /// 100 `tolerance` if this is larger.
+  /// the less loaded of its two particles; > 0. For the impulse of friction it is 100 `tolerance`
+  /// if this is larger.
   double impulse_tolerance = 1e-10;
   /// Largest number of iterations in a step, >= 1; a step that needs more has not converged. An
-  /// iteration is a product of the matrix W (it gives the change of all gaps by the impulses,
-  /// docs/physics.md (5.4)) and a vector, or a sweep over the contacts, or a factorisation.
+  /// iteration is a product of the matrix W of docs/physics.md (5.4) and a vector, or a sweep over
+  /// the contacts, or a factorisation.
   int max_iterations = 10000;
 };
 
-/// Largest magnitude of a coordinate, and of a component of a displacement in a step, that a
-/// particle may have [L], > 0. Beyond this length the rounding errors of positions exceed the
-/// allowed error of a gap, `tolerance` (SolverSettings) times `mean_radius` [L].
+/// Largest magnitude [L] of a coordinate, and of a component of a displacement in a step. Beyond
+/// this length the rounding errors of positions exceed the allowed error of a gap, `tolerance`
+/// (SolverSettings) times `mean_radius` [L].
 inline double largest_resolved_distance(double tolerance, double mean_radius) {
   // Squares of distances must be finite: 1e120 is far below 1e154, the root of the largest double.
   constexpr double kFinite = 1e120;
@@ -58,59 +53,59 @@ struct GivenMotion {
   PiecewiseConstant angular_velocity;  ///< in component 2 [1/T], > 0 if counter-clockwise
 };
 
-/// The scheme decides to which time the velocities after a step belong, docs/physics.md (5.3) and
-/// (5.10). The step ends at the time t [T] and has the length h [T].
+/// The time to which the velocities after a step belong, docs/physics.md (5.3) and (5.10). The step
+/// ends at the time t [T] and has the length h [T].
 enum class Scheme {
   kEuler,     ///< they belong to t; errors of positions are proportional to h
   kLeapfrog,  ///< they belong to t - h/2; away from impacts errors are proportional to h^2
 };
 
-/// All settings of a simulation. The keys of the maps must be numbers of existing particles.
+/// All settings of a simulation, in any consistent units; masses and forces of discs in a fluid are
+/// per length. The keys of the maps are numbers of existing particles, their places in the arrays
+/// of Particles.
 struct Setting {
   std::vector<Plane> planes;  ///< rigid planes, at rest or moving, that particles cannot cross
-  /// Region that holds the particles, and the fluid if there is one. Its walls are obstacles.
   Domain domain;
   Vector gravity{};  ///< acceleration of all particles [L/T^2]
-  /// Forces on single particles, by the number of the particle, in addition to gravity [M L/T^2].
+  /// Forces on single particles in addition to gravity [M L/T^2].
   std::map<std::int32_t, PiecewiseConstant> forces;
-  /// The laws that each contact obeys. Friction needs particles that turn, which are those with
-  /// angular velocities (add_rotation()).
+  /// Friction needs particles that turn (add_rotation()).
   ContactLaws laws;
-  std::vector<Source> sources{};  ///< sources of new particles; must be empty with a fluid
+  std::vector<Source> sources{};  ///< must be empty with a fluid
   Links links;           ///< hinges, springs and arms; need particles that turn, except on an axis
   double time_step = 0;  ///< h [T], > 0
   Scheme scheme = Scheme::kEuler;  ///< must be kEuler with a fluid
-  SolverSettings solver;           ///< tolerances and limits of the projection
-  std::optional<Fluid> fluid;      ///< fluid around the particles, if there is one; needs a domain
-  /// Torques on single particles, by the number of the particle [M L^2/T^2]. The torque on a disc
-  /// is in component 2, > 0 if counter-clockwise. Torques need particles that turn. A particle with
-  /// a torque must not be in `given_motions`.
+  SolverSettings solver;
+  std::optional<Fluid> fluid;  ///< needs a domain
+  /// Torques on single particles [M L^2/T^2], of discs in component 2, > 0 if counter-clockwise.
+  /// They need particles that turn. A particle with a torque must not be in `given_motions`.
   std::map<std::int32_t, PiecewiseConstant> torques;
-  /// Motions of the particles that are fixed or driven, by the number of the particle. A
-  /// driven particle has no entry in `forces`, and gravity does not change its motion.
+  /// Motions of the particles that are fixed or driven. A driven particle has no entry in `forces`,
+  /// and gravity does not change its motion.
   std::map<std::int32_t, GivenMotion> given_motions;
   /// Forces [M L/T^2] on all particles in addition to gravity and `forces`, in the order of
   /// Particles::velocities; empty if there are none. A force on a driven particle has no effect.
-  /// The caller of a simulation may change these forces between two steps
-  /// (Simulation::added_forces()).
+  /// They may change between two steps (Simulation::added_forces()).
   std::vector<double> added_forces{}, added_torques{};  ///< torques [M L^2/T^2] in the order of
                                                         ///< Particles::angular_velocities
 };
 
-/// The periodic cell of the domain: its periods [L], 0 along an axis that is not periodic, and the
-/// mean velocity gradient [1/T] of a fluid with a linear flow.
+/// The periods [L], 0 along an axis that is not periodic, and the mean velocity gradient [1/T] of a
+/// fluid with a linear flow.
 PeriodicCell cell_of(const Setting& setting);
 
-/// The force of Setting::added_forces on particle k [M L/T^2]; 0 if there are none.
+/// The force [M L/T^2] that is added on particle k; 0 if there are none.
 inline Vector added_force(const Setting& setting, std::size_t k, int dimension) {
   if (setting.added_forces.empty()) return {};
+  assert((k + 1) * static_cast<std::size_t>(dimension) <= setting.added_forces.size());
   return point_of(setting.added_forces.data(), k, dimension);
 }
 
-/// The torque of Setting::added_torques on particle k [M L^2/T^2], of a disc in component 2; 0 if
-/// there are none.
+/// The torque [M L^2/T^2] that is added on particle k, of a disc in component 2; 0 if there are
+/// none.
 inline Vector added_torque(const Setting& setting, std::size_t k, int dimension) {
   if (setting.added_torques.empty()) return {};
+  assert((k + 1) * turn_components(dimension) <= setting.added_torques.size());
   if (dimension == 3) return point_of(setting.added_torques.data(), k, 3);
   return {0, 0, setting.added_torques[k]};
 }
@@ -121,20 +116,18 @@ inline std::span<double> added_forces_for(const Particles& particles, Setting& s
   return setting.added_forces;
 }
 
-/// Setting::added_torques [M L^2/T^2], extended by zeros to one entry for each component of the
-/// angular velocities; empty if the particles do not turn.
+/// The same for added_torques [M L^2/T^2]; empty if the particles do not turn.
 inline std::span<double> added_torques_for(const Particles& particles, Setting& setting) {
   setting.added_torques.resize(particles.angular_velocities.size());
   return setting.added_torques;
 }
 
-/// All obstacles: the walls of the domain, then the planes; there may be none. Planes under a load
-/// are where they were at time 0. In files obstacle k,
+/// The walls of the domain, then the planes, where they were at time 0. In files obstacle k,
 /// counted from 0, has the number -1 - k.
 std::vector<Plane> obstacles_of(const Setting& setting);
 
-/// All obstacles, with PlanePosition::point of planes under a load moved by `motions`
-/// (State::planes), so that Plane::at() gives their present places.
+/// The same obstacles, with planes under a load moved by `motions` (State::planes), so that
+/// Plane::at() gives their present places.
 std::vector<Plane> obstacles_of(const Setting& setting, std::span<const PlaneMotion> motions);
 
 }  // namespace viscontact::particles

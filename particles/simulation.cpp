@@ -1,18 +1,11 @@
-// Computes the steps of many particles (simulation.hpp), docs/physics.md (5.3): motion without
-// contacts (free_motion.cpp), projection, new gamma, new positions. Divides steps with fast
-// particles into parts. Numbers are in the units of the case. In all functions h > 0 [T] is the
-// length of a step or part, and `next` the time at its end [T]. Positions [L], displacements [L]
-// and velocities [L/T] have 2 numbers for each disc, 3 for each sphere, turns [rad] 1 or 3. gamma
-// [M L/T] is minus the impulse that a film has absorbed. The constructor throws Error(kBadInput) if
-// a state that has done steps has other membranes. Masses > 0 and a number of threads >= 1 are not
-// checked. step() throws Error(kNotConverged) if a step cannot be accepted. A change must keep that
-// the state after such an error is that before the step. run/, sweep/ and python/ use this file.
+// Steps of docs/physics.md (5.3), divided into parts where particles are fast.
 #include "viscontact/particles/simulation.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -35,8 +28,7 @@ namespace viscontact::particles {
 namespace {
 
 /// Length of the displacement of particle k [L]. Throws Error(kNotConverged) if a component of the
-/// displacement or of the position exceeds `largest` [L] in magnitude or is not a number. `time` is
-/// the end of the step, for the message.
+/// displacement or of the position exceeds `largest` [L] in magnitude or is not a number.
 double checked_length(const Particles& p, const std::vector<double>& displacements, std::size_t k,
                       double largest, double time) {
   const Vector x = p.position(k), w = point_of(displacements.data(), k, p.dimension);
@@ -50,13 +42,12 @@ double checked_length(const Particles& p, const std::vector<double>& displacemen
   return norm(w);
 }
 
-/// Identifies a pair: its first and second particle (first < 0: an obstacle), and its image.
 std::array<std::int32_t, 3> key_of(const Pair& pair) {
   return {pair.first, pair.second, pair.image};
 }
 
-/// Calls `change` for each number of `memory` that is an impulse [M L/T]. The second argument is
-/// the number of `other` at the same place.
+/// Calls `change` for each number of `memory` that is an impulse, with the number of `other` at the
+/// same place.
 template <class Change>
 void for_impulses(PairMemory& memory, const PairMemory& other, const Change& change) {
   for (std::size_t f = 0; f < kMemoryFields.size(); ++f)
@@ -65,8 +56,6 @@ void for_impulses(PairMemory& memory, const PairMemory& other, const Change& cha
 
 }  // namespace
 
-/// `setting` must have no fluid (not checked). `state` is a state of which only the particles are
-/// set, or the state of an earlier run. `threads` is >= 1.
 Simulation::Simulation(Setting setting, State state, int threads)
     : setting_(std::move(setting)),
       state_(std::move(state)),
@@ -76,6 +65,14 @@ Simulation::Simulation(Setting setting, State state, int threads)
       pool_(std::make_unique<ThreadPool>(threads)),
       obstacles_(obstacles_of(setting_)),
       grid_(setting_.time_step, setting_.scheme == Scheme::kLeapfrog, jump_times(setting_)) {
+  assert(!setting_.fluid);
+  assert(state_.particles.dimension == 2 || state_.particles.dimension == 3);
+  assert(threads >= 1);
+  assert(state_.particles.positions.size() ==
+         state_.particles.count() * index_of(state_.particles.dimension));
+  assert(state_.particles.velocities.size() == state_.particles.positions.size());
+  assert(state_.particles.masses.size() == state_.particles.count());
+  assert(std::ranges::none_of(state_.particles.masses, [](double mass) { return mass < 0; }));
   const auto is_loaded = [](const Plane& plane) { return plane.load.has_value(); };
   if (std::ranges::any_of(setting_.planes, is_loaded)) {
     state_.planes.resize(setting_.planes.size());
@@ -108,7 +105,6 @@ Simulation::Simulation(Setting setting, State state, int threads)
   if (state_.steps == 0) pour();
 }
 
-/// Adds the particles of sources that are due now.
 void Simulation::pour() {
   if (setting_.sources.empty()) return;
   pouring_.pour(setting_, state_);
@@ -117,8 +113,6 @@ void Simulation::pour() {
   if (!setting_.added_torques.empty()) added_torques();
 }
 
-/// Multiplies the impulses of all pairs by `factor` [1]. They are first guesses for a part whose
-/// length is `factor` times the length of the part before.
 void Simulation::scale_impulses(double factor) {
   for_pairs([&](Pair& pair) {
     pair.impulse *= factor;
@@ -142,7 +136,6 @@ bool Simulation::pulled_across() const {
   });
 }
 
-/// Copies the impulses of the step before and the memories, to restore them if this step throws.
 void Simulation::save_impulses() {
   if (!saved_impulses_.empty() || before_division_) return;
   for_pairs([&](const Pair& pair) {
@@ -151,9 +144,9 @@ void Simulation::save_impulses() {
   });
 }
 
-/// Gives the pairs the impulses [M L/T] of a projection, and the memories of their friction, if the
-/// projection has memories.
 void Simulation::take_impulses(const ProjectionResult& projected) {
+  assert(projected.impulses.size() == projected.pairs.size());
+  assert(projected.memories.empty() || projected.memories.size() == projected.pairs.size());
   for (std::size_t f = 0; f < projected.pairs.size(); ++f) {
     auto& pair = *projected.pairs[f];
     pair.impulse = projected.impulses[f];
@@ -161,9 +154,8 @@ void Simulation::take_impulses(const ProjectionResult& projected) {
   }
 }
 
-/// Updates gamma and the memory of each pair of the projection after a part of length h. Returns
-/// the number of pairs with gamma < 0.
 std::size_t Simulation::remember(const ProjectionResult& projected, double h) {
+  assert(projected.residuals.impulse_errors.size() == projected.pairs.size());
   std::size_t glued = 0;
   for (std::size_t f = 0; f < projected.pairs.size(); ++f) {
     auto& pair = *projected.pairs[f];
@@ -177,9 +169,8 @@ std::size_t Simulation::remember(const ProjectionResult& projected, double h) {
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 
-/// Moves the particles and bodies by the displacements and turns of a part, and sets their
-/// velocities to displacement/h.
 void Simulation::move(double h) {
+  assert(h > 0);
   auto& p = state_.particles;
   pool_->for_blocks(p.positions.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
@@ -202,10 +193,6 @@ void Simulation::move(double h) {
   if (!body_steps_.empty()) place_members(p);
 }
 
-/// Solves the projection of a part: the displacements without contacts become those with contacts.
-/// Rebuilds the lists of pairs where needed. Throws Error(kNotConverged) if a displacement or a
-/// position is too large or not a number, or if a displacement is longer than a periodic domain
-/// allows.
 template <int D>
 ProjectionResult Simulation::project(double h, double next) {
   const auto planes_before = positions_of(obstacles_, state_.time);
@@ -234,9 +221,9 @@ ProjectionResult Simulation::project(double h, double next) {
     }
     return gone;
   };
-  // Only particles closer to an obstacle than `margin` [L] are listed. Both terms of the margin are
-  // free choices, because the loop below repeats the projection with a longer margin if a particle
-  // moves further.
+  // Only particles closer to an obstacle than `margin` [L] are listed. Neither term of the margin
+  // changes the result, because the loop below repeats the projection with a longer margin if a
+  // particle moves further.
   const double longest =
       pool_->sum_of_blocks<MaximumOfBlocks>(state_.particles.count(), longest_of).value +
       gone_planes();
@@ -307,11 +294,10 @@ ProjectionResult Simulation::project(double h, double next) {
     // The impulses moved particles further than the lists of pairs allow for, so that pairs may be
     // missing. Therefore the projection is repeated with longer lists. The loop ends because the
     // margin and the skins (distances up to which pairs are listed) only grow. The new impulses are
-    // the first guess of the repeated projection. With restitution, the pairs keep the impulses of
-    // the step before instead, because the computation of blows needs to know which pairs bore a
-    // load. With the convex relaxation of friction, the pairs keep these impulses, too, because
-    // this relaxation needs no first guess, and because its friction depends on these impulses
-    // where there are films.
+    // the first guess of the repeated projection, with two exceptions. With restitution, the
+    // computation of blows needs to know which pairs bore a load in the step before. The convex
+    // relaxation of friction needs no first guess, and where there are films, its friction depends
+    // on the impulses of the step before.
     const auto& friction = setting_.laws.friction;
     const bool is_convex = friction && friction->method == FrictionMethod::kConvex;
     if (!setting_.laws.restitution.is_on() && !is_convex) {
@@ -325,10 +311,9 @@ ProjectionResult Simulation::project(double h, double next) {
   }
 }
 
-/// Adds to arm_works_ the works of the arms [M L^2/T^2] in a part of length h, whose displacements
-/// are known. The work of an impulse is the impulse times the mean of two rates [L/T]: those at
-/// which the arm grows before and after the impulse.
 void Simulation::add_works_of_arms(double h) {
+  // The work of an impulse is the impulse times the mean of the rates at which the arm grows before
+  // and after it.
   const auto& p = state_.particles;
   const auto before = [&](std::int32_t particle) -> UnitMotion {
     const auto b = p.bodies.body_of(particle);
@@ -357,6 +342,7 @@ void Simulation::add_works_of_arms(double h) {
 void Simulation::add_given_loads(const ProjectionResult& projected, double h) {
   if (given_impulses_.empty()) return;
   const auto add = [&](const GivenParticleLoad& impulse) {
+    assert(setting_.given_motions.contains(impulse.particle));
     auto& sum = *std::ranges::lower_bound(given_impulses_, impulse.particle, {},
                                           &GivenParticleLoad::particle);
     sum.force = sum.force + impulse.force;
@@ -456,8 +442,6 @@ Simulation::Pressing Simulation::pressing(const ProjectionResult& projected, dou
   return {of_planes + (are_both ? " and " : "") + of_particles, impulse};
 }
 
-/// Finds the blows (impacts of solids with restitution) of a part; without restitution there are
-/// none. The displacements must be those without contacts (not checked).
 template <int D>
 void Simulation::find_impacts(double h, double next) {
   impacts<D>().reset();
@@ -478,7 +462,6 @@ void Simulation::find_impacts(double h, double next) {
   impacts<D>()->run();
 }
 
-/// Undoes what the blows changed in the state, so that a part of a step can be computed again.
 void Simulation::undo_impacts() {
   if (impacts_in_plane_) impacts_in_plane_->undo();
   if (impacts_in_space_) impacts_in_space_->undo();
@@ -486,8 +469,6 @@ void Simulation::undo_impacts() {
   impacts_in_space_.reset();
 }
 
-/// Changes the state to the state at the end of a part: impulses, gamma, positions, velocities and
-/// time. Adds the part to the report and to the sums over the parts of the step.
 template <int D>
 void Simulation::accept(const ProjectionResult& projected, double h, double next,
                         StepReport& report) {
@@ -502,8 +483,8 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
   });
   const auto [names, impulse] = pressing(projected, next);
   report.given_load += impulse;
-  // In mean radii, a free choice. Steps that fail for another reason, such as their friction, leave
-  // overlaps of up to 3e-3 in data/cases/particles/shear_under_pressure.toml.
+  // In mean radii. Steps that fail for another reason, such as their friction, leave overlaps of up
+  // to 3e-3 in data/cases/particles/shear_under_pressure.toml.
   constexpr double kOverlap = 0.01;
   report.jams = report.jams || (!names.empty() && !projected.residuals.converged &&
                                 -projected.residuals.smallest_gap > kOverlap * mean_radius_);
@@ -543,10 +524,6 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
   report_residuals(projected.residuals, mean_radius_, report);
 }
 
-/// Throws Error(kNotConverged) if a part of a step that ends at `next` cannot be accepted: if it
-/// has not converged, and leaves an overlap of more than the mean radius, or if links contradict
-/// each other so that a residual or an overlap is more than kBroken (step_projection.hpp) mean
-/// radii.
 void Simulation::examine(const ProjectionResult& projected, double next) const {
   const auto& residuals = projected.residuals;
   refuse_deep_overlap(residuals, state_.particles, setting_, mean_radius_, next, [&] {
@@ -559,7 +536,7 @@ void Simulation::examine(const ProjectionResult& projected, double next) const {
       std::max(projected.link_residual, -residuals.smallest_gap) <= kBroken * mean_radius_)
     return;
   std::string names;
-  constexpr std::size_t kMostNames = 6;  // in the message; a free choice
+  constexpr std::size_t kMostNames = 6;  // in the message
   const auto& all = projected.unsolved_links;
   for (std::size_t k = 0; k < std::min(all.size(), kMostNames); ++k)
     names += fmt::format("{}{}", names.empty() ? "" : ", ", all[k]);
@@ -577,11 +554,9 @@ void Simulation::examine(const ProjectionResult& projected, double next) const {
                                 "bending_rigidity, or inner_area = \"free\""));
 }
 
-/// Computes a part of a step, or both halves of this part if particles pass each other too far in
-/// it and it results from fewer than kMostHalvings halvings. `halvings` is 0 for a whole step.
-/// Throws the errors of project() and examine().
 template <int D>
 void Simulation::advance(double h, double next, int halvings, StepReport& report) {
+  assert(h > 0 && halvings <= kMostHalvings);
   move_freely<D>(h, next);
   const auto projected = project<D>(h, next);
   // Links that only seem to contradict each other because they turn too far hold in shorter steps.
@@ -613,8 +588,6 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
     });
 }
 
-/// Computes a step, perhaps in parts. If a part throws, the state becomes that before the step, and
-/// the error is passed on.
 template <int D>
 void Simulation::advance_whole(double h, double next, StepReport& report) {
   try {
@@ -643,8 +616,6 @@ void Simulation::advance_whole(double h, double next, StepReport& report) {
   saved_impulses_.clear();
 }
 
-/// Computes a step that ends at the time `end` [T] at the latest. If no time is left, makes no step
-/// and returns a report of the present time with one part.
 StepReport Simulation::step(double end) {
   const auto interval = grid_.next(state_, end);
   if (!interval) return {.time = state_.time, .parts = 1};

@@ -1,37 +1,29 @@
-// Declares vectors of up to three components, their operations, and how vectors are read from a
-// flat array. Components may have any unit and any value. All of particles/ uses this file. Nothing
-// is checked or thrown. A change must keep Vector{} zero and the order of the terms in each sum,
-// because the last bits of all results depend on that order. Eigen::Vector3d is not used, because
-// each source that includes this file would take a second longer to compile, and because a default
-// Eigen vector is not zero.
+// Vectors of up to three components. They are no Eigen::Vector3d, because each source would take a
+// second longer to compile, and because a default Eigen vector is not zero.
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 
 namespace viscontact::particles {
 
-/// A vector with three components. In two dimensions the third component is 0. For particles on an
-/// axis the first component is along the axis, and the other two are 0.
+/// In two dimensions the third component is 0. For particles on an axis the first component is
+/// along the axis, and the other two are 0.
 using Vector = std::array<double, 3>;
 
-/// Inner product.
 inline double dot(const Vector& a, const Vector& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-/// Sum.
 inline Vector operator+(const Vector& a, const Vector& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
-/// Difference.
 inline Vector operator-(const Vector& a, const Vector& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
-/// Product of a number and a vector.
 inline Vector operator*(double s, const Vector& a) { return {s * a[0], s * a[1], s * a[2]}; }
-/// Vector product. The product of two vectors in the plane of the first two axes is along the third
-/// axis.
+/// The product of two vectors in the plane of the first two axes is along the third axis.
 inline Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
@@ -40,13 +32,14 @@ inline Vector cross(const Vector& a, const Vector& b) {
 inline double norm(const Vector& a) { return std::sqrt(dot(a, a)); }
 
 /// Vector k, counted from 0, of a flat array with `dimension` (1, 2 or 3) numbers for each vector.
-/// Missing components are 0. The array must contain this vector (not checked).
+/// Missing components are 0.
 inline Vector point_of(const double* values, std::size_t k, int dimension) {
+  assert(dimension >= 1 && dimension <= 3);
   const double* at = values + k * static_cast<std::size_t>(dimension);
   return {at[0], dimension > 1 ? at[1] : 0.0, dimension > 2 ? at[2] : 0.0};
 }
 
-/// The larger of two numbers of the same unit, or NaN if one of them is NaN.
+/// The larger of two numbers, or NaN if one of them is NaN.
 inline double largest_or_nan(double a, double b) { return a != a || b <= a ? a : b; }
 
 }  // namespace viscontact::particles

@@ -1,11 +1,4 @@
-// Finds the trajectory files of a folder (CSV, one for each model of motion: the gap over time),
-// compares them, and writes the comparison. Gaps [L], >= 0, velocities [L/T] and times [T] are in
-// the units of the trajectories. A folder without trajectories, a trajectory that cannot be read or
-// compared, and a reference model without a trajectory are an Error(kBadInput), a folder that
-// cannot be listed a std::filesystem::filesystem_error, a stop an Error(kInterrupted). A change
-// must keep the order of the files, for two reasons: the comparison lists models in this order, and
-// the first file becomes the reference if the model that is the reference by default has failed.
-// run_stages.cpp and app/ (commands `run` and `compare`) use this file.
+// Finds the trajectory files of a folder, compares them, and writes the comparison.
 #include "viscontact/pipeline/compare_stage.hpp"
 
 #include <fmt/format.h>
@@ -26,9 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Warns if trajectories were made from different cases or fits. Distances between such
-/// trajectories have two causes: the models and the inputs. Trajectories that do not state their
-/// case and fit, because the user wrote them, are skipped.
+/// Warns if trajectories were made from different cases or fits, because their distances then have
+/// two causes: the models and the inputs. Trajectories that do not state them are skipped.
 void warn_of_different_inputs(const std::vector<reduced_model::Trajectory>& trajectories) {
   for (const auto* key : {"case", "fit"}) {
     const reduced_model::Trajectory* first = nullptr;
@@ -43,16 +35,15 @@ void warn_of_different_inputs(const std::vector<reduced_model::Trajectory>& traj
   }
 }
 
-/// The index in reduced_model::all_models() of the model after which a file is named. If the file
-/// is not named after a model, the result is the number of all models.
+/// The index in reduced_model::all_models() of the model after which a file is named, or the number
+/// of all models.
 std::ptrdiff_t rank_of(const fs::path& file) {
   const auto choice = reduced_model::known_model(file.stem().string());
   return choice ? choice->model - reduced_model::all_models().data()
                 : std::ssize(reduced_model::all_models());
 }
 
-/// The CSV files in the sub-folder trajectories/ or, if there is none, in the folder itself, except
-/// table.csv, which is the table of forces. Throws Error(kBadInput) if the folder does not exist.
+/// Throws Error(kBadInput) if the folder does not exist.
 std::vector<fs::path> trajectory_files(const fs::path& folder) {
   const auto inner = results::RunFolder{folder}.trajectories();
   const fs::path place = fs::is_directory(inner) ? inner : folder;
@@ -62,7 +53,8 @@ std::vector<fs::path> trajectory_files(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(place))
     if (entry.path().extension() == ".csv" && entry.path().filename() != "table.csv")
       files.push_back(entry.path());
-  // First the models in the order of all_models(), then the user's files by name.
+  // Comparisons list models in this order, and the first file becomes the reference if the usual
+  // one has failed.
   std::ranges::sort(files, {},
                     [&](const fs::path& file) { return std::pair(rank_of(file), file); });
   return files;
@@ -70,8 +62,6 @@ std::vector<fs::path> trajectory_files(const fs::path& folder) {
 
 }  // namespace
 
-/// The CSV files of a folder that are named after models, in no particular order; none if the
-/// folder does not exist.
 std::vector<fs::path> files_of_models(const fs::path& folder) {
   std::vector<fs::path> files;
   if (!fs::is_directory(folder)) return files;
@@ -82,16 +72,11 @@ std::vector<fs::path> files_of_models(const fs::path& folder) {
   return files;
 }
 
-/// Prints a comparison to standard output, as JSON if `json` is true, else as a table.
 void print_comparison(const reduced_model::Comparison& comparison, bool json) {
   fmt::print("{}", json ? reduced_model::write_comparison(comparison)
                         : report::comparison_table(comparison));
 }
 
-/// Compares the trajectories of `folder` and of the files `others`, writes the comparison to
-/// `comparison_path` (JSON) and prints it. `given` are the files from which the same command made
-/// the trajectories; it is empty if the user gave the trajectories. If `reference_model` is empty,
-/// results::reference_among() chooses the reference.
 void compare_stage(const fs::path& folder, const std::vector<fs::path>& others,
                    const std::string& reference_model, const fs::path& comparison_path,
                    const std::vector<fs::path>& given, bool json, const StopToken& stop) {

@@ -1,14 +1,11 @@
-// Estimates computing times [s], >= 0, from finished rows, from a few rows that are computed now,
-// or from measured constants, for the option --dry-run. It is not checked that `jobs` is at least 1
-// and that a study has a row. If a row that is computed throws an Error, the estimate throws it;
-// files that cannot be read are an Error(kBadInput), a stop an Error(kInterrupted). No file is
-// written. app/ and particles/sweep use this file. A change must keep the keys of the JSON, which
-// users' scripts read (docs/command-line.md).
+// Computing times from finished rows, from a few rows that are computed now, or from measured
+// constants.
 #include "viscontact/pipeline/dry_run.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <nlohmann/json.hpp>
 
@@ -17,16 +14,15 @@
 namespace viscontact::pipeline {
 namespace {
 
-/// Wall time [s] of the rows that are not finished, if `jobs` >= 1 of them are computed at once; 0
-/// if all rows are finished.
+/// Wall time [s] of the rows that are not finished, if `jobs` of them are computed at once.
 double remaining_seconds(const DryRun& run, int jobs) {
+  assert(jobs >= 1 && run.finished <= run.rows);
   const auto left = run.rows - run.finished;
   return run.seconds_per_row * static_cast<double>(left) /
          static_cast<double>(std::clamp<std::uint64_t>(left, 1, static_cast<std::uint64_t>(jobs)));
 }
 
-/// A time [s] in words, such as "about 3 min". The limits between the units are free choices,
-/// because only people read the text.
+/// A time [s] in words, such as "about 3 min".
 std::string duration(double seconds) {
   constexpr double kMinute = 60, kHour = 3600, kDay = 86400;
   if (seconds < 0.1) return "less than 0.1 s";
@@ -39,8 +35,6 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-/// The estimate for a table. The time of a row is the mean over its finished rows or, without any,
-/// the typical time of the plan (measured when the tables in data/ were made).
 DryRun dry_run(const CaseTable& one) {
   const auto& grid = one.plan.points;
   DryRun run{one.table.string(),        grid.size(), 0, 0, one.plan.typical_seconds,
@@ -57,9 +51,8 @@ DryRun dry_run(const CaseTable& one) {
   return run;
 }
 
-/// The estimate for a sweep into the file `output`. The first, the middle and the last row are
-/// computed and timed; which rows and how many are free choices.
 DryRun dry_run(const sweep::Study& study, const std::string& output, const StopToken& stop) {
+  assert(study.size() > 0);
   std::vector<std::uint64_t> sample = {0, study.size() / 2, study.size() - 1};
   sample.erase(std::unique(sample.begin(), sample.end()), sample.end());
   const auto start = std::chrono::steady_clock::now();
@@ -75,9 +68,6 @@ DryRun dry_run(const sweep::Study& study, const std::string& output, const StopT
           fmt::format("{} of its rows, just computed", sample.size())};
 }
 
-/// The text for the user: JSON if `json` is true, with the times in seconds, else a line for each
-/// of `runs` and a line with the time of all missing rows. Without `runs` the JSON has no
-/// "outputs".
 std::string dry_run_text(const std::vector<DryRun>& runs, int jobs, bool json) {
   double total = 0;
   for (const auto& run : runs) total += remaining_seconds(run, jobs);

@@ -1,8 +1,4 @@
-// Makes the output of --dry-run: how many rows a command would compute and about how long that
-// takes, in seconds of wall time. No file is written. The commands `tabulate` and `sweep`, and
-// particles/sweep, use it. Error(kBadInput) is thrown if a file cannot be read. If rows are
-// computed for the estimate and one of them throws, the estimate throws this error. A change must
-// keep the keys of the JSON, which users' scripts read. The words of the text are free choices.
+// The output of --dry-run: how many rows a command would compute, and about how long that takes.
 #pragma once
 
 #include <cstdint>
@@ -18,18 +14,18 @@ namespace viscontact::pipeline {
 struct DryRun {
   std::string output;      ///< path of the table or of the sweep's file
   std::uint64_t rows = 0,  ///< number of all rows
-      finished = 0;        ///< number of the rows that would not be computed again, <= rows
-  /// Number of unfinished rows that were tried and failed; 0 for sweeps other than of particles.
+      finished = 0;        ///< number of the rows that would not be computed again
+  /// Unfinished rows that were tried and failed; 0 for sweeps other than of particles.
   std::uint64_t failed = 0;
-  double seconds_per_row = 0;  ///< mean time of a row on one core [s], >= 0
+  double seconds_per_row = 0;  ///< mean time of a row on one core [s]
   std::string basis;           ///< what seconds_per_row was estimated from, in words
 };
 
-/// The estimate for a table, the file `one.table`. The time of a row is the mean over the finished
-/// rows. If there are none, it is the time that rows of the tables in data/ took, which has the
-/// right order of magnitude on a similar machine. If the file was made from other inputs than
-/// `one.plan`, none of its rows counts as finished. Throws Error(kBadInput) if this file or a file
-/// of finished rows beside it cannot be read.
+/// The estimate for a table. The time of a row is the mean over the finished rows. If there are
+/// none, it is the time that rows of the tables in data/ took, which has the right order of
+/// magnitude on a similar machine. Rows that were made from other inputs than `one.plan` do not
+/// count as finished. Throws Error(kBadInput) if the table or a file of finished rows beside it
+/// cannot be read.
 DryRun dry_run(const CaseTable& one);
 
 /// The estimate for a sweep into the file `output`. The first, the middle and the last row are
@@ -38,12 +34,9 @@ DryRun dry_run(const CaseTable& one);
 /// `output` exists and is not a regular file.
 DryRun dry_run(const sweep::Study& study, const std::string& output, const StopToken& stop);
 
-/// The text for the user: a line for each output, then the time that the missing rows of all
-/// outputs take if `jobs` of them are computed at once (>= 1, not checked). If `json` is true, the
-/// text is a JSON object with the keys "jobs", "seconds" (time of all missing rows [s]), and
-/// "outputs", an array of one object for each of `runs`, in their order. Its keys are "output",
-/// "rows", "finished", "failed", "seconds_per_row" [s] and "estimated_from" (DryRun::basis).
-/// Without `runs` there is no key "outputs". Nothing is thrown.
+/// A line for each output, then the time that the missing rows of all outputs take if `jobs` >= 1
+/// of them are computed at once; or a JSON object with the keys that docs/command-line.md lists,
+/// without "outputs" if there are no `runs`.
 std::string dry_run_text(const std::vector<DryRun>& runs, int jobs, bool json);
 
 }  // namespace viscontact::pipeline

@@ -1,11 +1,4 @@
-// Reads tables, calls the functions of fitting/, and writes fits, the shift of a rough wall
-// (fit_stages.hpp) and pictures, each with the record of how it was made (results/provenance.hpp).
-// Gaps [L], > 0, and the shift [L], >= 0, are in the units of the table; residuals and error
-// estimates are relative [1]. A wrong table or fit is an Error(kBadInput), a fit that does not
-// converge an Error(kNotConverged), a gnuplot that fails an Error(kExternalProgram), a stop an
-// Error(kInterrupted). run_stages.cpp and app/ (commands `run`, `fit` and `shift`) use this file. A
-// change must keep the line "# viscontact: wall shift", for which app/ searches, and the columns of
-// the file of shifts (docs/file-formats.md).
+// Reads tables, calls fitting/, and writes fits, shifts and pictures with their provenance.
 #include "viscontact/pipeline/fit_stages.hpp"
 
 #include <fmt/format.h>
@@ -24,8 +17,6 @@
 namespace viscontact::pipeline {
 namespace fs = std::filesystem;
 
-/// Fits the table at `table_path` and writes the fit to `fit_path` (JSON), unless a file with the
-/// same numbers is there. A poor fit causes warnings only.
 void fit_stage(const fs::path& table_path, const fs::path& fit_path,
                const fitting::FitSettings& settings, const results::Provenance& provenance,
                const StopToken& stop) {
@@ -47,9 +38,6 @@ void fit_stage(const fs::path& table_path, const fs::path& fit_path,
   terminal::say(report::fit_in_words(fit));
 }
 
-/// Fits the table with each basis (a list of functions of the gap), prints all fits, as JSON if
-/// `json` is true, and draws their relative residuals. Throws Error(kBadInput) if no basis can be
-/// fitted.
 void compare_bases_stage(const fs::path& table_path, const fitting::FitSettings& settings,
                          const results::PictureRequest& picture, bool json, const StopToken& stop) {
   const auto provenance = results::provenance_of({{table_path}, {}});
@@ -65,9 +53,6 @@ void compare_bases_stage(const fs::path& table_path, const fitting::FitSettings&
                         provenance);
 }
 
-/// Fits how far below its crests [L] the rough wall of the table acts like the smooth wall of the
-/// fit. Writes the columns gap [L], shift of the row alone [L], relative_residual [1] and
-/// relative_error_estimate [1] to `shift_path`; draws a picture unless `picture.path` is empty.
 void shift_stage(const fs::path& table_path, const fs::path& fit_path, const fs::path& shift_path,
                  const results::PictureRequest& picture, const StopToken& stop) {
   const auto provenance = results::provenance_of({{table_path, fit_path}, {}});

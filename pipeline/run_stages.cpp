@@ -1,16 +1,8 @@
-// Decides which stages of `viscontact run` must run: those whose outputs are missing or were made
-// from other inputs. Numbers are in the units of the case; `jobs` is at least 1 (not checked). A
-// wrong case, and a file of the user that would be replaced, are an Error(kBadInput) before the
-// tabulation starts. Failures of rows and models are thrown last, when all other results are
-// written. A FreeFEM or gnuplot that fails is an Error(kExternalProgram), a fit that does not
-// converge an Error(kNotConverged), a stop an Error(kInterrupted). app/ (command `run`) uses this
-// file. A change must keep the texts that refuse_other_kind() searches for, because the files
-// contain them. It must also keep that outputs made from old trajectories are removed before new
-// trajectories are written, so that a run that is killed never leaves outputs that do not belong
-// together.
+// Decides which stages must run: those whose outputs are missing or were made from other inputs.
 #include "viscontact/pipeline/run_stages.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <string>
 #include <vector>
 
@@ -35,7 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// True if `path` is a file that can be read as a fit.
 bool is_fit(const fs::path& path) {
   if (!fs::is_regular_file(path)) return false;
   try {
@@ -46,8 +37,7 @@ bool is_fit(const fs::path& path) {
   }
 }
 
-/// True if the file at `path` is a comparison whose reference is `model`; false if it is missing or
-/// damaged.
+/// False if the comparison is missing or damaged.
 bool has_reference(const fs::path& path, const std::string& model) {
   try {
     return fs::is_regular_file(path) &&
@@ -72,7 +62,7 @@ bool uncertainty_is_lost(const results::RunFolder& run) {
 }
 
 /// Throws Error(kBadInput) if a run would replace or delete a file that Viscontact did not write.
-/// Must be called before any work is done, because the tabulation can take hours.
+/// Must be called before the tabulation, which can take hours.
 void check_outputs_of_run(const results::RunFolder& run, bool writes_fit) {
   // An earlier run may have copied a fit that the user wrote by hand. This copy may be replaced,
   // although the copy has no record that Viscontact wrote it.
@@ -86,10 +76,9 @@ void check_outputs_of_run(const results::RunFolder& run, bool writes_fit) {
     results::refuse_other_kind(file, "", "trajectory");
 }
 
-/// Makes or finds the fit that the case asks for, and returns its path: a file that the case names,
-/// the exact drag near a plane, or a fit of a table, which is tabulated first. `given` are the case
-/// and the files of forces that the case names. If rows of the table failed, `failure` is set to
-/// the error that names them. Throws the errors of the stages tabulate and fit.
+/// Makes or finds the fit that the case asks for, and returns its path. `given` are the case and
+/// the files of forces that it names. If rows of the table failed, `failure` is set to the error
+/// that names them. Throws the errors of the stages tabulate and fit.
 fs::path provide_fit(const case_file::Case& c, const results::RunFolder& run,
                      const std::vector<fs::path>& given, int jobs, RowFailure& failure,
                      const StopToken& stop) {
@@ -116,10 +105,9 @@ fs::path provide_fit(const case_file::Case& c, const results::RunFolder& run,
 
 }  // namespace
 
-/// Runs the stages of the case `c` into `folder`. The comparison is printed, as JSON if `json` is
-/// true, else as a table.
 void run_stages(const case_file::Case& c, const fs::path& folder, int jobs, bool json,
                 const StopToken& stop) {
+  assert(jobs >= 1);
   const results::RunFolder run{folder};
   const auto& request = case_file::required_fit(c);
   (void)case_file::required_motion(c);
@@ -150,8 +138,8 @@ void run_stages(const case_file::Case& c, const fs::path& folder, int jobs, bool
   } else {
     const auto results = simulate_case(c, {fit, fit_text}, models, request.outside, stop);
     stop.throw_if_stop_requested();
-    // Outputs that were made from the old trajectories are removed before the new trajectories are
-    // written, so that a crash never leaves both in the folder.
+    // Outputs from the old trajectories are removed before the new trajectories are written, so
+    // that a run that is killed never leaves both in the folder.
     remove_file(run.comparison());
     remove_file(run.report());
     for (const auto& file : files_of_models(run.trajectories())) remove_file(file);

@@ -1,15 +1,9 @@
-// Computes the rows of a sweep, shows its progress, and says at its end how many rows failed. A
-// sweep is a study (sweep/study.hpp): a case that is computed again and again with other values,
-// each time for one row. Times are in seconds of wall time; `jobs` >= 1 is not checked; the maker
-// of the study states the units of its rows. If no part of any row could be computed, an
-// Error(kNotConverged) is thrown. A file that cannot be read or written is an Error(kBadInput), a
-// SOURCE_DATE_EPOCH that is no time an Error(kWrongUsage), a stop an Error(kInterrupted); errors of
-// Study::run are passed on. app/ and particles/sweep use this file. A change must keep that
-// finished rows are never computed again.
+// Computes the rows of a sweep, shows its progress, and says at its end how many rows failed.
 #include "viscontact/pipeline/sweep_stage.hpp"
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <chrono>
 #include <optional>
 
@@ -19,19 +13,18 @@
 namespace viscontact::pipeline {
 namespace {
 
-/// The remaining time in words, "about 3 min left", estimated from the rows that this process
-/// computed.
+/// The remaining time in words, from the rows that this process computed.
 class Remaining {
  public:
-  /// The words when `done` of `size` rows are finished, done <= size. They are empty if no row has
-  /// been finished since the first call, because there is no estimate then.
+  /// The words when `done` of `size` rows are finished. They are empty if no row has been finished
+  /// since the first call, because there is no estimate then.
   std::string after(std::uint64_t done, std::uint64_t size) {
+    assert(done <= size);
     if (!first_) first_ = done;
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
     if (done <= *first_) return "";
     const double left =
         spent.count() / static_cast<double>(done - *first_) * static_cast<double>(size - done);
-    // The limit of 90 s is a free choice, because only people read the text.
     return left > 90 ? fmt::format(", about {:.0f} min left", left / 60)
                      : fmt::format(", about {:.0f} s left", left);
   }
@@ -41,9 +34,8 @@ class Remaining {
   std::optional<std::uint64_t> first_;
 };
 
-/// Says in words at how many points of the sweep every part of a row, or some parts, failed, such
-/// as "; every model failed at 3 points"; empty if none failed. `part` is the word for a part, such
-/// as "model" or "stroke".
+/// At how many points every part of a row, or some parts, failed, such as "; every model failed at
+/// 3 points"; empty if none failed.
 std::string failures_in_words(const sweep::SweepOutcome& outcome, const std::string& part) {
   const auto points = [](std::uint64_t n) {
     return fmt::format("{} point{}", n, n == 1 ? "" : "s");
@@ -58,12 +50,10 @@ std::string failures_in_words(const sweep::SweepOutcome& outcome, const std::str
 
 }  // namespace
 
-/// Computes the missing rows, writes the file of rows, and returns the number of rows that it
-/// computed. `inputs` are the files on which the rows depend. `progress` gets the number of
-/// finished rows and of all rows after each row.
 std::uint64_t write_rows(const sweep::Study& study, const SweepStageRequest& request,
                          const results::Inputs& inputs,
                          const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
+  assert(request.jobs >= 1);
   const auto computed =
       sweep::write_sweep(study, request.output, request.jobs,
                          results::output_text(request.output, TextKind::kHashComment, "",
@@ -73,9 +63,6 @@ std::uint64_t write_rows(const sweep::Study& study, const SweepStageRequest& req
   return computed;
 }
 
-/// Computes the missing rows and writes the file of rows, with messages on the terminal. Throws the
-/// errors of write_rows() and, after the file is written, Error(kNotConverged) if every part failed
-/// in every row.
 void run_sweep(const sweep::Study& study, const SweepStageRequest& request,
                const results::Inputs& inputs, const std::string& part) {
   const auto& output = request.output;

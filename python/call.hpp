@@ -1,10 +1,4 @@
-// Declares what the sources of the Python module (python/*.cpp) share: calls that take long, arrays
-// of NumPy, and a fit with its force. Numbers are passed through in the units of the caller. While
-// a long call runs, other Python threads run, too, and Ctrl-C (SIGINT) stops the call. The
-// functions here let the errors of the C++ libraries pass (core.cpp translates them into exceptions
-// of Python), except Error(kInterrupted), which becomes KeyboardInterrupt. A change must keep that
-// no object of Python is used while the interpreter's lock is released, and that the values are bit
-// for bit those of the C++ libraries.
+// What the sources of the Python module share: calls that take long, arrays of NumPy, and Fit.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -40,14 +34,13 @@ class InterruptGuard {
   void raise_if_interrupted();
 };
 
-/// The token that requests a stop after SIGINT has come during a call. All threads share it. While
-/// there is no InterruptGuard, the token never requests a stop. It is valid as long as the process.
+/// The token that requests a stop after SIGINT has come while there is an InterruptGuard. All
+/// threads share it. It is valid as long as the process.
 StopToken interrupt_token();
 
-/// Calls `compute` with a token that requests a stop at Ctrl-C, and returns the result of
-/// `compute`. Other Python threads can run meanwhile, so that `compute` must not touch objects of
-/// Python. Throws what `compute` throws, and KeyboardInterrupt in place of Error(kInterrupted)
-/// after a Ctrl-C.
+/// Calls `compute` with a token that requests a stop at Ctrl-C, and returns its result. Other
+/// Python threads can run meanwhile, so that `compute` must not touch objects of Python. Throws
+/// what `compute` throws, and KeyboardInterrupt in place of Error(kInterrupted) after a Ctrl-C.
 template <class Compute>
 auto long_call(const Compute& compute) {
   InterruptGuard guard;
@@ -65,9 +58,9 @@ auto long_call(const Compute& compute) {
 /// ValueError if it cannot be converted.
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// The values of `function` at all elements of an array, in an array of the same shape. If `x` is a
-/// number (an array without dimensions), the result is a float. Throws what `function` throws.
-/// `function` must not touch objects of Python. Ctrl-C does not stop it.
+/// The values of `function` at all elements of an array, in an array of the same shape; a float if
+/// `x` is a number (an array without dimensions). `function` must not touch objects of Python.
+/// Ctrl-C does not stop it.
 template <class Function>
 py::object mapped(const Doubles& x, const Function& function) {
   if (x.ndim() == 0) return py::float_(function(*x.data()));
@@ -80,8 +73,7 @@ py::object mapped(const Doubles& x, const Function& function) {
   return y;
 }
 
-/// A new array of one dimension with the number value(row) for each row of `rows`, in their order;
-/// `rows` may be empty. Throws what `value` throws.
+/// A new array of one dimension with the number value(row) for each row of `rows`.
 template <class Rows, class Value>
 py::array column(const Rows& rows, const Value& value) {
   using Element = std::decay_t<decltype(value(*std::begin(rows)))>;
@@ -91,19 +83,19 @@ py::array column(const Rows& rows, const Value& value) {
   return array;
 }
 
-/// The columns as an object of the Python class viscontact.Columns: a dictionary whose entries are
-/// attributes, too. `about` becomes the attribute `about` of this object. Throws
-/// py::error_already_set if Python cannot import the class or make the object.
+/// An object of the Python class viscontact.Columns: a dictionary whose entries are attributes,
+/// too, and which has the attribute `about`. Throws py::error_already_set if Python cannot import
+/// the class or make the object.
 inline py::object as_columns(const py::dict& columns, const py::dict& about = py::dict()) {
   return py::module_::import("viscontact.columns").attr("Columns")(columns, about);
 }
 
 // Each of these functions adds the classes and functions that it names to the module.
-void add_fits(py::module_& module);       ///< adds Fit, PairFit, tabulate, fit, fit_pair
-void add_particles(py::module_& module);  ///< adds Particles, StepReport
-void add_spheres(py::module_& module);    ///< adds simulate, rolling, swimmer
+void add_fits(py::module_& module);       ///< Fit, PairFit, tabulate, fit, fit_pair
+void add_particles(py::module_& module);  ///< Particles, StepReport
+void add_spheres(py::module_& module);    ///< simulate, rolling, swimmer
 
-/// The class Fit of Python: a fit, and the lubrication force [M L/T^2] that the fit describes, as a
+/// The class Fit of Python: a fit, and the lubrication force [M L/T^2] that it describes, as a
 /// function of gap [L] and velocity [L/T].
 class PythonFit {
  public:
@@ -115,8 +107,8 @@ class PythonFit {
       : fit_(std::move(fit)),
         force_(with_place(place, [&] { return lubrication::LubricationForce(fit_, outside); })) {}
 
-  const lubrication::Fit& fit() const { return fit_; }  ///< the fit with its coefficients
-  const lubrication::LubricationForce& force() const { return force_; }  ///< the force of the fit
+  const lubrication::Fit& fit() const { return fit_; }
+  const lubrication::LubricationForce& force() const { return force_; }
 
  private:
   lubrication::Fit fit_;

@@ -1,11 +1,4 @@
-// Makes the library viscontact._core of the Python module: translates errors of the program into
-// exceptions of Python, handles Ctrl-C, and states the version. The other sources of this folder
-// add classes and functions (call.hpp). The Python files in python/viscontact/ import the library.
-// There are no numbers with units. Error(kWrongUsage) and Error(kBadInput) become InputError,
-// Error(kNotConverged) becomes NotConvergedError, Error(kExternalProgram) ExternalProgramError, and
-// Error(kInterrupted) Error, the base class of all. If Python itself fails, py::error_already_set
-// is thrown. A change must keep the names and base classes of the exceptions, which users' scripts
-// catch; their descriptions may be changed freely.
+// The library viscontact._core: exceptions of Python for errors, Ctrl-C, and the version.
 #include <csignal>
 #include <exception>
 
@@ -15,8 +8,8 @@
 namespace viscontact::python {
 namespace {
 
-// True after SIGINT has come: the handler remember_interrupt() sets this variable. It is global,
-// because a handler has no other access to data.
+// The handler remember_interrupt() sets it. It is global, because a handler has no other access to
+// data.
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 // Number of InterruptGuards that exist, one for each long call in any thread, and the handler that
@@ -26,14 +19,13 @@ struct sigaction handler_before = {};
 
 void remember_interrupt(int) { interrupted = true; }
 
-/// The classes of exceptions. They live as long as the process.
+/// They live as long as the process.
 struct Exceptions {
   PyObject *error, *input, *not_converged, *external_program;
 };
 Exceptions exceptions;
 
-/// Makes the exception viscontact.NAME, where NAME is `name`, with the base class `base` and,
-/// unless it is null, `further_base`. Throws py::error_already_set if Python cannot make it.
+/// Makes viscontact.NAME with the base class `base` and, unless it is null, `further_base`.
 PyObject* make_exception(py::module_& module, const char* name, const char* description,
                          PyObject* base, PyObject* further_base) {
   const auto bases = further_base == nullptr

@@ -1,11 +1,5 @@
-// Gives Python the tables of the lubrication force and their fits: the classes Fit and PairFit and
-// the functions tabulate, fit and fit_pair, which core.cpp adds to the module. Numbers are in the
-// units of the table; the texts for users below state their dimensions. The values are those of the
-// C++ libraries, bit for bit. A wrong argument throws Error(kWrongUsage), but an unknown basis,
-// term, weight or loss, and a wrong file, Error(kBadInput); the other errors of the libraries pass.
-// A change must keep the names and arguments, which users' scripts contain (docs/python.md); the
-// texts for users are free. `dimensions` must have the order of motions::pair_entries(). The texts
-// by which write_to() recognises files must be those of app/commands/fit_command.cpp.
+// The classes Fit and PairFit and the functions tabulate, fit and fit_pair of Python
+// (docs/python.md).
 #include <fmt/format.h>
 
 #include <optional>
@@ -37,8 +31,7 @@ namespace fs = std::filesystem;
 }
 
 /// The drag below and above the interval of the fit that these names stand for. Without a name, the
-/// force at a gap on that side throws Error(kBadInput). Throws Error(kWrongUsage) for an unknown
-/// name.
+/// force at a gap on that side throws Error(kBadInput).
 lubrication::OutsideInterval outside_of(const std::optional<std::string>& below,
                                         const std::optional<std::string>& above) {
   lubrication::OutsideInterval outside;
@@ -64,9 +57,7 @@ double positive_or(const std::optional<double>& value, double other, const char*
   return value.value_or(other);
 }
 
-/// The fit in the file at `path`, scaled to `radius` [L] and `viscosity` [M/(L T)] if they are
-/// given. Throws Error(kBadInput) if the file is missing or no fit, and Error(kWrongUsage) if a
-/// number is not finite and > 0 or a name is unknown.
+/// Scaled to `radius` [L] and `viscosity` [M/(L T)] if they are given.
 PythonFit read_python_fit(const fs::path& path, const std::optional<std::string>& below,
                           const std::optional<std::string>& above,
                           const std::optional<double>& radius,
@@ -78,9 +69,8 @@ PythonFit read_python_fit(const fs::path& path, const std::optional<std::string>
           outside_of(below, above)};
 }
 
-/// Writes the text of a fit file, unless the file has this text already. `kind` is a text that
-/// every file of this kind contains, `kind_in_words` its name in messages. Throws Error(kBadInput)
-/// if the file would replace one that is not of this kind, or cannot be written.
+/// `kind`, as in app/commands/fit_command.cpp, is a text that every file of this kind contains.
+/// Throws Error(kBadInput) if the file would replace one that is not of this kind.
 void write_to(const fs::path& path, const std::string& text, const char* kind,
               const char* kind_in_words) {
   results::refuse_other_kind(path, kind, kind_in_words);
@@ -98,8 +88,7 @@ std::vector<std::string> warnings_of(const lubrication::Fit& fit) {
   return fit.diagnostics ? fit.diagnostics->warnings : std::vector<std::string>{};
 }
 
-/// The function `fit` of Python, whose text for users is in add_fits(). Throws Error(kWrongUsage)
-/// for arguments that exclude each other, and the errors of the functions that it calls.
+/// Throws Error(kWrongUsage) for arguments that exclude each other.
 PythonFit fit_table(const fs::path& path, const std::optional<std::string>& basis,
                     const std::optional<std::string>& terms, const std::string& weights,
                     const std::string& loss, const py::object& fix,
@@ -132,8 +121,6 @@ PythonFit fit_table(const fs::path& path, const std::optional<std::string>& basi
   return {std::move(fit), path.string(), outside};
 }
 
-/// The function `fit_pair` of Python, whose text for users is in add_fits(). Throws
-/// Error(kWrongUsage) without a table, and the errors of the functions that it calls.
 motions::PairFit fit_pair_tables(const std::vector<fs::path>& paths, const std::string& basis,
                                  const std::string& loss, const std::optional<fs::path>& output) {
   motions::PairFitSettings settings{basis, lubrication::parse_loss(loss)};
@@ -154,8 +141,7 @@ motions::PairFit fit_pair_tables(const std::vector<fs::path>& paths, const std::
 
 /// The tables of a case of one sphere, a rolling sphere or a swimmer. One table is the file
 /// `output`; the tables of several motions are files in the folder `output`. `asked` names the
-/// motions; if it is empty, the case names them. Throws Error(kBadInput) if the case is wrong or
-/// has no section [tabulation], or if a motion is unknown.
+/// motions; if it is empty, the case names them.
 std::vector<pipeline::CaseTable> tables_of(const fs::path& case_file, const fs::path& output,
                                            const std::vector<std::string>& asked) {
   const auto kind = case_file::kind_of_case(case_file);
@@ -176,11 +162,9 @@ std::vector<pipeline::CaseTable> tables_of(const fs::path& case_file, const fs::
       });
 }
 
-/// The function `tabulate` of Python (viscontact/__init__.py): computes the tables and returns
-/// their paths. `jobs` is the number of rows that are computed at once; 0 means the number of
-/// cores. Throws Error(kWrongUsage) for jobs < 0, Error(kBadInput) if an output would replace a
-/// file that is not a table, and the errors of tabulate_stage(). If rows failed, the error that
-/// names them is thrown after the other rows are written.
+/// Returns the paths of the tables. `jobs` is the number of rows that are computed at once; 0 means
+/// the number of cores. If rows failed, the error that names them is thrown after the other rows
+/// are written.
 std::vector<fs::path> tabulate(const fs::path& case_file, const fs::path& output, int jobs,
                                const std::vector<std::string>& motions) {
   if (jobs < 0) refuse(fmt::format("jobs is {}; it must be > 0, or 0 for all cores", jobs));

@@ -1,14 +1,9 @@
-// Gives Python the class Particles, a simulation of many particles whose caller makes the steps and
-// may set forces on the particles before each step. core.cpp adds the class to the module, and
-// python/viscontact/particles.py derives from it the class that users see. Arrays are views of the
-// state of the simulation, without copies. Numbers are in the units of the case; the texts for
-// users below state dimensions and shapes. A wrong argument throws Error(kWrongUsage), a wrong case
-// Error(kBadInput), a step that cannot be computed Error(kNotConverged), a fluid solver that fails
-// Error(kExternalProgram). A change must keep the names, which users' scripts contain, and that
-// views stay valid: no step may move an array of the state to another place in memory.
+// The class Particles of Python, from which python/viscontact/particles.py derives that of users.
+// Its arrays are views of the state, so no step may move an array of the state in memory.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <optional>
 
 #include "viscontact/freefem_flow/freefem_solver.hpp"
@@ -24,7 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using particles::State;
 
-/// A case and its simulation.
 class PythonParticles {
  public:
   PythonParticles(const fs::path& path, int threads, const std::optional<fs::path>& restart)
@@ -33,7 +27,7 @@ class PythonParticles {
                     threads, freefem_flow::start_fluid_solver, interrupt_token()) {}
 
   const particles::ParticlesCase& case_file() const { return case_; }
-  /// The simulation. The caller must have called check_idle(), or be a step that compute() runs.
+  /// The caller must have called check_idle(), or be a step that compute() runs.
   particles::ParticleSimulation& simulation() { return simulation_; }
 
   /// Throws Error(kWrongUsage) while another thread computes steps. All functions that read or
@@ -100,12 +94,12 @@ std::unique_ptr<PythonParticles> open_case(const fs::path& path, int threads,
 }
 
 /// A NumPy array that views the `size` numbers from `numbers` on, which belong to the simulation in
-/// `owner`, and keeps `owner` alive. The numbers are `rows` rows of equal length `size`/`rows`. The
-/// array has the shape (rows, length), or (rows,) if the length is 1 and `is_flat` is true. Nothing
-/// is checked.
+/// `owner`, and keeps `owner` alive. The numbers are `rows` rows of equal length. The array has the
+/// shape (rows, length), or (rows,) if the length is 1 and `is_flat` is true.
 template <class Number>
 py::array view(const py::object& owner, const Number* numbers, std::size_t size, std::size_t rows,
                bool is_flat, bool is_writeable) {
+  assert(rows == 0 || size % rows == 0);
   const auto columns = rows == 0 ? 0 : size / rows;
   std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(columns == 0 ? 0 : rows)};
   if (!is_flat || columns > 1) shape.push_back(static_cast<py::ssize_t>(columns));
@@ -124,11 +118,11 @@ auto view_of(Member particles::Particles::*member, bool is_flat = false) {
   };
 }
 
-/// Times that differ by less than the result [T], a millionth of the time step, count as equal.
+/// Times closer than this [T] count as equal.
 double tiny_time(const PythonParticles& self) { return 1e-6 * self.case_file().setting.time_step; }
 
-/// `until` [T], or end_time of the case if there is none. Throws Error(kWrongUsage) if `until` is
-/// NaN or before the present time.
+/// `until` [T], or end_time of the case. Throws Error(kWrongUsage) if `until` is NaN or before the
+/// present time.
 double end_of_steps(const PythonParticles& self, const std::optional<double>& until) {
   if (!until) return self.case_file().end_time;
   const double now = self.state().time;
@@ -152,9 +146,7 @@ particles::StepReport step(PythonParticles& self, const std::optional<double>& u
   return self.compute_step([&] { return self.simulation().step(std::min(end, last)); });
 }
 
-/// Makes steps until the time `until` [T], by default end_time of the case. Returns the number of
-/// steps. Throws Error(kWrongUsage) if `until` is before the present time or after end_time, and the
-/// errors of the steps; the steps before the error are kept.
+/// Returns the number of steps. The steps before an error are kept.
 std::int64_t run(PythonParticles& self, const std::optional<double>& until) {
   const double end = end_of_steps(self, until), last = self.case_file().end_time;
   const double tiny = tiny_time(self);

@@ -1,11 +1,7 @@
-// Gives Python the motions of single spheres: the functions simulate, rolling and swimmer, which
-// core.cpp adds to the module. Each takes a case and a table or fit that was made before, and
-// returns arrays. No file is written. Numbers are in the units of the case; the texts for users
-// below state dimensions and shapes. A wrong argument throws Error(kWrongUsage), a wrong file or
-// number Error(kBadInput), a model that fails its own error (for example Error(kNotConverged)),
-// which ends the call without results. A change must keep the names of functions, arguments and
-// columns, which users' scripts contain (docs/python.md); the texts for users are free.
+// The functions simulate, rolling and swimmer of Python (docs/python.md): motions of single
+// spheres.
 
+#include <cassert>
 #include <limits>
 #include <map>
 #include <optional>
@@ -30,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using Numbers = std::map<std::string, double>;
 
-/// Names of models; without a value those of the case.
+/// The models of the case if there is no value.
 using GivenModels = std::optional<std::vector<std::string>>;
 
 /// The names that are given, or none. Throws Error(kWrongUsage) for an empty list.
@@ -42,21 +38,20 @@ std::vector<std::string> names_in(const GivenModels& models) {
   return models.value_or(std::vector<std::string>());
 }
 
-/// The case in the file at `path`, in which the value at each key of `numbers`, such as
-/// "sphere.radius", is replaced. Throws Error(kBadInput) if the file, a key or a value is wrong.
+/// The case with the value at each key of `numbers`, such as "sphere.radius", replaced. Throws
+/// Error(kBadInput) if the file, a key or a value is wrong.
 template <class Case>
 Case read_with(const fs::path& path, const Numbers& numbers) {
   const std::vector<std::pair<std::string, double>> changed(numbers.begin(), numbers.end());
   return case_file::CaseTemplate<Case>(path).with(changed);
 }
 
-/// A fit that is given as an object or as the path of a fit file.
+/// An object or the path of a fit file.
 using GivenFit = std::variant<const PythonFit*, fs::path>;
 using GivenPairFit = std::variant<const motions::PairFit*, fs::path>;
 
 /// The fit that is given or else that the case names, scaled to radius and viscosity of the case.
-/// Throws Error(kWrongUsage) if there is neither, and Error(kBadInput) if the file is no fit or the
-/// fit cannot be scaled to the case.
+/// Throws Error(kWrongUsage) if there is neither.
 lubrication::Fit fit_of(const case_file::Case& c, const std::optional<GivenFit>& given) {
   if (given) {
     if (const auto* object = std::get_if<const PythonFit*>(&*given))
@@ -73,7 +68,6 @@ lubrication::Fit fit_of(const case_file::Case& c, const std::optional<GivenFit>&
               c.path.string());
 }
 
-/// The value as an object of Python, or None.
 template <class Value>
 py::object or_none(const std::optional<Value>& value) {
   return value ? py::cast(*value) : py::none();
@@ -175,9 +169,7 @@ py::object columns_of(const rolling::RollingTrajectory& rows, const rolling::Rol
   return as_columns(columns, about);
 }
 
-/// The fit of the resistances of sphere and plane that is given or else that the case names, scaled
-/// to radius and viscosity of the case. Throws Error(kWrongUsage) if there is neither, and
-/// Error(kBadInput) if the file is no fit of a pair or the fit does not belong to the case.
+/// Does what fit_of() above does, for the resistances of sphere and plane.
 motions::PairFit fit_of(const rolling::RollingCase& c, const std::optional<GivenPairFit>& given) {
   if (given)
     if (const auto* object = std::get_if<const motions::PairFit*>(&*given))
@@ -210,8 +202,8 @@ py::dict roll(const fs::path& path, const std::optional<GivenPairFit>& given,
   return by_model;
 }
 
-/// The motion of the swimmer in one stroke, a cycle of the lengths of its arms. `rows` has at least
-/// one row (not checked).
+/// The motion of the swimmer in one stroke, a cycle of the lengths of its arms, with at least one
+/// row.
 struct SwumStroke {
   double period;  // [T], > 0
   swimmer::SwimSums sums;
@@ -222,6 +214,7 @@ struct SwumStroke {
 py::object columns_of(const SwumStroke& stroke) {
   using Row = swimmer::SwimRow;
   const auto& rows = stroke.rows;
+  assert(!rows.empty());
   const auto vectors = [&](Eigen::VectorXd Row::*member) {
     const auto width = (rows.front().*member).size();
     py::array_t<double> array({static_cast<py::ssize_t>(rows.size()), width});
@@ -247,9 +240,8 @@ py::object columns_of(const SwumStroke& stroke) {
   return as_columns(columns, about);
 }
 
-/// The table that the case names, or the table in the file `given`. Throws Error(kBadInput) if the
-/// table in `given` was made from other spheres, arms or walls, and Error(kWrongUsage) if there are
-/// two tables or none.
+/// Throws Error(kBadInput) if the table in `given` was made from other spheres, arms or walls than
+/// the case, and Error(kWrongUsage) if there are two tables or none.
 swimmer::ResistanceTable table_of(const swimmer::SwimmerCase& c,
                                   const std::optional<fs::path>& given) {
   if (given.has_value() == c.table_file.has_value())
@@ -266,9 +258,7 @@ swimmer::ResistanceTable table_of(const swimmer::SwimmerCase& c,
   return table;
 }
 
-/// The function `swimmer` of Python. A stroke has about `intervals` rows. Throws Error(kWrongUsage)
-/// if `intervals` < 1 or no table is given, Error(kBadInput) if the case or the table is wrong, and
-/// Error(kNotConverged) if an integral or the search for the optimal stroke does not converge.
+/// A stroke has about `intervals` rows.
 py::dict swim(const fs::path& path, const std::optional<fs::path>& table_path, int intervals) {
   if (intervals < 1)
     throw Error(ErrorKind::kWrongUsage, "intervals is {}; it must be > 0", intervals);

@@ -1,16 +1,10 @@
-// Computes distances between trajectories that are linear between their rows, by exact integrals,
-// and reads and writes the comparison file (comparison.hpp, docs/file-formats.md). Gaps [L], >= 0,
-// velocities [L/T] and times [T] are in the units of the trajectories; so is gamma [M L/T], <= 0,
-// which is minus the impulse that the film has absorbed. Each trajectory has at least one row, in
-// the order of time (not checked); distances are >= 0. Names that are missing or occur twice,
-// trajectories without a common time, and files of another form are an Error(kBadInput), a stop an
-// Error(kInterrupted). pipeline/, sweep/, results/ and report/ use this file. A change must keep
-// that comparison files of earlier versions can be read.
+// Distances of trajectories by exact integrals, and the comparison file.
 #include "viscontact/reduced_model/comparison.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <set>
 
@@ -21,19 +15,19 @@
 namespace viscontact::reduced_model {
 namespace {
 
-/// Interpolates gap [L] and velocity [L/T] of a trajectory linearly between its rows. The times
-/// must not decrease from call to call.
+/// Gap and velocity of a trajectory, linear between its rows.
 class Interpolation {
  public:
   explicit Interpolation(const std::vector<TrajectoryRow>& rows) : rows_(rows) {}
 
   struct Value {
-    double gap, velocity;  ///< [L], [L/T]
+    double gap, velocity;
   };
 
-  /// Gap and velocity at `time` [T], which must be between the first and the last row, and not
-  /// before the time of an earlier call.
+  /// `time` [T] is not outside the rows, and not before the time of an earlier call.
   Value at(double time) {
+    assert(rows_.front().time <= time && time <= rows_.back().time);
+    assert(next_ == 0 || rows_[next_ - 1].time < time);
     while (next_ + 1 < rows_.size() && rows_[next_].time < time) ++next_;
     const auto& b = rows_[next_];
     if (next_ == 0 || b.time == time) return {b.gap, b.velocity};
@@ -47,16 +41,16 @@ class Interpolation {
   std::size_t next_ = 0;
 };
 
-/// Integral of |d| over a step of time of the length `step` >= 0 [T], in which d changes linearly
-/// from d0 to d1, in the unit of d times [T].
+/// Integral of |d| over a step of time of the length `step` >= 0, in which d changes linearly from
+/// d0 to d1.
 double integral_of_absolute(double d0, double d1, double step) {
+  assert(step >= 0);
   if (d0 * d1 >= 0) return step * (std::abs(d0) + std::abs(d1)) / 2;
   return step * (d0 * d0 + d1 * d1) / (2 * (std::abs(d0) + std::abs(d1)));
 }
 
-/// Sets the distances of `result` over the times that both trajectories cover: the largest |q -
-/// q_ref| [L], and the integrals over time of |q - q_ref| [L T] and |u - u_ref| [L], with the gap q
-/// and the velocity u of both. Throws Error(kBadInput) if there is no time that both cover.
+/// Sets the distances of `result` over the times that both trajectories cover. Throws
+/// Error(kBadInput) if there are none.
 void measure_distances(const Trajectory& trajectory, const Trajectory& reference,
                        ModelComparison& result) {
   const double from = std::max(trajectory.rows.front().time, reference.rows.front().time);
@@ -95,8 +89,7 @@ void measure_distances(const Trajectory& trajectory, const Trajectory& reference
   }
 }
 
-/// The first and last time of contact [T] that the trajectory states. If it states none, they are
-/// the times of the first and the last row with gamma < 0; nothing if no row has gamma < 0.
+/// ModelComparison::contact_interval.
 std::optional<std::array<double, 2>> contact_interval(const Trajectory& trajectory) {
   if (trajectory.contact_interval) return trajectory.contact_interval;
   const auto& rows = trajectory.rows;
@@ -109,8 +102,6 @@ std::optional<std::array<double, 2>> contact_interval(const Trajectory& trajecto
 
 }  // namespace
 
-/// Compares each trajectory with that of the model `reference_model`, in the order of the list. The
-/// failed models of the result are left empty.
 Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
                                 std::string_view reference_model, const StopToken& stop) {
   const auto reference = std::ranges::find(trajectories, reference_model, &Trajectory::model);
@@ -132,6 +123,7 @@ Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
       throw Error(ErrorKind::kBadInput, "two trajectories have the name '{}'; rename one of them",
                   trajectory.model);
     ModelComparison result;
+    assert(!trajectory.rows.empty());
     result.model = trajectory.model;
     const auto lowest = std::ranges::min_element(trajectory.rows, {}, &TrajectoryRow::gap);
     result.minimal_gap = lowest->gap;
@@ -153,11 +145,9 @@ Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
   return comparison;
 }
 
-// The functions fields_of() state the keys of the file in their order, both for reading and for
-// writing. Times are [T], gaps [L], velocities [L/T], impulses [M L/T], works [M L^2/T^2] and
-// computing times [s]. A key with Absence::kAllowed may be missing in a file, as in files of
-// earlier versions. The key "books" has the budget of impulses and works.
 void fields_of(JsonFields& json, SolidTouch& touch) {
+  // The functions fields_of() state the keys of the file in their order, for reading and writing. A
+  // key with Absence::kAllowed may be missing, as in files of earlier versions.
   json("time", touch.time);
   json("velocity", touch.velocity);
 }
@@ -215,7 +205,6 @@ std::string write_comparison(const Comparison& comparison) {
   return JsonFields::text_of(comparison);
 }
 
-/// Throws Error(kBadInput), which names file and line, if the file is missing or of another form.
 Comparison read_comparison(const std::filesystem::path& path) {
   return JsonFields::read<Comparison>(read_file(path), path.string(),
                                       "; 'viscontact compare' writes such a file");

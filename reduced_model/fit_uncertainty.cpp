@@ -1,16 +1,8 @@
-// Computes how the errors of a fit of the drag change the gap between the sphere and the wall
-// during its motion without inertia, and writes and reads uncertainty.json (fit_uncertainty.hpp).
-// Gaps [L], > 0, and times [T], >= 0, are in the units of the case; the misfit is relative, 0 to 1.
-// The covariance of the fit must have a row and a column for each term (not checked). The
-// coefficients of the fit are drawn at random many times; a set of drawn coefficients is called a
-// draw, and is left out if its drag is not positive or makes the motion impossible. If all are left
-// out, an Error(kNotConverged) is thrown. A fit that LubricationForce refuses throws its error, a
-// wrong file an Error(kBadInput). A change must keep that `level` is the share between the ends in
-// middle_of(). It must also keep the seed and the order of the random numbers, so that the same
-// case gives the same file. pipeline/simulate, results/ and report/ use this file.
+// Intervals of the gap from random draws of the coefficients of the fit, and from its misfit.
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <random>
@@ -23,10 +15,12 @@
 namespace viscontact::reduced_model {
 namespace {
 
-/// A matrix L with L L^T = covariance. The covariance must be square and symmetric (not checked);
-/// it may be singular, and eigenvalues < 0 count as 0. L is computed from the eigenvectors of the
-/// matrix of correlations, because the coefficients differ in size by many powers of ten.
+/// A matrix L with L L^T = covariance, which is symmetric. It may be singular; eigenvalues < 0
+/// count as 0. L is computed from the eigenvectors of the matrix of correlations, because the
+/// coefficients differ in size by many powers of ten.
 Eigen::MatrixXd root_of(const std::vector<std::vector<double>>& covariance) {
+  assert(std::ranges::all_of(covariance,
+                             [&](const auto& row) { return row.size() == covariance.size(); }));
   const auto size = static_cast<Eigen::Index>(covariance.size());
   Eigen::MatrixXd matrix(size, size);
   for (Eigen::Index i = 0; i < size; ++i)
@@ -40,8 +34,8 @@ Eigen::MatrixXd root_of(const std::vector<std::vector<double>>& covariance) {
          eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
-/// The ends of the interval that contains the middle 95 % of the values. Changes the order of
-/// `values`. Throws Error(kNotConverged) if there are none.
+/// The ends of the interval that contains the middle 95 % of the values, whose order changes.
+/// Throws Error(kNotConverged) if there are none.
 std::array<double, 2> middle_of(std::vector<double>& values) {
   if (values.empty())
     throw Error(ErrorKind::kNotConverged,
@@ -54,10 +48,8 @@ std::array<double, 2> middle_of(std::vector<double>& values) {
   return {at(0.025), at(0.975)};
 }
 
-/// The times at which gaps are computed [T]. The first of them is the time of the smallest gap, at
-/// which the impulse of the external force is least. This time is 0, a time at which the force
-/// jumps or changes its sign, or the end. Then follow `times` equidistant times from 0 to the end;
-/// if `times` is 1, only the time 0 follows.
+/// The time of the smallest gap, at which the impulse of the external force is least (0, a jump or
+/// change of sign of the force, or the end), and then `times` equidistant times from 0 to the end.
 std::vector<double> instants_of(const Motion& motion, std::size_t times) {
   auto ends = motion.external_force.jumps();
   std::erase_if(ends, [&](double t) { return t > motion.end_time; });
@@ -78,18 +70,15 @@ std::vector<double> instants_of(const Motion& motion, std::size_t times) {
 
 }  // namespace
 
-/// Computes the gap at `times` + 1 times with the fit, with the impulse of the external force
-/// multiplied by 1 - misfit and by 1 + misfit (which bounds the effect of a relative error `misfit`
-/// of the drag), and with `draws` random draws of its coefficients. Outside the interval of gaps of
-/// the fit, the drag follows the formulas of outside.with_limits().
 FitUncertainty propagate_fit(const Motion& motion, const lubrication::Fit& fit, std::size_t times,
                              const lubrication::OutsideInterval& outside, std::size_t draws) {
+  assert(fit.covariance.size() == fit.terms.size());
   const auto limits = outside.with_limits();
   const auto instants = instants_of(motion, times);
   std::vector<double> impulses;  // of the external force
   for (const double time : instants) impulses.push_back(motion.external_force.impulse(time));
   // Replaces `gaps` by the gaps with this drag at `instants`, if the external force acts by `share`
-  // [1] of its impulse. The search for each gap begins at the gap that it replaces.
+  // of its impulse. The search for each gap begins at the gap that it replaces.
   const auto gaps_with = [&](const lubrication::LubricationForce& force, double share,
                              std::vector<double>& gaps) {
     const double start = force.impulse(motion.initial_gap);
@@ -142,9 +131,8 @@ FitUncertainty propagate_fit(const Motion& motion, const lubrication::Fit& fit, 
   return result;
 }
 
-// The functions fields_of() state the keys of the file in their order, for reading and for writing:
-// times [T], gaps [L], and pairs of gaps with the lower one first [L].
 void fields_of(JsonFields& json, UncertainGap& gap) {
+  // The functions fields_of() state the keys of the file in their order, for reading and writing.
   json("time", gap.time);
   json("gap", gap.gap);
   json("random_interval", gap.random);
@@ -153,6 +141,7 @@ void fields_of(JsonFields& json, UncertainGap& gap) {
 
 void fields_of(JsonFields& json, FitUncertainty& uncertainty) {
   double level = 0.95;
+  // The share of draws between the ends of middle_of().
   json("level", level);
   json("draws", uncertainty.draws);
   json("refused_draws", uncertainty.refused);
@@ -162,12 +151,10 @@ void fields_of(JsonFields& json, FitUncertainty& uncertainty) {
   json.foreign_object("provenance");
 }
 
-/// The text of uncertainty.json.
 std::string write_uncertainty(const FitUncertainty& uncertainty) {
   return JsonFields::text_of(uncertainty);
 }
 
-/// Throws Error(kBadInput) if the file at `path` is missing or of another form.
 FitUncertainty read_uncertainty(const std::filesystem::path& path) {
   return JsonFields::read<FitUncertainty>(read_file(path), path.string(),
                                           "; 'viscontact simulate' writes such a file");

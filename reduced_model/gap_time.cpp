@@ -1,4 +1,4 @@
-// When a trajectory first reaches a gap.
+// The inverse of the gap that is interpolated between rows, by bisection.
 #include "viscontact/reduced_model/gap_time.hpp"
 
 #include <algorithm>

@@ -14,8 +14,7 @@ struct TrajectoryRow;
 struct GapTime {
   double gap = 0;              ///< the gap [L], > 0
   std::optional<double> time;  ///< the first time [T] at this gap; nothing if it is never reached
-  /// True if both members are equal.
-  bool operator==(const GapTime&) const = default;
+  bool operator==(const GapTime&) const = default;  ///< exact
 };
 
 /// The first time at which each of the gaps [L], > 0, is reached. `film` is the thickness of the

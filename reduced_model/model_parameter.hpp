@@ -1,10 +1,4 @@
-// Describes the parameters of models of motion: numbers of the case file that a model declares, in
-// the units of the case. A new parameter is declared beside its model and in no other file, but a
-// parameter of several models in motion.hpp. The reader of case files, the documentation of their
-// keys, sweeps and the report find all parameters in the table of models (models.cpp). Nothing is
-// checked or thrown here; the reader of case files refuses values that are not allowed. A change
-// must keep the keys, which users' case files contain. Descriptions are free choices; another
-// fallback changes the results of cases without the key.
+// A parameter of models of motion: a number of the case file that a model declares beside it.
 #pragma once
 
 #include <string_view>
@@ -17,7 +11,7 @@ struct Motion;
 
 /// The part SECTION of a key SECTION.NAME in the case file; without a point, the whole key.
 constexpr std::string_view section_of(std::string_view key) { return key.substr(0, key.find('.')); }
-/// The part NAME of a key SECTION.NAME in the case file; without a point, the whole key.
+/// The part NAME; without a point, the whole key.
 constexpr std::string_view name_of(std::string_view key) { return key.substr(key.find('.') + 1); }
 
 /// A parameter of one or several models of motion. A model lists its parameters in its row of the
@@ -25,8 +19,8 @@ constexpr std::string_view name_of(std::string_view key) { return key.substr(key
 struct ModelParameter {
   std::string_view key;          ///< SECTION.NAME in the case file
   std::string_view description;  ///< words for the report
-  std::string_view dimension;    ///< dimension of the values, "L", "T" or "1"; for the report
-  Allowed allowed;               ///< the finite values that are accepted
+  std::string_view dimension;    ///< "L", "T" or "1"
+  Allowed allowed;               ///< values that are accepted
   /// Function for the value in a case without this key; never null. `allowed` must accept the
   /// value. The value must not depend on Motion::parameters, which are not set yet. `radius` > 0 is
   /// the radius of the sphere [L].
@@ -37,8 +31,8 @@ struct ModelParameter {
   /// The fallback in words, for docs/case-file.md.
   std::string_view fallback_words = "see the model";
 
-  constexpr std::string_view section() const { return section_of(key); }  ///< section_of(key)
-  constexpr std::string_view name() const { return name_of(key); }        ///< name_of(key)
+  constexpr std::string_view section() const { return section_of(key); }  ///< of `key`
+  constexpr std::string_view name() const { return name_of(key); }        ///< of `key`
 };
 
 }  // namespace viscontact::reduced_model

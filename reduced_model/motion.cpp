@@ -1,9 +1,5 @@
-// The functions that the models of motion share: the values of their parameters, reports of their
-// progress, the number of their steps, and the times [T] of the rows of their trajectories. A
-// parameter has its own dimension; time steps [T] and end times [T] are > 0, which is not checked.
-// A missing parameter and more than 1e8 steps throw Error(kBadInput), and a requested stop throws
-// Error(kInterrupted). All models, rolling/ and case_file/ use this file. A change of step_count()
-// or row_times() changes trajectories and must raise kModelsRevision (trajectory.hpp).
+// Steps and rows in time that the models of motion share. Another step_count() or row_times()
+// changes trajectories and must raise kModelsRevision.
 #include "viscontact/reduced_model/motion.hpp"
 
 #include <algorithm>
@@ -14,14 +10,11 @@
 
 namespace viscontact::reduced_model {
 
-/// The coefficient of restitution of the solids [1], from 0 to 1; 0 if the parameter has no value.
 double Motion::restitution() const {
   const auto found = parameters.find(kRestitution.key);
   return found == parameters.end() ? 0 : found->second;
 }
 
-/// The value of the parameter `which`, in its own dimension. Throws Error(kBadInput) if there is no
-/// value.
 double Motion::parameter(const ModelParameter& which) const {
   const auto found = parameters.find(which.key);
   if (found == parameters.end())
@@ -29,17 +22,13 @@ double Motion::parameter(const ModelParameter& which) const {
   return found->second;
 }
 
-/// Calls motion.progress, if it is not empty, with `time` [T]. Throws Error(kInterrupted) if a stop
-/// is requested.
 void report_progress(const Motion& motion, double time) {
   motion.stop.throw_if_stop_requested();
   if (motion.progress) motion.progress(time);
 }
 
-/// The number of steps of the length `step` [T], >= 1, that cover the times from 0 to `end` [T].
-/// The last step may be shorter than the others.
 int step_count(double end, double step) {
-  constexpr double kMostSteps = 1e8;  // a free choice; so many rows of a trajectory take 5 GB
+  constexpr double kMostSteps = 1e8;  // so many rows of a trajectory take 5 GB
   // A last step below 1e-6 of a step is the rounding error of end / step.
   const double steps = std::ceil(end / step - 1e-6);
   if (!(steps <= kMostSteps))
@@ -49,9 +38,6 @@ int step_count(double end, double step) {
   return std::max(1, static_cast<int>(steps));
 }
 
-/// The times [T] of the rows of a model without a fixed step, in increasing order: 0, the multiples
-/// of the value of `parameter` [T], the end time, and the times at which the external force or its
-/// slope jumps before the end time.
 std::vector<double> row_times(const Motion& motion, const ModelParameter& parameter) {
   const double spacing = motion.parameter(parameter);
   const int steps = step_count(motion.end_time, spacing);

@@ -1,12 +1,9 @@
-// Declares what every model of motion is given: the sphere, its start, the external force, and the
-// values of the models' parameters. Lengths, masses and times are in any consistent units. The
-// reader of case files sets and checks these members, models do not check them. Error(kBadInput) is
-// thrown if a parameter has no value or if there are too many steps. reduced_model/, rolling/ and
-// case_file/ use this file. A change must keep the keys, which users' case files contain. The
-// defaults of parameters are free choices, but change the results of cases without the key.
+// What every model of motion is given: the sphere, its start, the external force, and the values of
+// the models' parameters (physics.md (4.1)), in any consistent units.
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <functional>
 #include <map>
 #include <string_view>
@@ -32,29 +29,25 @@ struct Motion {
 
   /// Heights r1, r2 of the roughness of sphere and wall [L], >= 0; smooth surfaces if both are 0.
   std::array<double, 2> roughness = {};
-  /// Values of the models' parameters by ModelParameter::key, in ModelParameter::dimension;
-  /// parameter() reads them.
+  /// Values by ModelParameter::key, which parameter() reads.
   std::map<std::string_view, double> parameters{};
 
   /// Gaps [L], > 0, for each of which a trajectory says when it is first reached.
   std::vector<double> gaps_to_reach{};
-  /// Approximate number of rows of a trajectory file (fewer_rows()), >= 2; with 0 all rows are
-  /// written.
+  /// Approximate number of rows of a trajectory file (fewer_rows()), >= 2; 0: all rows.
   int output_rows = 0;
-  /// report_progress() calls this function with the time [T] that a model has reached; may be
-  /// empty.
+  /// report_progress() calls it with the time [T] that a model has reached; may be empty.
   std::function<void(double time)> progress{};
   /// If this token requests a stop, report_progress() throws Error(kInterrupted).
   StopToken stop{};
   /// Density of the fluid [M/L^3], >= 0; 0: not known. Only the Reynolds number depends on it.
   double fluid_density = 0;
 
-  /// The value of a parameter in its dimension. Throws Error(kBadInput) if the parameter has no
-  /// value.
+  /// Throws Error(kBadInput) if the parameter has no value.
   double parameter(const ModelParameter& which) const;
-  /// Coefficient of restitution e_d of the solids, 0 to 1 [1]; 0 without a value of kRestitution.
+  /// Coefficient of restitution e_d of the solids; 0 without a value of kRestitution.
   double restitution() const;
-  /// Sets a parameter. The value must be one that `which.allowed` accepts (not checked).
+  /// Sets a parameter to a value that `which.allowed` accepts.
   void set(const ModelParameter& which, double value) { parameters[which.key] = value; }
 };
 
@@ -91,13 +84,11 @@ inline constexpr ModelParameter kRestitution = {
     false,
     "0"};
 
-/// Models call this function now and then with the time [T] that they have reached. Throws
-/// Error(kInterrupted) if motion.stop requests a stop, else calls motion.progress unless it is
-/// empty.
+/// Models report the time that they have reached. Throws Error(kInterrupted) at a stop.
 void report_progress(const Motion& motion, double time);
 
-/// Number of steps between two calls of report_progress() in a model whose steps are cheap, a free
-/// choice. So many steps take about 0.1 ms, so that the calls cost little and a stop acts at once.
+/// Number of steps between two calls of report_progress() in a model whose steps are cheap: they
+/// take about 0.1 ms, so that the calls cost little and a stop acts at once.
 inline constexpr int kStepsBetweenProgressReports = 4096;
 
 /// Number of steps, >= 1, of length `step` > 0 [T] that cover the times from 0 to `end` [T]. The
@@ -106,19 +97,18 @@ inline constexpr int kStepsBetweenProgressReports = 4096;
 /// end/step is not a number.
 int step_count(double end, double step);
 
-/// The time [T] after `index` of the `count` steps, 0 <= index <= count (not checked); after the
-/// last step it is exactly `end`.
+/// The time [T] after `index` of the `count` steps; after the last step it is exactly `end`.
 inline double step_time(int index, int count, double end, double step) {
+  assert(0 <= index && index <= count);
   return index == count ? end : index * step;
 }
 
-/// The gap [L] at which every model ends the motion where a wall stands opposite: 1e-9 below the gap
-/// `largest_gap` [L] at which the sphere touches it. Models that resolve the drag approach this wall
-/// without end, and doubles cannot resolve a much thinner film there; the number is a free choice.
-/// Infinity if `largest_gap` is.
+/// The gap at which every model ends the motion where a wall stands opposite, 1e-9 below the gap
+/// `largest_gap` at which the sphere touches it: models that resolve the drag approach this wall
+/// without end, and doubles cannot resolve a much thinner film there.
 inline double motion_ends_at(double largest_gap) { return largest_gap * (1 - 1e-9); }
 
-/// The times [T] of the rows of a model without a fixed step: 0, the multiples of `parameter`, the
+/// The times of the rows of a model without a fixed step: 0, the multiples of `parameter`, the
 /// jumps of the force or of its slope, and end_time, in increasing order. A multiple is left out if
 /// it differs from a jump by less than 1e-6 times `parameter`. Throws Error(kBadInput) if
 /// `parameter` has no value or if there are more than 1e8 multiples.

@@ -1,16 +1,10 @@
-// Reads and writes the CSV file of a trajectory (docs/file-formats.md), and selects rows for it.
-// Times [T], gaps [L], velocities [L/T], forces [M L/T^2] and gamma [M L/T] are in the units of the
-// case; gamma is minus the impulse that the film of fluid has absorbed. The reader checks that all
-// numbers are finite, that times increase and that gaps are >= 0; it checks no other signs. A fault
-// of a file throws Error(kBadInput), which names the file and, for a fault of a row, the line.
-// pipeline/, sweep/, results/ and python/ use this file. A change must keep three things: the names
-// of the columns, which users' scripts read; the order of kColumns, by which read_trajectory()
-// finds the columns; and in fewer_rows() the rows that a comparison looks for.
+// The CSV file of a trajectory (docs/file-formats.md), and the selection of rows for it.
 #include "viscontact/reduced_model/trajectory.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <iterator>
 #include <limits>
@@ -24,10 +18,9 @@
 namespace viscontact::reduced_model {
 namespace {
 
+// In the order in which read_trajectory() reads the fields of a row.
 const std::array<std::string, 7> kColumns = {
     "time", "gap", "velocity", "lubrication_force", "external_force", "gamma", "solid_force"};
-// Keys in the head of the file: the interval of times [T] of contact, and the time [T] and the
-// velocity [L/T] of the first touch of the solids.
 const std::array<std::string, 2> kContactKeys = {"contact_from", "contact_until"};
 const std::array<std::string, 2> kSolidKeys = {"solid_contact_from", "solid_contact_velocity"};
 const std::string kFilmKey = "film_from_gamma";
@@ -35,13 +28,12 @@ const std::string kReynoldsKey = "reynolds_number", kStokesKey = "stokes_number"
                   kFilmStokesKey = "film_stokes_number";
 constexpr std::size_t kRequiredColumns = 3;  // time, gap, velocity
 
-/// The number as text, or an empty text if the value is missing.
 std::string optional_number(const OptionalDouble& value) {
   return value ? format_number(*value) : "";
 }
 
-/// The number of steps in the head of the file. Throws Error(kBadInput) if it is missing or is not
-/// from 0 to 1e15.
+/// Throws Error(kBadInput) if the number in the head of the file is missing or is not from 0 to
+/// 1e15.
 long steps_of(const CsvComments& comments, const std::string& file) {
   constexpr double kMost = 1e15;  // below 2^53, so every integer up to it is a double
   const double steps = csv_comment_number(comments, "steps", file);
@@ -76,9 +68,8 @@ std::vector<GapTime> read_gap_times(const std::string& text, const FilePosition&
   return times;
 }
 
-/// The rebounds as text. A rebound is five numbers, separated by blanks: time [T], velocity of
-/// approach [L/T], impulse of the solids [M L/T], velocity of rebound [L/T] and coefficient of
-/// restitution [1]. Rebounds are separated by "; ".
+/// A rebound as five numbers separated by blanks, in the order of the members of Rebound; rebounds
+/// are separated by "; ".
 std::string write_rebounds(const std::vector<Rebound>& rebounds) {
   std::string text;
   for (const auto& of : rebounds)
@@ -88,8 +79,8 @@ std::string write_rebounds(const std::vector<Rebound>& rebounds) {
   return text;
 }
 
-/// The rebounds of a text that write_rebounds() made. Throws Error(kBadInput) if a rebound does not
-/// have five numbers; their signs are not checked.
+/// The opposite of write_rebounds(). Throws Error(kBadInput) if a rebound does not have five
+/// numbers.
 std::vector<Rebound> read_rebounds(const std::string& text, const FilePosition& file) {
   std::vector<Rebound> rebounds;
   std::istringstream in(text);
@@ -110,9 +101,6 @@ std::vector<Rebound> read_rebounds(const std::string& text, const FilePosition& 
 
 }  // namespace
 
-/// Reads a CSV file with the columns kColumns, of which the first three are required; the lines "#
-/// key: value" of its head give the other members. A key that this function does not know goes to
-/// `provenance`. The model has the name of the file without its ending unless the head names it.
 Trajectory read_trajectory(const std::filesystem::path& path) {
   const std::string file = path.string();
   const auto csv = read_csv(path, kColumns, kRequiredColumns);
@@ -129,7 +117,7 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
   };
   if (const auto model = take("model")) trajectory.model = *model;
   trajectory.film_from_gamma = take_number(kFilmKey);
-  // The name in files of earlier versions.
+  // Earlier versions wrote this name.
   if (const auto film = take_number("recovered_minimal_gap"); !trajectory.film_from_gamma)
     trajectory.film_from_gamma = film;
   trajectory.reynolds_number = take_number(kReynoldsKey);
@@ -174,8 +162,6 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
   return trajectory;
 }
 
-/// The text of the file that read_trajectory() reads: the head and a row of text for each row of
-/// the trajectory, in which a missing value is an empty field. Nothing is checked or thrown.
 std::string write_trajectory(const Trajectory& trajectory) {
   CsvComments comments = trajectory.provenance;
   comments["viscontact"] = "trajectory";
@@ -215,8 +201,7 @@ std::string write_trajectory(const Trajectory& trajectory) {
 
 namespace {
 
-// in_contact() says whether the film has absorbed an impulse, and on_solid() whether the solids
-// press on each other.
+// Whether the film has absorbed an impulse, and whether the solids press on each other.
 bool in_contact(const TrajectoryRow& row) { return row.gamma && *row.gamma < 0; }
 bool on_solid(const TrajectoryRow& row) { return row.solid_force && *row.solid_force > 0; }
 
@@ -231,7 +216,6 @@ std::vector<std::size_t> changes_of_contact(const std::vector<TrajectoryRow>& ro
   return changes;
 }
 
-/// The index of the first row with the smallest `value`.
 template <class Value>
 std::size_t first_of_least(const std::vector<TrajectoryRow>& rows, const Value& value) {
   return static_cast<std::size_t>(std::ranges::min_element(rows, {}, value) - rows.begin());
@@ -239,13 +223,8 @@ std::size_t first_of_least(const std::vector<TrajectoryRow>& rows, const Value& 
 
 }  // namespace
 
-/// About `count` of the rows, in their order: the first row at or after each of `count` equally
-/// spaced times, and the rows that a comparison looks for. These are the first and the last row,
-/// the rows with the smallest and the largest gap and with the lowest gamma, and the two rows
-/// around each change of contact. If there are more than `count` changes, only the first and the
-/// last of them count. All rows are kept if there are at most `count`. `count` must be >= 2 (not
-/// checked).
 std::vector<TrajectoryRow> fewer_rows(const std::vector<TrajectoryRow>& rows, int count) {
+  assert(count >= 2);
   const auto wanted = static_cast<std::size_t>(count);
   if (rows.size() <= wanted) return rows;
   std::vector<char> kept(rows.size(), 0);
@@ -253,8 +232,7 @@ std::vector<TrajectoryRow> fewer_rows(const std::vector<TrajectoryRow>& rows, in
   std::size_t row = 0;
   for (std::size_t n = 0; n < wanted; ++n) {
     const double w = static_cast<double>(n) / static_cast<double>(wanted - 1);
-    // The factor makes the time slightly earlier, so that rounding cannot skip the row at this
-    // time.
+    // The factor makes the time slightly earlier, so that rounding cannot skip its row.
     const double time = from + w * (to - from) * (1 - 1e-12);
     while (row + 1 < rows.size() && rows[row].time < time) ++row;
     kept[row] = 1;
@@ -274,6 +252,7 @@ std::vector<TrajectoryRow> fewer_rows(const std::vector<TrajectoryRow>& rows, in
 
 std::optional<std::string> reached_wall(const Trajectory& trajectory, const Motion& motion,
                                         double largest_gap) {
+  assert(!trajectory.rows.empty());
   const auto& last = trajectory.rows.back();
   if (!(last.time < motion.end_time && last.gap >= motion_ends_at(largest_gap))) return {};
   return fmt::format(

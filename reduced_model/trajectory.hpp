@@ -1,12 +1,5 @@
-// A trajectory, which is the motion of one sphere near a wall as a model computes it: its rows, its
-// budget of momentum and energy, its CSV file, and the reduction of its rows for that file (key
-// `rows` of the case's section [motion]). Contact models replace the thin film of fluid by contact
-// with a memory gamma, which is minus the impulse that the film has absorbed [M L/T]. Lengths,
-// masses and times are in the units of the case. A wrong file throws Error(kBadInput), which names
-// the file and, for a fault of a row, the line; members of a trajectory in memory are not checked.
-// Used by reduced_model/, pipeline/, sweep/, results/ and python/. A change must keep the names of
-// the columns, which published files have, both balances of the budget, and in fewer_rows() all
-// rows that compare_trajectories() looks for, such as the one with the smallest gap.
+// The trajectory of one sphere near a wall as a model computes it: its rows, its budget of momentum
+// and energy, and its CSV file. Numbers are in the units of the case.
 #pragma once
 
 #include <array>
@@ -26,27 +19,26 @@ namespace viscontact::reduced_model {
 
 struct Motion;
 
-/// Like std::optional<double>, but no larger than a double, because millions of rows store several
-/// of these values. NaN stands for a missing value; therefore a value must not be NaN, and sources
-/// that include this file must not be compiled with -ffast-math, which ignores NaN.
+/// Like std::optional<double>, but no larger than a double, because millions of rows store several.
+/// NaN stands for a missing value, so that -ffast-math, which ignores NaN, must not be used.
 class OptionalDouble {
  public:
   constexpr OptionalDouble() = default;  ///< a missing value
-  /// `value` must not be NaN, because NaN stands for a missing value.
+  /// NaN becomes a missing value.
   // The conversion is implicit, as in std::optional.
   // NOLINTNEXTLINE(google-explicit-constructor)
   constexpr OptionalDouble(double value) : value_(value) {}
 
   bool has_value() const { return !std::isnan(value_); }  ///< false if the value is missing
-  explicit operator bool() const { return has_value(); }  ///< same as has_value()
-  /// The value, which must not be missing (asserted).
+  explicit operator bool() const { return has_value(); }  ///< has_value()
+  /// The value, which must not be missing.
   double operator*() const {
     assert(has_value());
     return value_;
   }
-  double value() const { return **this; }  ///< same as operator*
+  double value() const { return **this; }  ///< operator*
 
-  /// True if both values are equal or both are missing.
+  /// Two missing values are equal.
   friend bool operator==(const OptionalDouble& a, const OptionalDouble& b) {
     return a.value_ == b.value_ || (!a && !b);
   }
@@ -62,34 +54,29 @@ class OptionalDouble {
 ///     m u(end)^2/2 - m v0^2/2      = sum of the works,
 ///
 /// with the mass m, the velocity u and its value v0 at the start. The left sides are 0 for a model
-/// without inertia. The film absorbed the energy -film_work, the drag that a contact model resolves
-/// outside contact dissipated -drag_work, and the solid contact dissipated -solid_work.
-///
-/// Contact models add up the impulses and works of each step. In the other models film_impulse and
-/// film_work are those of the whole drag. There film_impulse is the change of momentum minus the
-/// impulses of the other forces; film_work is a sum over the rows, with an error of second order in
-/// their spacing, and external_work is set so that the works are balanced. The model inertial_rough
-/// (inertia, drag, and an impact where the roughness heights touch) does the reverse: external_work
-/// is the sum over the rows, and film_work is set so that the works are balanced.
+/// without inertia. Contact models add up the impulses and works of each step. In the other models
+/// film_impulse and film_work are those of the whole drag. There film_impulse is the change of
+/// momentum minus the impulses of the other forces; film_work is a sum over the rows, with an error
+/// of second order in their spacing, and external_work is set so that the works are balanced. In
+/// inertial_rough external_work is the sum over the rows, and film_work balances the works.
 struct MomentumEnergyBudget {
-  double external_impulse = 0;  ///< of the external force [M L/T]
-  /// Of the film [M L/T]: minus the change of gamma in contact models, else the impulse of the
-  /// whole drag.
+  double external_impulse = 0;  ///< of the external force
+  /// Minus the change of gamma in contact models, else the impulse of the whole drag.
   double film_impulse = 0;
-  double drag_impulse = 0;   ///< of the resolved drag, contact models only [M L/T]
-  double solid_impulse = 0;  ///< of the solid contact [M L/T], >= 0
-  double external_work = 0;  ///< of the external force [M L^2/T^2]
-  double film_work = 0;      ///< of the film [M L^2/T^2]
-  double drag_work = 0;      ///< of the resolved drag [M L^2/T^2], <= 0
-  double solid_work = 0;     ///< of the solid contact [M L^2/T^2], <= 0
+  double drag_impulse = 0;   ///< of the resolved drag, contact models only
+  double solid_impulse = 0;  ///< of the solid contact, >= 0
+  double external_work = 0;  ///< of the external force
+  double film_work = 0;      ///< of the film
+  double drag_work = 0;      ///< of the resolved drag, <= 0
+  double solid_work = 0;     ///< of the solid contact, <= 0
 };
 
-/// An entry of the budget with its name in files.
+/// An entry of the budget.
 struct BudgetEntry {
   std::string_view name;                ///< column or key
-  double MomentumEnergyBudget::*value;  ///< the member with this name
+  double MomentumEnergyBudget::*value;  ///< member
 };
-/// All entries, in the order in which files list them.
+/// In the order in which files list them.
 inline constexpr std::array kBudgetEntries = {
     BudgetEntry{"external_impulse", &MomentumEnergyBudget::external_impulse},
     BudgetEntry{"film_impulse", &MomentumEnergyBudget::film_impulse},
@@ -105,29 +92,29 @@ struct TrajectoryRow {
   double time = 0;      ///< [T]
   double gap = 0;       ///< q [L], >= 0
   double velocity = 0;  ///< u = dq/dt [L/T]
-  /// Force of the fluid on the sphere [M L/T^2]; in contact models the sum of the force of the film
-  /// and of the resolved drag.
+  /// Force of the fluid [M L/T^2]; in contact models that of the film and of the resolved drag.
   OptionalDouble lubrication_force{};
-  /// The external force f_ext [M L/T^2]: all forces except those of the fluid and of the solids.
+  /// f_ext [M L/T^2]: all forces except those of the fluid and of the solids.
   OptionalDouble external_force{};
-  /// Minus the impulse that the film has absorbed [M L/T], <= 0; contact models only.
+  /// The memory of the film, minus the impulse that the film has absorbed [M L/T], <= 0; contact
+  /// models only.
   OptionalDouble gamma{};
-  /// Force of the solid contact on the sphere [M L/T^2], >= 0; models with solid contact only.
+  /// Force of the solid contact [M L/T^2], >= 0; models with solid contact only.
   OptionalDouble solid_force{};
 };
 
-/// An impact of the sphere on the solid wall (equation (4.12) of docs/physics.md).
+/// An impact of the sphere on the solid wall (physics.md (4.12)).
 struct Rebound {
   double time = 0;  ///< [T]
-  /// Velocity before the film acts [L/T], < 0; in the model inertial_rough the velocity at the
-  /// initial gap.
+  /// Velocity before the film acts [L/T], < 0; in the model inertial_rough the largest one since
+  /// the last rebound.
   double approach_velocity = 0;
   /// Impulse that the solids took up before they gave a part back [M L/T], > 0.
   double solid_impulse = 0;
   /// Velocity at which the sphere leaves the film [L/T], >= 0; 0: the sphere stays in contact.
   double velocity = 0;
   double coefficient = 0;  ///< of restitution, velocity/|approach_velocity| [1], >= 0
-  bool operator==(const Rebound&) const = default;  ///< whether all numbers are equal
+  bool operator==(const Rebound&) const = default;  ///< exact
 };
 
 /// When the solids touch for the first time.
@@ -136,15 +123,14 @@ struct SolidTouch {
   /// Rate just before this time [L/T], <= 0: that of the gap, or in contact models that of the film
   /// thickness that gamma stands for.
   double velocity = 0;
-  bool operator==(const SolidTouch&) const = default;  ///< whether both numbers are equal
+  bool operator==(const SolidTouch&) const = default;  ///< exact
 };
 
-/// Number of the revision of the models. Raise it when a change makes a model compute other numbers
-/// or record more of them. A run computes a stored trajectory again if the number in its head
-/// differs from this one.
+/// Raise it when a change makes a model compute other numbers or record more of them. A run
+/// computes a stored trajectory again if the number in its head differs from this one.
 inline constexpr int kModelsRevision = 6;
 
-/// Rows in strictly increasing time, at least one, and how they were made.
+/// Rows of a motion, and how they were made.
 struct Trajectory {
   std::string model;                ///< name of the model, such as inertial
   std::vector<TrajectoryRow> rows;  ///< in strictly increasing time, at least one
@@ -160,15 +146,15 @@ struct Trajectory {
   std::vector<GapTime> gap_times{};
   /// Impacts on the solids in order of time; only if the case has a restitution.
   std::vector<Rebound> rebounds;
-  /// The largest Reynolds number 2 r rho_f |u|/mu of the rows; nothing if the density of the fluid is
-  /// not known, or the model has no fluid.
+  /// The largest Reynolds number 2 r rho_f |u|/mu of the rows; nothing if the density of the fluid
+  /// is not known, or the model has no fluid.
   std::optional<double> reynolds_number{};
   /// The largest Stokes number m |u|/(6 pi mu r^2) of the rows; nothing if the model has no fluid.
   std::optional<double> stokes_number{};
   /// The largest m |u| of the rows over the impulse that the film has absorbed, |gamma|; nothing if
   /// there was no contact with a film, or if the model resolves the drag before contact.
   std::optional<double> film_stokes_number{};
-  /// The budget; nothing if the file of the trajectory has no line of it.
+  /// Nothing if the file of the trajectory has no line of it.
   std::optional<MomentumEnergyBudget> budget;
   long steps = 0;      ///< number of steps of the integrator, >= 0; 0 if not stated
   double seconds = 0;  ///< computing time on a clock [s]; 0 if not stated
@@ -177,32 +163,32 @@ struct Trajectory {
 };
 
 /// Reads a trajectory file, which Viscontact or a user wrote. The columns time, gap and velocity
-/// are required. The name of the model is that of the line "# model:", or else the file name
-/// without its ending. Throws Error(kBadInput), with the file and, for a fault of a row, its line,
-/// if the file cannot be read or was cut short, a required column or value is missing, a number is
-/// not finite, a gap is negative, times do not increase, there is no row, or the head has a number
-/// that is not finite, a `steps` outside 0 to 1e15, or `rebounds` that are not five numbers each.
-/// Signs of other values are not checked; further columns are ignored.
+/// are required; further columns are ignored. The name of the model is that of the line "# model:",
+/// or else the file name without its ending. Throws Error(kBadInput), with the file and, for a
+/// fault of a row, its line, if the file cannot be read or was cut short, a required column or
+/// value is missing, a number is not finite, a gap is negative, times do not increase, there is no
+/// row, or the head has a number that is not finite, a `steps` outside 0 to 1e15, or `rebounds`
+/// that are not five numbers each.
 Trajectory read_trajectory(const std::filesystem::path& path);
 
-/// The text of the trajectory file (CSV). Nothing is checked or thrown.
+/// The text of the trajectory file (CSV, docs/file-formats.md).
 std::string write_trajectory(const Trajectory& trajectory);
 
-/// If the motion ended before `motion.end_time` because the sphere reached the wall opposite, at the
-/// gap `largest_gap` [L], a sentence that says so; otherwise nothing.
+/// If the motion ended before `motion.end_time` because the sphere reached the wall opposite, at
+/// the gap `largest_gap` [L], a sentence that says so; otherwise nothing.
 std::optional<std::string> reached_wall(const Trajectory& trajectory, const Motion& motion,
                                         double largest_gap);
 
 /// Warnings of Reynolds and Stokes numbers at which Stokes flow or viscous contact do not hold
-/// (lubrication/regime.hpp), each with the names of the models concerned.
+/// (lubrication/regime.hpp).
 std::vector<std::string> regime_warnings(const std::vector<Trajectory>& trajectories);
 
-/// About `count` >= 2 (not checked) of the rows, in their order; all rows if there are at most
-/// `count`. The result has the first row at or after each of `count` equidistant times, and the
-/// rows that a comparison needs: the first, the last, the first with the smallest gap, with the
-/// largest gap and with the lowest gamma, and the two rows around each instant at which contact
-/// (gamma < 0) or solid contact (solid_force > 0) begins or ends. If there are more than `count`
-/// such instants, only the rows around the first and the last of them are kept.
+/// About `count` >= 2 of the rows, in their order; all rows if there are at most `count`. The
+/// result has the first row at or after each of `count` equidistant times, and the rows that a
+/// comparison needs: the first, the last, the first with the smallest gap, with the largest gap and
+/// with the lowest gamma, and the two rows around each instant at which contact (gamma < 0) or
+/// solid contact (solid_force > 0) begins or ends. If there are more than `count` such instants,
+/// only the rows around the first and the last of them are kept.
 std::vector<TrajectoryRow> fewer_rows(const std::vector<TrajectoryRow>& rows, int count);
 
 }  // namespace viscontact::reduced_model

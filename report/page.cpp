@@ -1,18 +1,11 @@
-// Draws plots by gnuplot and writes the page (HTML) around them. Sizes are in pixels, >= 0; numbers
-// in plots have no units here. Along a curve x must not decrease (not checked), and a y that is not
-// finite interrupts the line. A missing gnuplot is only a warning; a failing one throws
-// Error(kExternalProgram). A file that cannot be written or must not be replaced throws
-// Error(kBadInput), a wrong SOURCE_DATE_EPOCH throws Error(kWrongUsage), a requested stop throws
-// Error(kInterrupted), and a path that the system refuses throws std::filesystem::filesystem_error.
-// report/, rolling/, swimmer/ and particles/ use this file. The keys of the JSON and the names of
-// PointKind must agree with the scripts in report/page. Texts of users may contain markup and must
-// pass through escaped().
+// Plots as JSON for the scripts in report/page, and as SVG. Texts of users pass through escaped().
 #include "viscontact/report/page.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <future>
 #include <nlohmann/json.hpp>
@@ -27,8 +20,8 @@
 
 namespace viscontact::report {
 
-// The texts of the files in report/page. CMakeLists.txt makes these functions. A page needs no
-// other file.
+// The files in report/page; CMakeLists.txt makes these functions, so that a page needs no other
+// file.
 std::string_view uplot_script();
 std::string_view uplot_style();
 std::string_view uplot_licence();
@@ -44,7 +37,7 @@ std::string doubled_percent(const std::string& text) {
   return result;
 }
 
-constexpr int kWidth = 860;  // width of still pictures [pixels], a free choice
+constexpr int kWidth = 860;  // of still pictures [pixels]
 
 /// The tag before a still picture, by which page_is_current() finds out whether a page has one.
 constexpr std::string_view kStill = "<div class=still>";
@@ -63,7 +56,6 @@ constexpr auto kPointNames = std::to_array<PointName>({{PointKind::kNone, 0, ""}
 
 const PointName& name_of(PointKind kind) { return kPointNames[static_cast<std::size_t>(kind)]; }
 
-/// The style of a curve in gnuplot's syntax.
 std::string gnuplot_style(const CurveStyle& style) {
   const bool points = style.point != PointKind::kNone;
   std::string text = style.width == 0 ? "points" : points ? "linespoints" : "lines";
@@ -76,7 +68,7 @@ std::string gnuplot_style(const CurveStyle& style) {
   return text;
 }
 
-/// A bound of a range in gnuplot's syntax; "*" lets gnuplot choose.
+/// "*" lets gnuplot choose.
 std::string bound(const std::optional<double>& value) {
   return value ? fmt::format("{}", *value) : "*";
 }
@@ -96,26 +88,24 @@ std::vector<std::string> gnuplot_settings(const PlotPanel& panel) {
     for (std::size_t i = 0; i < panel.rows.size(); ++i)
       ticks += fmt::format("{}{} {}", i == 0 ? "" : ", ",
                            quoted_for_gnuplot(doubled_percent(panel.rows[i])), i + 1);
-    // A margin for names of 38 characters, a free choice. The longest name of a model with one
-    // suffix, viscous_contact_regular_drag_brenner, has 36.
+    // A margin for names of 38 characters. The longest name of a model with one suffix,
+    // viscous_contact_regular_drag_brenner, has 36.
     settings.push_back("set ytics (" + ticks + ")\nset lmargin 38");
   }
   return settings;
 }
 
-/// The number with eight digits; null if it is not finite. More digits could not be seen in a plot,
-/// and would make the page larger.
+/// The number with eight digits, as more could not be seen in a plot; null if it is not finite.
 nlohmann::ordered_json number(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(std::stod(fmt::format("{:.8g}", value)))
                               : nlohmann::ordered_json(nullptr);
 }
 
-/// The number as in number(), or null if there is none.
 nlohmann::ordered_json optional_number(const std::optional<double>& value) {
   return value ? number(*value) : nlohmann::ordered_json(nullptr);
 }
 
-/// The JSON of an axis, for the scripts in report/page. An end that the axis does not set is null.
+/// The scripts in report/page read the JSON. An end that the axis does not set is null.
 nlohmann::ordered_json json_of(const PlotAxis& axis) {
   return {{"label", axis.label},
           {"logarithmic", axis.logarithmic},
@@ -123,9 +113,8 @@ nlohmann::ordered_json json_of(const PlotAxis& axis) {
           {"high", optional_number(axis.high)}};
 }
 
-/// The JSON of a curve, for the scripts in report/page, with lists of x and of y. Numbers that are
-/// not finite are null.
 nlohmann::ordered_json json_of(const PlotCurve& curve) {
+  assert(std::ranges::is_sorted(curve.points, {}, &std::pair<double, double>::first));
   auto x = nlohmann::ordered_json::array(), y = nlohmann::ordered_json::array();
   for (const auto& point : curve.points) {
     x.push_back(number(point.first));
@@ -141,8 +130,7 @@ nlohmann::ordered_json json_of(const PlotCurve& curve) {
           {"y", std::move(y)}};
 }
 
-/// The plot as an SVG element that gnuplot draws. Throws Error(kExternalProgram) if gnuplot is
-/// missing or fails, and Error(kInterrupted) if `stop` requests a stop.
+/// gnuplot draws it; its errors are those of draw_svg().
 std::string svg_of(const Plot& plot, const StopToken& stop) {
   std::vector<Panel> panels;
   for (const auto& panel : plot.panels) {
@@ -189,7 +177,6 @@ std::string as_url(const std::string& file) {
   return url;
 }
 
-/// Warns if `failure` says that gnuplot is missing; otherwise throws Error(kExternalProgram).
 void warn_of_missing_pictures(const std::exception_ptr& failure) {
   constexpr const char* kWritten =
       "the report is written, without still pictures and without the files in plots/";
@@ -204,8 +191,6 @@ void warn_of_missing_pictures(const std::exception_ptr& failure) {
 
 }  // namespace
 
-/// The text with the characters that HTML would read as markup replaced, and with U+FFFD in place
-/// of control characters other than line breaks and tabs.
 std::string escaped(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -229,9 +214,6 @@ std::string section(std::string_view heading, const std::string& body) {
   return body.empty() ? "" : fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", heading, body);
 }
 
-/// A link (HTML) to a file of the run, whose path is relative to the folder of the run. The text of
-/// the link is `words`, or `file` if there are none. If there is no such file, the result is the
-/// text alone.
 std::string link_to(const results::RunFolder& run, const std::string& file,
                     std::string_view words) {
   const std::string text = escaped(words.empty() ? file : words);
@@ -244,7 +226,6 @@ std::string headings(std::initializer_list<std::string_view> cells) {
   return fmt::format("<tr><th>{}</th></tr>", fmt::join(cells, "</th><th>"));
 }
 
-/// A table of rows of HTML; `head` has the rows of headings, if there are any.
 std::string table_of(const std::string& rows, const std::string& head) {
   if (head.empty()) return "<div class=scroll><table>\n" + rows + "</table></div>\n";
   return fmt::format(
@@ -253,7 +234,6 @@ std::string table_of(const std::string& rows, const std::string& head) {
 
 std::string source(const std::string& words) { return "<p class=source>From " + words + ".</p>\n"; }
 
-/// A box with the warnings, which are HTML; empty if there are none.
 std::string warnings_box(const std::vector<std::string>& items) {
   if (items.empty()) return "";
   return fmt::format(
@@ -261,9 +241,6 @@ std::string warnings_box(const std::vector<std::string>& items) {
       fmt::join(items, "</li>\n<li>"));
 }
 
-/// The beginning of a page, up to the end of its <style> element. `more` are further elements of
-/// the head (HTML); the title is plain text and `style` is CSS. The page may load nothing from
-/// elsewhere.
 std::string page_head(std::string_view title, std::string_view style, bool has_images,
                       std::string_view more) {
   return fmt::format(
@@ -274,9 +251,6 @@ std::string page_head(std::string_view title, std::string_view style, bool has_i
       has_images ? "; img-src data:" : "", more, escaped(title), style);
 }
 
-/// True if `folder` has a report with still pictures, if the pictures of `names` that the report
-/// refers to exist, and if no input of the report has changed since it was made. False, too, if a
-/// file cannot be read.
 bool page_is_current(const std::filesystem::path& folder, std::span<const std::string_view> names) {
   const results::RunFolder run{folder};
   try {
@@ -285,8 +259,8 @@ bool page_is_current(const std::filesystem::path& folder, std::span<const std::s
     if (page.find(fmt::format("{}<svg", kStill)) == std::string::npos) return false;
     const auto provenance = results::provenance_in(page, run.report().string());
     if (!provenance) return false;
-    // An input without a hash was a pipe. Such an input is skipped, because its content is in the
-    // copy of the case.
+    // An input without a hash was a pipe, and is skipped, because its content is in the copy of the
+    // case.
     for (const auto& input : provenance->inputs)
       if (!input.sha256.empty() && !results::change_of(input, provenance->folder).empty())
         return false;
@@ -299,8 +273,6 @@ bool page_is_current(const std::filesystem::path& folder, std::span<const std::s
   }
 }
 
-/// `names` are all pictures that a report of this kind can have. Throws Error(kBadInput) if the
-/// report or one of these pictures would replace a file that Viscontact did not write.
 Report::Report(std::filesystem::path folder, std::span<const std::string_view> names)
     : run_{std::move(folder)}, names_(names) {
   results::refuse_other_kind(run_.report(), "id=\"provenance\"", "report");
@@ -308,8 +280,6 @@ Report::Report(std::filesystem::path folder, std::span<const std::string_view> n
     results::refuse_other_kind(run_.plot(std::string(name)), "<svg", "picture");
 }
 
-/// Draws the still pictures of the plots, each in its own thread, and adds the figures. If gnuplot
-/// fails for one of the plots, none of them gets a still picture, and write() tells the user.
 void Report::draw(std::vector<Plot> plots, const StopToken& stop) {
   std::vector<std::future<std::string>> drawings;
   for (const auto& plot : plots)
@@ -329,8 +299,6 @@ void Report::draw(std::vector<Plot> plots, const StopToken& stop) {
     figures_.push_back({std::move(plots[i]), std::move(drawn[i])});
 }
 
-/// The HTML of a figure: the still picture, the plot as JSON and the link to the file. A plot
-/// without panels is a still picture only.
 std::string Report::html_of(const Figure& figure) {
   const auto& [plot, svg] = figure;
   const std::string caption =
@@ -345,7 +313,6 @@ std::string Report::html_of(const Figure& figure) {
       plot.name, kStill, svg, json_of(plot), caption);
 }
 
-/// The HTML of the figures with these names, in this order, or of all figures if no name is given.
 std::string Report::figures(std::initializer_list<std::string_view> names) const {
   std::string text;
   if (names.size() == 0)
@@ -356,7 +323,6 @@ std::string Report::figures(std::initializer_list<std::string_view> names) const
   return text;
 }
 
-/// Hints for the use of the figures (HTML), and a note if the page has no still pictures.
 std::string Report::hints() const {
   std::string text =
       "<p class=hint>Drag in a plot to zoom; double-click or tap twice to see the whole plot "
@@ -369,9 +335,6 @@ std::string Report::hints() const {
   return text;
 }
 
-/// Writes the pictures and report.html, removes pictures of an earlier report that this one does
-/// not have, and tells the user. `title` is plain text; `opening` and `sections` are HTML above and
-/// below the hints for the use of the figures.
 void Report::write(std::string_view title, const std::string& opening, const std::string& sections,
                    const results::Provenance& provenance) const {
   const auto page =

@@ -1,10 +1,5 @@
-// Writes report.html with plots that can be zoomed in a browser, and for each plot a still picture
-// plots/NAME.svg, for browsers without scripts and for printing. The reports of report/, rolling/
-// and swimmer/ use all of this file, the page of particles/picture only the functions for pieces of
-// HTML. Numbers in plots have no units here; the labels of axes name the units. Members of plots
-// are not checked. Only link_to(), write() and the other members of the class Report throw. The
-// scripts report/page/*.js read the plots as JSON, so a change of the JSON must be made there, too.
-// Sizes, colours and defaults of the structs are free choices.
+// report.html with plots that can be zoomed in a browser, and for each plot a still picture
+// plots/NAME.svg, for browsers without scripts and for printing.
 #pragma once
 
 #include <exception>
@@ -26,30 +21,27 @@ namespace viscontact::report {
 /// The shape of the marked points of a curve; a disc is a filled circle.
 enum class PointKind { kNone, kCircle, kDisc, kSquare, kCross };
 
-/// How a curve is drawn.
 struct CurveStyle {
   std::string colour{};  ///< "#rrggbb"
-  double width = 2;      ///< width of the line [pixels], >= 0; 0: points only
+  double width = 2;      ///< of the line [pixels], >= 0; 0: points only
   /// Lengths of dashes and spaces in turn [pixels], an even number of them; empty: a solid line.
   std::vector<double> dash{};
   PointKind point = PointKind::kNone;  ///< kNone: the line only
-  double point_size = 1;               ///< size of a point in units of about 7 pixels, > 0
+  double point_size = 1;               ///< in units of about 7 pixels, > 0
 };
 
-/// A curve of points (x, y).
 struct PlotCurve {
   /// Words in the legend. A curve without words belongs to the entry of the previous curve.
   std::string legend{};
-  CurveStyle style{};  ///< how it is drawn
-  /// The points, in the order of x, which must not decrease (not checked). A y that is not finite
-  /// interrupts the line. There may be no points.
+  CurveStyle style{};
+  /// The points in the order of x, which must not decrease. A y that is not finite interrupts the
+  /// line.
   std::vector<std::pair<double, double>> points{};
 };
 
-/// An axis of a plot.
 struct PlotAxis {
   std::string label{};                  ///< the name of the quantity, with its unit
-  bool logarithmic = false;             ///< true: values <= 0 are not drawn
+  bool logarithmic = false;             ///< values <= 0 are not drawn
   std::optional<double> low{}, high{};  ///< ends before zooming; nothing: those of the curves
 };
 
@@ -58,18 +50,18 @@ enum class KeyPlace { kBelow, kTopRight, kBottomRight };
 
 /// Curves on common axes.
 struct PlotPanel {
-  std::string title{};              ///< above the panel
-  PlotAxis x{}, y{};                ///< its axes
+  std::string title{};  ///< above the panel
+  PlotAxis x{}, y{};
   std::vector<PlotCurve> curves{};  ///< in the order of the legend
-  KeyPlace key = KeyPlace::kBelow;  ///< place of the legend in the still picture
+  KeyPlace key = KeyPlace::kBelow;
   /// Names of the rows y = 1, 2, ... of a panel that shows a point for each name; otherwise empty.
   std::vector<std::string> rows{};
 };
 
-/// A plot: panels one below the other.
+/// A plot has panels one below the other.
 struct Plot {
-  std::string name{};               ///< NAME of the file plots/NAME.svg, without the ending
-  int height = 440;                 ///< height of the still picture [pixels], > 0
+  std::string name{};               ///< NAME of the file plots/NAME.svg
+  int height = 440;                 ///< of the still picture [pixels], > 0
   std::vector<PlotPanel> panels{};  ///< from the top; empty: the plot is a still picture only
 };
 
@@ -77,13 +69,12 @@ struct Plot {
 /// character except line breaks and tabs.
 std::string escaped(std::string_view text);
 
-/// A section of HTML with this heading (HTML) above `body` (HTML); empty if `body` is empty.
+/// A section with this heading (HTML) above `body` (HTML); empty if `body` is empty.
 std::string section(std::string_view heading, const std::string& body);
 
 /// A link from the report to the file `file` of a run, a path relative to the run's folder. `words`
 /// is the text of the link (plain text), by default `file`. If there is no such file, the result is
-/// the text without a link. Throws std::filesystem::filesystem_error if the system cannot tell
-/// whether the file exists.
+/// the text without a link. Throws std::filesystem::filesystem_error if the system cannot tell.
 std::string link_to(const results::RunFolder& run, const std::string& file,
                     std::string_view words = {});
 
@@ -95,7 +86,7 @@ std::string table_row(const Cells&... cells) {
   return row + "</tr>\n";
 }
 
-/// A row of headings "<tr><th>a</th><th>b</th></tr>" of cells that are HTML.
+/// A row "<tr><th>a</th><th>b</th></tr>" of cells that are HTML.
 std::string headings(std::initializer_list<std::string_view> cells);
 
 /// A table that can be scrolled if it is wider than the page. `rows` and `head` are rows of HTML.
@@ -133,21 +124,19 @@ class Report {
 
   /// Draws the still pictures of these plots at the same time, each in a process of gnuplot,
   /// because most of the time of such a process is its start. If gnuplot is missing or fails for
-  /// one of them, none of these plots gets a still picture, and write() tells the user. Throws
-  /// Error(kInterrupted) if `stop` requests a stop.
+  /// one of them, none of these plots gets a still picture. Throws Error(kInterrupted) if `stop`
+  /// requests a stop.
   void draw(std::vector<Plot> plots, const StopToken& stop);
 
-  /// False if gnuplot was missing or failed in draw().
   bool is_drawn() const { return failure_ == nullptr; }
 
-  /// Adds the SVG of a picture that cannot be zoomed, under a name of the constructor's `names`
-  /// (not checked).
+  /// Adds the SVG of a picture that cannot be zoomed, under a name of the constructor's `names`.
   void add_picture(const std::string& name, std::string svg) {
     figures_.push_back({{.name = name}, std::move(svg)});
   }
 
   /// The HTML of the figures with these names, in this order; names without a figure are skipped.
-  /// Without names, the HTML of all figures in the order in which they were added.
+  /// Without names, that of all figures in the order in which they were added.
   std::string figures(std::initializer_list<std::string_view> names = {}) const;
 
   /// Writes the pictures and report.html, and removes pictures of an earlier report that this one
@@ -166,6 +155,7 @@ class Report {
     std::string svg;  ///< empty: gnuplot did not draw it
   };
   static std::string html_of(const Figure& figure);
+  /// Hints for the use of the figures (HTML), and a note if the page has no still pictures.
   std::string hints() const;
 
   results::RunFolder run_;

@@ -1,11 +1,4 @@
-// Writes the report (HTML) of a run of one sphere: warnings, tables, plots and how the files were
-// made. Gaps [L], times [T] and all other numbers are in the units of the case, and each trajectory
-// has a row (not checked). Most functions return a piece of HTML. An input that is missing or
-// wrong, or a file that must not be replaced, throws Error(kBadInput), a wrong SOURCE_DATE_EPOCH
-// Error(kWrongUsage), a failing gnuplot Error(kExternalProgram), and a requested stop
-// Error(kInterrupted). The commands `run` and `report` use this file. A change must keep that
-// kPlotNames contains the name of every plot, because it decides which files in plots/ are replaced
-// or removed, and that kDimensions has the labels of axes in run_plots.cpp.
+// The sections of the report of a run of one sphere, as pieces of HTML.
 #include "viscontact/report/report.hpp"
 
 #include <fmt/format.h>
@@ -28,9 +21,8 @@
 namespace viscontact::report {
 namespace {
 
-/// How well the fit predicts rows of the table that it did not use, with residuals that are
-/// relative [1] and gaps [L], as HTML. Empty if this is not known. Throws std::bad_optional_access
-/// for a fit of an earlier version that lacks a number.
+/// How well the fit predicts rows of the table that it did not use, as HTML. Empty if this is not
+/// known. Throws std::bad_optional_access for a fit of an earlier version that lacks a number.
 std::string trust(const lubrication::FitDiagnostics& d) {
   std::string text;
   if (d.leave_one_out_rms)
@@ -62,7 +54,6 @@ std::string trust(const lubrication::FitDiagnostics& d) {
   return text;
 }
 
-/// The name of a model as a link to the file of its trajectory.
 std::string model_link(const results::RunResults& run, const std::string& model) {
   return link_to(run.folder, trajectory_name(model), model);
 }
@@ -83,7 +74,7 @@ std::string command_line(const std::vector<std::string>& words) {
   return line;
 }
 
-/// The record of how the file was made; nothing if the record is missing or damaged.
+/// The record of how the file was made; nothing if it is missing or damaged.
 std::optional<results::Provenance> provenance_or_none(const std::filesystem::path& path) {
   try {
     return results::read_provenance(path);
@@ -96,8 +87,6 @@ std::string hash_cell(const std::string& sha256) {
   return "<code class=hash>" + escaped(sha256) + "</code>";
 }
 
-/// The table of the parameters of the case, each with its unit or, if the case says no units, with
-/// its dimension.
 std::string parameters_table(const results::RunResults& run) {
   const case_file::Case& c = run.c;
   const auto& motion = case_file::required_motion(c);
@@ -144,8 +133,6 @@ std::string in_brackets(const results::RunResults& run, int mass, int length, in
   return escaped(run.c.units.in_brackets(mass, length, time));
 }
 
-/// The table with a row for each model: smallest gap [L], times of contact [T], touch of the
-/// solids, and distances to the motion of the reference model.
 std::string models_table(const results::RunResults& run) {
   std::string rows;
   for (const auto& model : run.comparison.models)
@@ -180,8 +167,6 @@ std::string models_table(const results::RunResults& run) {
                                        "; each model's name leads to its trajectory");
 }
 
-/// The times at which each model first reaches the gaps that the case asks for; empty if it asks
-/// for none.
 std::string gap_times_table(const results::RunResults& run) {
   std::string rows;
   for (const auto& model : run.comparison.models)
@@ -195,7 +180,6 @@ std::string gap_times_table(const results::RunResults& run) {
                 ". In contact, the gap of a contact model is the film from gamma");
 }
 
-/// The impacts of the sphere on the plane in each model with rebounds; empty if there are none.
 std::string rebounds_table(const results::RunResults& run) {
   std::string rows;
   for (const auto& model : run.comparison.models)
@@ -217,7 +201,6 @@ std::string rebounds_table(const results::RunResults& run) {
                 "film");
 }
 
-/// The impulses on the sphere and the works done on it in each model; empty if no model has them.
 std::string budget_table(const results::RunResults& run) {
   std::string rows;
   for (const auto& model : run.comparison.models) {
@@ -237,7 +220,6 @@ std::string budget_table(const results::RunResults& run) {
          source(link_to(run.folder, "comparison.json"));
 }
 
-/// The table of the coefficients of the fit, with its residuals and the words of trust().
 std::string fit_table(const results::RunResults& run) {
   const lubrication::Fit& fit = run.fit;
   if (fit.terms.empty())
@@ -259,7 +241,6 @@ std::string fit_table(const results::RunResults& run) {
          (fit.diagnostics ? trust(*fit.diagnostics) : "");
 }
 
-/// How far the errors of the fit change the smallest gap, in words; empty if it is not known.
 std::string uncertainty_words(const results::RunResults& run) {
   if (!run.uncertainty) return "";
   const auto& smallest = run.uncertainty->smallest;
@@ -274,8 +255,7 @@ std::string uncertainty_words(const results::RunResults& run) {
       smallest.misfit[1], link_to(run.folder, "uncertainty.json"));
 }
 
-/// How the files of the run were made: commands, inputs with their hashes, versions and times, from
-/// the record in each file. If the record is missing or damaged, the table says so.
+/// Made from the record in each file. If it is missing or damaged, the table says so.
 std::string origin_section(const results::RunResults& run) {
   std::string made, inputs;
   auto versions = results::library_versions();
@@ -317,7 +297,8 @@ std::string origin_section(const results::RunResults& run) {
   return text + fmt::format("<p>Programs and libraries: {}.</p>\n", programs);
 }
 
-/// Adds the unit to the label of an axis, if it is one of kDimensions and the case says its units.
+/// Adds the unit to the label of an axis, as in run_plots.cpp, if kDimensions has it and the case
+/// says its units.
 void add_unit(std::string& label, const Units& units) {
   struct Dimension {
     std::string_view label;
@@ -334,8 +315,8 @@ void add_unit(std::string& label, const Units& units) {
   label += units.in_brackets(found->mass, found->length, found->time);
 }
 
-/// The plots of the run, without those that have no curves. The labels of axes get the units of the
-/// case. Throws Error(kBadInput) if the fit or the motion is refused.
+/// The plots of the run, without those that have no curves. Throws Error(kBadInput) if the fit or
+/// the motion is refused.
 std::vector<Plot> plots_of(const results::RunResults& run) {
   const auto& motion = case_file::required_motion(run.c);
   // Below the smallest fitted gap, the drag is continued as k/q + constant with the gap q and the
@@ -356,7 +337,6 @@ std::vector<Plot> plots_of(const results::RunResults& run) {
   for (auto& plot : plots)
     for (auto& panel : plot.panels)
       for (auto* axis : {&panel.x, &panel.y}) add_unit(axis->label, run.c.units);
-  // A plot without curves shows nothing and is left out.
   std::erase_if(plots, [](const Plot& plot) {
     return std::ranges::all_of(plot.panels,
                                [](const PlotPanel& panel) { return panel.curves.empty(); });
@@ -364,8 +344,6 @@ std::vector<Plot> plots_of(const results::RunResults& run) {
   return plots;
 }
 
-/// The box with the warnings of the run, or a line that says that there are none. Throws
-/// Error(kBadInput) if a file cannot be read.
 std::string warnings_of_run(const results::RunResults& run) {
   std::vector<std::string> items;
   for (const auto& warning : warnings_of(run))
@@ -379,8 +357,6 @@ std::string warnings_of_run(const results::RunResults& run) {
       kPoorFit);
 }
 
-/// The first paragraph of the report (HTML): the number of models, the reference model and its
-/// smallest gap [L].
 std::string summary(const results::RunResults& run) {
   const auto& comparison = run.comparison;
   const auto reference = std::ranges::find(comparison.models, comparison.reference_model,
@@ -400,7 +376,6 @@ std::string summary(const results::RunResults& run) {
   return text + ".</p>\n";
 }
 
-/// All sections of the page (HTML) below the warnings. A section without content is left out.
 std::string sections_of(const results::RunResults& run, const Report& report) {
   return section("Models",
                  models_table(run) + gap_times_table(run) + report.figures({"thinnest_film"})) +
@@ -417,8 +392,6 @@ std::string sections_of(const results::RunResults& run, const Report& report) {
 
 }  // namespace
 
-/// Writes the report of the run into its `folder`. `given` are the inputs of the user; the files of
-/// the folder are the inputs if it is empty.
 void write_report(const std::filesystem::path& folder,
                   const std::vector<std::filesystem::path>& given, const StopToken& stop) {
   Report report(folder, kPlotNames);

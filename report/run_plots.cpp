@@ -1,17 +1,12 @@
-// Makes the plots of the report of one sphere (run_plots.hpp): trajectories, their comparison, the
-// fit, and the effect of the errors of the fit. Gaps [L], times [T], gamma [M L/T] and forces [M
-// L/T^2] are in the units of the case; gamma is minus the impulse that the film has absorbed, <= 0.
-// Gaps that are not > 0 are not drawn on logarithmic axes, and each trajectory has a row (not
-// checked). plot_fit() and plot_gaps_logarithmic() throw Error(kBadInput) for a fit or a motion
-// that is refused. Heights [pixels], margins, limits and numbers of points are free choices.
-// report.cpp uses the plots; its kPlotNames must contain their names, and its kDimensions the
-// labels of their axes.
+// Gaps that are not > 0 are not drawn on logarithmic axes. report.cpp has the names of the plots
+// (kPlotNames) and the labels of their axes (kDimensions).
 #include "viscontact/report/run_plots.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -29,11 +24,10 @@ constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 
 using Value = double (*)(const reduced_model::TrajectoryRow&);
 
-/// The style of the line of a model, or, if `film` is true, of the film from its
-/// gamma. The place of the model in the list of all models decides which row of kLines it gets.
-/// Models beyond the last row begin again at the first row, with longer dashes. Widths of lines
-/// [pixels] differ, so that equal curves can be seen. A name that is no model gets a colour of its
-/// own.
+/// The style of the line of a model, or, if `film` is true, of the film from its gamma. The place
+/// of the model in the list of all models decides which row of kLines it gets; after the last row
+/// the first begins again, with longer dashes. Widths of lines [pixels] differ, so that equal
+/// curves can be seen. A name that is no model gets a colour of its own.
 CurveStyle line_style(std::string_view model, bool film = false) {
   struct Line {
     const char* colour;
@@ -68,18 +62,19 @@ CurveStyle line_style(std::string_view model, bool film = false) {
   return style;
 }
 
-/// The words of the legend for a model; the name itself if it is no model.
+/// The words of the legend; the name itself if it is no model.
 std::string legend_of(std::string_view model) {
   const auto choice = reduced_model::known_model(model);
   return choice ? reduced_model::description_of(*choice) : std::string(model);
 }
 
-/// The rows of a trajectory, thinned so that the page stays small. The rows are divided into parts
-/// of equal length. Of each part the first row is kept, and the rows in which `value` is smallest
-/// and largest. `trajectories` is the number of all trajectories in the plot.
+/// The rows in parts of equal length, of which the first row is kept, and the rows in which `value`
+/// is smallest and largest, so that the page stays small. `trajectories` is the number of all
+/// trajectories.
 std::vector<const reduced_model::TrajectoryRow*> thinned(
     const std::vector<reduced_model::TrajectoryRow>& rows, std::size_t trajectories, Value value) {
-  // At most 400 parts of a trajectory and about 3200 of all trajectories; free choices.
+  assert(!rows.empty() && trajectories > 0);
+  // At most 400 parts of a trajectory and about 3200 of all trajectories.
   constexpr std::size_t kRuns = 400, kRunsOfAll = 3200;
   std::vector<const reduced_model::TrajectoryRow*> kept;
   const std::size_t run =
@@ -98,8 +93,7 @@ std::vector<const reduced_model::TrajectoryRow*> thinned(
   return kept;
 }
 
-/// The curve of `y` over time [T]. If the rows of the trajectory must be thinned, its extremes of
-/// the value `kept` remain.
+/// The curve of `y`. If the rows must be thinned, the extremes of the value `kept` remain.
 PlotCurve curve_of(const reduced_model::Trajectory& trajectory, std::size_t trajectories, Value y,
                    Value kept) {
   PlotCurve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
@@ -112,7 +106,6 @@ double gap_of(const reduced_model::TrajectoryRow& row) { return row.gap; }
 
 }  // namespace
 
-/// The gaps [L] of all trajectories over time [T].
 Plot plot_gaps(const std::vector<reduced_model::Trajectory>& trajectories) {
   PlotPanel panel{"Gap between sphere and plane", {"time t"}, {"gap q"}, {}};
   for (const auto& trajectory : trajectories)
@@ -120,9 +113,6 @@ Plot plot_gaps(const std::vector<reduced_model::Trajectory>& trajectories) {
   return {"gap", 520, {panel}};
 }
 
-/// The gaps [L] over time [T] on a logarithmic axis. A contact model has gaps only while it is not
-/// in contact; in contact its film is drawn. `motion` is the motion of the case and `force` the
-/// drag of its fit.
 Plot plot_gaps_logarithmic(const std::vector<reduced_model::Trajectory>& trajectories,
                            const reduced_model::Motion& motion,
                            const lubrication::LubricationForce& force) {
@@ -178,9 +168,6 @@ Plot plot_gaps_logarithmic(const std::vector<reduced_model::Trajectory>& traject
   return {"gap_logarithmic", 560, {panel}};
 }
 
-/// The force of the fluid on the sphere [M L/T^2] over time [T]. The vertical axis contains minus
-/// the external force and the forces of models without contact; larger forces of contact models are
-/// cut off.
 Plot plot_lubrication_force(const std::vector<reduced_model::Trajectory>& trajectories) {
   PlotPanel panel{"Force of the fluid on the sphere, > 0 away from the wall",
                   {"time t"},
@@ -217,7 +204,6 @@ Plot plot_lubrication_force(const std::vector<reduced_model::Trajectory>& trajec
   return {"lubrication_force", 440, {panel}};
 }
 
-/// gamma [M L/T] over time [T], for the trajectories whose last row has a gamma.
 Plot plot_gamma(const std::vector<reduced_model::Trajectory>& trajectories) {
   PlotPanel panel{
       "Adhesion potential: the impulse that the film has absorbed", {"time t"}, {"gamma"}, {}};
@@ -230,8 +216,6 @@ Plot plot_gamma(const std::vector<reduced_model::Trajectory>& trajectories) {
   return {"gamma", 440, {panel}};
 }
 
-/// The force of the solids on the sphere [M L/T^2] over time [T]. The vertical axis ends at 1.3
-/// times the largest external force, so that impacts are cut off.
 Plot plot_solid_force(const std::vector<reduced_model::Trajectory>& trajectories) {
   PlotPanel panel{
       "Force of the solid contact; impacts are cut off", {"time t"}, {"force of the solids"}, {}};
@@ -251,8 +235,8 @@ Plot plot_solid_force(const std::vector<reduced_model::Trajectory>& trajectories
   return {"solid_force", 440, {panel}};
 }
 
-/// The external force [M L/T^2] from time 0 to `end_time` [T] > 0.
 Plot plot_external_force(const reduced_model::ExternalForce& force, double end_time) {
+  assert(end_time > 0);
   // A jump of the force has two points, before and after it, so that it is drawn as a step.
   PlotPanel panel{"External force", {"time t"}, {"f"}, {}};
   PlotCurve curve{"external force", {kBlack}, {}};
@@ -281,8 +265,6 @@ Plot plot_external_force(const reduced_model::ExternalForce& force, double end_t
   return {"external_force", 340, {panel}};
 }
 
-/// The smallest gap or the thinnest film [L] of each model, and the published gap [L] if there is
-/// one. A gap that is not > 0 has no point; without any point the result has no name and no panels.
 Plot plot_minimal_gaps(const reduced_model::Comparison& comparison,
                        const std::optional<case_file::PublishedGap>& published) {
   // Each model has a row; that of the first model is at the top.
@@ -328,8 +310,6 @@ Plot plot_minimal_gaps(const reduced_model::Comparison& comparison,
   return {"thinnest_film", 180 + 34 * static_cast<int>(rows), {panel}};
 }
 
-/// The drag over Stokes' drag [1] over the gap [L], of the table and of the fit; and below, the
-/// size of the relative residuals [1] and the error estimates of the table [1].
 Plot plot_fit(const lubrication::MotionTable& table, const lubrication::Fit& fit) {
   PlotCurve points{"table (FreeFEM)", {kBlack, 0, {}, PointKind::kCircle, 0.7}, {}};
   PlotCurve line{fmt::format("fit, basis {}", fit.basis), {kBlue}, {}};
@@ -377,8 +357,6 @@ Plot plot_fit(const lubrication::MotionTable& table, const lubrication::Fit& fit
            residuals}};
 }
 
-/// Intervals of the gap over time [T], as relative differences [1] from the gap of the motion
-/// without inertia.
 Plot plot_uncertainty(const reduced_model::FitUncertainty& uncertainty) {
   PlotPanel panel{"Gap without inertia: intervals, relative to the gap with the fit",
                   {"time t"},

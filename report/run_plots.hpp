@@ -1,10 +1,4 @@
-// Makes the plots of the report of one sphere, as data for report/page.hpp. Gaps q [L], times t [T]
-// and forces [M L/T^2] are in the units of the case. A contact model replaces the thin film by
-// contact and computes gamma, minus the impulse that the film has absorbed [M L/T], from which the
-// film's thickness is recovered. Each trajectory must have a row (not checked). Only plot_fit() and
-// plot_gaps_logarithmic() throw. report.cpp uses the plots, and leaves out those without curves. A
-// change must keep the names of the plots, which are names of files; colours, heights and numbers
-// of points in run_plots.cpp are free choices.
+// The plots of the report of one sphere, over gap q [L] or time t [T], in the units of the case.
 #pragma once
 
 #include <optional>
@@ -18,37 +12,42 @@
 
 namespace viscontact::report {
 
-/// The drag of the table and of the fit over the gap [L], divided by Stokes' drag [1], and in a
-/// second panel the relative difference of the two [1] beside the table's error estimates. Rows of
-/// the table outside the fit's interval have no difference. Throws Error(kBadInput) if the fit's
-/// drag is not positive at every gap of its interval.
+// A contact model replaces the thin film by contact and computes gamma, minus the impulse that the
+// film has absorbed [M L/T], from which the film's thickness is recovered. Each trajectory must
+// have a row.
+
+/// The drag of the table and of the fit over the gap, divided by Stokes' drag [1], and in a second
+/// panel the relative difference of the two [1] beside the table's error estimates. Rows of the
+/// table outside the fit's interval have no difference. Throws Error(kBadInput) if the fit's drag
+/// is not positive at every gap of its interval.
 Plot plot_fit(const lubrication::MotionTable& table, const lubrication::Fit& fit);
 
 /// The gap q(t) of each trajectory, on a linear scale.
 Plot plot_gaps(const std::vector<reduced_model::Trajectory>& trajectories);
 
 /// The gap q(t) of each trajectory, on a logarithmic scale, which omits gaps that are 0. While a
-/// contact model is in contact, its film, whose thickness is recovered from gamma, is drawn as a
-/// broken line. `motion` is the motion of the case, and `force` the drag of the fit. Throws
-/// Error(kBadInput) if a contact model refuses `motion`.
+/// contact model is in contact, its film is drawn as a broken line. `motion` is the motion of the
+/// case, and `force` the drag of the fit. Throws Error(kBadInput) if a contact model refuses
+/// `motion`.
 Plot plot_gaps_logarithmic(const std::vector<reduced_model::Trajectory>& trajectories,
                            const reduced_model::Motion& motion,
                            const lubrication::LubricationForce& force);
 
-/// The force of the fluid on the sphere over time. The vertical scale contains minus the external
-/// force and the forces of models without contact. The forces of contact models are means over a
-/// time step; those of steps with an impact may be larger than the scale and are then cut off.
+/// The force of the fluid on the sphere [M L/T^2] over time. The vertical scale contains minus the
+/// external force and the forces of models without contact. The forces of contact models are means
+/// over a time step; those of steps with an impact may be larger than the scale and are then cut
+/// off.
 Plot plot_lubrication_force(const std::vector<reduced_model::Trajectory>& trajectories);
 
 /// gamma(t) <= 0 of the contact models; other trajectories have no curve.
 Plot plot_gamma(const std::vector<reduced_model::Trajectory>& trajectories);
 
-/// The force >= 0 of the plane on the sphere over time while the solids touch. The scale ends at
-/// 1.3 times the largest external force, so that impacts are cut off. Trajectories in which no
-/// solids touch have no curve.
+/// The force >= 0 of the plane on the sphere [M L/T^2] over time while the solids touch. The scale
+/// ends at 1.3 times the largest external force, so that impacts are cut off. Trajectories in which
+/// no solids touch have no curve.
 Plot plot_solid_force(const std::vector<reduced_model::Trajectory>& trajectories);
 
-/// The external force f_ext(t) from 0 to `end_time` [T], > 0 (not checked).
+/// The external force f_ext(t) [M L/T^2] from 0 to `end_time` > 0.
 Plot plot_external_force(const reduced_model::ExternalForce& force, double end_time);
 
 /// The thinnest film of each model, which for a contact model is recovered from gamma, beside the

@@ -1,13 +1,10 @@
-// Finds what the report of a run of one sphere must warn of. Gaps and films [L] are in the unit of
-// the case; residuals and error estimates are relative [1]; each trajectory has a row (not
-// checked). A file that cannot be read, or a fit or a motion that is refused, throws
-// Error(kBadInput); a case without a motion throws std::bad_optional_access. report.cpp uses this
-// file. The limits are free choices, but a change of one alters reports that are made again.
+// A change of a limit alters reports that are made again.
 #include "viscontact/report/run_warnings.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -22,10 +19,9 @@
 namespace viscontact::report {
 namespace {
 
-/// Share of the random draws that may be refused without a warning; a free choice.
+/// Share of the random draws that may be refused without a warning.
 constexpr double kManyRefused = 0.01;
 
-/// The warnings so far.
 struct Warnings {
   std::vector<ReportWarning> all{};
 
@@ -44,6 +40,7 @@ void add_extrapolation(Warnings& warnings, const results::RunResults& run) {
                                             {lubrication::BelowInterval::kLubricationLimit});
   for (const auto& trajectory : run.trajectories) {
     const auto choice = reduced_model::known_model(trajectory.model);
+    assert(!trajectory.rows.empty());
     if (!choice || choice->exact_drag) continue;
     const auto [first, last] =
         std::ranges::minmax_element(trajectory.rows, {}, &reduced_model::TrajectoryRow::gap);
@@ -68,7 +65,6 @@ void add_extrapolation(Warnings& warnings, const results::RunResults& run) {
   }
 }
 
-/// Warns of motions that ended at the wall opposite.
 void add_second_wall(Warnings& warnings, const results::RunResults& run) {
   const auto wall = lubrication::second_wall_of(run.fit);
   if (!wall) return;
@@ -78,13 +74,11 @@ void add_second_wall(Warnings& warnings, const results::RunResults& run) {
       warnings.add(trajectory_name(trajectory.model), "{}: {}", trajectory.model, *text);
 }
 
-/// Warns of Reynolds and Stokes numbers at which the models do not hold.
 void add_regime(Warnings& warnings, const results::RunResults& run) {
   for (const auto& warning : reduced_model::regime_warnings(run.trajectories))
     warnings.add("comparison.json", "{}", warning);
 }
 
-/// Warns of models that failed and have no trajectory.
 void add_failed_models(Warnings& warnings, const results::RunResults& run) {
   for (const auto& failed : run.comparison.failed_models)
     warnings.add("failed_models.json", "{} failed and has no trajectory: {}", failed.model,
@@ -110,8 +104,6 @@ void add_coarser_than_table(Warnings& warnings, const lubrication::FitDiagnostic
                  d.chi_squared.value_or(0), d.degrees_of_freedom);
 }
 
-/// Warns of a fit whose largest relative residual is above kPoorFit (run_warnings.hpp), and of what
-/// the fit itself warns of.
 void add_poor_fit(Warnings& warnings, const lubrication::Fit& fit) {
   const auto& diagnostics = fit.diagnostics;
   if (std::abs(fit.largest_relative_residual) > kPoorFit)
@@ -125,8 +117,7 @@ void add_poor_fit(Warnings& warnings, const lubrication::Fit& fit) {
   add_coarser_than_table(warnings, *diagnostics);
 }
 
-/// Warns of rows of the table whose error estimate is larger than the relative accuracy [1] that
-/// the case asks for.
+/// Compares the error estimates of the rows with the accuracy that the case asks for.
 void add_unmet_accuracy(Warnings& warnings, const results::RunResults& run) {
   if (!run.table || !run.c.tabulation) return;
   const double asked = run.c.tabulation->relative_accuracy;
@@ -173,7 +164,6 @@ void add_roughness(Warnings& warnings, const results::RunResults& run) {
   }
 }
 
-/// Warns if more than kManyRefused of the random draws of the fit's coefficients were refused.
 void add_refused_draws(Warnings& warnings, const results::RunResults& run) {
   if (!run.uncertainty) return;
   const auto& u = *run.uncertainty;
@@ -184,9 +174,8 @@ void add_refused_draws(Warnings& warnings, const results::RunResults& run) {
                  u.refused, u.draws);
 }
 
-/// Warns of files that were made from other files than those in the folder. The head of a
-/// trajectory has the hashes of its case and fit, and a fit has the hash of its table; they must be
-/// those of the files in the folder.
+/// Warns of files that were made from other files than those in the folder, by the hashes of case
+/// and fit in the head of a trajectory, and of the table in a fit.
 void add_other_origin(Warnings& warnings, const results::RunResults& run) {
   const auto fit_hash = results::content_sha256(read_file(run.folder.fit()));
   const std::array<std::pair<std::string, std::string>, 2> inputs = {
@@ -235,7 +224,6 @@ void add_old_comparison(Warnings& warnings, const results::RunResults& run) {
 
 }  // namespace
 
-/// The warnings in the order of their functions; empty if there is nothing to warn of.
 std::vector<ReportWarning> warnings_of(const results::RunResults& run) {
   Warnings warnings;
   add_failed_models(warnings, run);

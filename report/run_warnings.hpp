@@ -1,9 +1,4 @@
-// Finds the warnings in the report of one sphere: drag and fits that cannot be trusted, accuracy
-// that was not reached, models that ignore the roughness of the case, and files that do not belong
-// together. Gaps [L] and times [T] are in the units of the case. report.cpp shows the warnings. A
-// file that cannot be read throws Error(kBadInput). The limits, here 0.01 for a poor fit and in
-// run_warnings.cpp 0.01 for refused draws, are free choices; reports of earlier runs that are made
-// again then differ.
+// The warnings in the report of one sphere.
 #pragma once
 
 #include <string>
@@ -13,14 +8,12 @@
 
 namespace viscontact::report {
 
-/// A fit counts as poor if the size of its largest relative residual [1] is above this number; a
-/// free choice.
+/// A fit counts as poor if the size of its largest relative residual [1] is above this number.
 inline constexpr double kPoorFit = 0.01;
 
-/// A warning of the report.
 struct ReportWarning {
   std::string text;  ///< a sentence with numbers, without a full stop at its end
-  std::string file;  ///< file that the numbers come from, relative to the run's folder
+  std::string file;  ///< that the numbers come from, relative to the run's folder
 };
 
 /// The file of the trajectory of `model`, relative to the run's folder.
@@ -31,10 +24,9 @@ inline std::string trajectory_name(const std::string& model) {
 /// The warnings of a run, in this order: models that failed, gaps outside the fit's interval, a
 /// poor fit, rows of the table that are less accurate than the case asks, spheres that go through
 /// the plane, models that ignore the roughness, random draws of the fit's coefficients that were
-/// refused, and files that were not made from each other. The list is empty if there is nothing to
-/// warn of. Each trajectory must have a row (not checked). Throws Error(kBadInput) if a file cannot
-/// be read, if the fit's drag is not positive, or if a contact model refuses the motion;
-/// std::bad_optional_access if the case has no motion.
+/// refused, and files that were not made from each other. Each trajectory must have a row. Throws
+/// Error(kBadInput) if a file cannot be read, if the fit's drag is not positive, or if a contact
+/// model refuses the motion; std::bad_optional_access if the case has no motion.
 std::vector<ReportWarning> warnings_of(const results::RunResults& run);
 
 }  // namespace viscontact::report

@@ -1,10 +1,4 @@
-// Writes the columns and words of the summaries of fits and comparisons, and draws their pictures.
-// Gaps [L], times [T] and velocities [L/T] are in the units of the case; residuals and error
-// estimates are relative [1]; sizes of pictures are in pixels. A dash shows a value that is not
-// known. A missing or failing gnuplot throws Error(kExternalProgram), a requested stop throws
-// Error(kInterrupted), and a fit without diagnostics throws std::bad_optional_access. pipeline/
-// uses this file. A change must keep the keys of the JSON; columns, sizes and colours are free
-// choices.
+// Columns, words and pictures of the summaries.
 #include "viscontact/report/summaries.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +14,7 @@
 namespace viscontact::report {
 namespace {
 
-/// The number in this format of the library fmt, or a dash if there is none.
+/// The number in a format of the library fmt; a dash if there is none.
 std::string number_or_dash(const std::optional<double>& number, const char* format) {
   return number ? fmt::format(fmt::runtime(format), *number) : "-";
 }
@@ -36,16 +30,13 @@ std::string misfit_in_words(const lubrication::FitDiagnostics& d) {
                            : ": but for the outliers, the data explain the residuals");
 }
 
-/// The relative residual [1] of the row in the fit of the other rows, in this format of fmt, or a
-/// dash if there is no such row.
+/// The residual [1] of the row in the fit of the other rows; a dash if there is no such row.
 std::string left_out(const std::optional<lubrication::LeftOutRow>& row, const char* format) {
   return number_or_dash(row ? std::optional(row->relative_residual) : std::nullopt, format);
 }
 
 }  // namespace
 
-/// Lines on the fit for the terminal: its basis, largest residual [1], errors of rows that were
-/// left out [1], condition number [1], misfit and outliers. The last line has no line break.
 std::string fit_in_words(const lubrication::Fit& fit) {
   const auto& d = fit.diagnostics.value();
   std::string text = fmt::format(
@@ -60,9 +51,6 @@ std::string fit_in_words(const lubrication::Fit& fit) {
   return text;
 }
 
-/// A table for the terminal with a line for each basis: number of terms, largest residual, root
-/// mean square, residuals of rows that were left out, chi-squared per degree of freedom, condition
-/// number and information criterion (AICc), all [1]. A fit that failed has its reason instead.
 std::string basis_table(const std::vector<fitting::BasisResult>& results) {
   constexpr const char* kLine = "{:<20} {:>6} {:>11} {:>9} {:>14} {:>9} {:>11} {:>10} {:>8}\n";
   std::string text = fmt::format(fmt::runtime(kLine), "basis", "terms", "largest res.", "rms",
@@ -91,7 +79,6 @@ std::string basis_table(const std::vector<fitting::BasisResult>& results) {
   return text;
 }
 
-/// A JSON list with the fit file of each basis, or "basis" and "failure" if the fit failed.
 std::string basis_json(const std::vector<fitting::BasisResult>& results) {
   auto json = nlohmann::ordered_json::array();
   for (const auto& result : results)
@@ -101,8 +88,6 @@ std::string basis_json(const std::vector<fitting::BasisResult>& results) {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-/// The picture, in `format`, of the relative residuals [1] of all fits over the gap [L] in the rows
-/// of `table`. Each basis has its own curve.
 std::string plot_bases(const lubrication::MotionTable& table,
                        const std::vector<fitting::BasisResult>& results,
                        const results::PictureFormat& format, const StopToken& stop) {
@@ -115,7 +100,7 @@ std::string plot_bases(const lubrication::MotionTable& table,
               {"set format y '1e%T'", "set key below Left reverse noopaque"},
               {}};
   // Of a long table only every n-th row is drawn, because a picture cannot show more points than
-  // about this number, a free choice.
+  // about this number.
   constexpr std::size_t kMostPoints = 2000;
   const std::size_t stride = 1 + table.rows.size() / kMostPoints;
   std::size_t place = 0;
@@ -148,7 +133,7 @@ std::string plot_bases(const lubrication::MotionTable& table,
     if (const auto& row = table.rows[i]; row.relative_error_estimate > 0)
       estimate.points.emplace_back(row.gap, row.relative_error_estimate);
   if (!estimate.points.empty()) panel.curves.push_back(estimate);
-  return draw_picture(format, {panel}, 860, 520, stop);  // [pixels], free choices
+  return draw_picture(format, {panel}, 860, 520, stop);  // [pixels]
 }
 
 /// A line for each model with the times at which it first reaches the gaps of the case; empty if
@@ -184,9 +169,6 @@ std::string regime_in_words(const reduced_model::Comparison& comparison) {
       reynolds ? fmt::format("{:.3g}", *reynolds) : "not known (it needs `density` in [fluid])");
 }
 
-/// A table for the terminal with a line for each model: smallest gap [L] and its time [T], film
-/// from gamma [L], interval of contact [T], and largest distance of the gap from that of
-/// the reference [L]; if solids touch in a model, also the time [T] and the velocity [L/T] of that.
 std::string comparison_table(const reduced_model::Comparison& comparison) {
   // The first column is as wide as the longest name, and at least 30 characters wide, which few
   // names exceed.
@@ -194,7 +176,6 @@ std::string comparison_table(const reduced_model::Comparison& comparison) {
   for (const auto& model : comparison.models) width = std::max(width, model.model.size());
   for (const auto& model : comparison.failed_models) width = std::max(width, model.model.size());
   constexpr std::string_view kLine = "{:<{}} {:>12} {:>9} {:>15} {:>16} {:>10}";
-  // The last two columns are left out if solids touch in no model.
   const bool solids = std::ranges::any_of(
       comparison.models, [](const auto& model) { return model.solid_contact_from.has_value(); });
   const auto solid_columns = [&](const std::string& time, const std::string& velocity) {
@@ -224,8 +205,6 @@ std::string comparison_table(const reduced_model::Comparison& comparison) {
   return text;
 }
 
-/// The picture, in `format`, of the shifts [L] of the rows below the crests of a rough wall, over
-/// the gap [L], and below it of their relative residuals [1]. `wall` names the wall in the title.
 std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& wall,
                             const results::PictureFormat& format, const StopToken& stop) {
   Curve own{
@@ -264,7 +243,7 @@ std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& 
                   {}};
   for (const auto& curve : {residual, estimate})
     if (!curve.points.empty()) residuals.curves.push_back(curve);
-  constexpr int kWidth = 860, kPanelHeight = 360;  // [pixels], free choices
+  constexpr int kWidth = 860, kPanelHeight = 360;  // [pixels]
   if (residuals.curves.empty()) return draw_picture(format, {shifts}, kWidth, kPanelHeight, stop);
   return draw_picture(format, {shifts, residuals}, kWidth, 2 * kPanelHeight, stop);
 }

@@ -1,10 +1,5 @@
 // Summaries of fits, shifts of rough walls and comparisons of models: words and tables for the
-// terminal, JSON, and pictures. Gaps [L], times [T] and velocities [L/T] are in the units of the
-// case; residuals and error estimates are relative [1]. pipeline/fit_stages.cpp and
-// pipeline/compare_stage.cpp print the summaries. If a fit has no diagnostics, fit_in_words() and
-// basis_table() throw std::bad_optional_access; only the pictures throw other errors. A change must
-// keep the keys of the JSON, which users' scripts read; columns, colours and sizes are free
-// choices.
+// terminal, JSON, and pictures. Gaps [L] and times [T] are in the units of the case.
 #pragma once
 
 #include <string>
@@ -19,11 +14,12 @@
 namespace viscontact::report {
 
 /// Lines that say the basis of a fit, its residuals, the cause of its misfit and its outliers. The
-/// last line has no line break.
+/// last line has no line break. Throws std::bad_optional_access for a fit without diagnostics.
 std::string fit_in_words(const lubrication::Fit& fit);
 
-/// A table with a line for each basis. The line of a fit that failed says the reason. If a fit has
-/// an information criterion (AICc), a last line names the basis with the smallest one.
+/// A table with a line for each basis, with numbers [1] or the reason why the fit failed. If a fit
+/// has an information criterion (AICc), a last line names the basis with the smallest one. Throws
+/// as fit_in_words() does.
 std::string basis_table(const std::vector<fitting::BasisResult>& results);
 
 /// A JSON list with an object for each basis: the content of a fit file (docs/file-formats.md), or
@@ -31,10 +27,9 @@ std::string basis_table(const std::vector<fitting::BasisResult>& results);
 std::string basis_json(const std::vector<fitting::BasisResult>& results);
 
 /// A picture of the relative residuals of every basis over the gap, beside the table's error
-/// estimates. `table` must be the table that was fitted (not checked). Throws
-/// Error(kExternalProgram) if gnuplot is missing or fails, and Error(kInterrupted) if `stop`
-/// requests a stop. gnuplot fails, too, if every fit failed and the table has no error estimates,
-/// because nothing is to be drawn.
+/// estimates. `table` must be the table that was fitted. Throws Error(kExternalProgram) if gnuplot
+/// is missing or fails, also because nothing is to be drawn, as every fit failed and the table has
+/// no error estimates; and Error(kInterrupted) if `stop` requests a stop.
 std::string plot_bases(const lubrication::MotionTable& table,
                        const std::vector<fitting::BasisResult>& results,
                        const results::PictureFormat& format, const StopToken& stop = {});
@@ -42,9 +37,8 @@ std::string plot_bases(const lubrication::MotionTable& table,
 /// A picture with two panels over the gap. A smooth wall that lies by a shift [L], >= 0, below the
 /// crests of a rough wall has about the same drag. The first panel shows the shift of each row
 /// beside the common shift of all rows, and the second the relative residuals with the common
-/// shift. `wall` names the rough wall in the title. Throws Error(kExternalProgram) if gnuplot is
-/// missing or fails, also because there is no row to draw, and Error(kInterrupted) if `stop`
-/// requests a stop.
+/// shift. `wall` names the rough wall in the title. Throws as plot_bases() does if there is no row
+/// to draw.
 std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& wall,
                             const results::PictureFormat& format, const StopToken& stop = {});
 
@@ -52,11 +46,10 @@ std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& 
 /// them.
 std::string regime_in_words(const reduced_model::Comparison& comparison);
 
-/// A table with a line for each model: smallest gap and its time, smallest film from
-/// gamma (minus the impulse that the film has absorbed), times of contact, and largest
-/// distance of the gap to that of the reference model. If solids touch in a model, two more columns
-/// show the time and the velocity of the touch. The lines of regime_in_words() follow.
-/// A dash replaces a missing value.
+/// A table with a line for each model: smallest gap and its time, smallest film from gamma (minus
+/// the impulse that the film has absorbed), times of contact, and largest distance of the gap to
+/// that of the reference model. If solids touch in a model, two more columns show the time and the
+/// velocity of the touch. The lines of regime_in_words() follow. A dash replaces a missing value.
 std::string comparison_table(const reduced_model::Comparison& comparison);
 
 }  // namespace viscontact::report

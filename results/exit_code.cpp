@@ -1,8 +1,4 @@
-// The table of exit codes, with a row for success and one for each kind of error (exit_code.hpp). A
-// code is a number from 0 to 255. main.cpp and app/help/ use the table, and failed_models.cpp
-// stores the codes. exit_code_of() asserts that the kind has a row; kind_of_exit_code() throws
-// std::out_of_range for 0 and for a number that is no code. The codes must not change, because
-// scripts of users rely on them; the words may, but docs/command-line.md repeats the table.
+// The table of exit codes, which docs/command-line.md repeats.
 #include "viscontact/results/exit_code.hpp"
 
 #include <algorithm>

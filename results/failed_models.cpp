@@ -1,15 +1,10 @@
-// Reads and writes failed_models.json for pipeline/ and rolling/, and chooses the model with which
-// the others are compared if models have failed. Nothing here has a unit. The file is the object
-// {"failed_models": {MODEL: {"reason": text, "exit_code": number, "made_from": {KEY: text}}}}. A
-// damaged record is an Error(kBadInput), except in recorded_failures(), which then returns an empty
-// list. A reference model that the user asked for, but that has failed, is an Error(kBadInput),
-// too. A path that the system refuses throws std::filesystem::filesystem_error. A change must keep
-// the keys, because earlier runs have such files.
+// Reads and writes failed_models.json, and chooses the reference if models have failed.
 #include "viscontact/results/failed_models.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -61,6 +56,7 @@ std::string write_failed_models(const std::vector<FailedModel>& failed) {
 
 Error error_of(const std::vector<FailedModel>& failed, std::size_t computed,
                const std::filesystem::path& case_path) {
+  assert(!failed.empty());
   std::string others;
   for (std::size_t i = 1; i < failed.size(); ++i)
     others += fmt::format("{}{}", i == 1 ? "" : ", ", failed[i].model);
@@ -99,6 +95,7 @@ std::string reference_among(const std::vector<reduced_model::Trajectory>& trajec
   const auto found =
       std::ranges::find(failed, reference, &reduced_model::ModelWithoutTrajectory::model);
   if (found == failed.end()) return reference;
+  assert(!asked.empty() || !trajectories.empty());
   if (asked.empty()) return trajectories.front().model;
   throw Error(ErrorKind::kBadInput,
               "the reference model '{}' has no trajectory here, because it failed: {}; choose "

@@ -1,8 +1,4 @@
-// The record of the models that failed in a simulation, failed_models.json in a run's folder. It
-// tells the commands `compare` and `report` why these models have no trajectory. Nothing here has a
-// unit. A damaged record throws Error(kBadInput), except in recorded_failures(); a path that the
-// system refuses throws std::filesystem::filesystem_error. A change must keep the keys of the file,
-// {"failed_models": {MODEL: {"reason", "exit_code", "made_from"}}}. Used by pipeline/ and rolling/.
+// failed_models.json in the folder of a run: the models that failed, with reasons.
 #pragma once
 
 #include <filesystem>
@@ -16,36 +12,36 @@
 
 namespace viscontact::results {
 
-/// A model that failed, and why.
 struct FailedModel {
-  std::string model;                      ///< name of the model, as in MODEL.csv
+  std::string model;                      ///< name, as in MODEL.csv
   std::string reason;                     ///< message of the Error, without the name of the model
-  ErrorKind kind = ErrorKind::kBadInput;  ///< kind of the Error
+  ErrorKind kind = ErrorKind::kBadInput;  ///< of the Error
   /// The lines "# key: value" with which a trajectory of this model would name its case, its fit
   /// and the version of the program.
   CsvComments made_from;
 };
 
-/// Reads the record (JSON), in the order of the file. Returns an empty list if there is no file at
-/// `path`. Throws Error(kBadInput) if the file cannot be read or is not such a record.
+/// Reads the record, {"failed_models": {MODEL: {"reason", "exit_code", "made_from"}}}, in the order
+/// of the file; empty if there is no file at `path`. Throws Error(kBadInput) if the file cannot be
+/// read or is not such a record. Functions with paths throw std::filesystem::filesystem_error, too,
+/// if the system refuses a path.
 std::vector<FailedModel> read_failed_models(const std::filesystem::path& path);
 
-/// The entries in the record of a run's folder whose FailedModel::made_from equals `made_from`. The
-/// list is empty if the record is missing or damaged.
+/// The entries in the record of a run's folder whose FailedModel::made_from equals `made_from`;
+/// none if the record is missing or damaged.
 std::vector<FailedModel> recorded_failures(const RunFolder& run, const CsvComments& made_from);
 
-/// The text (JSON) of the record. If a model has two entries, the last one counts. Throws nothing.
+/// The text of the record. If a model has two entries, the last one counts.
 std::string write_failed_models(const std::vector<FailedModel>& failed);
 
-/// The error that ends a simulation in which the models of `failed` (at least one, not checked)
-/// failed and `computed` other models (0 or more) were computed. The error names the file
-/// `case_path` and has the kind and the reason of the first model that failed.
+/// The error that ends a simulation in which the models of `failed` (at least one) failed and
+/// `computed` other models were computed. It names the file `case_path` and has the kind and the
+/// reason of the first model that failed.
 Error error_of(const std::vector<FailedModel>& failed, std::size_t computed,
                const std::filesystem::path& case_path);
 
-/// The models in the record of the folder of which `trajectories` has no trajectory. The list is
-/// empty if the folder has no record. Throws Error(kBadInput) if the record cannot be read or is
-/// damaged.
+/// The models in the record of the folder of which `trajectories` has no trajectory. Throws as
+/// read_failed_models() does.
 std::vector<reduced_model::ModelWithoutTrajectory> failures_without(
     const std::vector<reduced_model::Trajectory>& trajectories, const RunFolder& run);
 
@@ -57,8 +53,8 @@ std::string reference_without(const std::vector<std::string>& models,
 
 /// The model with which `compare` compares the others: `asked`, or the usual reference if `asked`
 /// is empty. If `asked` is empty and the usual reference failed, it is the model of the first
-/// trajectory (there must be one, not checked). Throws Error(kBadInput) with the recorded reason if
-/// the model `asked` failed. Whether the chosen model has a trajectory is not checked.
+/// trajectory, which must exist. Throws Error(kBadInput) with the recorded reason if the model
+/// `asked` failed. The chosen model need not have a trajectory.
 std::string reference_among(const std::vector<reduced_model::Trajectory>& trajectories,
                             const std::vector<reduced_model::ModelWithoutTrajectory>& failed,
                             const std::string& asked);

@@ -1,11 +1,7 @@
-// Recognises files of Viscontact by their provenance, the record of how a file was made
-// (provenance.hpp). It is in the first MiB of a file, or in the last MiB of a PDF. All commands
-// that write files, and python/, use this file. A file that must not be replaced or cannot be
-// opened is an Error(kBadInput). A change must still recognise files of earlier versions: it must
-// keep the words "provenance" and "command" and may only raise the limits of 1 MiB and 40
-// characters.
+// Recognises files of Viscontact, also of earlier versions, by their provenance (provenance.hpp).
 #include "viscontact/results/foreign_files.hpp"
 
+#include <cassert>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -15,13 +11,12 @@
 namespace viscontact::results {
 namespace {
 
-/// True if the text contains a provenance (provenance.hpp): the word "provenance", then an object
-/// whose first key is "command". Other programs may have written the JSON again with other spaces
-/// and line ends, so the characters between these two words are not compared.
+/// True if the text has the word "provenance", then an object whose first key is "command". Other
+/// programs may have written the JSON again with other spaces and line ends, so the characters
+/// between these two words are not compared.
 bool has_provenance(std::string_view text) {
   constexpr std::string_view kName = "provenance", kFirstKey = "\"command\"";
-  // Largest number of characters between the two words: a quote, a colon, a brace, spaces and a
-  // line end.
+  // A quote, a colon, a brace, spaces and a line end stand between the two words.
   constexpr std::size_t kMostBetween = 40;
   for (auto at = text.find(kName); at != std::string_view::npos; at = text.find(kName, at + 1))
     if (text.substr(at + kName.size(), kMostBetween + kFirstKey.size()).find(kFirstKey) !=
@@ -58,7 +53,8 @@ bool is_written_by_viscontact(const std::filesystem::path& path) {
 
 void refuse_other_kind(const std::filesystem::path& path, std::string_view marker,
                        std::string_view kind) {
-  // If `path` is a folder or a device, write_file throws an error that says so.
+  assert(!kind.empty());
+  // If `path` is a folder or a device, write_file() throws an error that says so.
   std::error_code none;
   if (!std::filesystem::is_regular_file(path, none)) return;
   const std::string head = read_head(path);

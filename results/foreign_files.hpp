@@ -1,7 +1,4 @@
-// Protects files that Viscontact did not write, or that are of another kind, from being replaced by
-// an output. All commands that write files, and python/, call this file before their work. A file
-// that must not be replaced, or cannot be opened, throws Error(kBadInput) with its path. A change
-// must still recognise the outputs of earlier versions; the length of 1 MiB may only grow.
+// Protects files that Viscontact did not write, or of another kind, from being replaced.
 #pragma once
 
 #include <filesystem>
@@ -16,17 +13,15 @@ namespace viscontact::results {
 std::string read_head(const std::filesystem::path& path);
 
 /// True if Viscontact wrote the file at `path`, which must exist. Only read_head() is searched,
-/// because a restart file can be a gigabyte long. Throws Error(kBadInput) if the file cannot be
-/// opened.
+/// because a restart file can be a gigabyte long, and throws.
 bool is_written_by_viscontact(const std::filesystem::path& path);
 
 /// Throws Error(kBadInput) if the file at `path` must not be replaced or deleted, because
-/// Viscontact did not write it or because it is of another kind. `marker` is a text that every file
-/// of the right kind has in its first MiB; an empty marker accepts any kind. `kind` names the kind
-/// in the message, for example "picture". An empty file may be replaced. Does nothing if there is
-/// no regular file at `path`. Throws Error(kBadInput), too, if the file cannot be opened. `kind`
-/// must not be empty (not checked). Call this function before any work is done, so that no work is
-/// lost.
+/// Viscontact did not write it or because it is of another kind, and as read_head() does. `marker`
+/// is a text that every file of the right kind has in its first MiB; an empty marker accepts any
+/// kind. `kind` names the kind in the message, for example "picture", and is not empty. An empty
+/// file may be replaced. Does nothing if there is no regular file at `path`. Call this function
+/// before any work is done, so that no work is lost.
 void refuse_other_kind(const std::filesystem::path& path, std::string_view marker,
                        std::string_view kind);
 

@@ -1,11 +1,4 @@
-// Writes the line of provenance (how a file was made, as JSON) into each kind of file, and finds
-// and reads it again, for all parts that write results and for `rerun`. The keys of the JSON are
-// command, folder, inputs (a list of objects with file, sha256 and, if true, intermediate), output,
-// versions and made. A damaged line, or a file that cannot be read or written, is an
-// Error(kBadInput), a wrong SOURCE_DATE_EPOCH an Error(kWrongUsage), a path that the system refuses
-// a std::filesystem::filesystem_error, and a text without the mark at which its kind has the line a
-// std::out_of_range. The beginning of the JSON (kBegin) must not change, because earlier files are
-// recognised by it; foreign_files.cpp repeats kName and the key in kBegin.
+// Writes the line of provenance into each kind of file, and finds and reads it again.
 #include "viscontact/results/provenance.hpp"
 
 #include <ceres/version.h>
@@ -30,6 +23,7 @@ namespace viscontact::results {
 namespace {
 
 // A line is a provenance if it contains kName followed by kBegin, the beginning of a JSON object.
+// Earlier files have both, and foreign_files.cpp repeats them.
 constexpr std::string_view kName = "provenance";
 constexpr std::string_view kBegin = "{\"command\":[";
 
@@ -44,8 +38,7 @@ std::vector<std::string> own_command() {
   return command;
 }
 
-/// The current time, or the time in SOURCE_DATE_EPOCH [s since 1970] if this variable is set
-/// (reproducible-builds.org). Throws Error(kWrongUsage) if SOURCE_DATE_EPOCH is not such a time.
+/// See Provenance::made. Throws Error(kWrongUsage) if SOURCE_DATE_EPOCH is not such a time.
 std::string time_of_making() {
   std::time_t now = std::time(nullptr);
   if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH")) {
@@ -61,15 +54,14 @@ std::string time_of_making() {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
 }
 
-/// SHA-256 of a file; empty for a pipe, because a pipe can be read only once.
+/// The hash is empty for a pipe, which can be read only once.
 std::string hash_of(const std::filesystem::path& file) {
   return std::filesystem::exists(file) && !std::filesystem::is_regular_file(file)
              ? ""
              : sha256(read_file(file));
 }
 
-/// The provenance as JSON on one line. With `is_ascii`, \uXXXX replaces the characters that are not
-/// ASCII.
+/// JSON on one line. With `is_ascii`, \uXXXX replaces the characters that are not ASCII.
 std::string as_line(const Provenance& provenance, bool is_ascii = false) {
   Json json;
   json["command"] = provenance.command;
@@ -85,8 +77,8 @@ std::string as_line(const Provenance& provenance, bool is_ascii = false) {
   return json.dump(-1, ' ', is_ascii, Json::error_handler_t::replace);
 }
 
-/// `json` with each of the `characters` replaced by \uXXXX, because these characters could end the
-/// element, script or comment around the JSON. The meaning of the JSON does not change.
+/// `json` with each of the `characters`, which could end the element, script or comment around the
+/// JSON, replaced by \uXXXX. The meaning of the JSON does not change.
 std::string without(std::string_view characters, const std::string& json) {
   std::string text;
   for (const char c : json)
@@ -97,8 +89,7 @@ std::string without(std::string_view characters, const std::string& json) {
   return text;
 }
 
-/// The beginning of the chunk of a PNG that contains the provenance: the type of the chunk (tEXt, a
-/// text with a keyword), then the keyword.
+/// The beginning of a chunk of a PNG: its type (tEXt, a text with a keyword), then the keyword.
 constexpr std::string_view kChunk{"tEXtprovenance\0", 15};
 
 /// The text before and after the JSON in a kind of file.
@@ -146,8 +137,7 @@ std::size_t line_after(const std::string& text, std::string_view mark, std::size
   return end < text.size() && text[end] == '\n' ? end + 1 : end;
 }
 
-/// The position in a text of this kind at which with_provenance() inserts the line; npos if the
-/// text lacks the mark of this position.
+/// The position at which with_provenance() inserts the line; npos if the text lacks its mark.
 std::size_t place_in(TextKind kind, const std::string& text) {
   switch (kind) {
     case TextKind::kHashComment:
@@ -179,7 +169,7 @@ std::size_t place_in(TextKind kind, const std::string& text) {
 constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
 constexpr std::size_t kPngHeader = 8 + 25;
 
-/// A number as 4 bytes, of which the most significant byte is the first.
+/// The most significant byte is the first of the 4.
 std::string as_bytes(std::uint32_t number) {
   std::string bytes;
   for (int shift = 24; shift >= 0; shift -= 8)
@@ -198,7 +188,7 @@ std::uint32_t crc_of(std::string_view bytes) {
 }
 
 /// The chunk of a PNG with the provenance. Its text is ASCII and ends with a newline, where the
-/// line of the provenance ends (find_line).
+/// line of the provenance ends (find_line()).
 std::string png_chunk(const Provenance& provenance) {
   const auto content = std::string(kChunk) + as_line(provenance, true) + "\n";
   constexpr std::size_t kType = 4;  // bytes of the type, which the length does not count
@@ -206,7 +196,7 @@ std::string png_chunk(const Provenance& provenance) {
          as_bytes(crc_of(content));
 }
 
-/// Two positions in a text: where the JSON of the provenance begins, and where its line ends.
+/// The positions at which the JSON of the provenance begins and its line ends.
 struct Line {
   std::size_t json = 0, end = 0;
 };
@@ -223,10 +213,10 @@ std::optional<Line> find_line(const std::string& text) {
   return {};
 }
 
-/// The PDF `pdf` with `made`, a time in UTC to the second, as its date of creation, so that
-/// SOURCE_DATE_EPOCH replaces this date, too. The length of the file does not change, because a
-/// table in the file has the positions of its objects. A date that is compressed, as the library
-/// cairo 1.18 may write it, is not found and stays as it is.
+/// `made`, a time in UTC to the second, becomes the date of creation, so that SOURCE_DATE_EPOCH
+/// replaces this date, too. The length of the file does not change, because a table in the file has
+/// the positions of its objects. A date that is compressed, as the library cairo 1.18 may write it,
+/// stays as it is.
 std::string with_creation_date(std::string pdf, const std::string& made) {
   constexpr std::string_view kDate = "/CreationDate (D:";
   const auto begin = pdf.find(kDate);
@@ -240,8 +230,7 @@ std::string with_creation_date(std::string pdf, const std::string& made) {
   return pdf;
 }
 
-/// The folder from which the relative path `output` leads to `file`; nothing if there is no such
-/// folder.
+/// The folder from which the relative path `output` leads to `file`; nothing if there is none.
 std::optional<std::filesystem::path> folder_around(const std::filesystem::path& file,
                                                    const std::string& output) {
   const auto path = std::filesystem::weakly_canonical(file);
@@ -258,17 +247,16 @@ bool moves_with_command(const std::string& file, const Provenance& provenance) {
          (!provenance.folder.empty() && file.starts_with(provenance.folder + "/"));
 }
 
-/// The present path of `file`, a path in a provenance, if the files of the command are now in
-/// `folder`.
+/// The present path of `file` if the files of the command are now in `folder`.
 std::filesystem::path place_of(const std::string& file, const Provenance& provenance,
                                const std::filesystem::path& folder) {
   const bool is_below = !file.empty() && file[0] == '/' && moves_with_command(file, provenance);
   return folder / (is_below ? file.substr(provenance.folder.size() + 1) : file);
 }
 
-/// True if all inputs that the user gave exist when the files of the command are in `folder`. An
-/// input whose path is outside the command's folder tells nothing about `folder`. Therefore at
-/// least one input must have a path in the command's folder, unless the user gave no inputs.
+/// True if all inputs that the user gave exist when the files of the command are in `folder`. At
+/// least one of them must have a path in the command's folder, because others tell nothing about
+/// `folder`, unless the user gave no inputs.
 bool has_inputs(const std::filesystem::path& folder, const Provenance& provenance) {
   bool has_given = false, has_moved = false;
   for (const auto& input : provenance.inputs) {
@@ -430,7 +418,7 @@ std::string output_text(const std::filesystem::path& path, TextKind kind, const 
                         Provenance provenance) {
   provenance.output = path.string();
   provenance.made = time_of_making();
-  // A provenance without folders (without_folders) must not contain the output's folder either.
+  // A provenance without folders (without_folders()) must not contain the output's folder either.
   if (provenance.folder.empty()) {
     provenance.folder = std::filesystem::current_path().string();
     provenance = without_folders(provenance);

@@ -1,10 +1,4 @@
-// Provenance is the record of how a file was made. Every output contains its provenance as one line
-// of JSON, which `viscontact rerun`, the report and foreign_files.hpp read. All parts that write
-// results use this file. No number here has a unit. A damaged provenance, or a file that cannot be
-// read or written, throws Error(kBadInput). Functions with paths throw
-// std::filesystem::filesystem_error, too, if the system refuses to look at a path. A change must
-// keep files of earlier versions readable, so it must not rename keys of the JSON or change the
-// place of the line in a kind of file.
+// Provenance, the record of how a file was made: one line of JSON in every output.
 #pragma once
 
 #include <filesystem>
@@ -18,81 +12,77 @@
 
 namespace viscontact::results {
 
-/// A file that an output was made from.
 struct InputFile {
   std::string file;           ///< path; a relative path begins at Provenance::folder
-  std::string sha256;         ///< SHA-256 of the file's bytes; empty if it is a pipe
-  bool intermediate = false;  ///< true: the same command made the file, as `run` makes its table
+  std::string sha256;         ///< of the file's bytes; empty if it is a pipe
+  bool intermediate = false;  ///< the same command made the file, as `run` makes its table
 };
 
-/// How a file was made: command, inputs and versions.
+/// How a file was made: command, inputs and versions. Files of earlier versions stay readable.
 struct Provenance {
   /// The command as it was typed: program, then arguments.
   std::vector<std::string> command;
-  /// Absolute path of the folder in which the command ran; empty if left out (without_folders).
+  /// Absolute path of the folder in which the command ran; empty if left out (without_folders()).
   std::string folder;
-  /// The files that the output was made from, in the order in which they are used.
+  /// The inputs in the order in which they are used.
   std::vector<InputFile> inputs;
-  /// Version of each program and library, by its name.
+  /// The version of each program and library, by its name.
   std::map<std::string, std::string> versions;
   /// The file that was written, as the command names it.
   std::string output;
-  /// Time at which the file was made: UTC, ISO 8601 to the second. If the environment variable
-  /// SOURCE_DATE_EPOCH is set, it is the time in this variable.
+  /// The time in UTC, ISO 8601 to the second. If the environment variable SOURCE_DATE_EPOCH is set,
+  /// it is the time in this variable (reproducible-builds.org).
   std::string made;
 };
 
-/// The files that an output is made from.
 struct Inputs {
   std::vector<std::filesystem::path> given;         ///< files that the user gave
   std::vector<std::filesystem::path> intermediate;  ///< files that the same command made
 };
 
-/// The provenance of an output that this process makes from these files; `output` and `made` are
-/// empty. The files are read to compute their hashes. Call this function before a long computation,
-/// because a user may edit the files during the computation. Throws Error(kBadInput) if a file
-/// cannot be read.
+/// The provenance of an output that this process makes from these files, without `output` and
+/// `made`. Call this function before a long computation, because a user may edit the files
+/// meanwhile. Throws Error(kBadInput) if a file cannot be read. Here and below, functions with
+/// paths throw std::filesystem::filesystem_error, too, if the system refuses a path.
 Provenance provenance_of(const Inputs& inputs);
 
-/// The position (bytes from 0) in a word of a command at which an absolute path begins: after
-/// "--output=" (or another option with "=") or after "-o", otherwise 0.
+/// The position in a word of a command at which an absolute path begins: after "--output=" (or
+/// another option with "=") or after "-o", otherwise 0.
 std::size_t path_in_word(const std::string& word);
 
-/// The provenance for a file that users pass on to others. It names the inputs, but no folders of
-/// the machine. `folder` becomes empty. An absolute path below the old `folder` becomes relative to
-/// it. All other absolute paths, and the path of the program, are replaced by their file names.
+/// The provenance for a file that users pass on to others. `folder` becomes empty, and an absolute
+/// path below it becomes relative to it. All other absolute paths, and the path of the program, are
+/// replaced by their file names.
 Provenance without_folders(Provenance provenance);
 
 /// `text` with the provenance as one line in it. The line is the first key of a kJson file, an
 /// element `metadata` of a kSvg file, a data script in the head of a kHtml file, a comment before
 /// the last lines of a kPdf file, a chunk of text after the header of a kPng file, an entry of the
-/// second line of a kXyz file, and a comment at the head of any other file. `text` must be a complete file of this kind, for kJson an object
-/// with at least one key (not checked). Throws std::out_of_range if `text` lacks the mark at which
-/// the line is inserted: "{" of kJson, "<svg" and ">" of kSvg, "</head>" of kHtml, "?>" of kXml,
-/// "startxref" of kPdf, the header (33 bytes) of kPng, or the second line of kXyz.
+/// second line of a kXyz file, and a comment at the head of any other file. `text` must be a
+/// complete file of this kind, for kJson an object with at least one key. Throws std::out_of_range
+/// if `text` lacks the mark at which the line is inserted: "{" of kJson, "<svg" and ">" of kSvg,
+/// "</head>" of kHtml, "?>" of kXml, "startxref" of kPdf, the header (33 bytes) of kPng, or the
+/// second line of kXyz.
 std::string with_provenance(TextKind kind, const std::string& text, const Provenance& provenance);
 
-/// `text` without the line that with_provenance() inserted. It is unchanged if it has no
-/// provenance, or if another program has written the provenance in another form. Two files that
-/// were made in the same way at different times are equal without their provenance, except that a
-/// PDF also has a date of creation.
+/// `text` without the line that with_provenance() inserted; unchanged if it has none, or if another
+/// program has written the provenance in another form. Two files that were made in the same way at
+/// different times are equal without their provenance, except that a PDF also has a date of
+/// creation.
 std::string without_provenance(const std::string& text);
 
-/// True if there is a file at `path` whose text without its provenance is `text`.
-/// write_if_changed() does not write such a file again, so that the file keeps its time `made`.
-/// False if the file cannot be read.
+/// True if the file at `path` has `text` besides its provenance. False if it cannot be read.
 bool has_content(const std::filesystem::path& path, const std::string& text);
 
-/// SHA-256 (64 hexadecimal digits) of the text without its provenance. An output of Viscontact that
-/// is made from another output records this hash of the other.
+/// SHA-256 (64 hexadecimal digits) of the text without its provenance. An output that is made from
+/// another output records this hash of the other.
 std::string content_sha256(const std::string& text);
 
-/// The provenance in a text of any kind, or nothing if the text has none. Throws Error(kBadInput)
-/// that names `file` if the provenance is damaged.
+/// The provenance in a text of any kind, or nothing. Throws Error(kBadInput) that names `file` if
+/// the provenance is damaged.
 std::optional<Provenance> provenance_in(const std::string& text, const std::string& file);
 
-/// The provenance in the file at `path`, or nothing if the file has none. Throws Error(kBadInput)
-/// if the file cannot be read or its provenance is damaged.
+/// Throws as provenance_in() does, and Error(kBadInput) if the file cannot be read.
 std::optional<Provenance> read_provenance(const std::filesystem::path& path);
 
 /// A sentence that says that an input no longer exists, was a pipe or has changed since the output
@@ -114,26 +104,25 @@ std::filesystem::path folder_to_run_in(const std::filesystem::path& file,
 /// was a pipe or has changed since.
 std::vector<std::filesystem::path> given_inputs(const std::filesystem::path& path);
 
-/// The text that write_output() writes: `text` with the provenance, whose `output` is `path` and
-/// whose `made` is the current time or that of SOURCE_DATE_EPOCH. Throws Error(kWrongUsage) if the
-/// environment variable SOURCE_DATE_EPOCH is set but is not a whole number of seconds from 0 (1970)
-/// to the end of the year 9999, and std::out_of_range as with_provenance() does.
+/// `text` with the provenance, whose `output` is `path` and whose `made` is the current time or
+/// that of SOURCE_DATE_EPOCH. Throws Error(kWrongUsage) if the environment variable
+/// SOURCE_DATE_EPOCH is set but is not a whole number of seconds from 0 (1970) to the end of the
+/// year 9999, and std::out_of_range as with_provenance() does.
 std::string output_text(const std::filesystem::path& path, TextKind kind, const std::string& text,
                         Provenance provenance);
 
-/// Writes output_text() to the file at `path`. Throws Error(kBadInput) if the file cannot be
-/// written, and the errors of output_text().
+/// Writes output_text(). Throws Error(kBadInput) if the file cannot be written, and as
+/// output_text().
 void write_output(const std::filesystem::path& path, TextKind kind, const std::string& text,
                   Provenance provenance);
 
 /// Does what write_output() does, with its errors, and returns true. But if the file already has
 /// this text and was made in the same folder from the same inputs, even by another version or
-/// command, the file is left as it is, and the result is false.
+/// command, the file and its time `made` stay as they are, and the result is false.
 bool write_if_changed(const std::filesystem::path& path, TextKind kind, const std::string& text,
                       const Provenance& provenance);
 
-/// The versions of Viscontact and of the libraries that it was built with (Ceres, SUNDIALS, Eigen),
-/// by name.
+/// The versions of Viscontact and of the libraries that it was built with, by name.
 std::map<std::string, std::string> library_versions();
 
 /// The version that FreeFEM reports, or "not found" if FreeFEM cannot be run or fails. Throws

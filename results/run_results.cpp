@@ -1,10 +1,4 @@
-// Reads case, fit, comparison, trajectories, table and uncertainty of a run from the folder of the
-// run (run_folder.hpp) for report/. Gaps [L], times [T], velocities [L/T] and forces [M L/T^2] are
-// in the units of the case. If case, fit, comparison or all trajectories are missing, or a file is
-// damaged, an Error(kBadInput) is thrown, and for a path that the system refuses a
-// std::filesystem::filesystem_error. A table or an uncertainty that is missing is no error. That
-// the files belong together is not checked here. A change must still read the runs of earlier
-// versions.
+// Reads the folder of a run (run_folder.hpp), also that of an earlier version.
 #include "viscontact/results/run_results.hpp"
 
 #include <utility>
@@ -17,10 +11,10 @@
 namespace viscontact::results {
 namespace {
 
-/// True if the table in the folder belongs to the run: the fit was made from this table, or the
-/// case asks for a fit of a table. (In the second case the report warns if the fit was made from
-/// another table.) A case with `exact` or `file` in [fit] needs no table; then table.csv may be the
-/// table of an earlier case or any file of the user.
+/// The table in the folder belongs to the run if the fit was made from it, or if the case asks for
+/// a fit of a table. (In the second case the report warns if the fit was made from another table.)
+/// A case with `exact` or `file` in [fit] needs no table; then table.csv may be the table of an
+/// earlier case or any file of the user.
 bool has_table(const RunFolder& run, const case_file::Case& c, const lubrication::Fit& fit) {
   if (!std::filesystem::is_regular_file(run.table())) return false;
   const bool needs_none =

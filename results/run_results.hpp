@@ -1,8 +1,4 @@
-// Reads the results of a run of one sphere from its folder, for the report: gaps [L], times [T],
-// velocities [L/T] and forces [M L/T^2] in the units of the case. A file that is missing or wrong
-// throws Error(kBadInput), and a path that the system refuses throws
-// std::filesystem::filesystem_error. A change must keep the folders of earlier versions readable.
-// Used by report/.
+// The results of a run of one sphere, read from its folder, in the units of the case.
 #pragma once
 
 #include <filesystem>
@@ -19,27 +15,26 @@
 
 namespace viscontact::results {
 
-/// The results of a run.
 struct RunResults {
-  RunFolder folder;                      ///< the folder of the run
-  case_file::Case c;                     ///< the case that was run
+  RunFolder folder;
+  case_file::Case c;
   lubrication::Fit fit;                  ///< scaled to radius [L] and viscosity of the case
-  bool fit_is_scaled = false;            ///< true: fit.json is that of another radius or viscosity
-  reduced_model::Comparison comparison;  ///< the comparison of the models in comparison.json
-  /// The trajectories of those models of the comparison whose files exist; at least one.
+  bool fit_is_scaled = false;            ///< fit.json is that of another radius or viscosity
+  reduced_model::Comparison comparison;  ///< that in comparison.json
+  /// The trajectories of the models of the comparison whose files exist; at least one.
   std::vector<reduced_model::Trajectory> trajectories;
-  /// The table of the folder, from which the fit was made; nothing if the case needs no table, if
-  /// the folder has none, or if fit_is_scaled is true. A case that asks for an exact or a given fit
-  /// needs no table, unless its fit was made from the table of the folder.
+  /// The table from which the fit was made; nothing if the case needs no table, if the folder has
+  /// none, or if fit_is_scaled is true. A case that asks for an exact or a given fit needs no
+  /// table, unless its fit was made from the table of the folder.
   std::optional<lubrication::MotionTable> table;
   /// How the errors of the fit change the gaps; nothing if the folder has no uncertainty.json.
   std::optional<reduced_model::FitUncertainty> uncertainty;
 };
 
-/// Reads the results of the run in `folder`. Throws Error(kBadInput) if case, fit, comparison or
-/// all trajectories are missing, if one of these files, the table or the uncertainty is wrong or
-/// cannot be read, or if the fit is for another geometry than the case. It is not checked that the
-/// files belong together, nor that the case has a motion.
+/// Throws Error(kBadInput) if case, fit, comparison or all trajectories are missing, if one of
+/// these files, the table or the uncertainty is wrong or cannot be read, or if the fit is for
+/// another geometry than the case; and std::filesystem::filesystem_error if the system refuses a
+/// path. The files need not belong together, and the case need not have a motion.
 RunResults read_run(const std::filesystem::path& folder);
 
 /// The paths of the files that the results were read from, at least four.

@@ -1,17 +1,8 @@
-// The models `smooth` and `rough` of a sphere that moves along a plane in a viscous fluid
-// (physics.md (4.8), (4.9)). The integrator CVODE computes the motion from one change of the solid
-// contact to the next: the sphere touches the roughness, its slip ends, friction no longer prevents
-// slip, or the sphere is lifted off. x is along the plane, z away from it, y the axis of rotation;
-// u and V are the velocities of sphere and plane along x [L/T], w is the angular velocity [1/T], q
-// the gap [L], r the radius [L], s = ln(q/r); slip is u - V - r w. Mass m [M], moment of inertia I
-// [M L^2], q, r, the end time and the time step [T] and the relative tolerance [1] are > 0,
-// roughness [L] and friction [1] >= 0, in any consistent units (not checked). A fit that lacks a
-// resistance or whose squeeze is not positive, a gap above those of the fit, and more than 1e8 rows
-// throw Error(kBadInput). A step that CVODE cannot make throws Error(kNotConverged), and a
-// requested stop throws Error(kInterrupted). roll_with_viscous_contact.cpp lists the models. A
-// change must keep the slip exactly 0 while the sphere rolls.
+// The models `smooth` and `rough` (docs/physics.md (4.8), (4.9)): CVODE integrates the motion from
+// one change of the solid contact to the next.
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -25,12 +16,12 @@
 namespace viscontact::rolling {
 namespace {
 
-/// The components of the state: s [1], u - V [L/T], w [1/T], x [L] and the angle [rad].
+/// The components of the state: s = ln(q/r) [1], the velocity u - V relative to the plane [L/T], w
+/// [1/T], x [L] and the angle [rad].
 enum RollingState : std::size_t { kLogGap, kMove, kTurn, kPosition, kAngle, kStates };
-/// The state y of the sphere, in the order of RollingState.
 using RollingStateVector = std::array<double, kStates>;
 
-/// What the solids of sphere and plane do at one time.
+/// What the solids of sphere and plane do at one time. The slip of the lowest point is u - V - r w.
 struct SolidState {
   bool touches = false;  ///< true: the gap is constant
   /// How the solids move along each other; kNone if they do not touch.
@@ -47,9 +38,8 @@ class RollingEquation {
   /// the sphere starts above the gaps of `fit`.
   RollingEquation(const RollingMotion& motion, const motions::PairFit& fit, double contact_gap);
 
-  /// The state at time 0.
   RollingStateVector initial_state() const;
-  /// The gap q in the state `y` [L], > 0.
+  /// The gap q in the state `y` [L].
   double gap_of(std::span<const double> y) const;
   /// dq/dt [L/T] at time t.
   double normal_velocity(double t, std::span<const double> y) const;
@@ -63,21 +53,25 @@ class RollingEquation {
   /// sliding.
   bool can_roll(std::span<const double> y);
 
-  /// The equations for CVODE. `step_begin` is the time at which its present step begins; it is read
-  /// at each call.
+  /// The equations for CVODE. `step_begin`, the time at which its present step begins, is read at
+  /// each call.
   reduced_model::StiffSystem system(const double& step_begin) const;
 
-  /// r of the sphere [L], > 0.
   double radius() const { return radius_; }
 
   /// What the solids do at present. Callers change it between two steps of CVODE.
   SolidState solids;
 
  private:
+  /// The force [M L/T^2] and the torque [M L^2/T^2] without those of the solids.
   RollingForce free_force(std::span<const double> y) const;
+  /// The rate of the slip without friction [L/T^2].
   double slip_rate(std::span<const double> y) const;
+  /// Sets `f` to the derivatives by time of all components of `y` but s.
   void derivative(std::span<const double> y, std::span<double> f) const;
+  /// Sets the Jacobian `j`, column by column, but for the derivative of the rate of s by s.
   void jacobian(std::span<const double> y, std::span<double> j) const;
+  /// Sets the errors `allowed` in all components of `y` but s.
   void tolerance(std::span<const double> y, std::span<double> allowed) const;
 
   const RollingMotion& motion_;
@@ -88,7 +82,7 @@ class RollingEquation {
   reduced_model::InertialEquation gap_equation_;
 };
 
-/// The motion of the sphere along z, for the equation of the gap: the force along z is constant.
+/// The motion along z, with a constant force, for the equation of the gap.
 reduced_model::Motion normal_motion(const RollingMotion& motion) {
   return {.mass = motion.mass,
           .initial_gap = motion.initial_gap,
@@ -97,8 +91,7 @@ reduced_model::Motion normal_motion(const RollingMotion& motion) {
           .external_force = reduced_model::ExternalForce({{motion.end_time, motion.normal_force}})};
 }
 
-/// The fluid around the sphere. Throws Error(kBadInput) if the sphere starts above the gaps of the
-/// fit.
+/// Throws Error(kBadInput) if the sphere starts above the gaps of the fit.
 RollingFluid fluid_around(const RollingMotion& motion, const motions::PairFit& fit) {
   const RollingFluid fluid(fit);
   (void)fluid.at(motion.initial_gap);
@@ -137,7 +130,6 @@ double RollingEquation::slip(std::span<const double> y) const {
   return slip_of({y[kMove], y[kTurn]}, radius_);
 }
 
-/// The force [M L/T^2] and the torque [M L^2/T^2] on the sphere without those of the solids.
 RollingForce RollingEquation::free_force(std::span<const double> y) const {
   const auto fluid = fluid_force(fluid_.at(gap_of(y)), {y[kMove], y[kTurn]});
   return {motion_.force + fluid.force, motion_.torque + fluid.torque};
@@ -147,7 +139,6 @@ double RollingEquation::compliance() const {
   return 1 / motion_.mass + radius_ * radius_ / motion_.moment_of_inertia;
 }
 
-/// The rate of the slip without friction [L/T^2].
 double RollingEquation::slip_rate(std::span<const double> y) const {
   const auto free = free_force(y);
   return free.force / motion_.mass - radius_ * free.torque / motion_.moment_of_inertia;
@@ -194,8 +185,6 @@ reduced_model::StiffSystem RollingEquation::system(const double& step_begin) con
   return system;
 }
 
-/// Sets `f` to the derivatives by time of all components of the state `y` except s. f[kLogGap] is
-/// not set.
 void RollingEquation::derivative(std::span<const double> y, std::span<double> f) const {
   const auto free = free_force(y);
   const double friction = friction_force(y);
@@ -205,8 +194,6 @@ void RollingEquation::derivative(std::span<const double> y, std::span<double> f)
   f[kAngle] = y[kTurn];
 }
 
-/// Sets `j` to the entries of the Jacobian, column by column. The derivative of the rate of s by s
-/// is set to 0, because gap_equation_ computes it.
 void RollingEquation::jacobian(std::span<const double> y, std::span<double> j) const {
   std::ranges::fill(j, 0.0);
   const auto at = [&](std::size_t row, std::size_t column) -> double& {
@@ -231,11 +218,10 @@ void RollingEquation::jacobian(std::span<const double> y, std::span<double> j) c
   at(kAngle, kTurn) = 1;
 }
 
-/// Sets `allowed` to the errors that CVODE may make in the components of the state `y` except s, in
-/// their units. The tolerances of the velocities are relative to the largest velocity that the
-/// forces can cause, so that a velocity that passes through 0 does not stop CVODE. The terms with
-/// 1e-12 and 1e-3 keep the tolerances > 0 for a sphere at rest and at x = 0.
 void RollingEquation::tolerance(std::span<const double> y, std::span<double> allowed) const {
+  // The tolerances of the velocities are relative to the largest velocity that the forces can
+  // cause, so that a velocity that passes through 0 does not stop CVODE. The terms with 1e-12 and
+  // 1e-3 keep the tolerances > 0 for a sphere at rest and at x = 0.
   const auto r = fluid_.at(std::min(gap_of(y), fluid_.largest_gap()));
   const double move = std::abs(y[kMove]) + radius_ * std::abs(y[kTurn]) +
                       std::abs(motion_.force) / r.slide +
@@ -248,7 +234,6 @@ void RollingEquation::tolerance(std::span<const double> y, std::span<double> all
   allowed[kAngle] = allowed[kPosition] / radius_;
 }
 
-/// The time [T] and the state at which a sphere leaves the roughness.
 struct LiftOff {
   double time = 0;
   RollingStateVector state{};
@@ -265,7 +250,7 @@ class LubricatedRun {
         equation_(motion, fit, contact_gap),
         cvode_(equation_.system(now_), equation_.initial_state()) {}
 
-  /// Computes the rows at `times` until the end, or until the sphere is lifted off.
+  /// Computes the rows at `times`.
   RollingTrajectory run() {
     add_rows_until(0);
     const bool starts_in_contact = motion_.initial_gap <= contact_gap_ &&
@@ -283,7 +268,6 @@ class LubricatedRun {
     return std::move(rows_);
   }
 
-  /// The lift-off; nothing if the motion ended without one.
   const std::optional<LiftOff>& lift_off() const { return lift_off_; }
 
  private:
@@ -311,8 +295,7 @@ class LubricatedRun {
       cvode_.restart(now_, motion_.end_time);
   }
 
-  /// The state at a time [T] within the last step of CVODE; `time` = 0 gives the state at the
-  /// start.
+  /// The state at a time [T] within the last step of CVODE, or at 0.
   RollingStateVector state_at(double time) const {
     if (time == 0) return equation_.initial_state();
     RollingStateVector state{};
@@ -320,7 +303,7 @@ class LubricatedRun {
     return state;
   }
 
-  /// The time in the step from `from` to `to` [T] at which the slip becomes 0; `to` if it does not.
+  /// The time from `from` to `to` [T] at which the slip becomes 0; `to` if it does not.
   double end_of_sliding(double from, double to) const {
     if (equation_.solids.contact != SolidContact::kSliding) return to;
     const auto has_stopped = [&](double t) {
@@ -359,13 +342,11 @@ class LubricatedRun {
     state[kTurn] -= equation_.radius() * impulse / motion_.moment_of_inertia;
   }
 
-  /// Adds the rows whose times are at most `time` [T].
   void add_rows_until(double time) {
     for (; rows_.size() < times_.size() && times_[rows_.size()] <= time;)
       add_row(times_[rows_.size()], state_at(times_[rows_.size()]));
   }
 
-  /// Adds the row of the time `time` [T] with the state `y`.
   void add_row(double time, const RollingStateVector& y) {
     rows_.push_back({.time = time,
                      .gap = equation_.gap_of(y),
@@ -381,7 +362,7 @@ class LubricatedRun {
 
   const RollingMotion& motion_;
   double contact_gap_;
-  std::vector<double> times_;  // times of the rows [T]
+  std::vector<double> times_;
   double now_ = 0;
   RollingEquation equation_;
   reduced_model::Cvode cvode_;
@@ -411,10 +392,12 @@ void append_flight(const RollingMotion& motion, const motions::PairFit& fit, dou
   rows.insert(rows.end(), later.begin(), later.end());
 }
 
-/// The motion of a sphere whose solids touch at the gap `contact_gap` [L] >= 0; 0: they never
-/// touch. The rows are those of the multiples of motion.time_step, and of the end time.
+/// The motion of a sphere whose solids touch at the gap `contact_gap` [L]; 0: they never touch.
 RollingTrajectory roll_with_lubrication(const RollingMotion& motion, const motions::PairFit& fit,
                                         double contact_gap) {
+  assert(motion.mass > 0 && motion.moment_of_inertia > 0 && motion.initial_gap > 0);
+  assert(motion.friction >= 0 && contact_gap >= 0);
+  assert(motion.relative_tolerance > 0 && motion.relative_tolerance < 1);
   const int count = reduced_model::step_count(motion.end_time, motion.time_step);
   std::vector<double> times;
   for (int i = 0; i <= count; ++i)
@@ -428,13 +411,10 @@ RollingTrajectory roll_with_lubrication(const RollingMotion& motion, const motio
 
 }  // namespace
 
-/// The motion of a smooth sphere, which lubrication alone keeps from the plane.
 RollingTrajectory roll_smooth(const RollingMotion& motion, const motions::PairFit& fit) {
   return roll_with_lubrication(motion, fit, 0);
 }
 
-/// The motion of a sphere whose roughness touches the plane at the gap `motion.roughness`; with 0
-/// it never touches.
 RollingTrajectory roll_rough(const RollingMotion& motion, const motions::PairFit& fit) {
   return roll_with_lubrication(motion, fit, motion.roughness);
 }

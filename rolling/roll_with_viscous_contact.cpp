@@ -1,15 +1,8 @@
-// The model `viscous_contact` of a sphere that moves along a plane and turns, by the time steps of
-// physics.md (4.5) and (4.10); also end_of() and the list of all models of rolling_motion.hpp.
-// gamma is minus the impulse that the film of fluid has absorbed, gamma_min its value at which the
-// solids touch, q0 the initial gap [L]. Gaps, mass [M], moment of inertia [M L^2] and time step [T]
-// are > 0; roughness [L] and friction [1] are >= 0; forces [M L/T^2] and velocities [L/T] have any
-// sign. All are in any consistent units (not checked). A fit that lacks a resistance and more than
-// 1e8 steps throw Error(kBadInput), a number that a double cannot hold throws Error(kNotConverged),
-// and a requested stop throws Error(kInterrupted). rolling/case, rolling/job, app/ and python/ use
-// this file. A change must keep the balance of contact_step.hpp and the order of the models, which
-// gives their colours in pages.
+// The model `viscous_contact` by the time steps of docs/physics.md (4.5) and (4.10), and the list
+// of all models.
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -23,9 +16,9 @@
 namespace viscontact::rolling {
 namespace {
 
-/// The 2 x 2 system (M/h + R) v = M v_before/h + forces + friction (1, -r) for v = (velocity along
-/// x relative to the plane, angular velocity), with M = diag(mass, moment of inertia), the matrix R
-/// of the resistances, the step h and the radius r.
+/// The 2 x 2 system (M/h + R) v = M v_before/h + forces + friction (1, -r) for the velocities v,
+/// with M = diag(mass, moment of inertia), the matrix R of the resistances, the step h and the
+/// radius r.
 class ImplicitStep {
  public:
   ImplicitStep(const RollingMotion& motion, const RollingResistance& r, double radius, double step)
@@ -34,13 +27,12 @@ class ImplicitStep {
         c_(motion.moment_of_inertia / step + r.roll),
         radius_(radius) {}
 
-  /// The velocities v for the right side `f`: a force [M L/T^2] and a torque [M L^2/T^2].
   RollingVelocity solve(const RollingForce& f) const {
     const double determinant = a_ * c_ - b_ * b_;
     return {(c_ * f.force - b_ * f.torque) / determinant,
             (a_ * f.torque - b_ * f.force) / determinant};
   }
-  /// Change of the slip at the end of the step per force of friction [T/M].
+  /// The change of the slip at the end of the step per force of friction [T/M].
   double compliance() const { return slip_of(solve({1, -radius_}), radius_); }
 
  private:
@@ -49,15 +41,14 @@ class ImplicitStep {
 
 }  // namespace
 
-/// The motion in steps of motion.time_step [T], with a row for the start and for each step. The
-/// resistances along x and against rotation are those at the gap at the end of the step, or at the
-/// largest gap of `fit` if that is smaller.
 RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
                                             const motions::PairFit& fit) {
+  assert(motion.mass > 0 && motion.moment_of_inertia > 0 && motion.initial_gap > 0);
+  assert(motion.friction >= 0 && motion.roughness >= 0 && fit.radius > 0);
   const RollingFluid fluid(fit);
   const double radius = fit.radius;
   // k is the coefficient of 1/q in the resistance of a sphere near a plane. The film thickness is
-  // q0 exp(gamma/k).
+  // q0 exp(gamma/k), where gamma is minus the impulse that the film has absorbed.
   const double k = 6 * std::numbers::pi * fit.viscosity * radius * radius, q0 = motion.initial_gap;
   const double gamma_min = motion.roughness > 0 ? std::min(0.0, k * std::log(motion.roughness / q0))
                                                 : -std::numeric_limits<double>::infinity();
@@ -120,10 +111,8 @@ RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
   return rows;
 }
 
-/// How the motion of a sphere of this radius [L] ends: its last row, its smallest gap [L], the slip
-/// at the end [L/T] and the time of the first row with solid contact [T]. `trajectory` must have a
-/// row, and `radius` must be > 0 (not checked).
 RollingEnd end_of(const RollingTrajectory& trajectory, const RollingMotion& motion, double radius) {
+  assert(!trajectory.empty() && radius > 0);
   RollingEnd end;
   end.last = trajectory.back();
   end.smallest_gap = std::ranges::min_element(trajectory, {}, &RollingRow::gap)->gap;

@@ -1,11 +1,7 @@
-// Sums the terms of the fits of the resistances of the fluid, and decides between rolling and
-// sliding. Gaps [L], > 0 (not checked), and the resistances `slide` [M/T], `roll` [M L^2/T] and
-// `slide_roll` [M L/T] are in the units of the fit. The formula of the fit is also used below its
-// smallest gap. A missing resistance, and a gap above those of the fit, throw Error(kBadInput).
-// rolling/roll_with_*.cpp use this file. A change must keep the matrix of the resistances
-// symmetric, and weights in the order of lubrication::all_terms().
+// Sums of the terms of the fits, and the decision between rolling and sliding.
 #include "viscontact/rolling/rolling_resistance.hpp"
 
+#include <cassert>
 #include <cmath>
 
 #include "viscontact/common/error.hpp"
@@ -27,8 +23,6 @@ std::vector<double> weights_of(const motions::PairFit& fit, PairEntry entry) {
 
 }  // namespace
 
-/// Reads the coefficients of the resistances. Throws Error(kBadInput) if `fit` lacks one of the
-/// four entries squeeze, slide, roll and slide_roll.
 RollingFluid::RollingFluid(const motions::PairFit& fit) : fit_(fit) {
   for (const auto entry :
        {PairEntry::kSqueeze, PairEntry::kSlide, PairEntry::kRoll, PairEntry::kSlideRoll})
@@ -42,7 +36,6 @@ RollingFluid::RollingFluid(const motions::PairFit& fit) : fit_(fit) {
   slide_roll_ = weights_of(fit, PairEntry::kSlideRoll);
 }
 
-/// Throws Error(kBadInput) if the gap [L] is above those of the fit.
 void RollingFluid::check(double gap) const {
   if (gap > fit_.gap_interval[1])
     throw Error(ErrorKind::kBadInput,
@@ -51,26 +44,20 @@ void RollingFluid::check(double gap) const {
                 format_number(fit_.gap_interval[1]));
 }
 
-/// The three resistances at the gap [L].
 RollingResistance RollingFluid::at(double gap) const {
   check(gap);
   const auto sum = [gap](const auto& weights) { return lubrication::sum_values(weights, gap); };
   return {sum(slide_), sum(roll_), sum(slide_roll_)};
 }
 
-/// The derivatives of the three resistances by the logarithm of the gap, in their units.
 RollingResistance RollingFluid::slopes(double gap) const {
   check(gap);
   const auto sum = [gap](const auto& weights) { return lubrication::sum_log_slopes(weights, gap); };
   return {sum(slide_), sum(roll_), sum(slide_roll_)};
 }
 
-/// Coulomb's friction on the lowest point of the sphere, which is a force [M L/T^2] or an impulse
-/// [M L/T]. `slip` is the velocity of the lowest point without friction [L/T], or its rate [L/T^2];
-/// `compliance` > 0 is the change of `slip` per unit of friction, and `bound` >= 0 is the largest
-/// friction; neither is checked. The sphere rolls if a friction of at most `bound` makes the slip
-/// 0; otherwise it slides with the friction `bound` against the slip.
 Friction coulomb(double slip, double compliance, double bound) {
+  assert(!(bound < 0));  // NaN comes from motions that leave the range of a double
   const double sticking = -slip / compliance;
   if (std::abs(sticking) <= bound) return {sticking, SolidContact::kRolling};
   return {std::copysign(bound, sticking), SolidContact::kSliding};

@@ -1,11 +1,4 @@
-// Plans, checks and computes the rows of a sweep of one sphere. Gaps and films [L], distances [L],
-// l1_gap_distance [L T], times [T] and velocities [L/T] are in the units of the case; film_ratio is
-// [1]. A model that fails leaves its columns empty. A key that cannot be varied and a missing fit
-// throw Error(kWrongUsage), a wrong case or model throws Error(kBadInput), and a requested stop
-// throws Error(kInterrupted). app/ (command `sweep`) uses this file. A change must keep the names
-// of the columns, which users' scripts read and which add_model() repeats. It must also put
-// everything that determines the rows into identity_of(), so that rows of another sweep are not
-// kept.
+// identity_of() has everything that determines the rows; rows of another sweep are not kept.
 #include "viscontact/sweep/sphere_study.hpp"
 
 #include <fmt/format.h>
@@ -26,16 +19,14 @@
 namespace viscontact::sweep {
 namespace {
 
-// The columns of each model, after "MODEL.", in the order of the file. `sup_gap_distance` is the
-// largest difference of the gap from that of the reference model, and the two columns after it are
-// the integrals over time of the differences of the gap and of the velocity.
+// The columns of each model, after "MODEL.", in the order of the file. add_model() repeats them.
 constexpr std::array kModelColumns = {
     "minimal_gap",     "minimal_gap_time",     "film_from_gamma",
     "contact_from",    "contact_until",        "sup_gap_distance",
     "l1_gap_distance", "l1_velocity_distance", "film_ratio",
     "steps",           "solid_contact_from",   "solid_contact_velocity"};
 
-/// The thinnest film that a contact model computes, or else the smallest gap [L], >= 0.
+/// The thinnest film that a contact model computes, or else the smallest gap [L].
 double thinnest(const reduced_model::ModelComparison& model) {
   return model.film_from_gamma.value_or(model.minimal_gap);
 }
@@ -73,7 +64,6 @@ void add_model(const reduced_model::ModelComparison& model,
   }
 }
 
-/// Throws Error(kWrongUsage) if the key of a case changes no row because a sweep does not use it.
 void refuse_unread(const std::string& key) {
   constexpr std::array kNotOfAMotion = {"tabulation", "fit", "published", "sweep", "units"};
   if (std::ranges::find(kNotOfAMotion, key.substr(0, key.find('.'))) != kNotOfAMotion.end()) {
@@ -97,8 +87,8 @@ void refuse_unread(const std::string& key) {
                 "which a sweep does not write");
 }
 
-/// True if the motion of a model of the case depends on a key. With gravity, all models depend on
-/// the weight less the buoyancy; models with inertia depend on a mass that follows from a density.
+/// True if the motion of a model depends on a key. With gravity, all models depend on the weight
+/// less the buoyancy; models with inertia depend on a mass that follows from a density.
 bool motion_depends_on(const case_file::Case& c, const std::string& model, std::string_view key) {
   const bool sets_mass = key == "sphere.density" || (key == "sphere.radius" && c.density > 0);
   const bool sets_weight = sets_mass || key == "sphere.mass" || key == "fluid.density" ||
@@ -110,7 +100,6 @@ bool motion_depends_on(const case_file::Case& c, const std::string& model, std::
          reduced_model::depends_on(choice, key);
 }
 
-/// Throws Error(kWrongUsage) if none of the models depends on a key of the case.
 void refuse_useless(const case_file::Case& c, const std::string& key,
                     const std::vector<std::string>& models) {
   if (std::ranges::none_of(models,
@@ -121,10 +110,8 @@ void refuse_useless(const case_file::Case& c, const std::string& key,
                 key, fmt::join(models, ", "));
 }
 
-/// A text that contains everything that determines the rows of a sweep.
 std::string identity_of(const SpherePlan& plan) {
   std::string text = read_file(plan.case_path) + lubrication::write_fit(plan.fit);
-  // The files from which the case reads an external force.
   for (const auto& file : case_file::read_case(plan.case_path).force_files) text += read_file(file);
   for (const auto& v : plan.points.variations) {
     text += fmt::format("{}={}:{}:{}:{};", v.key, format_number(v.first), format_number(v.last),
@@ -139,8 +126,7 @@ std::string identity_of(const SpherePlan& plan) {
 
 using SphereTemplate = case_file::CaseTemplate<case_file::Case>;
 
-/// The case with these values of its keys. Throws Error(kBadInput) if the case is not valid, or if
-/// the fit cannot be scaled to the case.
+/// Throws Error(kBadInput) if the case is not valid, or if the fit cannot be scaled to it.
 case_file::Case case_with(const SphereTemplate& cases, const SpherePlan& plan,
                           const std::vector<std::pair<std::string, double>>& numbers) {
   case_file::Case c = cases.with(numbers);
@@ -148,8 +134,7 @@ case_file::Case case_with(const SphereTemplate& cases, const SpherePlan& plan,
   return c;
 }
 
-/// The trajectories of those models of the plan that do not fail. The reasons of the failures of
-/// the other models are added to the failure of the row.
+/// The models of the plan that do not fail. The reasons of the others are added to the failure.
 std::vector<reduced_model::Trajectory> run_models(const SpherePlan& plan, const case_file::Case& c,
                                                   const StopToken& stop, RowResults& results) {
   std::vector<reduced_model::Trajectory> trajectories;
@@ -165,8 +150,7 @@ std::vector<reduced_model::Trajectory> run_models(const SpherePlan& plan, const 
   return trajectories;
 }
 
-/// Adds the results of the trajectories to the row, compared with the trajectory of the model
-/// `reference` if there is one.
+/// Adds the results to the row, compared with the model `reference` unless it is empty.
 void add_comparison(const std::vector<reduced_model::Trajectory>& trajectories,
                     const std::string& reference, RowResults& results) {
   if (trajectories.empty()) return;
@@ -183,8 +167,6 @@ void add_comparison(const std::vector<reduced_model::Trajectory>& trajectories,
 
 }  // namespace
 
-/// The plan that the sections [sweep] and [fit] of the case ask for. Names of models and keys are
-/// not checked.
 SpherePlan planned_sphere(const case_file::Case& c) {
   const case_file::SweepRequest request = c.sweep.value_or(case_file::SweepRequest{});
   const case_file::FitRequest fit = c.fit.value_or(case_file::FitRequest{});
@@ -204,9 +186,6 @@ SpherePlan planned_sphere(const case_file::Case& c) {
   return plan;
 }
 
-/// The study of the plan: its points, the names of its results and the function that computes a
-/// row. `version` is the version of Viscontact, for the head of the file. The first and the last
-/// point must give valid cases.
 Study sphere_study(SpherePlan plan, const std::string& version) {
   const SphereTemplate cases(plan.case_path);
   if (plan.fit.basis.empty())

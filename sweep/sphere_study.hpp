@@ -1,10 +1,4 @@
-// The sweep of a case of one sphere near a wall: it varies keys of the case, and each row has, for
-// several models of motion, the smallest gap, the thinnest film and the distance from the motion of
-// a reference model (docs/file-formats.md). Lengths, masses and times are in the units of the case.
-// The command `sweep` calls this file. A wrong case or fit throws Error(kBadInput), and a wrong
-// choice of what varies throws Error(kWrongUsage), both before a row is computed. If a model fails,
-// nothing is thrown: its columns are empty, and the column `failure` says why. A change must keep
-// the names of the columns, which users' scripts read.
+// The sweep of a case of one sphere near a wall (docs/file-formats.md), in the units of the case.
 #pragma once
 
 #include <filesystem>
@@ -17,14 +11,13 @@
 
 namespace viscontact::sweep {
 
-/// What is computed at each point of the sweep.
 struct SpherePlan {
-  std::filesystem::path case_path;  ///< the case whose keys are varied
-  /// The fit of the drag, which is scaled to each point. If its `basis` is empty, there is no fit.
+  std::filesystem::path case_path;  ///< whose keys are varied
+  /// The fit of the drag, which is scaled to each point; none if its `basis` is empty.
   lubrication::Fit fit;
   lubrication::OutsideInterval outside;  ///< which drag is used outside the gaps of the fit
-  Points points;                         ///< the points, with at least one variation; `draws` is 0
-  std::vector<std::string> models;       ///< names of models, at least one
+  Points points;                         ///< with at least one variation; `draws` is 0
+  std::vector<std::string> models;       ///< at least one
   /// The model with which the others are compared, one of `models`. If it is empty, it is the usual
   /// reference (reduced_model::usual_reference()) if that is one of `models`, or else the first.
   std::string reference;
@@ -33,19 +26,19 @@ struct SpherePlan {
 /// The plan that the sections [sweep] and [fit] of a case ask for. Variations, fit and reference
 /// are empty if the case does not give them; if the case names no models, they are those of
 /// reduced_model::sweep_models(). Throws Error(kBadInput) if a range in [sweep] is not valid or the
-/// fit file cannot be read. Names of models and keys are not checked.
+/// fit file cannot be read. sphere_study() checks models and keys.
 SpherePlan planned_sphere(const case_file::Case& c);
 
 /// The study of a plan. Its results are, for each model, MODEL.minimal_gap [L],
-/// MODEL.minimal_gap_time [T], MODEL.film_from_gamma [L] (as in a comparison),
-/// MODEL.contact_from [T], MODEL.contact_until [T], MODEL.sup_gap_distance [L],
-/// MODEL.l1_gap_distance [L T] and MODEL.l1_velocity_distance [L] (largest difference and integrals
-/// over time of the differences to the reference), MODEL.film_ratio [1] (thinnest film or smallest
-/// gap, over that of the reference), MODEL.steps (a whole number), MODEL.solid_contact_from [T] and
-/// MODEL.solid_contact_velocity [L/T] (empty if the solids do not touch). The results of a model
-/// that fails are empty, and so are all distances and ratios if the reference fails; of the Errors
-/// of a row only Error(kInterrupted) is thrown. `version` is the version of Viscontact, for the
-/// head of the file.
+/// MODEL.minimal_gap_time [T], MODEL.film_from_gamma [L] (as in a comparison), MODEL.contact_from
+/// [T], MODEL.contact_until [T], MODEL.sup_gap_distance [L], MODEL.l1_gap_distance [L T] and
+/// MODEL.l1_velocity_distance [L] (largest difference of the gap and integrals over time of the
+/// differences of gap and velocity to the reference), MODEL.film_ratio [1] (thinnest film or
+/// smallest gap, over that of the reference), MODEL.steps (a whole number),
+/// MODEL.solid_contact_from [T] and MODEL.solid_contact_velocity [L/T] (empty if the solids do not
+/// touch). The results of a model that fails are empty, and so are all distances and ratios if the
+/// reference fails; of the Errors of a row only Error(kInterrupted) is thrown. `version` is the
+/// version of Viscontact, for the head of the file.
 ///
 /// Reads the case. Throws Error(kBadInput) if the case cannot be read or has no [motion], if a
 /// model is unknown, if the first or the last point of the plan gives no valid case, or if the fit

@@ -1,17 +1,11 @@
-// Computes the rows of a sweep, and writes, continues and reads its file (study.hpp). Numbers are
-// in the units of the case, and a number that is not finite gives an empty field. Rows are numbered
-// from 0. There must be at least one row, and `jobs` must be >= 1 (not checked). A file that cannot
-// be read or written throws Error(kBadInput), a name that is given twice throws Error(kWrongUsage),
-// and a requested stop throws Error(kInterrupted); the errors of Study::run are thrown, too. app/,
-// pipeline/ and the sweeps of all kinds of cases use this file. A change must keep that rows of an
-// earlier call are kept only if its file has the same head, and kHowMade, with which
-// results/provenance.cpp begins a file.
+// Computes the rows of a sweep, and writes, continues and reads its file.
 #include "viscontact/sweep/study.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
@@ -35,23 +29,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The head of the file: the lines "# key: value" and the names of all columns.
 std::string header_of(const Study& study) {
   return write_csv_comments(study.comments) + fmt::format("{}\n", fmt::join(study.columns(), ","));
 }
 
 constexpr std::string_view kHowMade = "# provenance: ";
 
-/// The number of finished rows of this sweep after the header, and the number of bytes up to the
-/// end of the last of these rows.
+/// Finished rows of this sweep after the header, and the bytes up to the end of the last of them.
 struct Kept {
   std::uint64_t rows = 0, bytes = 0;
 };
-/// The rows of this sweep in the file at `path`. Nothing if the file does not begin with `header`,
-/// or if it cannot be read.
+/// Nothing if the file does not begin with `header`, or if it cannot be read.
 std::optional<Kept> kept_rows(const fs::path& path, const std::string& header, const Study& study) {
   std::ifstream file(path, std::ios::binary);
-  // The line that says how the file was made may differ, because it does not influence the rows.
+  // The line that says how the file was made (kHowMade, as results/provenance.cpp begins a file)
+  // may differ, because it does not influence the rows.
   std::string first;
   if (!std::getline(file, first) || !first.starts_with(kHowMade)) {
     file.clear();
@@ -78,7 +70,6 @@ std::optional<Kept> kept_rows(const fs::path& path, const std::string& header, c
 
 }  // namespace
 
-/// The names of all columns: the varied keys, the results and `failure`.
 std::vector<std::string> Study::columns() const {
   auto columns = points.keys();
   columns.insert(columns.end(), results.begin(), results.end());
@@ -86,8 +77,6 @@ std::vector<std::string> Study::columns() const {
   return columns;
 }
 
-/// Computes the row `index` and returns its line of the file, with its line end. Commas and line
-/// breaks in a failure become ";", because they would divide the line.
 std::string Study::row(std::uint64_t index, const StopToken& stop) const {
   const auto found = run(index, stop);
   std::string text = points.key_fields(index);
@@ -100,14 +89,12 @@ std::string Study::row(std::uint64_t index, const StopToken& stop) const {
       text += std::to_string(number->second);
   }
   std::string failure = found.failure;
+  // Commas and line breaks would divide the line.
   std::ranges::replace_if(
       failure, [](char c) { return c == ',' || c == '\n' || c == '\r'; }, ';');
   return fmt::format("{},{}\n", text, failure);
 }
 
-/// The lines "# key: value" that every sweep has. `kind` is the kind of the sweep in words, and
-/// `case_text` the content of the case file. `identity` is a text that contains everything else
-/// that determines the rows.
 std::map<std::string, std::string> head_of(const std::string& kind, const std::string& case_text,
                                            const Points& points, const std::string& identity,
                                            const std::string& version, const Units& units) {
@@ -127,9 +114,8 @@ void refuse_doubles(const std::vector<std::string>& names, std::string_view kind
       throw Error(ErrorKind::kWrongUsage, "{} {} is given twice", kind, name);
 }
 
-/// The points of the ranges "KEY=RANGE" in the line `line`, counted from 1, of a case. Throws
-/// Error(kBadInput), which names file and line, if a range is not valid.
 Points points_of_case(const std::vector<std::string>& ranges, const fs::path& case_path, int line) {
+  assert(ranges.empty() || line > 0);
   Points points;
   if (!ranges.empty()) points.place = PlaceOfRanges{case_path.string(), line};
   try {
@@ -140,21 +126,16 @@ Points points_of_case(const std::vector<std::string>& ranges, const fs::path& ca
   return points;
 }
 
-/// The error with the place of the ranges before its message: "--vary: ..." or "FILE:LINE:
-/// sweep.vary: ...". A fault of ranges in a case is an Error(kBadInput), not Error(kWrongUsage).
 Error with_origin(const Points& points, const Error& error) {
   if (error.kind() == ErrorKind::kInterrupted) return error;
   std::string message = error.what();
   if (!points.place) return {error.kind(), "--vary: " + message};
   const auto& [file, line] = *points.place;
-  // The message of a case that is wrong at a point begins with the file, which is named once.
   if (message.starts_with(file + ": ")) message.erase(0, file.size() + 2);
   return {error.kind() == ErrorKind::kWrongUsage ? ErrorKind::kBadInput : error.kind(),
           fmt::format("{}:{}: sweep.vary: {}", file, line, message)};
 }
 
-/// Throws Error(kWrongUsage) if a key is varied twice, or if a grid has a range with one value but
-/// two different ends.
 void check_ranges(const Points& points) {
   refuse_doubles(points.keys(), "the key");
   for (const auto& v : points.variations)
@@ -165,18 +146,14 @@ void check_ranges(const Points& points) {
                   v.key, v.first, v.last, v.last);
 }
 
-/// Computes the rows `begin` to `size` - 1 with `jobs` threads and passes each row to `take`, in
-/// the order of the rows and from one thread at a time, so that the file does not depend on the
-/// number of threads. Returns the index after the last row that was passed on. A requested stop
-/// ends the function early without an Error; an exception of `row` or `take` is thrown again.
 std::uint64_t run_rows(
     std::uint64_t size, std::uint64_t begin, int jobs,
     const std::function<std::string(std::uint64_t index, const StopToken& stop)>& row,
     const std::function<void(std::uint64_t index, const std::string& row)>& take,
     const StopToken& stop) {
-  // Largest number of rows that are computed or wait to be passed on, which limits the memory. 32
-  // rows for each thread, a free choice, keep the threads busy while one row takes much longer than
-  // the others.
+  assert(jobs >= 1 && begin <= size);
+  // Rows that are computed or wait to be passed on, which limits the memory. 32 rows for each
+  // thread keep the threads busy while one row takes much longer than the others.
   const std::uint64_t window = 32 * static_cast<std::uint64_t>(jobs);
   std::mutex mutex;
   std::condition_variable row_taken;
@@ -201,7 +178,6 @@ std::uint64_t run_rows(
       }
       lock.lock();
       if (thrown) {
-        // An exception after a stop is the answer of the row to the stop.
         if (stop.stop_requested())
           is_stopped = true;
         else
@@ -231,10 +207,6 @@ std::uint64_t run_rows(
   return taken;
 }
 
-/// Computes the rows that PATH.part does not have yet with `jobs` threads, adds them to that file
-/// and, after the last row, renames the file to `path`. Returns the number of computed rows. The
-/// text `how_made`, a line "# provenance: ...\n" or empty, begins a new file. `progress` is called
-/// after each row with the number of finished rows and that of all rows.
 std::uint64_t write_sweep(
     const Study& study, const fs::path& path, int jobs, const std::string& how_made,
     const std::function<void(std::uint64_t done, std::uint64_t size)>& progress,
@@ -259,7 +231,7 @@ std::uint64_t write_sweep(
     kept = {0, how_made.size() + header.size()};
   }
   // Rows are written when 64 kB have gathered or after one second, so that slow rows are not lost
-  // if the process is killed. Both limits are free choices.
+  // if the process is killed.
   constexpr std::size_t kBuffer = 1 << 16;
   constexpr auto kLongest = std::chrono::seconds(1);
   std::string waiting;
@@ -297,8 +269,6 @@ std::uint64_t write_sweep(
   return size - kept->rows;
 }
 
-/// Counts the rows of the finished file of this sweep: all of them, those with a failure and some
-/// results, and those with a failure and no result.
 SweepOutcome read_outcome(const Study& study, const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw_bad_input({path.string()}, "cannot be read");
@@ -316,7 +286,7 @@ SweepOutcome read_outcome(const Study& study, const fs::path& path) {
     const std::string failure = line.substr(last_comma + 1);
     if (failure.empty()) continue;
     if (outcome.first_failure.empty()) outcome.first_failure = failure;
-    std::size_t end_of_keys = 0;  // position of the comma after the fields of the varied keys
+    std::size_t end_of_keys = 0;  // the comma after the fields of the varied keys
     for (std::size_t key = 0; key < keys; ++key)
       end_of_keys = line.find(',', end_of_keys + (key > 0 ? 1 : 0));
     const bool has_result = line.find_first_not_of(',', end_of_keys) < last_comma;
@@ -325,8 +295,6 @@ SweepOutcome read_outcome(const Study& study, const fs::path& path) {
   return outcome;
 }
 
-/// The number of rows that the file at `path` or PATH.part has of this sweep; 0 if neither file
-/// belongs to it.
 std::uint64_t finished_rows(const Study& study, const fs::path& path) {
   const std::string header = header_of(study);
   fs::path part = check_output_file(path);

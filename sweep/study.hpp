@@ -1,12 +1,5 @@
-// Computes and writes the sweeps of all kinds of cases. A sweep computes a case again and again
-// with other values of some of its keys: each combination of values is a point, and its results are
-// a row of named numbers in a CSV file (docs/file-formats.md). The file is written row by row, so
-// that a later call continues an interrupted sweep after its last row. Each kind of case has a
-// function that makes a Study (in sphere_study.hpp, rolling_study.hpp, swimmer_study.hpp and
-// particles_study.hpp). Numbers are in the units of the case. An error of a row is not thrown: its
-// message is in the column `failure`. Ranges that make no sweep throw Error(kWrongUsage), files
-// that cannot be read or written Error(kBadInput). Used by app/, pipeline/ and the folders of the
-// four headers above. A change must keep the form of the file, which users' scripts read.
+// Computes a case again and again with other values of some of its keys, and writes the results as
+// rows of a CSV file (docs/file-formats.md), in the units of the case.
 #pragma once
 
 #include <cstdint>
@@ -25,17 +18,16 @@
 
 namespace viscontact::sweep {
 
-/// The results of a row, by the names of their columns (Study::results). The header of the function
-/// that makes the study states their units. A column without a result is empty.
+/// The results of a row, by the names of their columns (Study::results). A column without a result
+/// is empty.
 struct RowResults {
   std::map<std::string, double> values;  ///< a value that is not finite gives an empty field
   std::map<std::string, std::uint64_t> numbers;  ///< results that are whole numbers
   std::string failure;                           ///< why results are missing; empty if none is
 };
 
-/// Calls `part`, which computes some results of a row. If `part` throws an Error, its message is
-/// added to `results.failure`; only Error(kInterrupted) and exceptions of other types are thrown
-/// on.
+/// Calls `part`, which computes some results of a row. The message of an Error of `part` is added
+/// to `results.failure`; only Error(kInterrupted) and exceptions of other types are thrown on.
 template <class Part>
 void add_part(RowResults& results, const Part& part) {
   try {
@@ -48,28 +40,27 @@ void add_part(RowResults& results, const Part& part) {
 
 /// The points of a sweep, and how the results of a row are computed.
 struct Study {
-  Points points;  ///< the points; their keys are the first columns
+  Points points;  ///< their keys are the first columns
   /// Names of the columns with results, after the keys; the last column, `failure`, follows them.
   std::vector<std::string> results;
-  /// Lines "# key: value" for the head of the file. These lines must contain all that the results
-  /// depend on, so that two files with the same head and the same columns have the same rows.
+  /// Lines "# key: value" for the head of the file. They must contain all that the results depend
+  /// on, so that two files with the same head and the same columns have the same rows.
   std::map<std::string, std::string> comments;
-  /// Computes the results of row `index`, from 0. Several threads call this function at once. It
-  /// throws Error(kInterrupted) if `stop` requests a stop; any other Error that it throws ends the
-  /// whole sweep.
+  /// Computes the results of row `index`, from 0, in several threads at once. It throws
+  /// Error(kInterrupted) if `stop` requests a stop; any other Error that it throws ends the whole
+  /// sweep.
   std::function<RowResults(std::uint64_t index, const StopToken& stop)> run;
 
   std::uint64_t size() const { return points.rows(); }  ///< number of rows, > 0
-  std::vector<std::string> columns() const;             ///< names of all columns, in their order
+  std::vector<std::string> columns() const;             ///< all columns, in their order
   /// Row `index` < size() as a line of CSV with its line end. Throws what `run` throws.
   std::string row(std::uint64_t index, const StopToken& stop = {}) const;
 };
 
 /// The comments that every study has: its kind, the hash (SHA-256) of `case_text`, the content of
-/// the case file, the number of rows, the hash of `identity`, the version of Viscontact, and `units`
-/// unless they are empty.
-/// `identity` must be a text that contains everything else that determines the rows. Throws
-/// Error(kWrongUsage) if the grid has more than 1e12 points.
+/// the case file, the number of rows, the hash of `identity`, the version of Viscontact, and
+/// `units` unless they are empty. `identity` must be a text that contains everything else that
+/// determines the rows. Throws as Points::rows() does.
 std::map<std::string, std::string> head_of(const std::string& kind, const std::string& case_text,
                                            const Points& points, const std::string& identity,
                                            const std::string& version, const Units& units);
@@ -83,13 +74,12 @@ void refuse_doubles(const std::vector<std::string>& names, std::string_view kind
 Points points_of_case(const std::vector<std::string>& ranges,
                       const std::filesystem::path& case_path, int line);
 
-/// Returns `error`, which was caused by the ranges, with the place of the ranges before its
-/// message: "--vary: ..." or "case.toml:3: sweep.vary: ...". If the ranges are in a case,
-/// Error(kWrongUsage) becomes Error(kBadInput). Error(kInterrupted) is returned unchanged.
+/// `error`, which was caused by the ranges, with their place before its message: "--vary: ..." or
+/// "case.toml:3: sweep.vary: ...". If the ranges are in a case, Error(kWrongUsage) becomes
+/// Error(kBadInput). Error(kInterrupted) is returned unchanged.
 Error with_origin(const Points& points, const Error& error);
 
-/// Calls `check(key)` for each varied key. If `check` throws an Error, with_origin() of this Error
-/// is thrown.
+/// Calls `check(key)` for each varied key, and throws its Error as with_origin() changes it.
 template <class Check>
 void check_keys(const Points& points, const Check& check) {
   try {
@@ -103,8 +93,8 @@ void check_keys(const Points& points, const Check& check) {
 /// (the range has different ends, but only one value).
 void check_ranges(const Points& points);
 
-/// Returns `make(numbers)` for the keys and values of row `index` < points.rows() (not checked). If
-/// `make` throws an Error, an Error of the same kind with the point in its message is thrown.
+/// Returns `make(numbers)` for the keys and values of row `index` < points.rows(). An Error of
+/// `make` is thrown with the point in its message.
 template <class Make>
 auto at_point(const Points& points, std::uint64_t index, const Make& make) {
   const auto numbers = points.numbers(index);
@@ -115,12 +105,11 @@ auto at_point(const Points& points, std::uint64_t index, const Make& make) {
   }
 }
 
-/// Throws Error(kWrongUsage) if nothing is varied, if a key is varied twice, or if the grid leaves
-/// out the end of a range. Then calls `make`, which makes a case, for the first and the last row,
-/// so that a range that leads to a wrong case is an Error before rows are computed; rows between
-/// are not checked. Throws the Errors of `make` and Points::rows(), changed by with_origin(), which
-/// makes Error(kWrongUsage) of ranges in a case an Error(kBadInput). If `make` also throws an Error
-/// without varied values, this Error is thrown unchanged, because the ranges are not its cause.
+/// Throws Error(kWrongUsage) if nothing is varied, and as check_ranges() does. Then calls `make`,
+/// which makes a case, for the first and the last row only, so that a range that leads to a wrong
+/// case is an Error before rows are computed. Throws the Errors of `make` and Points::rows(),
+/// changed by with_origin(). If `make` also throws an Error without varied values, this Error is
+/// thrown unchanged, because the ranges are not its cause.
 template <class Make>
 void check_ends(const Points& points, const Make& make) {
   if (points.variations.empty() && points.draws == 0)
@@ -136,25 +125,24 @@ void check_ends(const Points& points, const Make& make) {
   }
 }
 
-/// Computes the rows `begin`, ..., `size` - 1 with `jobs` >= 1 threads (not checked) and passes
-/// them to `take` in order, from one thread at a time. After a stop the function ends early without
-/// an Error, even if `row` then throws one. If `row` or `take` throws without a stop, the function
-/// ends early and throws the same exception. The memory that it needs does not grow with the number
-/// of rows. Returns the index of the last row that was passed to `take` plus 1, or `begin` if there
-/// was none.
+/// Computes the rows `begin`, ..., `size` - 1 with `jobs` >= 1 threads and passes them to `take` in
+/// order, from one thread at a time. After a stop the function ends early without an Error, even if
+/// `row` then throws one. If `row` or `take` throws without a stop, the function ends early and
+/// throws the same exception. The memory does not grow with the number of rows. Returns the index
+/// of the last row that was passed to `take` plus 1, or `begin` if there was none.
 std::uint64_t run_rows(
     std::uint64_t size, std::uint64_t begin, int jobs,
     const std::function<std::string(std::uint64_t index, const StopToken& stop)>& row,
     const std::function<void(std::uint64_t index, const std::string& row)>& take,
     const StopToken& stop = {});
 
-/// Computes the missing rows of a sweep with `jobs` >= 1 threads (not checked) and writes them into
-/// the CSV file at `path`. Until all rows are finished, they are in PATH.part, in order. A later
-/// call keeps the rows in that file if they belong to the same sweep (its head has the same
-/// comments and columns), and otherwise deletes them. A finished file of the same sweep is left as
-/// it is; a finished file of another sweep is replaced at the end. `how_made` is empty or a line "#
-/// provenance: ...\n" for the head of a new file. `progress(done, size)` is called after each row,
-/// by one thread at a time.
+/// Computes the missing rows of a sweep with `jobs` >= 1 threads and writes them into the CSV file
+/// at `path`. Until all rows are finished, they are in PATH.part, in order. A later call keeps the
+/// rows in that file if they belong to the same sweep (its head has the same comments and columns),
+/// and otherwise deletes them. A finished file of the same sweep is left as it is; a finished file
+/// of another sweep is replaced at the end. `how_made` is empty or a line "# provenance: ..." with
+/// its line end for the head of a new file. `progress(done, size)` is called after each row, by one
+/// thread at a time.
 ///
 /// Throws Error(kInterrupted) if `stop` requests a stop, Error(kBadInput) if a file cannot be
 /// written or another process writes the same file, and the Errors of Study::run. Finished rows are
@@ -164,24 +152,22 @@ std::uint64_t write_sweep(
     const std::function<void(std::uint64_t done, std::uint64_t size)>& progress,
     const StopToken& stop = {});
 
-/// How many rows of a finished sweep have results, and why others have none. A row is a point or,
-/// if points have draws, a draw of a point.
+/// How many rows of a finished sweep have results, and why others have none.
 struct SweepOutcome {
   std::uint64_t points = 0;          ///< number of all rows
   std::uint64_t without_result = 0;  ///< number of rows with a failure and without any result
   /// Number of rows with a failure and some results, for example of models that did not fail.
   std::uint64_t with_some_results = 0;
-  /// Text of the column `failure` of the first row that has a failure; empty if no row has one.
+  /// The failure of the first row that has one; empty if no row has one.
   std::string first_failure;
 };
 
-/// Reads how many rows have results. `path` must be the finished file of this sweep (not checked).
-/// Throws Error(kBadInput) if the file cannot be read.
+/// `path` must be the finished file of this sweep. Throws Error(kBadInput) if it cannot be read.
 SweepOutcome read_outcome(const Study& study, const std::filesystem::path& path);
 
-/// Number of rows of this sweep that are finished, in the file at `path` or in PATH.part; 0 if
-/// neither file belongs to this sweep. Throws Error(kBadInput) if there is something at `path` that
-/// is not a regular file.
+/// Number of finished rows of this sweep, in the file at `path` or in PATH.part; 0 if neither file
+/// belongs to this sweep. Throws Error(kBadInput) if there is something at `path` that is not a
+/// regular file.
 std::uint64_t finished_rows(const Study& study, const std::filesystem::path& path);
 
 }  // namespace viscontact::sweep

@@ -1,14 +1,10 @@
-// Reads the ranges of a sweep, and computes the points of grids and random points. Values have the
-// units of their keys. A range has 1 to 1e9 values, all finite. Indices of values and points are
-// counted from 0 and not checked. A text that is no range throws Error(kBadInput), and a grid of
-// more than 1e12 points throws Error(kWrongUsage). app/ and the sweeps of all kinds of cases use
-// this file. A change must keep the values bit for bit, because a sweep that continues after an
-// interruption compares them with its finished rows.
+// Ranges of a sweep, grids and random points.
 #include "viscontact/sweep/variation.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "viscontact/common/error.hpp"
@@ -18,21 +14,20 @@
 namespace viscontact::sweep {
 namespace {
 
-// The limits are free choices, because so many rows take too long: 1e12 rows at a microsecond each
-// take 12 days. The product of the numbers of values is a double, which is exact up to 2^53 = 9e15,
-// so that it can be compared with kMostPoints.
+// More rows take too long: 1e12 rows at a microsecond each take 12 days. The product of the numbers
+// of values is a double, which is exact up to 2^53 = 9e15, so that it can be compared with
+// kMostPoints.
 constexpr double kMostValues = 1e9;
 constexpr double kMostPoints = 1e12;
 
-/// Throws Error(kBadInput), whose message has the text of the range, the fault `what` and the forms
-/// that are allowed.
+/// Throws Error(kBadInput) with the text of the range, the fault `what` and the allowed forms.
 [[noreturn]] void refuse(std::string_view text, const std::string& what) {
   throw Error(ErrorKind::kBadInput,
               "{}: {}; it must be KEY=FROM:TO:log:COUNT, KEY=FROM:TO:COUNT or KEY=VALUE,VALUE,...",
               text, what);
 }
 
-/// The parts of the text between the separators, at least one; parts may be empty.
+/// There is at least one part; parts may be empty.
 std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   for (;;) {
@@ -45,8 +40,8 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 
 }  // namespace
 
-/// Value number i of the list or the range, 0 <= i < count.
 double Variation::value(std::uint64_t i) const {
+  assert(i < count);
   if (!values.empty()) return values[i];
   if (i == 0) return first;
   if (i + 1 == count) return last;
@@ -57,10 +52,8 @@ double Variation::value(std::uint64_t i) const {
   return at(static_cast<double>(i) / static_cast<double>(count - 1));
 }
 
-/// The value of the range at the share [1] of the way from its first to its last value, 0 <= share
-/// < 1; in a logarithmic range the way is that of the logarithms. For a list of n elements it is
-/// the element with the index floor(share n).
 double Variation::at(double share) const {
+  assert(share >= 0 && share < 1);
   if (!values.empty())
     return values[static_cast<std::size_t>(share * static_cast<double>(values.size()))];
   if (!logarithmic) return std::lerp(first, last, share);
@@ -72,8 +65,6 @@ double Variation::at(double share) const {
   return std::copysign(std::clamp(size, std::min(a, b), std::max(a, b)), first);
 }
 
-/// Reads the range "KEY=FROM:TO:COUNT" (equal steps), "KEY=FROM:TO:log:COUNT" (equal ratios) or the
-/// list "KEY=VALUE,VALUE,...".
 Variation parse_variation(std::string_view text) {
   Variation variation;
   const auto equals = text.find('=');
@@ -106,10 +97,9 @@ Variation parse_variation(std::string_view text) {
   return variation;
 }
 
-/// The keys and values of the point `index` of the grid of all combinations. From one point to the
-/// next, the last key changes first.
 std::vector<std::pair<std::string, double>> grid_point(const std::vector<Variation>& variations,
                                                        std::uint64_t index) {
+  assert(index < grid_size(variations));
   std::vector<std::pair<std::string, double>> point(variations.size());
   for (std::size_t i = variations.size(); i-- > 0;) {
     point[i] = {variations[i].key, variations[i].value(index % variations[i].count)};
@@ -118,9 +108,6 @@ std::vector<std::pair<std::string, double>> grid_point(const std::vector<Variati
   return point;
 }
 
-/// The keys and values of the random point `index`. Each value comes from a hash of `seed`, `index`
-/// and the number of the key, so that equal arguments give equal values. Values are uniformly
-/// distributed over their ranges; in a logarithmic range their logarithms are.
 std::vector<std::pair<std::string, double>> random_point(const std::vector<Variation>& variations,
                                                          std::uint64_t index, std::uint64_t seed) {
   std::vector<std::pair<std::string, double>> point;
@@ -131,7 +118,6 @@ std::vector<std::pair<std::string, double>> random_point(const std::vector<Varia
   return point;
 }
 
-/// The number of points of the grid, from 1 to 1e12.
 std::uint64_t grid_size(const std::vector<Variation>& variations) {
   double size = 1;
   for (const auto& variation : variations) size *= static_cast<double>(variation.count);
@@ -145,10 +131,8 @@ std::uint64_t grid_size(const std::vector<Variation>& variations) {
 
 std::uint64_t Points::count() const { return samples > 0 ? samples : grid_size(variations); }
 
-/// The number of rows, which is the number of points times that of the draws at each point.
 std::uint64_t Points::rows() const { return count() * std::max<std::uint64_t>(draws, 1); }
 
-/// The varied keys, and the key of the seed if there are draws.
 std::vector<std::string> Points::keys() const {
   std::vector<std::string> keys;
   for (const auto& variation : variations) keys.push_back(variation.key);
@@ -156,9 +140,8 @@ std::vector<std::string> Points::keys() const {
   return keys;
 }
 
-/// The keys and values of the row `index`. A draw is one of several random arrangements at the same
-/// point; the key of its seed comes last.
 std::vector<std::pair<std::string, double>> Points::numbers(std::uint64_t index) const {
+  assert(index < rows());
   const std::uint64_t draws_here = std::max<std::uint64_t>(draws, 1);
   auto numbers = samples > 0 ? random_point(variations, index / draws_here, seed)
                              : grid_point(variations, index / draws_here);
@@ -179,8 +162,6 @@ bool Points::is_varied(const std::string& key) const {
   return std::ranges::find(variations, key, &Variation::key) != variations.end();
 }
 
-/// A text that differs for different grids or random points; a hash of it identifies a sweep
-/// without draws.
 std::string text_of(const Points& points) {
   std::string text = fmt::format("{} {}", points.samples, points.seed);
   for (const auto& v : points.variations) {
@@ -190,7 +171,6 @@ std::string text_of(const Points& points) {
   return text;
 }
 
-/// The text " KEY = VALUE KEY = VALUE ..." for messages.
 std::string in_words(const std::vector<std::pair<std::string, double>>& numbers) {
   std::string text;
   for (const auto& [key, value] : numbers) text += fmt::format(" {} = {}", key, value);

@@ -1,13 +1,8 @@
-// Finds the stroke of least energy by Newton's method. A stroke is a loop of the arms of a swimmer,
-// the distances of neighbouring centres, whose coordinates are polynomials (polynomial_loop.hpp).
-// Displacements, not 0, arms and coefficients of polynomials [L] are in the units of the fit; there
-// are at least two arms and at least kFewestPolynomials polynomials of each arm (not checked).
-// Energies [M L^2/T^2] are those in a period of 1, which LoopSums::energy_times_period is. Loops
-// that leave the table throw Error(kBadInput), a failure of Newton's method throws
-// Error(kNotConverged), and a requested stop throws Error(kInterrupted). swimmer/case, swimmer/job
-// and python/ use this file. A change must keep energies to the digits of docs/swimmer.md.
+// Newton's method on the coefficients of polynomial_loop.hpp. Energies are those in a period of 1,
+// which LoopSums::energy_times_period is.
 #include "viscontact/swimmer/optimal_stroke.hpp"
 
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -22,8 +17,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// A loop that satisfies the conditions of least energy at its displacement, with the multiplier of
-/// the displacement [M L/T^2] and the energy in a period of 1 [M L^2/T^2].
+/// A loop of least energy at its displacement, with the multiplier of the displacement [M L/T^2]
+/// and the energy in a period of 1 [M L^2/T^2].
 struct Extremal {
   PolynomialLoop loop;
   double multiplier = 0;
@@ -39,21 +34,20 @@ class LoopOptimizer {
         factor_(scale_) {}
 
   /// The loop of least energy with this displacement [L], by Newton's method from `start`. Nothing
-  /// if it does not converge or all steps leave the table. Throws Error(kInterrupted) if `stop`
-  /// requests a stop.
+  /// if it does not converge or all steps leave the table.
   std::optional<Extremal> solve(const Extremal& start, double displacement,
                                 const StopToken& stop) const;
 
  private:
-  /// The multiple of the loop, as seen from `through`, that has this displacement [L]. Nothing if
-  /// none was found in the table.
+  /// The multiple of the loop, seen from `through`, that has this displacement [L]. Nothing if none
+  /// was found in the table.
   std::optional<PolynomialLoop> scaled_to(PolynomialLoop loop, double displacement) const;
-  /// The Hessian, by all coefficients, of the Lagrangian, which is the energy minus the multiplier
-  /// times the displacement, at a loop. Nothing if a loop that its differences need leaves the
-  /// table.
+  /// The Hessian of the Lagrangian (energy minus multiplier times displacement) by all
+  /// coefficients, from central differences of the exact gradient. Nothing if a difference leaves
+  /// the table.
   std::optional<MatrixXd> lagrangian_hessian(const PolynomialLoop& loop, double multiplier) const;
   /// Newton's step of the coefficients, which keeps the displacement to first order; the last entry
-  /// is the new multiplier. Nothing if there is no Hessian.
+  /// is the new multiplier.
   std::optional<VectorXd> newton_step(const PolynomialLoop& loop, const LoopSums& sums,
                                       double multiplier) const;
 
@@ -62,8 +56,8 @@ class LoopOptimizer {
   Eigen::LLT<MatrixXd> factor_;
 };
 
-/// The loop whose coefficients are changed by `share` times `step` [L], a list of all coefficients,
-/// column by column.
+/// The loop whose coefficients are changed by `share` times `step` [L], which lists the
+/// coefficients column by column.
 PolynomialLoop moved(const PolynomialLoop& loop, const VectorXd& step, double share) {
   return {loop.through, loop.coefficients + share * step.reshaped(loop.coefficients.rows(),
                                                                   loop.coefficients.cols())};
@@ -85,7 +79,6 @@ std::optional<PolynomialLoop> LoopOptimizer::scaled_to(PolynomialLoop loop,
   return {};
 }
 
-/// The Hessian is computed by central differences of the exact gradient and made symmetric.
 std::optional<MatrixXd> LoopOptimizer::lagrangian_hessian(const PolynomialLoop& loop,
                                                           double multiplier) const {
   // The best step balances the relative rounding error of the gradients, 1e-14, with the error of
@@ -179,8 +172,8 @@ bool is_contained(const Swimmer& swimmer, const PolynomialLoop& loop) {
 }
 
 /// The plane of arm velocities in which small loops of a given energy have the largest
-/// displacement. The two columns of `directions` span it and have unit power. `curl` is the
-/// displacement of a small loop per area in the coordinates along these columns.
+/// displacement. The two columns of `directions` span it and have unit power; `curl` is the
+/// displacement of a small loop per area in the coordinates along them.
 struct BestPlane {
   MatrixXd directions;
   double curl = 0;
@@ -256,10 +249,10 @@ std::optional<Extremal> follow(const Swimmer& swimmer, const OptimalStrokeReques
 
 }  // namespace
 
-/// The loop of least energy of those that are followed from four small circles, in directions that
-/// are a right angle apart. Newton's method then improves the loop with more and more polynomials.
 OptimalStroke find_optimal_stroke(const Swimmer& swimmer, const OptimalStrokeRequest& request,
                                   const StopToken& stop) {
+  assert(request.displacement != 0 && request.polynomials >= kFewestPolynomials);
+  assert(request.through.size() == swimmer.arms() && swimmer.arms() >= 2);
   std::optional<Extremal> best;
   for (const double quarter : {0, 1, 2, 3}) {
     const auto found = follow(swimmer, request, quarter * std::numbers::pi / 2, stop);
@@ -272,9 +265,8 @@ OptimalStroke find_optimal_stroke(const Swimmer& swimmer, const OptimalStrokeReq
         "no loop through this shape with the displacement {:.6g} was found within the table; ask "
         "for less, begin at a shape farther from the table's borders, or make a table of more arms",
         request.displacement);
-  // For fewer polynomials than `best` has, the search starts from the first polynomials of `best`.
-  // Its result does not replace `best` as the start of the next search, because with few polynomials
-  // it may be far from the results with more polynomials.
+  // With fewer polynomials than `best` has, the search starts from its first ones. The result then
+  // does not replace `best`, because it may be far from the results with more polynomials.
   OptimalStroke optimal;
   for (Index count = kFewestPolynomials;; count += 2) {
     count = std::min(count, request.polynomials);

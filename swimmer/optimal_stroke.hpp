@@ -1,12 +1,5 @@
-// Finds the stroke of least energy of a swimmer for a given displacement (Alouges, DeSimone &
-// Lefebvre 2008). A swimmer is a line of spheres; its shape is the list of its arms, the distances
-// between the centres of neighbours; a stroke is a closed loop of shapes. Among the loops through a
-// given shape with this displacement, the optimal one has the least energy in a given period. Its
-// power is constant. Lengths, masses and times are in the units of the swimmer's fit. swimmer/case,
-// swimmer/job and python/ use this file. A search that leaves the table throws Error(kBadInput), a
-// search that does not converge throws Error(kNotConverged), and a stop throws Error(kInterrupted).
-// A change must keep energies to the digits of docs/swimmer.md; the default of 20 polynomials is a
-// free choice.
+// The stroke of least energy for a given displacement (Alouges, DeSimone & Lefebvre 2008,
+// docs/physics.md (7.7)).
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +10,8 @@
 
 namespace viscontact::swimmer {
 
-/// The conditions for the optimal stroke.
+/// The conditions for the optimal stroke, which is the closed loop of least energy in a given
+/// period among those through a given shape with a given displacement. Its power is constant.
 struct OptimalStrokeRequest {
   double displacement = 0;  ///< displacement in a period [L], not 0; > 0 towards the last sphere
   /// The shape at which the stroke begins and ends [L], a number for each arm, at least two.
@@ -30,17 +24,15 @@ struct OptimalStrokeRequest {
 /// The smallest number of polynomials of an arm; the search for the optimal stroke begins with it.
 inline constexpr Eigen::Index kFewestPolynomials = 4;
 
-/// The result of the search with one number of polynomials. The results with several numbers show
-/// how the search converges.
+/// The result of the search with one number of polynomials.
 struct OptimalStrokeStep {
-  Eigen::Index polynomials = 0;        ///< number of polynomials of each arm
+  Eigen::Index polynomials = 0;
   double energy = 0;                   ///< energy in a period of 1 [M L^2/T^2], > 0
   double euler_lagrange_residual = 0;  ///< result of euler_lagrange_residual() [1], >= 0
 };
 
 /// The loop of least energy for a displacement, and how it was found.
 struct OptimalStroke {
-  /// The shapes of the stroke.
   PolynomialLoop loop;
   /// Derivative of the least energy by the displacement, in a period of 1 [M L/T^2], of any sign.
   double multiplier = 0;
@@ -50,13 +42,12 @@ struct OptimalStroke {
 };
 
 /// Finds a loop of least energy. Newton's method solves the conditions of Karush, Kuhn and Tucker.
-/// The method starts from four small loops, which lie in four directions from the given shape. The
+/// It starts from four small loops, which lie in four directions from the given shape. The
 /// displacement of each loop is then raised step by step to the wanted one. The loop with the least
 /// energy of the four is improved with more polynomials. Throws Error(kBadInput) if the table does
 /// not contain the given shape or if none of the four loops reaches the displacement within the
 /// table, Error(kNotConverged) if Newton's method fails with `request.polynomials`, and
-/// Error(kInterrupted) if `stop` requests a stop. The ranges of the members of `request` are not
-/// checked.
+/// Error(kInterrupted) if `stop` requests a stop.
 OptimalStroke find_optimal_stroke(const Swimmer& swimmer, const OptimalStrokeRequest& request,
                                   const StopToken& stop);
 

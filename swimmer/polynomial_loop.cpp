@@ -1,13 +1,7 @@
-// Computes loops of a swimmer's arms (distances of neighbouring centres) that are polynomials of a
-// parameter s from 0 to 1, their energy and displacement, and the gradients of both
-// (polynomial_loop.hpp). Arms, coefficients and displacements [L], periods [T] and energies times
-// the period [M L^2/T] are in the units of the swimmer's fit. A loop has a row of coefficients for
-// each arm and a column for each polynomial, at least one (not checked). A loop outside the table
-// throws Error(kBadInput). optimal_stroke.cpp uses this file. A change must keep that gradients are
-// the derivatives of the sums to round-off, and, for n polynomials, the 2 n + 24 points of all
-// three quadratures, which polynomial_loop.hpp repeats.
+// All three quadratures have 2 n + 24 points for n polynomials.
 #include "viscontact/swimmer/polynomial_loop.hpp"
 
+#include <cassert>
 #include <cmath>
 
 #include "viscontact/common/matrices/decompositions.hpp"
@@ -17,16 +11,15 @@ namespace {
 
 using Eigen::Index;
 
-/// The arms [L] at the value of s for which `basis` has the values of the polynomials.
+/// The arms [L] where the polynomials have the values `basis`.
 Eigen::VectorXd shape_at(const PolynomialLoop& loop, const Eigen::VectorXd& basis) {
   return loop.through + loop.coefficients * basis;
 }
 
 }  // namespace
 
-/// The first `count` basis functions s (1 - s) P_j(2 s - 1), with Legendre's polynomials P_j, and
-/// their first two derivatives by s, at the value s. All are [1].
 LoopBasis loop_basis(double s, Index count) {
+  assert(count > 0);
   // Legendre's polynomials P_j(y) by the three-term recurrence, and their derivatives by s from
   // P'_{j+1} = P'_{j-1} + (2j + 1) P_j and dy/ds = 2.
   const double y = 2 * s - 1;
@@ -41,8 +34,8 @@ LoopBasis loop_basis(double s, Index count) {
   return {bubble * p, bubble * dp - y * p, bubble * ddp - 2 * y * dp - 2 * p};
 }
 
-/// The loop as a stroke of one leg in `period` [T] > 0, at a constant rate of s.
 Stroke stroke_of(const PolynomialLoop& loop, double period) {
+  assert(period > 0);
   return {
       period,
       {{0, period, [=](double time) {
@@ -52,13 +45,14 @@ Stroke stroke_of(const PolynomialLoop& loop, double period) {
 }
 
 PolynomialLoop with_more_polynomials(const PolynomialLoop& loop, Index count) {
+  assert(count >= loop.coefficients.cols());
   PolynomialLoop longer{loop.through, Eigen::MatrixXd::Zero(loop.coefficients.rows(), count)};
   longer.coefficients.leftCols(loop.coefficients.cols()) = loop.coefficients;
   return longer;
 }
 
-/// Prepares the quadrature for loops with `polynomials` >= 1 polynomials of each arm.
 LoopFunctional::LoopFunctional(const Swimmer& swimmer, Index polynomials) : swimmer_(swimmer) {
+  assert(polynomials > 0);
   // The rule is exact for polynomials of a degree below twice its number of points. The integrands
   // are not polynomials but analytic functions of a loop, whose degree is `polynomials` + 1; the 24
   // additional points make their error small.
@@ -74,15 +68,15 @@ LoopFunctional::LoopFunctional(const Swimmer& swimmer, Index polynomials) : swim
   }
 }
 
-/// True if the table contains the shapes of the loop at all points of the quadrature.
 bool LoopFunctional::contains(const PolynomialLoop& loop) const {
+  assert(loop.coefficients.cols() == values_.rows());
   for (Index q = 0; q < points_.size(); ++q)
     if (!swimmer_.contains(shape_at(loop, values_.col(q)))) return false;
   return true;
 }
 
-/// The displacement of the loop [L], without gradients.
 double LoopFunctional::displacement(const PolynomialLoop& loop) const {
+  assert(loop.coefficients.cols() == values_.rows());
   double sum = 0;
   for (Index q = 0; q < points_.size(); ++q) {
     const auto mechanics = swimmer_.at(shape_at(loop, values_.col(q)));
@@ -91,10 +85,9 @@ double LoopFunctional::displacement(const PolynomialLoop& loop) const {
   return sum;
 }
 
-/// The sums of the loop and their gradients by the coefficients, which are ordered column by
-/// column.
 LoopSums LoopFunctional::operator()(const PolynomialLoop& loop) const {
   const auto& c = loop.coefficients;
+  assert(c.cols() == values_.rows());
   Eigen::MatrixXd energy_gradient = Eigen::MatrixXd::Zero(c.rows(), c.cols());
   Eigen::MatrixXd displacement_gradient = energy_gradient;
   LoopSums sums;
@@ -121,8 +114,6 @@ LoopSums LoopFunctional::operator()(const PolynomialLoop& loop) const {
   return sums;
 }
 
-/// The Hessian [M/T] of the energy times the period by the coefficients, if the metric were
-/// `metric` [M/T], a symmetric matrix with a row for each arm, at all shapes.
 Eigen::MatrixXd LoopFunctional::constant_metric_hessian(const Eigen::MatrixXd& metric) const {
   const Eigen::MatrixXd stiffness = slopes_ * weights_.asDiagonal() * slopes_.transpose();
   const Index arms = metric.rows(), count = stiffness.rows();
@@ -133,10 +124,9 @@ Eigen::MatrixXd LoopFunctional::constant_metric_hessian(const Eigen::MatrixXd& m
   return hessian;
 }
 
-/// The loop with `polynomials` >= 1 polynomials that is nearest to the loop `shape`(s) [L], by
-/// least squares with the weights of the quadrature. It begins at shape(0).
 PolynomialLoop project_loop(const std::function<Eigen::VectorXd(double s)>& shape,
                             Index polynomials) {
+  assert(polynomials > 0);
   const auto rule = gauss_rule(static_cast<int>(2 * polynomials + 24));
   const Eigen::VectorXd through = shape(0);
   Eigen::MatrixXd basis(rule.points.size(), polynomials);
@@ -149,10 +139,6 @@ PolynomialLoop project_loop(const std::function<Eigen::VectorXd(double s)>& shap
   return {through, basis.householderQr().solve(target).transpose()};
 }
 
-/// How well the loop satisfies Euler and Lagrange's equation of the least energy at a given
-/// displacement [1], >= 0: the root mean square of what is left of the equation over that of its
-/// term with the second derivative of the arms. `eta` [M L/T^2] is the multiplier of the
-/// displacement.
 double euler_lagrange_residual(const Swimmer& swimmer, const PolynomialLoop& loop, double eta) {
   const auto& c = loop.coefficients;
   const auto rule = gauss_rule(static_cast<int>(2 * c.cols() + 24));

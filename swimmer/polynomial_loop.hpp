@@ -1,11 +1,5 @@
-// Closed loops of the shape of a swimmer, whose arms are polynomials of a parameter, and their
-// displacement and energy as functions of the coefficients. A swimmer is a line of spheres; its
-// shape is the list of its arms, the distances between the centres of neighbours.
-// optimal_stroke.hpp uses this file to find the loop of least energy. Lengths, masses and times are
-// in the units of the swimmer's fit. A loop outside the table throws Error(kBadInput). Sizes and
-// numbers of polynomials are not checked. A change must keep the gradients equal to the derivatives
-// of the quadrature sums, to round-off; the 24 additional points of the quadrature are a free
-// choice, on which the last digits of results depend.
+// Closed loops of a swimmer's arms that are polynomials of a parameter s, with their displacement
+// and energy as functions of the coefficients.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,26 +13,22 @@ namespace viscontact::swimmer {
 /// goes from 0 to 1, P_j are Legendre's polynomials, and c_j is column j of `coefficients` [L]. The
 /// loop may have a corner at `through`.
 struct PolynomialLoop {
-  Eigen::VectorXd through;       ///< shape at which the loop begins and ends [L], for each arm
+  Eigen::VectorXd through;       ///< shape at which the loop begins and ends [L]
   Eigen::MatrixXd coefficients;  ///< [L], a row for each arm, at least one column
 };
 
-/// The values of s (1 - s) P_j(2 s - 1) and their first and second derivatives by s. Each member
-/// has a number for each j from 0 to the number of functions less one.
+/// The values of s (1 - s) P_j(2 s - 1) for j = 0, 1, ... and their derivatives by s, all [1].
 struct LoopBasis {
-  Eigen::VectorXd values,  ///< [1]
-      slopes,              ///< first derivatives [1]
-      second_slopes;       ///< second derivatives [1]
+  Eigen::VectorXd values, slopes, second_slopes;
 };
-/// The first `count` > 0 functions of the basis at `s` from 0 to 1. Nothing is checked.
+/// The first `count` functions of the basis at `s` from 0 to 1.
 LoopBasis loop_basis(double s, Eigen::Index count);
 
-/// The loop as a stroke of one part (StrokeLeg in stroke.hpp), run once in `period` [T] > 0 (not
-/// checked) at a constant rate of s.
+/// The loop as a stroke of one leg, run once in `period` [T] at a constant rate of s.
 Stroke stroke_of(const PolynomialLoop& loop, double period);
 
-/// The same loop with `count` polynomials, at least as many as it has (not checked); the
-/// coefficients of the others are 0.
+/// The same loop with `count` polynomials, at least as many as it has; the coefficients of the
+/// others are 0.
 PolynomialLoop with_more_polynomials(const PolynomialLoop& loop, Eigen::Index count);
 
 /// Energy and displacement of a loop that is run once at a constant rate of s, and their gradients.
@@ -48,16 +38,15 @@ struct LoopSums {
   /// Energy times period [M L^2/T], >= 0. It does not depend on the period, so that its value is
   /// that of the energy [M L^2/T^2] in a period of 1.
   double energy_times_period = 0;
-  double displacement = 0;          ///< [L], > 0 towards the last sphere
-  Eigen::VectorXd energy_gradient,  ///< gradient of energy_times_period [M L/T]
-      displacement_gradient;        ///< gradient of the displacement [1]
+  double displacement = 0;  ///< [L], > 0 towards the last sphere
+  Eigen::VectorXd energy_gradient, displacement_gradient;
 };
 
-/// Computes LoopSums by a quadrature with 2 n + 24 points for n polynomials.
+/// Computes LoopSums by a quadrature with 2 n + 24 points for n polynomials. The gradients are the
+/// derivatives of the quadrature sums to round-off.
 class LoopFunctional {
  public:
-  /// For loops with `polynomials` > 0 polynomials of each arm. The other functions must not be
-  /// called with other loops (not checked). `swimmer` must outlive the object.
+  /// For loops with `polynomials` > 0 polynomials of each arm. `swimmer` must outlive the object.
   LoopFunctional(const Swimmer& swimmer, Eigen::Index polynomials);
 
   /// True if the table of the swimmer's fit contains the shapes of the loop at all points of the
@@ -70,10 +59,9 @@ class LoopFunctional {
   /// The sums of the loop. Throws Error(kBadInput) if the table does not contain the loop.
   LoopSums operator()(const PolynomialLoop& loop) const;
 
-  /// The Hessian, by the coefficients, of the integral of (dx/ds)^T G0 dx/ds over s for the
-  /// constant symmetric matrix G0 = `metric` [M/T], with a row for each arm. The Hessian [M/T] has
-  /// a row for each coefficient, in the order of LoopSums. The search for the optimal stroke scales
-  /// the coefficients by it.
+  /// The Hessian [M/T] of the integral of (dx/ds)^T G0 dx/ds over s by the coefficients, in the
+  /// order of LoopSums, for the constant symmetric matrix G0 = `metric` [M/T]. The search for the
+  /// optimal stroke scales the coefficients by it.
   Eigen::MatrixXd constant_metric_hessian(const Eigen::MatrixXd& metric) const;
 
  private:
@@ -83,17 +71,17 @@ class LoopFunctional {
 };
 
 /// The loop through shape(0) that approximates the given loop `shape(s)`, s from 0 to 1, best in
-/// the sense of least squares, with `polynomials` > 0 polynomials of each arm (not checked).
+/// the sense of least squares, with `polynomials` polynomials of each arm.
 PolynomialLoop project_loop(const std::function<Eigen::VectorXd(double s)>& shape,
                             Eigen::Index polynomials);
 
 /// The residual of Euler and Lagrange's equation of the problem "least energy at a given
-/// displacement" (docs/physics.md, equation (7.7)). It is the root mean square along the loop of
-/// d/ds (2 Phi v - eta A) - grad_x (v.Phi v - eta A.v), divided by that of 2 Phi dv/ds [1], >= 0.
-/// Here x are the arms, v = dx/ds, `eta` is the multiplier of the displacement [M L/T^2]
-/// (OptimalStroke), and A and Phi are displacement_form and metric of ShapeMechanics. Throws
-/// Error(kBadInput) if the table does not contain the loop. The second derivative of the arms must
-/// not be 0 everywhere (not checked; the result then is NaN or infinite).
+/// displacement" (docs/physics.md (7.7)): the root mean square along the loop of d/ds (2 Phi v -
+/// eta A) - grad_x (v.Phi v - eta A.v), divided by that of 2 Phi dv/ds [1]. Here x are the arms, v
+/// = dx/ds, `eta` is the multiplier of the displacement [M L/T^2] (OptimalStroke), and A and Phi
+/// are displacement_form and metric of ShapeMechanics. Throws Error(kBadInput) if the table does
+/// not contain the loop. It is NaN or infinite if the second derivative of the arms is 0
+/// everywhere.
 double euler_lagrange_residual(const Swimmer& swimmer, const PolynomialLoop& loop, double eta);
 
 }  // namespace viscontact::swimmer

@@ -1,11 +1,7 @@
-// Solves the balance of forces of a swimmer, which is a line of spheres, at one shape. A shape is
-// the list of the arms, which are the distances of neighbouring centres [L]; there is one arm less
-// than spheres (not checked). Velocities per arm velocity are [1]. The resistance R is [M/T]; the
-// metric, which is the matrix of the power as a quadratic form of arm velocities, is [M/T], too.
-// All are in the units of the fit. A shape outside the table throws Error(kBadInput). swim.cpp,
-// polynomial_loop.cpp, optimal_stroke.cpp, swimmer/job and python/ use this file. A change must
-// keep that the total force on the fluid is 0, and that slopes are the derivatives.
+// The balance of forces of a swimmer at one shape.
 #include "viscontact/swimmer/shape_mechanics.hpp"
+
+#include <cassert>
 
 #include "viscontact/common/error.hpp"
 
@@ -14,8 +10,7 @@ namespace {
 
 using Eigen::Index;
 
-/// The matrix B, by which the position of sphere i relative to the middle sphere is the sum of
-/// B_ik x_k over the arms x_k.
+/// The matrix B of ShapeMechanics.
 Eigen::MatrixXd relative_positions(Index spheres) {
   const auto middle = static_cast<Index>(middle_sphere(static_cast<std::size_t>(spheres)));
   Eigen::MatrixXd b = Eigen::MatrixXd::Zero(spheres, spheres - 1);
@@ -26,16 +21,14 @@ Eigen::MatrixXd relative_positions(Index spheres) {
 
 }  // namespace
 
-/// The gaps [L] between the surfaces of neighbouring spheres, which are the arms minus two radii.
 std::vector<double> Swimmer::gaps_of(const Eigen::VectorXd& arms) const {
+  assert(arms.size() == this->arms());
   std::vector<double> gaps;
   for (std::size_t k = 0; k + 1 < radii().size(); ++k)
     gaps.push_back(arms[static_cast<Index>(k)] - radii()[k] - radii()[k + 1]);
   return gaps;
 }
 
-/// The shortest and the longest arm k [L] in the table. Throws std::out_of_range if there is no arm
-/// k.
 std::array<double, 2> Swimmer::arm_interval(Index k) const {
   const auto i = static_cast<std::size_t>(k);
   const auto [from, to] = resistance_.gap_interval(i);
@@ -43,15 +36,10 @@ std::array<double, 2> Swimmer::arm_interval(Index k) const {
   return {from + both_radii, to + both_radii};
 }
 
-/// True if the table contains the shape with these arms [L].
 bool Swimmer::contains(const Eigen::VectorXd& arms) const {
   return resistance_.contains(gaps_of(arms));
 }
 
-/// The mechanics at the shape with these arms [L]: the velocity of the middle sphere per arm
-/// velocity [1], the velocities of all spheres per arm velocity [1], R, the metric and the
-/// resistance against towing [M/T]. If `with_slopes` is true, also the derivatives by each arm of
-/// the velocity of the middle sphere [1/L] and of the metric [M/(L T)].
 ShapeMechanics Swimmer::at(const Eigen::VectorXd& arms, bool with_slopes) const {
   for (Index k = 0; k < arms.size(); ++k) {
     const auto [from, to] = arm_interval(k);
@@ -87,9 +75,8 @@ ShapeMechanics Swimmer::at(const Eigen::VectorXd& arms, bool with_slopes) const 
   return mechanics;
 }
 
-/// The displacement of a small loop of two arms, counter-clockwise in their plane, divided by the
-/// area of the loop [1/L]. `arms` has two numbers [L] (not checked).
 double displacement_curl(const Swimmer& swimmer, const Eigen::VectorXd& arms) {
+  assert(arms.size() == 2);
   const auto slopes = swimmer.at(arms, true).displacement_form_slopes;
   return slopes.at(0)[1] - slopes.at(1)[0];
 }

@@ -1,14 +1,8 @@
-// Makes strokes, which are closed paths of the arms of a swimmer, from corners, samples and
-// ellipses, and the points of a quadrature by the eigenvalues of the Jacobi matrix (Golub & Welsch
-// 1969, Math. Comp. 23, 221). Arms [L], times [T], which rise, and periods [T], > 0, are in the
-// units of the case. The quadrature is that on [0, 1] and has at least one point. Nothing of this
-// is checked, and only samples that do not close the loop throw Error(kBadInput). swimmer_case.cpp
-// uses the strokes, and swim.cpp and polynomial_loop.cpp use the quadrature. A leg is a part of a
-// stroke on which the arms are smooth. A change must keep the times at which legs meet, because
-// forces jump there.
+// Legs meet where forces jump, so that the integrands of a leg are smooth.
 #include "viscontact/swimmer/stroke.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -18,8 +12,6 @@
 namespace viscontact::swimmer {
 namespace {
 
-/// A leg from the arms `from` at the time `start` to the arms `to` at the time `end`, at constant
-/// velocity.
 StrokeLeg straight_leg(double start, double end, const Eigen::VectorXd& from,
                        const Eigen::VectorXd& to) {
   return {start, end, [=](double time) {
@@ -30,10 +22,8 @@ StrokeLeg straight_leg(double start, double end, const Eigen::VectorXd& from,
 
 }  // namespace
 
-/// A stroke along straight legs from corner to corner and back to the first corner, in `period`.
-/// All legs take the same time. There are at least two corners, each with a number for each arm
-/// [L].
 Stroke polygon_stroke(const std::vector<Eigen::VectorXd>& corners, double period) {
+  assert(corners.size() >= 2 && period > 0);
   Stroke stroke{period, {}};
   const auto count = static_cast<double>(corners.size());
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -45,13 +35,11 @@ Stroke polygon_stroke(const std::vector<Eigen::VectorXd>& corners, double period
   return stroke;
 }
 
-/// A stroke along straight legs between the samples of the arms [L] at these times [T]; the first
-/// time becomes 0. Throws Error(kBadInput) if the last sample differs from the first one by more
-/// than rounding.
 Stroke sampled_stroke(const std::vector<double>& times,
                       const std::vector<Eigen::VectorXd>& samples) {
-  // Largest relative difference of the first and the last sample, a free choice. Samples that were
-  // written with ten digits close the loop.
+  assert(samples.size() >= 2 && times.size() == samples.size());
+  // Largest relative difference of the first and the last sample; samples that were written with
+  // ten digits close the loop.
   constexpr double kRounding = 1e-9;
   const Eigen::VectorXd opening = samples.back() - samples.front();
   if (opening.cwiseAbs().maxCoeff() > kRounding * samples.front().cwiseAbs().maxCoeff())
@@ -67,11 +55,10 @@ Stroke sampled_stroke(const std::vector<double>& times,
   return stroke;
 }
 
-/// The stroke whose arm k is centre_k + semi_axes_k cos(2 pi t/period + phases_k) at the time t.
-/// The three lists have a number for each arm, at least one: centre and semi_axes [L], phases
-/// [rad].
 Stroke elliptic_stroke(const Eigen::VectorXd& centre, const Eigen::VectorXd& semi_axes,
                        const Eigen::VectorXd& phases, double period) {
+  assert(centre.size() > 0 && semi_axes.size() == centre.size() && phases.size() == centre.size());
+  assert(period > 0);
   const double pi = std::numbers::pi, frequency = 2 * pi / period;
   const auto state = [=](double time) {
     const Eigen::ArrayXd angle = frequency * time + phases.array();
@@ -91,9 +78,9 @@ Stroke elliptic_stroke(const Eigen::VectorXd& centre, const Eigen::VectorXd& sem
   return stroke;
 }
 
-/// The points, which rise, and the weights [1] of the quadrature of Gauss and Legendre with `count`
-/// points on [0, 1].
 GaussRule gauss_rule(int count) {
+  assert(count > 0);
+  // The points are eigenvalues of the Jacobi matrix (Golub & Welsch 1969, Math. Comp. 23, 221).
   Eigen::VectorXd off_diagonal(count - 1);
   for (Eigen::Index k = 1; k < count; ++k) {
     const auto number = static_cast<double>(k);

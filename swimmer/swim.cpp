@@ -1,13 +1,8 @@
-// Integrates the displacement and the power of a swimmer along a stroke. A stroke consists of legs,
-// which are parts on which the arms are smooth functions of time (stroke.hpp). Displacements [L],
-// energies [M L^2/T^2], forces [M L/T^2] and power [M L^2/T^3] >= 0 are in the units of the fit;
-// the efficiency [1] is >= 0. `intervals` must be > 0 (not checked). A stroke outside the table
-// throws Error(kBadInput); sums that do not converge throw Error(kNotConverged). swimmer/case,
-// swimmer/job and python/ use this file. A change may alter sums by rounding errors only; swim.hpp
-// repeats the numbers of kMost and kTolerance.
+// Integrates the displacement and the power of a swimmer along a stroke.
 #include "viscontact/swimmer/swim.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "viscontact/common/error.hpp"
@@ -15,7 +10,7 @@
 namespace viscontact::swimmer {
 namespace {
 
-/// The integrals over a leg or a part of a leg: displacement [L], energy [M L^2/T^2].
+/// Integrals over time on a leg or a part of it: displacement [L] and energy [M L^2/T^2].
 struct Integrals {
   double displacement = 0, energy = 0;
   double length = 0;  ///< integral of the root of the power [M^(1/2) L/T^(1/2)]
@@ -32,7 +27,6 @@ struct Integrals {
   }
 };
 
-/// The integrals over the leg from the time `from` to the time `to` [T] by the quadrature `rule`.
 Integrals integrate(const Swimmer& swimmer, const StrokeLeg& leg, double from, double to,
                     const GaussRule& rule) {
   Integrals sum;
@@ -48,8 +42,7 @@ Integrals integrate(const Swimmer& swimmer, const StrokeLeg& leg, double from, d
   return sum;
 }
 
-/// Integrates a leg with more and more points until the integrals no longer change. Throws
-/// Error(kBadInput) if the leg leaves the table, Error(kNotConverged) if kMost points are too few.
+/// Integrates a leg with more and more points until the integrals no longer change.
 Integrals integrate_leg(const Swimmer& swimmer, const StrokeLeg& leg) {
   // The integrands are analytic, so that each doubling of the points squares the error. Legs of
   // 1e-3 radii need 8 points, legs across the whole table 64.
@@ -72,8 +65,6 @@ Integrals integrate_leg(const Swimmer& swimmer, const StrokeLeg& leg) {
 
 }  // namespace
 
-/// The displacement [L], energy [M L^2/T^2], energy at constant power [M L^2/T^2] and efficiency
-/// [1] of one period of the stroke. The efficiency is 0 if the energy is 0.
 SwimSums swim_sums(const Swimmer& swimmer, const Stroke& stroke) {
   Integrals sum;
   for (const auto& leg : stroke.legs) sum += integrate_leg(swimmer, leg);
@@ -84,9 +75,8 @@ SwimSums swim_sums(const Swimmer& swimmer, const Stroke& stroke) {
               : 0};
 }
 
-/// The state of the swimmer at about `intervals` + 1 or more times [T], in their order. Each leg
-/// has rows at its ends and at equal distances between, at most period/intervals apart.
 std::vector<SwimRow> swim_rows(const Swimmer& swimmer, const Stroke& stroke, int intervals) {
+  assert(intervals > 0 && stroke.period > 0);
   // The quadrature with 16 points is exact to round-off between two rows that are at most 1/100 of
   // a stroke apart.
   const auto rule = gauss_rule(16);
@@ -114,11 +104,6 @@ std::vector<SwimRow> swim_rows(const Swimmer& swimmer, const Stroke& stroke, int
   return rows;
 }
 
-/// Estimates of the errors of the displacement [L] and the energy [M L^2/T^2], from the changes of
-/// `sums` if other fits are used: the sizes of the changes with the fits `lower_degrees` are added
-/// up, and twice the root mean square of the changes with the fits `table_errors` is added.
-/// `multiplier` is the derivative of the least energy by the displacement [M L/T^2] for an optimal
-/// stroke, and 0 for any other stroke.
 SwimErrors swim_errors(const SwimSums& sums, const Stroke& stroke,
                        const std::vector<ResistanceFit>& lower_degrees,
                        const std::vector<ResistanceFit>& table_errors, double multiplier) {

@@ -1,10 +1,4 @@
-// Computes the displacement, energy, positions, forces and power of a stroke of a swimmer, and
-// estimates of the errors of displacement and energy. A swimmer is a line of spheres; its arms are
-// the distances x_k between the centres of neighbouring spheres, and a stroke is a closed path of
-// the arms. Lengths, masses and times are in the units of the fit, which must be those of the
-// stroke (not checked). A stroke that leaves the table throws Error(kBadInput), and an integral
-// that does not converge throws Error(kNotConverged). The commands `swimmer` and `sweep`, and
-// python/, use this file. A change may alter the sums over a period by rounding errors only.
+// Displacement, energy, forces and power of a stroke of a swimmer, and error estimates.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,26 +9,25 @@
 
 namespace viscontact::swimmer {
 
-/// The swimmer at one time.
 struct SwimRow {
   double time = 0;       ///< [T], from 0 to the period
-  Eigen::VectorXd arms;  ///< x [L], > 0, a number for each arm
+  Eigen::VectorXd arms;  ///< x [L]
   double position = 0;   ///< position of the middle sphere [L], 0 at the beginning
   /// Force of each sphere on the fluid [M L/T^2], > 0 towards the last sphere; their sum is 0.
   Eigen::VectorXd forces;
-  double power = 0;  ///< power that the swimmer needs [M L^2/T^3], >= 0
+  double power = 0;  ///< power that the swimmer needs [M L^2/T^3]
 };
 
-/// The sums over one period.
+/// The sums over one period, in the units of the fit, which must be those of the stroke.
 struct SwimSums {
   double displacement = 0;  ///< [L], > 0 towards the last sphere
-  double energy = 0;        ///< [M L^2/T^2], >= 0: the integral of the power
-  /// The least energy [M L^2/T^2], >= 0, with which the swimmer can run through this loop in this
-  /// period. It needs this energy if it runs at constant power.
+  double energy = 0;        ///< the integral of the power [M L^2/T^2]
+  /// The least energy [M L^2/T^2] with which the swimmer can run through this loop in this period:
+  /// that at constant power.
   double energy_at_constant_power = 0;
-  /// Lighthill's efficiency [1], >= 0: the power to tow the rigid swimmer at its mean velocity,
-  /// with the mean drag of its shapes, divided by the mean power (Lighthill 1952, Commun. Pure
-  /// Appl. Math. 5, 109). It is 0 if the energy is 0.
+  /// Lighthill's efficiency [1]: the power to tow the rigid swimmer at its mean velocity, with the
+  /// mean drag of its shapes, divided by the mean power (Lighthill 1952, Commun. Pure Appl. Math.
+  /// 5, 109). It is 0 if the energy is 0.
   double efficiency = 0;
 };
 
@@ -46,21 +39,20 @@ SwimSums swim_sums(const Swimmer& swimmer, const Stroke& stroke);
 
 /// The state of the swimmer at about `intervals` + 1 times or more, in order of time. Each leg has
 /// rows at its beginning, at its end, and at equal distances between, at most period/intervals
-/// apart. Therefore two rows have the same time where two legs meet. `intervals` must be > 0 (not
-/// checked). Throws Error(kBadInput) if the stroke leaves the table.
+/// apart. Therefore two rows have the same time where two legs meet. Throws Error(kBadInput) if the
+/// stroke leaves the table.
 std::vector<SwimRow> swim_rows(const Swimmer& swimmer, const Stroke& stroke, int intervals);
 
-/// Estimates of the errors of SwimSums, >= 0.
+/// Estimates of the errors of SwimSums.
 struct SwimErrors {
   double displacement = 0;  ///< [L]
   double energy = 0;        ///< [M L^2/T^2]
 };
 
-/// Estimates the errors of `sums`, which must be swim_sums() of `stroke` (not checked), by
-/// computing the sums with other fits, which fit/fit_resistance.hpp makes. The error of a sum has
-/// two parts, which are added: the absolute changes of the sum with all fits `lower_degrees`, and
-/// twice the root mean square of its changes with the fits `table_errors`. A part whose list is
-/// empty is 0. Throws the errors of swim_sums().
+/// Estimates the errors of `sums`, which are swim_sums() of `stroke`, with other fits
+/// (fit/fit_resistance.hpp). The error of a sum has two parts, which are added: the absolute
+/// changes of the sum with all fits `lower_degrees`, and twice the root mean square of its changes
+/// with the fits `table_errors`. A part whose list is empty is 0. Throws the errors of swim_sums().
 ///
 /// For a stroke of least energy, `multiplier` is OptimalStroke::multiplier divided by the period [M
 /// L/T^2]; for any other stroke it is 0. With another fit the displacement of the stroke changes,

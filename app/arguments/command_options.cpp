@@ -1,18 +1,11 @@
-// Options that several commands of app/ share, and checks of the files and models that a command
-// line names; main.cpp, commands/ and help/ use them. Widths are 100 to 10000 and font sizes 2 to
-// 200, both in pixels of an SVG or points of a PDF; --jobs is 1 to 1024, --tasks 1 to 4000000. A
-// wrong option is an Error(kWrongUsage) or, if CLI11 checks it, a CLI::ParseError; a file that
-// --plot must not replace is an Error(kBadInput), and a path that cannot be resolved is a
-// std::filesystem::filesystem_error. The list `options` in with_files_apart() must contain every
-// option for which a command calls CLI11's expected(0, 1), which allows an option without its
-// value. The names of the options of array jobs (jobs of many tasks on a Slurm cluster) must stay,
-// because submitted scripts contain them.
+// Options that several commands share, and checks of the files and models that they name.
 #include "viscontact/app/arguments/command_options.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -33,9 +26,8 @@
 namespace viscontact::app {
 namespace {
 
-/// The path of the file that `path` names, with symbolic links resolved. A link whose target does
-/// not exist yet is resolved, too, because an output need not exist yet. Throws
-/// std::filesystem::filesystem_error if the system cannot resolve it.
+/// The path with symbolic links resolved, also a link whose target does not exist yet, because an
+/// output need not exist. Throws std::filesystem::filesystem_error if the system cannot resolve it.
 std::filesystem::path resolved_place_of(std::filesystem::path path) {
   namespace fs = std::filesystem;
   constexpr int kMostLinks = 40;  // the limit of Linux; a larger number works, too
@@ -47,8 +39,6 @@ std::filesystem::path resolved_place_of(std::filesystem::path path) {
 
 }  // namespace
 
-/// Checks the paths of all outputs of a command; there may be none. Throws Error(kWrongUsage) if a
-/// path is empty or two of them name the same file.
 void check_outputs(const std::vector<std::string>& paths) {
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (paths[i].empty())
@@ -60,9 +50,6 @@ void check_outputs(const std::vector<std::string>& paths) {
   }
 }
 
-/// Checks the path that --plot gives; an empty path is accepted. Throws Error(kWrongUsage) for an
-/// unknown ending (the known ones are .svg, .pdf, .png and .gp), and Error(kBadInput) if the file
-/// exists, but is no picture of this kind that Viscontact wrote.
 void check_picture(const std::string& path) {
   if (path.empty()) return;
   const auto* kind = results::picture_kind(path);
@@ -73,10 +60,8 @@ void check_picture(const std::string& path) {
   results::refuse_other_kind(path, kind->marker, "picture");
 }
 
-/// Adds the options --plot, --width and --font-size to `command`. CLI11 stores their values in
-/// `picture`, which must outlive `command`. `help` is the text of --plot in --help.
 void add_picture(CLI::App& command, results::PictureRequest& picture, const std::string& help) {
-  // The limits of width and font size only catch mistyped numbers; other limits would do as well.
+  // The limits of width and font size only catch mistyped numbers.
   auto* plot = add_value(command, "--plot", picture.path, kFile, help);
   add_value(command, "--width", picture.width, "N",
             "width of the picture: pixels of an SVG, points of a PDF; default: its own")
@@ -92,8 +77,6 @@ void add_picture(CLI::App& command, results::PictureRequest& picture, const std:
       ->needs(plot);
 }
 
-/// Throws Error(kWrongUsage), which names `option`, if one of `names` is not the name of a model of
-/// motion. The list may be empty.
 void check_models(std::string_view option, const std::vector<std::string>& names) {
   for (const auto& name : names)
     from_option(option, [&] { return reduced_model::find_model(name); });
@@ -105,9 +88,8 @@ CLI::Validator one_of(std::vector<std::string> words) {
   return CLI::IsMember(std::move(words)).description("");
 }
 
-/// A check that accepts a whole number from `least` to `most`, both included, written in digits
-/// without a sign. For any other text CLI11 throws CLI::ValidationError.
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
+  assert(least <= most);
   const auto check = [least, most](const std::string& text) {
     std::uint64_t value = 0;
     const char* const end = text.data() + text.size();
@@ -141,19 +123,14 @@ CLI::Option* add_json(CLI::App& command, bool& json) {
   return command.add_flag("--json", json, "print the table as JSON");
 }
 
-/// Adds the option --jobs, which sets `jobs`, the number of processes or threads that run at once.
-/// `help` is its text in --help.
 CLI::Option* add_jobs(CLI::App& command, int& jobs, const std::string& help) {
   // The default is given in words and not as a number of cores, because the manual is made on one
   // machine and read on another.
   return command.add_option("-j,--jobs", jobs, help)
-      ->check(CLI::Range(1, 1024))  // a free limit; few machines have more cores
+      ->check(CLI::Range(1, 1024))  // few machines have more cores
       ->default_str("one for each core");
 }
 
-/// The arguments of a command line, from the name of the command on, in an order that CLI11 reads
-/// correctly: an option without its value before a file, as in `fit --fix own.csv`, is moved to the
-/// end or to just before "--". Throws nothing.
 std::vector<std::string> with_files_apart(std::vector<std::string> arguments) {
   struct Option {
     std::string_view command, name;
@@ -164,6 +141,7 @@ std::vector<std::string> with_files_apart(std::vector<std::string> arguments) {
   };
   constexpr auto is_term = [](std::string_view word) {
     return word.starts_with(lubrication::kLeadingTerm);
+    // Every option for which a command calls CLI11's expected(0, 1).
   };
   constexpr auto is_limit = [](std::string_view word) {
     return word == "fitted" || word == "theory";
@@ -190,8 +168,6 @@ std::vector<std::string> with_files_apart(std::vector<std::string> arguments) {
   return arguments;
 }
 
-/// Adds the options of array jobs. CLI11 stores their values in `o`, which must outlive `command`.
-/// `results` is what --help calls the output, such as "the table".
 void add_array_options(CLI::App& command, ArrayOptions& o, const std::string& results) {
   o.launcher_option = add_value(command, "--launcher", o.launcher, "local|slurm",
                                 "local: compute here; slurm: submit an array job")
@@ -213,17 +189,12 @@ void add_array_options(CLI::App& command, ArrayOptions& o, const std::string& re
   o.task_option->excludes(o.launcher_option)->excludes(o.gather_option);
 }
 
-/// Throws Error(kWrongUsage) if --tasks or --slurm-options is given without --launcher slurm, or if
-/// --task is not K/T with 0 <= K < T.
 void check_array_options(const ArrayOptions& o) {
   if (!o.is_slurm() && (o.tasks > 0 || !o.slurm_options.empty()))
     throw Error(ErrorKind::kWrongUsage, "--tasks and --slurm-options need --launcher slurm");
   (void)share_of(o);
 }
 
-/// The rows that --task K/T asks for: the rows K, K+T, K+2T, ..., counted from 0. Without this
-/// option these are all rows. Throws Error(kWrongUsage) unless the option has this form with whole
-/// numbers 0 <= K < T.
 pipeline::Share share_of(const ArrayOptions& o) {
   pipeline::Share share;
   if (o.task.empty()) return share;
@@ -236,11 +207,9 @@ pipeline::Share share_of(const ArrayOptions& o) {
   throw Error(ErrorKind::kWrongUsage, "--task is '{}'; it must be K/T with 0 <= K < T", o.task);
 }
 
-/// The request for an array job that computes the rows of the table or folder `output`. It has a
-/// number of tasks only if --tasks is given, and a number `jobs` of rows at once only if --jobs is
-/// given, whose CLI11 object is `jobs_option`. Nothing is checked or thrown.
 pipeline::ArrayRequest array_request(const ArrayOptions& o, const std::string& output,
                                      const CLI::Option& jobs_option, int jobs) {
+  assert(jobs >= 1);
   return {output, o.tasks > 0 ? std::optional(o.tasks) : std::nullopt,
           jobs_option.count() > 0 ? std::optional(jobs) : std::nullopt, o.slurm_options,
           interrupt_token()};

@@ -1,8 +1,4 @@
-// Installs a handler for the signals SIGINT, SIGTERM and SIGHUP with sigaction (interrupt.hpp), for
-// main.cpp and the commands of app/. The first such signal sets a flag; further ones change
-// nothing, and the flag is never reset. Nothing is thrown, and a failure of sigaction is ignored.
-// Further signals may be added in catch_interrupts(). A change must keep that the handler does
-// nothing but set a lock-free flag, because a signal can come in the middle of any function.
+// The handler sets a lock-free flag only, because a signal can come in the middle of any function.
 #include "viscontact/app/arguments/interrupt.hpp"
 
 #include <atomic>

@@ -1,13 +1,4 @@
-// The command lines of `particles`, `rolling` and `swimmer` (docs/command-line.md). Each of these
-// commands reads a case file (TOML) and writes all results of the case and a web page about them
-// into the folder --output; numbers are in the units of the case. --jobs is from 1 to 1024.
-// main.cpp adds the commands. They throw Error(kWrongUsage) for an empty name of the folder, or for
-// --hdf5 if the program was built without HDF5, Error(kBadInput) for a wrong case or a file that
-// must not be replaced, Error(kExternalProgram) if FreeFEM or another program fails,
-// Error(kNotConverged) if a computation fails, and Error(kInterrupted) after Ctrl-C.
-// run_particles(), run_rolling() and run_swimmer() do the work. Texts of --help may be changed. A
-// change must keep the names of the options; the names of the commands are also in the list
-// kWriting of rerun_command.cpp.
+// `particles`, `rolling` and `swimmer`: all results of a case, in a folder.
 #include <memory>
 #include <string>
 
@@ -22,16 +13,14 @@
 namespace viscontact::app {
 namespace {
 
-/// Adds the argument CASE and the option --output, which must both be given. `contents` names the
-/// files in the output folder, for --help.
+/// Adds the argument CASE and the option --output. `contents` names the files in the output folder.
 template <class Request>
 void add_case_and_folder(CLI::App& command, Request& o, const std::string& contents) {
   add_value(command, "CASE", o.case_file, kFile, "case file (TOML)")->required();
   add_value(command, "-o,--output", o.folder, kFolder, "folder for " + contents)->required();
 }
 
-/// Adds the options --plots and --json. When the command runs, it checks the name of the output folder and calls
-/// `run` with the request `o`.
+/// Adds the options --plots and --json. When the command runs, it calls `run` with the request `o`.
 template <class Request>
 void run_job(CLI::App& command, const std::shared_ptr<Request>& o, void (*run)(const Request&)) {
   auto plots = std::make_shared<std::string>();

@@ -1,11 +1,5 @@
-// The command `doctor`, which main.cpp adds: checks which programs are installed, says how to
-// install missing ones, and compares a drag factor (drag divided by Stokes' drag in unbounded
-// fluid) that FreeFEM computes with its exact value. It prints one line for each finding. With
-// --json it prints an array of objects with the keys `ok` (true or false) and `what` (a text),
-// which a change must keep. A failure of FreeFEM is a finding and no error. If one finding is bad,
-// main.cpp returns the exit code of kExternalProgram. Throws Error(kInterrupted) after Ctrl-C, and
-// std::system_error if the system has no free sockets for a child process. Words, the time limit of
-// gnuplot and the known row may be changed.
+// `doctor`: which programs are installed, how to install missing ones, and whether FreeFEM computes
+// a drag factor (drag divided by Stokes' drag in unbounded fluid) of known value.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -29,19 +23,16 @@
 namespace viscontact::app {
 namespace {
 
-/// What one check has found.
 struct Finding {
   bool good;         ///< false: something is missing or wrong
-  std::string what;  ///< what was found, in words; one line
+  std::string what;  ///< one line
 };
 
 using Report = std::function<void(const Finding&)>;
 
-/// Computes a drag factor whose exact value is known: that of a sphere at a gap of 0.1 radii above
-/// a plane, with viscosity 1, radius 1 and velocity -1 (towards the plane). The container (radius
-/// 40, height 80) is so wide that it changes the drag factor by less than kTolerance. kBrenner is
-/// the exact value, from the series of Brenner (1961); another gap or geometry needs another exact
-/// value. Throws the errors of freefem_axi::solve_row().
+/// Computes the drag factor of a sphere at a gap of 0.1 radii above a plane. The container (radius
+/// 40, height 80) is so wide that it changes the factor by less than kTolerance. kBrenner is the
+/// exact value, from the series of Brenner (1961).
 Finding solve_known_row(const freefem_axi::FreeFem& freefem) {
   constexpr double kBrenner = 11.45915720340955722964;
   constexpr double kTolerance = 1e-4;  // small enough to show a wrong installation
@@ -89,8 +80,8 @@ void print_line(const Finding& finding) {
   fmt::print("{} {}\n", word, finding.what);
 }
 
-/// Makes all checks and prints the findings, each on a line, or as JSON if `json` is true. Returns
-/// true if nothing is missing or wrong.
+/// Prints the findings as lines or as JSON: an array of objects with the keys `ok` (true or false)
+/// and `what` (a text). Returns true if nothing is missing or wrong.
 bool examine(bool json) {
   std::vector<Finding> findings;
   const Report report = [&](const Finding& finding) {

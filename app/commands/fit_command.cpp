@@ -1,13 +1,5 @@
-// The command lines of `fit` (fits a formula to a table, or compares bases, which are lists of
-// terms), `shift` (fits the depth below the crests of a rough wall at which a smooth wall has equal
-// drag) and `export` (writes a fit as code or numbers), which main.cpp adds. docs/command-line.md
-// describes them, docs/theory.md the fit. Numbers are in the units of the table; --radius and
-// --viscosity are > 0. A wrong option is an Error(kWrongUsage); a wrong table or fit, and a file
-// that must not be replaced, are an Error(kBadInput); a fit that fails is an Error(kNotConverged).
-// A failure of gnuplot, Error(kExternalProgram), is thrown after the fit is written. Texts of
-// --help may be changed. refuse_other_kind() recognises a kind of file by a text in it, which is
-// given here and again in python/fits.cpp; a change must keep that the writer of this kind of file
-// writes the text.
+// `fit` (docs/theory.md), `shift` and `export`. refuse_other_kind() recognises a kind of file by a
+// text in it, which is given here and again in python/fits.cpp.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -45,9 +37,8 @@ CLI::Validator positive_number() {
 }
 
 /// Reads `word`, the value of --fix, which fixes the coefficient of 1/q (q: the gap) in the force
-/// at the table's first velocity. The coefficient has the dimension [M L^2/T^2]. An empty word,
-/// "1/q" or "theory" fixes it at the value that lubrication theory gives (docs/theory.md);
-/// "1/q=56.5" fixes it at 56.5, and any finite number is accepted. Other words throw
+/// at the table's first velocity [M L^2/T^2]: at the value of lubrication theory (docs/theory.md)
+/// if the word is empty, "1/q" or "theory"; at 56.5 if it is "1/q=56.5". Other words throw
 /// Error(kWrongUsage).
 void read_fix(const std::string& word, fitting::FitSettings& settings) {
   settings.fix_leading = true;
@@ -61,24 +52,22 @@ void read_fix(const std::string& word, fitting::FitSettings& settings) {
                 word);
 }
 
-/// The values of the options of `fit`, which add_fit() explains. `fit` is the value of --output,
-/// the path of the file to write. `tables` are the arguments TABLE, and `table` is the first of
-/// them. Each other member is named after its option. Of the texts, only `basis`, `weights` and
-/// `loss` have a default; the others are empty if their option was not given.
+/// The values of the options of `fit`, each named after its option; `fit` is that of --output.
+/// `tables` are the arguments TABLE, and `table` is the first of them. Of the texts, only `basis`,
+/// `weights` and `loss` have a default.
 struct FitOptions {
   std::string basis{lubrication::default_basis().name};
   std::vector<std::string> tables;
   std::string table, fit, terms, weights = "relative", loss = "none", fix;
   results::PictureRequest plot;
   bool compare_bases = false, json = false;
-  /// CLI11's objects of options, whose count() is 0 if the option was not given.
+  /// CLI11's objects, whose count() is 0 if the option was not given.
   const CLI::Option *output_option = nullptr, *terms_option = nullptr, *fix_option = nullptr,
                     *basis_option = nullptr, *weights_option = nullptr;
 };
 
-/// Runs `fit` for the tables `files` of a pair, which is a sphere and its neighbour (a plane or
-/// another body). Throws Error(kWrongUsage) for options of a single table, and the errors of the
-/// stages of motions/.
+/// Fits the tables `files` of a pair, which is a sphere and its neighbour (a plane or another
+/// body). Throws Error(kWrongUsage) for options of a single table.
 void fit_tables_of_pair(const FitOptions& o, const std::vector<std::filesystem::path>& files) {
   if (o.terms_option->count() + o.fix_option->count() + o.weights_option->count() > 0 ||
       !o.plot.path.empty())
@@ -101,10 +90,8 @@ void fit_tables_of_pair(const FitOptions& o, const std::vector<std::filesystem::
   motions::fit_pair_stage(files, o.fit, settings, interrupt_token());
 }
 
-/// Runs `fit`: checks the options and the files to write, then compares bases if --compare-bases is
-/// given, and writes the fit if --output is given. Throws Error(kWrongUsage) for options that
-/// contradict each other, Error(kBadInput) for a file that must not be replaced, and the errors of
-/// the stages.
+/// Checks the options and the files to write, then compares bases if --compare-bases is given, and
+/// writes the fit if --output is given.
 void fit_table(FitOptions& o) {
   const auto files = motions::pair_table_files(o.tables);
   if (motions::are_of_pair(o.tables, files)) return fit_tables_of_pair(o, files);
@@ -148,18 +135,17 @@ void fit_table(FitOptions& o) {
   if (without_picture) throw Error(*without_picture);
 }
 
-/// The values of the options of `export`: paths of the fit and of the output, name of the target,
-/// and the words of --below and --above. An empty text means that the option was not given.
+/// Paths of the fit and of the output, name of the target, and the words of --below and --above. An
+/// empty text means that the option was not given.
 struct ExportOptions {
   std::string fit, target, output, below, above;
   double radius = 0, viscosity = 0;  // [L], [M/(L T)]; 0: as in the fit
 };
 
-/// Returns the fit in the file `o.fit` as text for `o.target`, the name of a language or format
-/// (fitting/export/). The file is the fit of one force, or of all resistances of a pair (a sphere
-/// and its neighbour). The text names `source` as its origin. Throws Error(kWrongUsage) if --below
-/// or --above is given for a pair or for a target without them, and Error(kBadInput) if the file is
-/// not a fit.
+/// The fit in the file `o.fit`, of one force or of all resistances of a pair, as text for
+/// `o.target`, the name of a language or format (fitting/export/). The text names `source` as its
+/// origin. Throws Error(kWrongUsage) if --below or --above is given for a pair or for a target
+/// without them.
 std::string exported(const ExportOptions& o, const std::string& source) {
   const auto or_of_fit = [](double asked, double of_fit) { return asked > 0 ? asked : of_fit; };
   if (motions::is_pair_fit(o.fit)) {

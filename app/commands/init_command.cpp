@@ -1,9 +1,4 @@
-// The command `init`, which main.cpp adds: writes a commented case and prints the command that runs
-// it. The keys, their units, ranges and defaults come from the declarations in
-// case_file/case_file.cpp. Throws Error(kBadInput) if the file exists or cannot be written,
-// Error(kWrongUsage) for an empty name, and std::filesystem::filesystem_error for a path that the
-// system refuses. Title and comments of the case may be changed. A change must keep that
-// `viscontact run` accepts the case as it is written.
+// `init` writes a commented case that `viscontact run` accepts as it is.
 
 #include <filesystem>
 #include <memory>

@@ -1,12 +1,5 @@
-// The command `rerun`, which main.cpp adds. Every output of Viscontact contains its provenance
-// (results/provenance.hpp): the command that made it, the folder in which this command ran, and its
-// inputs with their hashes. `rerun` starts this command again. It throws Error(kBadInput) if the
-// provenance or the folder is missing, if the command is not allowed, or if inputs have changed;
-// Error(kWrongUsage) if the command cannot write --output; Error(kExternalProgram) if the program
-// cannot be started; and std::filesystem::filesystem_error for a path that the system refuses.
-// Anybody may have written the file, so check_command() decides which commands and options are run;
-// a change must keep this check before execv. A new command that writes files must be added to
-// kWriting.
+// `rerun` starts the command in the provenance of a file again. Anybody may have written the file,
+// so check_command() decides before execv which commands and options are run.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -32,18 +25,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The values of the options of `rerun`.
 struct RerunOptions {
   std::string file,             ///< path of the file whose command is repeated
       output,                   ///< path of the new output; empty: the recorded one
-      folder;                   ///< folder in which the command runs; empty: the recorded one
-  bool changed_inputs = false,  ///< true: runs although inputs have changed
-      dry_run = false;          ///< true: prints the command and does not run it
+      folder;                   ///< where the command runs; empty: the recorded one
+  bool changed_inputs = false,  ///< runs although inputs have changed
+      dry_run = false;          ///< prints the command and does not run it
 };
 
-/// Throws Error(kBadInput) unless the command is a command of Viscontact that writes files. Refuses
-/// the command `rerun`, and the options by which a file could make this program run other programs
-/// (--launcher, --slurm-options).
+/// Throws Error(kBadInput) unless the command is one of Viscontact that writes files. Refuses
+/// `rerun`, and options by which a file could make this program run others (--launcher,
+/// --slurm-options).
 void check_command(const std::string& file, const std::vector<std::string>& command) {
   constexpr auto kWriting = std::to_array<std::string_view>(
       {"run", "tabulate", "fit", "export", "shift", "simulate", "sweep", "compare", "report",
@@ -58,15 +50,14 @@ void check_command(const std::string& file, const std::vector<std::string>& comm
     throw_bad_input({file}, "its line 'provenance' contains a command that 'rerun' does not run");
 }
 
-/// The place of an option's value in a command: `word` is the index of a word of the command, and
-/// `begin` is the position in this word at which the value begins; both count from 0.
+/// The place of an option's value in a command: the index of a word of the command, and the
+/// position in this word at which the value begins.
 struct ValuePlace {
   std::size_t word = 0, begin = 0;
 };
 
-/// The place of the value of the option `name`, such as --output, which also has the one-letter
-/// name `letter` ('\0': it has none). The option may be written as "-o VALUE", "-oVALUE", "--output
-/// VALUE" or "--output=VALUE". Returns nothing if the command does not have the option.
+/// The place of the value of the option `name`, such as --output, with the one-letter name `letter`
+/// ('\0': none), written as "-o VALUE", "-oVALUE", "--output VALUE" or "--output=VALUE".
 std::optional<ValuePlace> value_of(const std::vector<std::string>& command, char letter,
                                    const std::string& name) {
   const std::string shorter = letter == '\0' ? "" : std::string("-") + letter;
@@ -85,10 +76,9 @@ std::string value_at(const std::vector<std::string>& command, const ValuePlace& 
   return command[place.word].substr(place.begin);
 }
 
-/// Returns the command of the provenance, changed so that it writes to `o.output` in place of
-/// provenance.output. Throws Error(kWrongUsage) if the command has no option for that, if the file
-/// is a picture that was drawn beside a table, or if `o.output` must be a folder but is the name of
-/// a file.
+/// The command of the provenance, changed so that it writes to `o.output`. Throws
+/// Error(kWrongUsage) if the command has no option for that, if the file is a picture that was
+/// drawn beside a table, or if `o.output` must be a folder but is the name of a file.
 std::vector<std::string> with_output(const RerunOptions& o, const results::Provenance& provenance) {
   auto command = provenance.command;
   const auto put = [&](const ValuePlace& place) {
@@ -139,8 +129,8 @@ std::vector<std::string> with_output(const RerunOptions& o, const results::Prove
   return command;
 }
 
-/// Changes the provenance so that its command runs in the folder `to`, to which its files have
-/// moved. Absolute paths below the old folder, provenance.folder, become paths below `to`.
+/// Changes absolute paths below the old folder so that the command runs in the folder `to`, to
+/// which its files have moved.
 void move_to(results::Provenance& provenance, const fs::path& to) {
   const std::string from = provenance.folder + "/";
   // A provenance without its folder has no absolute paths either, because

@@ -1,13 +1,5 @@
-// The command lines of `run` (all results of one case) and of its last stages, `simulate`,
-// `compare` and `report` (docs/command-line.md), which main.cpp adds. Numbers are in the units of
-// the case; --jobs is from 1 to 1024. pipeline/, report/, rolling/, swimmer/ and particles/ do the
-// work. The commands throw Error(kWrongUsage) for a wrong option; Error(kBadInput) for a wrong file
-// or a folder that another command has locked; Error(kExternalProgram) if FreeFEM or gnuplot fails;
-// Error(kNotConverged) if a computation fails; Error(kInterrupted) after Ctrl-C; and
-// std::filesystem::filesystem_error for a path that the system refuses. Texts of --help may be
-// changed. A command must keep the folder into which it writes locked until it ends, because two
-// commands at once would mix their files. report_again() repeats names of files that rolling/,
-// swimmer/ and particles/ write; a change of such a name must be made here, too.
+// `run` (all results of one case) and its last stages, `simulate`, `compare` and `report`. A
+// command locks the folder into which it writes, because two at once would mix their files.
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -94,7 +86,6 @@ void add_simulate(CLI::App& app) {
     check_outputs({o->folder});
     check_models("--models", o->models);
     const case_file::Case c = case_file::read_case(o->case_file);
-    // If an option is not given, the section [fit] of the case decides.
     auto outside = c.fit.value_or(case_file::FitRequest{}).outside;
     if (limit->count() > 0)
       outside.below = o->lubrication_limit == "theory"
@@ -141,9 +132,8 @@ void add_compare(CLI::App& app) {
 
 namespace {
 
-/// Writes the web page and the pictures of a folder again. The command that made the folder is
-/// recognised by the names of its files. Throws Error(kBadInput) if there is none of these files,
-/// and the errors of the function that is called.
+/// The command that made the folder (run, rolling, swimmer or particles) is recognised by the names
+/// of its files. Throws Error(kBadInput) if there is none of these files.
 void report_again(const std::filesystem::path& folder) {
   const auto has = [&](const char* name) {
     return std::filesystem::is_regular_file(folder / name);

@@ -1,12 +1,5 @@
-// The command line of `tabulate` (docs/command-line.md), which main.cpp adds, and the choice of
-// what to do: compute all rows here, compute the rows of one task, submit a job to Slurm, or gather
-// the rows of such a job. pipeline/tabulate/ does the work. Gaps are in the unit of the case;
-// --jobs is from 1 to 1024. A wrong option is an Error(kWrongUsage), a wrong case or a file that
-// must not be replaced an Error(kBadInput), a failure of FreeFEM, gnuplot or Slurm an
-// Error(kExternalProgram), a missing row for --gather an Error(kNotConverged), and Ctrl-C an
-// Error(kInterrupted). If only some rows fail, their error is thrown when all other work is done.
-// Texts of --help may be changed. A change must keep the names of the tables, which users' scripts
-// read.
+// `tabulate`: computes all rows here or those of one task, submits a job to Slurm, or gathers the
+// rows of such a job.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,23 +29,20 @@ namespace viscontact::app {
 
 namespace {
 
-/// The values of the options of `tabulate`.
 struct TabulateOptions {
-  std::vector<std::string> case_files,  ///< paths of the cases, at least one
+  std::vector<std::string> case_files,  ///< at least one
       motions;                          ///< names of motions; empty: as the cases say
   std::string output,                   ///< path of the table or folder
       plot;                             ///< gaps [L] separated by commas; may be empty
-  ArrayOptions array;                   ///< the options of a job on a cluster
+  ArrayOptions array;                   ///< of a job on a cluster
   int jobs = default_jobs();            ///< number of rows at once, >= 1
-  bool dry_run = false,                 ///< true: says how long the rows take, computes none
-      json = false;                     ///< true: --dry-run prints JSON
-  /// CLI11's objects of --jobs and --plot, whose count() is 0 if the option was not given.
+  bool dry_run = false,                 ///< says how long the rows take, computes none
+      json = false;                     ///< --dry-run prints JSON
+  /// CLI11's objects, whose count() is 0 if the option was not given.
   const CLI::Option *jobs_option = nullptr, *plot_option = nullptr;
 };
 
-/// Reads the gaps [L] of --plot, which are separated by commas; none for an empty text.
-/// gaps_to_picture() checks later that they are gaps of the case. Throws Error(kWrongUsage) for a
-/// word that is not a number.
+/// Gaps [L] separated by commas; gaps_to_picture() checks later that they are gaps of the case.
 std::vector<double> read_gaps(const std::string& text) {
   std::vector<double> gaps;
   std::istringstream words(text);
@@ -66,8 +56,7 @@ std::vector<double> read_gaps(const std::string& text) {
   return gaps;
 }
 
-/// The words "--motion" and "NAMES" for the command line of the tasks of a job; no words if
-/// --motion was not given.
+/// "--motion" and "NAMES" for the command line of the tasks of a job; nothing without --motion.
 std::vector<std::string> motion_words(const TabulateOptions& o) {
   if (o.motions.empty()) return {};
   return {"--motion", fmt::format("{}", fmt::join(o.motions, ","))};
@@ -76,10 +65,9 @@ std::vector<std::string> motion_words(const TabulateOptions& o) {
 /// Reads the cases. For one case of one motion, `output` is the file of the table; for one case of
 /// several motions it is a folder with a table MOTION.csv for each. For several cases it is a
 /// folder with CASE.csv or CASE/MOTION.csv, where CASE is the name of the case file without its
-/// ending. The names in `motions` (approach, slide, roll, spin, or all), unless there are none,
-/// replace the key `motion` of the cases. Throws Error(kWrongUsage) if two tables would have the
-/// same name, the errors of read_case() and read_swimmer_case(), and Error(kBadInput) if a case has
-/// neither [tabulation] nor [swimmer].
+/// ending. The names in `motions` (approach, slide, roll, spin, or all), if any, replace the key
+/// `motion` of the cases. Throws Error(kWrongUsage) if two tables would have the same name, and
+/// Error(kBadInput) if a case has neither [tabulation] nor [swimmer].
 std::vector<pipeline::CaseTable> read_case_tables(const std::vector<std::string>& case_files,
                                                   const std::filesystem::path& output,
                                                   const std::vector<std::string>& motions) {
@@ -125,9 +113,7 @@ std::vector<pipeline::CaseTable> read_case_tables(const std::vector<std::string>
   return tables;
 }
 
-/// Runs the command `tabulate`. Before a row is computed, throws Error(kWrongUsage) for wrong
-/// options, and Error(kBadInput) for a wrong case or a file that must not be replaced. Later it
-/// throws the errors of the functions in pipeline/tabulate/ that it calls.
+/// If only some rows fail, their error is thrown when all other work is done.
 void tabulate_cases(const TabulateOptions& o) {
   check_array_options(o.array);
   check_outputs({o.output});

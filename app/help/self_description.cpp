@@ -1,10 +1,5 @@
-// Writes the completion scripts for bash and zsh, and the manual page in the language roff, which
-// main.cpp prints; self_description.hpp says what each function returns. Descriptions of options
-// contain special characters; a change must pass each text through zsh_description() and quoted()
-// before it stands in a script, and through escaped() before it stands in the page. kEnvironment
-// repeats the time limits of freefem_axi/journal/freefem.hpp. Nothing is thrown. The examples and
-// the widths of columns may be changed. help2man is not used for the page, because it reads one
-// --help, and here each command has its own.
+// Descriptions of options contain special characters: each text passes through zsh_description()
+// and quoted() before it stands in a script, and through escaped() before it stands in the page.
 #include "viscontact/app/help/self_description.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +22,7 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) {
 
 bool is_flag(const CLI::Option& option) { return option.get_type_size() == 0; }
 
-/// The names of an option, such as "-o" and "--output".
+/// The names, such as "-o" and "--output".
 std::vector<std::string> names_of_option(const CLI::Option& option) {
   std::vector<std::string> names;
   for (const auto& name : option.get_snames()) names.push_back("-" + name);
@@ -35,8 +30,7 @@ std::vector<std::string> names_of_option(const CLI::Option& option) {
   return names;
 }
 
-/// The words that the option's value can be, if it is one known word or a list of them; otherwise
-/// there are no words.
+/// The words that the option's value can be, if it is one known word or a list of them; or none.
 std::vector<std::string> words_for(const CLI::Option& option) {
   std::string type = option.get_type_name();
   if (type == kModel || type == kModels) type = names_of(reduced_model::all_models(), "|");
@@ -72,8 +66,8 @@ std::string zsh_description(const std::string& text) {
   return result;
 }
 
-/// Zsh code that offers the possible values of the option. If they are not known, it is a blank,
-/// with which zsh shows the description of the option and offers nothing.
+/// Zsh code that offers the possible values of the option; a blank, with which zsh shows the
+/// description of the option only, if they are not known.
 std::string zsh_action(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   if (type == kFile) return "_files";
@@ -187,6 +181,7 @@ _viscontact "$@"
 
 namespace {
 
+// The time limits are those of freefem_axi/journal/freefem.hpp.
 constexpr std::array kEnvironment = {
     std::pair("VISCONTACT_FREEFEM", "the FreeFEM to run; default: FreeFem++-nw on the PATH"),
     std::pair("VISCONTACT_FREEFEM_TIME_LIMIT",
@@ -242,6 +237,7 @@ std::string help_footer() {
 }
 
 std::string manual(const CLI::App& app, const std::string& version) {
+  // help2man reads one --help, and here each command has its own.
   std::string text = fmt::format(
       ".TH VISCONTACT 1 \"\" \"Viscontact {}\"\n.SH NAME\nviscontact \\- lubrication and viscous "
       "contact of a sphere\n.SH SYNOPSIS\n.B viscontact\n.I COMMAND\n[\\fIOPTIONS\\fR]\n"

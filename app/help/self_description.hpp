@@ -1,8 +1,4 @@
-// What the program says of its own command line: the manual page, and scripts by which shells
-// complete the command line. All are made from CLI11's list of options, so that they always agree
-// with --help. main.cpp prints them. Nothing is thrown; no text is empty. All commands must have
-// been added to `app` before (not checked), because a later one is missing in the text. Words and
-// layout may be changed; a change must keep that every option is in the page and in both scripts.
+// The manual page, and scripts by which shells complete the command line, from CLI11's options.
 #pragma once
 
 #include <string>
@@ -17,7 +13,7 @@ namespace viscontact::app {
 std::string help_footer();
 
 /// The page viscontact(1) in the language roff: every command with its options. `version` is that
-/// of Viscontact, such as "1.0".
+/// of Viscontact, such as "1.0". Here and below `app` must have all commands.
 std::string manual(const CLI::App& app, const std::string& version);
 
 /// A script for bash that completes the names of commands, options and files, and the values of

@@ -1,7 +1,4 @@
 // A file descriptor (POSIX) that is closed when its object is destroyed, and a write to it.
-// common/files/, common/system/ and freefem_axi/journal/ use it for files, locks and child
-// processes. Nothing is thrown: the code that opens a file checks its descriptor. Further calls of
-// the system may be added; a change must keep that no descriptor is closed twice.
 #pragma once
 
 #include <unistd.h>
@@ -13,24 +10,20 @@
 
 namespace viscontact {
 
-/// Owns a file descriptor: one object at a time holds it, and closes it.
 class Descriptor {
  public:
-  /// Takes over an open descriptor, which must have no other owner (not checked). A negative number
-  /// means that the object has no descriptor.
+  /// Takes over an open descriptor that has no other owner. A negative number means none.
   explicit Descriptor(int descriptor = -1) : descriptor_(descriptor) {}
-  /// Takes over the descriptor of `other`, which has none afterwards.
   Descriptor(Descriptor&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-  /// Exchanges the descriptors of both objects; `other` closes the one that it receives when it is
-  /// destroyed.
+  /// Exchanges the descriptors of both objects.
   Descriptor& operator=(Descriptor&& other) noexcept {
     std::swap(descriptor_, other.descriptor_);
     return *this;
   }
   ~Descriptor() { close(); }
 
-  int get() const { return descriptor_; }  ///< the number, >= 0; negative: none, as after close()
-  /// Closes the descriptor, if there is one. Errors of closing are not reported.
+  int get() const { return descriptor_; }  ///< negative: none, as after close()
+  /// Errors of closing are not reported.
   void close() {
     if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
   }
@@ -39,9 +32,8 @@ class Descriptor {
   int descriptor_;
 };
 
-/// Writes all bytes of `text` at the current position of an open file. Returns false if that fails,
-/// with the reason in errno (EBADF if `file` has no descriptor); a part of the text may then have
-/// been written.
+/// Writes all bytes at the current position of the file. Returns false if not all were written,
+/// with the reason in errno (EBADF without a descriptor).
 inline bool write_all(const Descriptor& file, std::string_view text) {
   while (!text.empty()) {
     const ssize_t count = ::write(file.get(), text.data(), text.size());

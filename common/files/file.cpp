@@ -1,10 +1,5 @@
-// Reads and writes files with POSIX calls, for all parts with files. A file is any number of bytes,
-// which are not interpreted. A failed call, such as for a file that does not exist, is an
-// Error(kBadInput) with the path; an old file is then unchanged, unless flushing its folder failed
-// after the new one took its place. A signal while a pipe is read is an Error(kInterrupted);
-// write_file_by() also throws what its argument throws. A change must keep the order write, fsync,
-// rename, fsync of the folder, because only in this order does a power cut leave either the old or
-// the new file.
+// A file is replaced in the order write, fsync, rename, fsync of the folder, because only then a
+// power cut leaves either the old or the new file.
 #include "viscontact/common/files/file.hpp"
 
 #include <fcntl.h>
@@ -15,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cerrno>
 #include <charconv>
 #include <csignal>
@@ -28,19 +24,17 @@
 namespace viscontact {
 namespace {
 
-/// Throws Error(kBadInput) "PATH cannot be ACTION (REASON)". `action` is a participle such as
-/// "read"; `code` is a value of errno.
+/// "PATH cannot be ACTION (REASON)". `code` is a value of errno.
 [[noreturn]] void throw_system_error(const std::filesystem::path& path, const char* action,
                                      int code) {
   throw_bad_input({path.string()}, "cannot be {} ({})", action, std::strerror(code));
 }
 
-// While a process PID writes the file NAME, the file is called NAME.viscontact-PID.tmp. Both words
-// are free choices.
+// While a process PID writes the file NAME, the file is called NAME.viscontact-PID.tmp.
 constexpr std::string_view kUnfinishedOf = ".viscontact-", kUnfinished = ".tmp";
 
-/// Removes the files NAME.viscontact-PID.tmp that killed processes have left in a folder, where
-/// NAME is `of`, or any name if `of` is empty.
+/// Removes the files NAME.viscontact-PID.tmp that killed processes have left, where NAME is `of`,
+/// or any name if `of` is empty.
 void remove_left_behind(const std::filesystem::path& folder, const std::string& of) {
   std::error_code ignored;  // a folder that cannot be read is left as it is
   // A range-based for would call the operator ++, which throws.
@@ -68,9 +62,8 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-/// Opens `beside`, a new file that will take the place of `path`, with these flags of open(2), and
-/// locks it. The lock tells remove_left_behind() that the file is in use. A lock that fails is no
-/// error, because not every file system has locks.
+/// Opens `beside`, a new file that will take the place of `path`, and locks it. The lock tells
+/// remove_left_behind() that it is in use; not every file system has locks.
 Descriptor open_locked(const std::filesystem::path& path, const std::filesystem::path& beside,
                        int flags) {
   Descriptor file(::open(beside.c_str(), flags | O_CLOEXEC, 0666));
@@ -80,9 +73,8 @@ Descriptor open_locked(const std::filesystem::path& path, const std::filesystem:
 }
 
 /// Makes a new file beside `path` by write(beside), which returns its descriptor, flushes it to
-/// disk if `is_flushed`, and renames it to `path`, or to the file to which `path` is a link.
-/// Returns the path of this file. Throws what `write` throws, or Error(kBadInput), and then removes
-/// the new file.
+/// disk if `is_flushed`, and renames it to `path`, or to the file to which `path` is a link, whose
+/// path it returns. Throws what `write` throws, or Error(kBadInput), and then removes the new file.
 template <class Write>
 std::filesystem::path put_in_place(const std::filesystem::path& path, bool is_flushed,
                                    const Write& write) {
@@ -102,7 +94,6 @@ std::filesystem::path put_in_place(const std::filesystem::path& path, bool is_fl
   }
 }
 
-/// Does what put_in_place() does, for a file with the bytes `content`.
 std::filesystem::path put_content(const std::filesystem::path& path, std::string_view content,
                                   bool is_flushed) {
   return put_in_place(path, is_flushed, [&](const std::filesystem::path& beside) {
@@ -112,8 +103,8 @@ std::filesystem::path put_content(const std::filesystem::path& path, std::string
   });
 }
 
-/// Ends the writing of a file, after the file at `place` was replaced: flushes its folder, and
-/// removes files that killed processes have left. Throws the error of sync_folder_of().
+/// Flushes the folder of the file at `place`, which was replaced, and removes files that killed
+/// processes have left.
 void finish_replacement(const std::filesystem::path& place) {
   sync_folder_of(place);
   remove_left_behind(folder_of(place), place.filename().string());
@@ -121,7 +112,6 @@ void finish_replacement(const std::filesystem::path& place) {
 
 }  // namespace
 
-/// All bytes of a file or a pipe. Throws Error(kBadInput) for a folder or a device, too.
 std::string read_file(const std::filesystem::path& path) {
   // A signal ends open() and read() only while they wait for a pipe. In the program such a signal
   // asks for a stop, because other signals have no handler or a handler with SA_RESTART, after
@@ -139,7 +129,7 @@ std::string read_file(const std::filesystem::path& path) {
   if (::fstat(file.get(), &status) == 0 && (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode)))
     throw_bad_input({path.string()}, "cannot be read (a device, not a file)");
   std::string content;
-  std::array<char, 1 << 16> buffer{};  // bytes; any size works
+  std::array<char, 1 << 16> buffer{};  // bytes
   for (;;) {
     const ssize_t count = ::read(file.get(), buffer.data(), buffer.size());
     if (count < 0) fail();
@@ -148,8 +138,6 @@ std::string read_file(const std::filesystem::path& path) {
   }
 }
 
-/// Makes the folder and its missing parents, and flushes them to disk. A folder that exists is no
-/// error; Error(kBadInput) is thrown if one cannot be made.
 void make_folder(const std::filesystem::path& path) {
   std::error_code error;
   std::vector<std::filesystem::path> missing;
@@ -161,16 +149,12 @@ void make_folder(const std::filesystem::path& path) {
   for (const auto& folder : missing) sync_folder_of(folder);
 }
 
-/// Removes a file or an empty folder; it is no error if there is none. Throws Error(kBadInput) if
-/// that fails.
 void remove_file(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::remove(path, error);
   if (error) throw_system_error(path, "removed", error.value());
 }
 
-/// Flushes the folder that contains `path` to disk. A folder that cannot be opened, or that its
-/// file system cannot flush, is no error; Error(kBadInput) is thrown if the disk reports an error.
 void sync_folder_of(const std::filesystem::path& path) {
   const Descriptor file(::open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   // EINVAL: the file system cannot flush folders.
@@ -178,9 +162,6 @@ void sync_folder_of(const std::filesystem::path& path) {
     throw_system_error(path, "written", errno);
 }
 
-/// The file that writing to `path` would replace: `path`, or what it links to. Throws
-/// Error(kBadInput) if this exists and is no regular file. Whether the file can be written is not
-/// checked.
 std::filesystem::path check_output_file(const std::filesystem::path& path) {
   namespace fs = std::filesystem;
   std::error_code error;
@@ -202,14 +183,10 @@ std::filesystem::path check_output_file(const std::filesystem::path& path) {
   return place;
 }
 
-/// Replaces the file at `path` by `content` in one step, and flushes it to disk. Makes missing
-/// parent folders.
 void write_file(const std::filesystem::path& path, std::string_view content) {
   finish_replacement(put_content(path, content, true));
 }
 
-/// Does what write_file() does, for content that `write` puts into a file at the path that is its
-/// argument. Throws what `write` throws, and Error(kBadInput) if it made no file.
 void write_file_by(const std::filesystem::path& path,
                    const std::function<void(const std::filesystem::path&)>& write) {
   finish_replacement(put_in_place(path, true, [&](const std::filesystem::path& beside) {
@@ -218,15 +195,13 @@ void write_file_by(const std::filesystem::path& path,
   }));
 }
 
-/// Does what write_file() does, but does not flush the file. The caller must call flush_files()
-/// afterwards, or a power cut may lose the file.
 void write_unflushed(const std::filesystem::path& path, std::string_view content) {
   (void)put_content(path, content, false);
 }
 
-/// Flushes these files and the folder of the first one to disk. All files must be in this folder,
-/// which is not checked. Throws Error(kBadInput) if a file cannot be opened or flushed.
 void flush_files(std::span<const std::filesystem::path> paths) {
+  assert(std::ranges::all_of(
+      paths, [&](const auto& path) { return path.parent_path() == paths.front().parent_path(); }));
   for (const auto& path : paths) {
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
     if (file.get() < 0 || ::fsync(file.get()) != 0) throw_system_error(path, "written", errno);
@@ -234,7 +209,6 @@ void flush_files(std::span<const std::filesystem::path> paths) {
   if (!paths.empty()) sync_folder_of(paths.front());
 }
 
-/// Removes all files that killed processes have left in the folder. Throws nothing.
 void remove_unfinished(const std::filesystem::path& folder) { remove_left_behind(folder, ""); }
 
 }  // namespace viscontact

@@ -1,16 +1,11 @@
-// Adds lines to a file that always ends with the same text, the foot (which may be empty): one call
-// writes the new lines over the foot, followed by the foot again. The logs of particles/run/ are
-// such files. Lengths are in bytes, without the foot. Lines must be whole, each with its line
-// break, which is not checked. Up to 64 KiB of lines wait in memory, and they are lost without
-// sync(). A file that cannot be read or written, or does not have the lines that an earlier process
-// wrote, is an Error(kBadInput) with the path. A change must keep that the file ends with a whole
-// line and the foot, also after a failed write.
+// One call writes the new lines over the foot, followed by the foot again.
 #include "viscontact/common/files/growing_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cassert>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -21,24 +16,18 @@
 namespace viscontact {
 namespace {
 
-/// Throws Error(kBadInput) with the reason that errno gives; `action` is a participle such as
-/// "read".
+/// The reason is that of errno; `action` is a participle such as "read".
 [[noreturn]] void throw_cannot_be(const char* action, const std::filesystem::path& path) {
   throw_bad_input({path.string()}, "cannot be {} ({})", action, std::strerror(errno));
 }
 
 }  // namespace
 
-/// A new file with the lines `head`, which may be empty. The file is not made before lines are
-/// written for the first time.
 GrowingFile::GrowingFile(std::filesystem::path path, std::string_view head, std::string foot)
     : path_(std::move(path)), foot_(std::move(foot)) {
   append(head);
 }
 
-/// Throws Error(kBadInput) unless the file is at least end.bytes long and has the line
-/// end.last_line, with its line break, just before this place. If end.bytes is 0, which means no
-/// line, the same error is thrown.
 void GrowingFile::check(const FileEnd& end) const {
   const Descriptor file(::open(path_.c_str(), O_RDONLY | O_CLOEXEC));
   struct stat status = {};
@@ -52,8 +41,6 @@ void GrowingFile::check(const FileEnd& end) const {
     throw_bad_input({path_.string()}, "does not have the lines that the run has written into it");
 }
 
-/// Continues the file of an earlier process: removes all that follows `end`, and writes the foot
-/// again. Throws the errors of check(), and Error(kBadInput) if the file cannot be written.
 void GrowingFile::resume(const FileEnd& end) {
   check(end);
   file_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_CLOEXEC));
@@ -64,10 +51,9 @@ void GrowingFile::resume(const FileEnd& end) {
   write_at(end.bytes, foot_);
 }
 
-/// Adds lines, which are written as soon as more than 64 KiB wait. Throws Error(kBadInput) if they
-/// cannot be written.
 void GrowingFile::append(std::string_view lines) {
   if (lines.empty()) return;
+  assert(lines.back() == '\n');
   waiting_ += lines;
   end_.bytes += lines.size();
   const auto last = lines.substr(0, lines.size() - 1);
@@ -76,14 +62,11 @@ void GrowingFile::append(std::string_view lines) {
   if (waiting_.size() > kMostWaiting) write_waiting();
 }
 
-/// Writes all lines that wait, and flushes the file to disk. Throws Error(kBadInput) if that fails.
 void GrowingFile::sync() {
   if (!waiting_.empty() || file_.get() < 0) write_waiting();
   if (::fsync(file_.get()) != 0) throw_cannot_be("written", path_);
 }
 
-/// Writes the lines that wait, and the foot. The first call makes the file, which replaces an older
-/// one. Throws Error(kBadInput) if that fails.
 void GrowingFile::write_waiting() {
   if (file_.get() < 0) {
     // The new file appears in one step, so that no reader finds only a part of its head.
@@ -103,8 +86,8 @@ void GrowingFile::write_waiting() {
   waiting_.clear();
 }
 
-/// Writes `text` at the byte `place`, counted from 0. Throws Error(kBadInput) if that fails.
 void GrowingFile::write_at(std::uint64_t place, std::string_view text) const {
+  assert(file_.get() >= 0);
   if (::lseek(file_.get(), static_cast<off_t>(place), SEEK_SET) < 0 || !write_all(file_, text))
     throw_cannot_be("written", path_);
 }

@@ -1,10 +1,4 @@
-// Opens files, locks files and folders (flock), and appends texts, for the commands that write into
-// a folder or a journal: app/, freefem_axi/, particles/, rolling/, sweep/ and swimmer/ use it.
-// Texts and messages may be any bytes. A failed call, or a lock that another process holds, is an
-// Error(kBadInput) with the path; a file system without locks is no error, and two processes then
-// do not notice each other. After a failed append_to() a part of the text may be in the file. A
-// change must keep the locks flocks, because freefem_axi/journal/row_record.cpp locks the same
-// files with flock.
+// Locks by flock, because freefem_axi/journal/row_record.cpp locks the same files by flock.
 #include "viscontact/common/files/locks.hpp"
 
 #include <fcntl.h>
@@ -12,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cassert>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
@@ -23,14 +18,12 @@
 namespace viscontact {
 namespace {
 
-/// Throws Error(kBadInput) for a file that could not be opened; `code` is a value of errno. The
-/// message says nothing of finished rows, because none have been written.
+/// The message says nothing of finished rows, because none have been written.
 [[noreturn]] void throw_not_opened(const std::filesystem::path& path, int code) {
   throw_bad_input({path.string()}, "cannot be written ({})", std::strerror(code));
 }
 
-/// Throws Error(kBadInput) for a file to which rows may have been written before; `code` is a value
-/// of errno.
+/// The error for a file to which rows may have been written before.
 [[noreturn]] void throw_not_written(const std::filesystem::path& path, int code) {
   throw_bad_input(
       {path.string()},
@@ -38,8 +31,8 @@ namespace {
       std::strerror(code));
 }
 
-/// True if `path` still names the file that is open as `file`. The process that had the lock may
-/// have removed the file after this process opened it and before this process locked it.
+/// False if the process that had the lock has removed the file after this process opened it and
+/// before this process locked it.
 bool is_still_at(int file, const std::filesystem::path& path) {
   struct stat opened = {};
   struct stat there = {};
@@ -49,9 +42,6 @@ bool is_still_at(int file, const std::filesystem::path& path) {
 
 }  // namespace
 
-/// Opens the file for reading and appending, makes it if it does not exist, and locks it until the
-/// descriptor is closed. Throws Error(kBadInput) if the file cannot be opened, and with the words
-/// `message` if another process has locked it.
 Descriptor open_and_lock(const std::filesystem::path& path, const std::string& message) {
   for (;;) {
     Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
@@ -63,20 +53,16 @@ Descriptor open_and_lock(const std::filesystem::path& path, const std::string& m
   }
 }
 
-/// Writes the whole text at the end of `file`; `path` is for the message. Throws Error(kBadInput)
-/// if that fails.
 void append_to(const Descriptor& file, std::string_view text, const std::filesystem::path& path) {
+  assert(file.get() >= 0);
   if (!write_all(file, text)) throw_not_written(path, errno);
 }
 
-/// Flushes the file to disk; `path` is for the message. Throws Error(kBadInput) if that fails.
 void sync_file(const Descriptor& file, const std::filesystem::path& path) {
+  assert(file.get() >= 0);
   if (::fsync(file.get()) != 0) throw_not_written(path, errno);
 }
 
-/// Makes the folder if it does not exist, and locks it until the object is destroyed. Throws
-/// Error(kBadInput) if the folder cannot be made, and with the words `message` if it is locked
-/// already.
 LockedFolder::LockedFolder(std::filesystem::path path, const std::string& message)
     : path_(std::move(path)) {
   std::error_code said_below;
@@ -89,7 +75,6 @@ LockedFolder::LockedFolder(std::filesystem::path path, const std::string& messag
     throw_bad_input({path_.string()}, message);
 }
 
-/// Removes the folder if this object has made it and it is still empty.
 LockedFolder::~LockedFolder() {
   if (!made_) return;
   std::error_code not_empty;

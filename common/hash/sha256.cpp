@@ -1,7 +1,4 @@
-// Computes SHA-256 with OpenSSL (sha256.hpp), for all parts that write results. The input is any
-// number of bytes, the output 64 hexadecimal digits. A failure of OpenSSL is asserted; a build
-// without assertions then returns wrong digits or an empty text. Another library may be used; a
-// change must keep the digits, which published files contain.
+// SHA-256 by OpenSSL.
 #include "viscontact/common/hash/sha256.hpp"
 
 #include <fmt/format.h>

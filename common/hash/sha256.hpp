@@ -1,7 +1,4 @@
-// SHA-256 (FIPS 180-4), with which files of Viscontact identify the content of other files. All
-// parts that write results use it. A change must keep the hashes, because published files contain
-// them and commands compare them to see what is up to date. Nothing is thrown; a failure of OpenSSL
-// is asserted, and a build without assertions then returns a wrong text.
+// SHA-256 (FIPS 180-4), with which files identify the content of other files.
 #pragma once
 
 #include <string>
@@ -9,7 +6,7 @@
 
 namespace viscontact {
 
-/// The SHA-256 of the bytes as 64 lower-case hexadecimal digits. There may be no bytes.
+/// The hash as 64 lower-case hexadecimal digits. A failure of OpenSSL is asserted.
 std::string sha256(std::string_view bytes);
 
 }  // namespace viscontact

@@ -1,8 +1,4 @@
-// Compiles the decompositions of dense matrices that decompositions.hpp declares. A source that
-// includes decompositions.hpp uses them. Numbers have any units. Eigen throws nothing for a bad
-// matrix: wrong sizes are asserted, and a singular or not finite matrix shows in info(), rank() or
-// the result. A further decomposition needs a line in both files. A change must keep the lists in
-// both files equal, because the program cannot be linked if a definition is missing here.
+// The definitions for decompositions.hpp.
 #include "viscontact/common/matrices/decompositions.hpp"
 
 template void Eigen::ColPivHouseholderQR<Eigen::MatrixXd>::computeInPlace();

@@ -1,15 +1,5 @@
-// The decompositions of dense matrices by Eigen, compiled once. A source that decomposes an
-// Eigen::MatrixXd includes this header in place of Eigen/Cholesky, Eigen/Eigenvalues, Eigen/LU,
-// Eigen/QR and Eigen/SVD. Otherwise each such source compiles the decomposition again, which takes
-// 1 to 5 s. Numbers have any units. Eigen throws nothing for a bad matrix: wrong sizes are
-// asserted, and a singular or not finite matrix shows in info(), rank() or the result, which the
-// caller must check.
-//
-// The declarations below fit only if the argument is an Eigen::MatrixXd: a product or a sum must be
-// stored in a matrix before it is decomposed. Any other argument is allowed, too, but its
-// decomposition is compiled with the source. Sources of fitting, reduced_model, swimmer, particles
-// and freefem_flow use this header. Further declarations may be added; each must have its
-// definition in decompositions.cpp.
+// The decompositions of dense matrices by Eigen, compiled once: a source that includes this header
+// in place of Eigen/Cholesky, Eigen/LU, ... does not compile them again, which takes 1 to 5 s each.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -18,8 +8,10 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
-// These are only the members that take time to compile, because whole classes would have members
-// that nobody calls. Doxygen leaves them out, because it does not understand them.
+// The declarations below fit only if the argument is an Eigen::MatrixXd: a product or a sum must be
+// stored in a matrix before it is decomposed. They are only the members that take time to compile,
+// because whole classes would have members that nobody calls. Each must have its definition in
+// decompositions.cpp. Doxygen does not understand them.
 /// @cond
 extern template void Eigen::ColPivHouseholderQR<Eigen::MatrixXd>::computeInPlace();
 extern template void Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>::computeInPlace();

@@ -1,11 +1,4 @@
-// Exchanges messages with a child process by poll on its three streams at once, for the fluid
-// solvers of freefem_flow/. Times are in milliseconds, memory is in units of 1024 bytes; a word or
-// line has at most kLongestText bytes (4096), and kLines lines (20) of kLongest bytes (1000) are
-// kept. Throws Error(kExternalProgram) for a program that cannot be run, Error(kInterrupted) if a
-// stop is requested while a word or line is awaited, and std::system_error without free sockets. A
-// child that fails later is no error: Reading::state says what happened. A change must keep that at
-// most one buffer is received ahead of what is read, so that a child that writes without end takes
-// no memory.
+// Exchanges messages with a child process by poll on its three streams at once.
 #include "viscontact/common/system/child_process.hpp"
 
 #include <fmt/format.h>
@@ -15,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cerrno>
 #include <csignal>
 #include <fstream>
@@ -31,8 +25,7 @@ constexpr int kLongestWait = 100;
 
 constexpr std::size_t kBufferSize = 1 << 16;  // bytes; any size from some kB on works
 
-/// Reads the bytes that have arrived into `buffer`, without waiting, and returns them; there may be
-/// none. Closes the descriptor at the end of the stream.
+/// The bytes that have arrived, in `buffer`; does not wait. Closes the descriptor at its end.
 std::string_view receive_from(Descriptor& from, std::array<char, kBufferSize>& buffer) {
   const ssize_t count = ::recv(from.get(), buffer.data(), buffer.size(), MSG_DONTWAIT);
   if (count > 0) return {buffer.data(), static_cast<std::size_t>(count)};
@@ -42,8 +35,6 @@ std::string_view receive_from(Descriptor& from, std::array<char, kBufferSize>& b
 
 }  // namespace
 
-/// Adds a text that was read from `stream`, of any length. A line may be spread over several texts;
-/// of a line only the first kLongest bytes are kept.
 void LastLines::add(Stream stream, std::string_view text) {
   std::string& line = incomplete_[stream];
   while (!text.empty()) {
@@ -55,8 +46,6 @@ void LastLines::add(Stream stream, std::string_view text) {
   }
 }
 
-/// Adds `line` to the list without white space at its ends, unless it is blank, and empties it.
-/// Only the last kLines lines stay.
 void LastLines::complete(std::string& line) {
   const auto first = line.find_first_not_of(kWhiteSpace);
   if (first != std::string::npos)
@@ -65,14 +54,12 @@ void LastLines::complete(std::string& line) {
   if (lines_.size() > kLines) lines_.pop_front();
 }
 
-/// The lines, the oldest first; those that are not complete yet come last.
 std::deque<std::string> LastLines::lines() const {
   LastLines all = *this;
   for (auto& line : all.incomplete_) all.complete(line);
   return all.lines_;
 }
 
-/// Starts the program command.arguments[0], which must be given (not checked).
 ChildProcess::ChildProcess(const ProcessCommand& command, const StopToken& stop)
     : stop_(stop), child_(start_process(command, ErrorStream::kSeparate)) {
   if (child_.id < 0)
@@ -80,7 +67,6 @@ ChildProcess::ChildProcess(const ProcessCommand& command, const StopToken& stop)
                 child_.failure);
 }
 
-/// Kills the child and the processes that it has started, unless finish() was called.
 ChildProcess::~ChildProcess() {
   if (child_.id < 0) return;
   // finish() was not called, so the end of the child has not been waited for, and no other process
@@ -90,25 +76,21 @@ ChildProcess::~ChildProcess() {
   }
 }
 
-/// Adds `text` to what is sent to the child while later calls wait. Text for a child that no longer
-/// reads is lost without an error.
 void ChildProcess::send(std::string_view text) {
   to_send_.erase(0, sent_);
   sent_ = 0;
   to_send_ += text;
 }
 
-/// Sends as much as the socket accepts, without waiting.
 void ChildProcess::send_some() {
   const ssize_t count = ::send(child_.to_child.get(), to_send_.data() + sent_,
                                to_send_.size() - sent_, MSG_NOSIGNAL | MSG_DONTWAIT);
   if (count > 0) sent_ += static_cast<std::size_t>(count);
-  // A child that no longer reads may still answer. If it does not, read_word() returns kClosed or
+  // A child that no longer reads may still answer. Otherwise reading ends with kClosed or
   // kTimedOut.
   if (count < 0 && errno != EAGAIN && errno != EINTR) child_.to_child.close();
 }
 
-/// Adds what has arrived on the standard output to `output_`, at most one buffer, without waiting.
 void ChildProcess::receive() {
   std::array<char, kBufferSize> buffer{};
   const auto text = receive_from(child_.from_child, buffer);
@@ -120,14 +102,11 @@ void ChildProcess::receive() {
   output_ += text;
 }
 
-/// Adds what has arrived on the standard error to the last lines, at most one buffer, without
-/// waiting.
 void ChildProcess::receive_errors() {
   std::array<char, kBufferSize> buffer{};
   last_lines_.add(LastLines::kErrors, receive_from(child_.errors_of_it, buffer));
 }
 
-/// Sends and receives once, after at most `milliseconds` of waiting.
 void ChildProcess::exchange(int milliseconds) {
   // poll ignores a file whose descriptor is -1.
   const bool to_write = sent_ < to_send_.size();
@@ -140,9 +119,6 @@ void ChildProcess::exchange(int milliseconds) {
   if (files[0].revents != 0) receive();
 }
 
-/// Waits for more output, at most until `deadline`. `length` is the number of bytes of the word or
-/// line that have come. The state is kRead if reading can continue; otherwise it says why not.
-/// Throws Error(kInterrupted) if a stop is requested.
 ChildProcess::Reading ChildProcess::more_or(Clock::time_point deadline, std::size_t length) {
   if (length > kLongestText)
     return {State::kTooLong, std::string_view(output_).substr(at_, kLongestText)};
@@ -155,10 +131,8 @@ ChildProcess::Reading ChildProcess::more_or(Clock::time_point deadline, std::siz
   return {};
 }
 
-/// Reads the next word of the output, at most until `deadline`. A last word without white space
-/// after it is not returned: the state is then kClosed. Throws Error(kInterrupted) if a stop is
-/// requested.
 ChildProcess::Reading ChildProcess::read_word(Clock::time_point deadline) {
+  assert(child_.id >= 0);
   std::size_t searched = 0;  // bytes of the word that are known not to be white space
   for (;;) {
     if (searched == 0) {
@@ -177,10 +151,8 @@ ChildProcess::Reading ChildProcess::read_word(Clock::time_point deadline) {
   }
 }
 
-/// Reads the rest of the line without its line end, at most until `deadline`. If the output ends
-/// within the line, the state is kClosed, and the text is the incomplete line. Throws
-/// Error(kInterrupted) if a stop is requested.
 ChildProcess::Reading ChildProcess::read_line(Clock::time_point deadline) {
+  assert(child_.id >= 0);
   word_start_ = at_;
   for (;;) {
     const auto end = output_.find('\n', at_);
@@ -200,8 +172,8 @@ ChildProcess::Reading ChildProcess::read_line(Clock::time_point deadline) {
   }
 }
 
-/// True if something other than white space has arrived and was not read. Does not wait.
 bool ChildProcess::has_unread_output() {
+  assert(child_.id >= 0);
   const auto unread = [&] {
     return output_.find_first_not_of(kWhiteSpace, at_) != std::string::npos;
   };
@@ -209,14 +181,11 @@ bool ChildProcess::has_unread_output() {
   return unread();
 }
 
-/// Adds `line`, which was read from the output, to the last lines.
 void ChildProcess::keep(std::string_view line) {
   last_lines_.add(LastLines::kOutput, line);
   last_lines_.add(LastLines::kOutput, "\n");
 }
 
-/// The largest resident memory of the child so far, in units of 1024 bytes; 0 if the child has
-/// ended.
 long ChildProcess::peak_memory_kb() const {
   std::ifstream status(fmt::format("/proc/{}/status", child_.id));
   const std::string key = "VmHWM:";
@@ -227,7 +196,6 @@ long ChildProcess::peak_memory_kb() const {
   return 0;
 }
 
-/// True if the child has ended. Does not wait.
 bool ChildProcess::has_ended() const {
   siginfo_t info{};
   // With WNOWAIT the child stays a zombie, so that its group keeps its number and can be killed.
@@ -235,11 +203,8 @@ bool ChildProcess::has_ended() const {
          info.si_pid == child_.id;
 }
 
-/// Waits at most `grace` for the end of the child, kills its group, and returns how it ended, such
-/// as "ended with status 3" or "had to be stopped". Throws nothing; a stop request only ends the
-/// waiting. Afterwards the object has no child any more, and only its last lines may be asked for
-/// (not checked).
 std::string ChildProcess::finish(std::chrono::milliseconds grace) {
+  assert(child_.id >= 0);
   const auto deadline = Clock::now() + grace;
   const auto collect = [&](int milliseconds) {
     exchange(milliseconds);

@@ -1,11 +1,4 @@
-// Runs a child process to its end, such as FreeFEM, gnuplot or sbatch for app/, freefem/,
-// freefem_axi/, pipeline/ and report/: sends its input while it collects its output. Times are in
-// milliseconds, memory is in units of 1024 bytes. There must be at least one argument, the program
-// (not checked); without a time limit the child may run for ever. A program that cannot be run is
-// no exception: the result says so (exit status 127, as in a shell; 128 + number of a signal that
-// ended the child). A requested stop throws Error(kInterrupted) within about 0.1 s, and a system
-// without free sockets throws std::system_error. A change must keep that a child that neither reads
-// nor writes nor ends is killed at its time limit or at a stop.
+// Runs a child process to its end: sends its input while it collects its output.
 #include "viscontact/common/system/process.hpp"
 
 #include <poll.h>
@@ -28,8 +21,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// Sends `input` to the child and returns its output. Returns when the child closes its output, a
-/// stop is requested, or `deadline` has passed. An `input` that the child does not read is no
-/// error. Throws nothing.
+/// stop is requested, or `deadline` has passed.
 std::string converse(Descriptor& to_child, int from_child, std::string_view input,
                      Clock::time_point deadline, const StopToken& stop) {
   std::string output;
@@ -49,7 +41,7 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
       if (input.empty() || (count < 0 && errno != EAGAIN && errno != EINTR)) to_child.close();
     }
     if (files[0].revents != 0) {
-      std::array<char, 1 << 14> buffer{};  // bytes; any size works
+      std::array<char, 1 << 14> buffer{};  // bytes
       const ssize_t count = ::read(from_child, buffer.data(), buffer.size());
       if (count > 0) output.append(buffer.data(), static_cast<std::size_t>(count));
       if (count == 0) return output;
@@ -57,18 +49,17 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
   }
 }
 
-/// How a child ended, and the resources that it used.
 struct ChildEnd {
-  int status = 0;         ///< status from wait4
-  rusage usage{};         ///< memory and times from wait4
-  bool stopped = false,   ///< true: killed because of a stop request
-      timed_out = false;  ///< true: killed at the deadline
+  int status = 0;  ///< status from wait4
+  rusage usage{};
+  bool stopped = false,   ///< killed because of a stop request
+      timed_out = false;  ///< killed at the deadline
 };
 
-/// Waits until the child has ended. Kills its process group if a stop is requested or `deadline`
-/// passes, because a child can close its output and continue to run. Throws nothing.
+/// Kills the process group of the child if a stop is requested or `deadline` passes, because a
+/// child can close its output and continue to run.
 ChildEnd wait_for_end(pid_t child, Clock::time_point deadline, const StopToken& stop) {
-  constexpr int kFirstPause = 1, kLongestPause = 20;  // milliseconds; any short times work
+  constexpr int kFirstPause = 1, kLongestPause = 20;  // milliseconds
   ChildEnd end;
   for (int pause = kFirstPause;; pause = std::min(2 * pause, kLongestPause)) {
     const bool to_kill = !end.stopped && !end.timed_out;
@@ -85,11 +76,6 @@ ChildEnd wait_for_end(pid_t child, Clock::time_point deadline, const StopToken& 
 
 }  // namespace
 
-/// Runs the program arguments[0] with the other arguments, the variables `environment`
-/// ("NAME=value" each) in addition to those of this process, the standard input `input` (any
-/// bytes), and the working folder `folder` (empty: that of this process). After `time_limit`, if
-/// given, the child and the processes that it has started are killed. The result has the exit
-/// status, the output (standard output and standard error), and the peak memory.
 ProcessResult run_process(const std::vector<std::string>& arguments,
                           const std::vector<std::string>& environment, const std::string& input,
                           const std::string& folder,

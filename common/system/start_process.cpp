@@ -1,11 +1,4 @@
-// Starts a child process by fork and exec, for process.cpp and child_process.cpp. The command has
-// at least one argument, the program, which is looked up on PATH (not checked). Throws
-// std::system_error without free sockets or descriptors; if the program cannot be run or fork
-// fails, nothing is thrown: `id` is -1, and `failure` says why. The caller must wait for the end of
-// the child (waitpid). Between fork and exec a change may only call functions that neither allocate
-// memory nor take locks, because another thread may hold a lock at the moment of the fork: those
-// that POSIX lists as async-signal-safe, prctl, which is a system call, and execvpe of glibc
-// (>= 2.24), which works on the stack.
+// Starts a child process by fork and exec.
 #include "viscontact/common/system/start_process.hpp"
 
 #include <fcntl.h>
@@ -16,6 +9,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cassert>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -25,16 +19,15 @@
 namespace viscontact {
 namespace {
 
-/// Two connected sockets: what is written to `write_end` can be read from `read_end`.
+/// Two connected sockets.
 struct Pipe {
   Descriptor read_end{}, write_end{};
 };
 
-/// Returns the open file `end` under a number above those of the standard streams (0 to 2); closes
-/// `end` if its number changes. If this process was started without a standard stream, a new file
-/// can have the number of this stream, and dup2() of this number to itself would leave the file to
-/// be closed when the child becomes the program. Throws std::system_error if there is no free
-/// descriptor.
+/// The open file `end` under a number above those of the standard streams (0 to 2). If this process
+/// was started without a standard stream, a new file can have the number of this stream, and dup2()
+/// of this number to itself would leave the file to be closed when the child becomes the program.
+/// Throws std::system_error if there is no free descriptor.
 Descriptor beyond_standard_streams(Descriptor end) {
   if (end.get() > STDERR_FILENO) return end;
   const int other = ::fcntl(end.get(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
@@ -42,9 +35,8 @@ Descriptor beyond_standard_streams(Descriptor end) {
   return Descriptor(other);
 }
 
-/// Makes a pair of sockets and not a pipe, because send() with MSG_NOSIGNAL fails with EPIPE if the
-/// child no longer reads, while a write to a pipe would raise SIGPIPE. Throws std::system_error if
-/// there is no free socket.
+/// Sockets instead of a pipe, because send() with MSG_NOSIGNAL fails with EPIPE if the child no
+/// longer reads, while a write to a pipe would raise SIGPIPE.
 Pipe make_pipe() {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
@@ -53,8 +45,7 @@ Pipe make_pipe() {
   return {beyond_standard_streams(std::move(first)), beyond_standard_streams(std::move(second))};
 }
 
-/// The environment of the child, "NAME=value" each: the variables of this process that `added` does
-/// not set, followed by `added`.
+/// The variables of this process that `added` does not set, followed by `added`.
 std::vector<std::string> merged_environment(const std::vector<std::string>& added) {
   std::vector<std::string> all;
   for (char** variable = environ; *variable != nullptr; ++variable) {
@@ -68,8 +59,7 @@ std::vector<std::string> merged_environment(const std::vector<std::string>& adde
   return all;
 }
 
-/// Pointers to the texts, followed by a null pointer, as exec demands. They are valid as long as
-/// `texts` is not changed.
+/// Pointers to the texts, followed by a null pointer, as exec demands.
 std::vector<char*> pointers(const std::vector<std::string>& texts) {
   std::vector<char*> result;
   for (const auto& text : texts)
@@ -78,16 +68,19 @@ std::vector<char*> pointers(const std::vector<std::string>& texts) {
   return result;
 }
 
-/// The descriptors that become the standard streams of the child.
+/// These descriptors become the standard streams of the child.
 struct ChildStreams {
   int input, output, errors;
   int failure;  ///< where the child writes errno if it cannot become the program
 };
 
-/// Runs in the child between fork and exec (see the rule at the head of this file). Becomes the
-/// program, or writes the error number to `streams.failure` and ends. `arguments` and `variables`
-/// end with a null pointer; an empty `folder` keeps the working folder; `parent` is the number of
-/// the process that has called fork.
+/// Runs in the child between fork and exec. Becomes the program, or writes the error number to
+/// `streams.failure` and ends. `arguments` and `variables` end with a null pointer; an empty
+/// `folder` keeps the working folder; `parent` is the number of the process that has called fork.
+///
+/// Only functions may be called here that neither allocate memory nor take locks, because another
+/// thread may hold a lock at the moment of the fork: those that POSIX lists as async-signal-safe,
+/// prctl, which is a system call, and execvpe of glibc (>= 2.24), which works on the stack.
 [[noreturn]] void become(char* const* arguments, char* const* variables, const char* folder,
                          const ChildStreams& streams, pid_t parent) {
   // In a process group of its own the child does not receive Ctrl-C. Only the parent receives
@@ -106,9 +99,8 @@ struct ChildStreams {
 
 }  // namespace
 
-/// Starts the program command.arguments[0] and returns the numbers and streams of the child. Waits
-/// until the child has become the program, or until this has failed.
 StartedProcess start_process(const ProcessCommand& command, ErrorStream errors) {
+  assert(!command.arguments.empty());
   const bool separate = errors == ErrorStream::kSeparate;
   Pipe in = make_pipe();
   Pipe out = make_pipe();
@@ -118,8 +110,7 @@ StartedProcess start_process(const ProcessCommand& command, ErrorStream errors) 
   const auto argument_pointers = pointers(command.arguments);
   const auto variable_pointers = pointers(variables);
   const pid_t self = ::getpid();
-  // fork is used, because posix_spawn cannot make the child end with this process
-  // (PR_SET_PDEATHSIG).
+  // posix_spawn cannot make the child end with this process (PR_SET_PDEATHSIG).
   const pid_t child = ::fork();
   if (child == 0)
     become(argument_pointers.data(), variable_pointers.data(), command.folder.c_str(),
@@ -149,8 +140,6 @@ StartedProcess start_process(const ProcessCommand& command, ErrorStream errors) 
   return started;
 }
 
-/// Words such as "ended by signal 11 (Segmentation fault)". Any number is accepted; an unknown
-/// signal has no words in brackets.
 std::string end_by_signal_in_words(int signal) {
   // Real-time signals have no description.
   const char* description = sigdescr_np(signal);

@@ -1,13 +1,8 @@
-// The worker threads of a ThreadPool, which particles/ uses. The number of threads counts the
-// calling one, and 1 or less means that the calling thread works alone; blocks are counted from 0,
-// and any number of them is allowed. Which thread computes a block depends on chance; a change must
-// keep that no result depends on it. A thread that the system refuses is no error. The first
-// exception of a loop is thrown again in the thread that called run(), when all blocks are
-// finished. Without workers the exception ends the loop at once. A loop must not start another one,
-// which is not checked.
+// The worker threads of a ThreadPool. Which thread computes a block depends on chance.
 #include "viscontact/common/system/thread_pool.hpp"
 
 #include <atomic>
+#include <cassert>
 #include <exception>
 #include <mutex>
 #include <system_error>
@@ -17,20 +12,20 @@
 namespace viscontact {
 
 /// What the threads share. run() sets `body` and `blocks` before it raises `round`, and a worker
-/// reads them only after it has seen the new `round`; this order must stay.
+/// reads them only after it has seen the new `round`.
 struct ThreadPool::Workers {
-  const std::function<void(std::size_t)>* body = nullptr;  // computes the block of a number
-  std::size_t blocks = 0;                                  // number of blocks of this loop
-  std::atomic<std::size_t> next{0};                        // next block to be computed
-  std::atomic<unsigned> round{0};  // number of the loop; its change wakes the workers
-  std::atomic<int> busy{0};        // number of workers that have not finished this loop
-  bool stop = false;               // true ends the workers; read after `round` has changed
+  const std::function<void(std::size_t)>* body = nullptr;
+  std::size_t blocks = 0;            // of this loop
+  std::atomic<std::size_t> next{0};  // next block to be computed
+  std::atomic<unsigned> round{0};    // number of the loop; its change wakes the workers
+  std::atomic<int> busy{0};          // number of workers that have not finished this loop
+  bool stop = false;                 // true ends the workers; read after `round` has changed
   std::vector<std::thread> threads;
 
   std::mutex failing;
   std::exception_ptr failure;  // the first exception in a loop
 
-  /// Computes blocks until none is left. Exceptions of `body` are stored, not thrown.
+  /// Exceptions of `body` are stored, not thrown.
   void work() {
     for (std::size_t block = next.fetch_add(1); block < blocks; block = next.fetch_add(1)) {
       try {
@@ -42,13 +37,11 @@ struct ThreadPool::Workers {
     }
   }
 
-  /// The function of a worker thread: waits for the next loop, works in it, and ends when `stop` is
-  /// true.
   void serve() {
     for (unsigned seen = 0;;) {
       // In the solver of a particle step (the projection, docs/particles.md) loops follow each
       // other within microseconds. A thread therefore looks 2000 times for the next loop, which
-      // takes about 1 ms, before it sleeps. The number is a free choice and changes only the time.
+      // takes about 1 ms, before it sleeps.
       constexpr int kLooks = 2000;
       for (int look = 0; look < kLooks && round.load() == seen; ++look) std::this_thread::yield();
       round.wait(seen);
@@ -60,7 +53,6 @@ struct ThreadPool::Workers {
   }
 };
 
-/// Starts `threads` - 1 workers, or fewer if the system refuses more.
 ThreadPool::ThreadPool(int threads) {
   if (threads <= 1) return;
   workers_ = std::make_unique<Workers>();
@@ -73,23 +65,22 @@ ThreadPool::ThreadPool(int threads) {
   }
 }
 
-/// Ends the workers and waits for their end. No loop may run (not checked).
 ThreadPool::~ThreadPool() {
   if (!workers_) return;
+  assert(workers_->busy.load() == 0);
   workers_->stop = true;
   workers_->round.fetch_add(1);
   workers_->round.notify_all();
   for (auto& thread : workers_->threads) thread.join();
 }
 
-/// Calls body(0) to body(blocks - 1), each once, on all threads, and returns when all calls have
-/// ended.
 void ThreadPool::run(std::size_t blocks, const std::function<void(std::size_t)>& body) {
   if (!workers_) {
     for (std::size_t block = 0; block < blocks; ++block) body(block);
     return;
   }
   auto& w = *workers_;
+  assert(w.busy.load() == 0);
   w.body = &body;
   w.blocks = blocks;
   w.next.store(0);

@@ -1,9 +1,4 @@
-// Threads that share loops over fixed blocks, used by particles/ for the steps of many particles.
-// The first exception of a loop is thrown again where the loop was called. If the system refuses
-// threads, fewer are used and nothing is thrown. A change must keep the results independent of the
-// number of threads, bit for bit. oneTBB 2021.8 is not used, because ThreadSanitizer cannot check
-// it. oneTBB is hardly faster: for a loop of 2, 4 and 16 blocks on two idle cores it takes 21, 40
-// and 156 us, and this class takes 21, 45 and 159 us.
+// Threads that share loops over fixed blocks.
 #pragma once
 
 #include <algorithm>
@@ -18,27 +13,26 @@ namespace viscontact {
 /// Threads that compute loops over indices from 0. A loop is divided into blocks whose bounds
 /// depend on the length of the loop alone. Each block is computed by one thread, and the results of
 /// the blocks are added in their order. The result therefore has the same bits for any number of
-/// threads.
+/// threads. oneTBB 2021.8 is not used, because ThreadSanitizer cannot check it; for a loop of 2, 4
+/// and 16 blocks on two idle cores it takes 21, 40 and 156 us, and this class 21, 45 and 159 us.
 class ThreadPool {
  public:
   /// `threads` is the number of threads with the calling one; less than 1 counts as 1. If the
   /// system refuses to start so many, fewer are used. Between loops the threads look for the next
-  /// loop for about 1 ms, then sleep. A pool computes one loop at a time: `body` must not start
-  /// another one (not checked).
+  /// loop for about 1 ms, then sleep. `body` must not start another loop.
   explicit ThreadPool(int threads);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
-  /// Number of indices in a block. Another number changes sums in their last digits. In the loops
-  /// of the solver of a particle step (docs/particles.md) a block is about 0.1 ms of work; for less
-  /// work, waking a thread costs more time than the thread saves.
+  /// Indices in a block. Another number changes sums in their last digits. In the loops of the
+  /// solver of a particle step (docs/particles.md) a block is about 0.1 ms of work; for less work,
+  /// waking a thread costs more time than the thread saves.
   static constexpr std::size_t kBlock = 16384;
 
-  /// Calls body(begin, end) for each block of [0, count), and does not call it if count is 0. The
-  /// calls run on all threads of the pool, in any order. If one throws, the first exception is
-  /// thrown again when all calls have ended; a pool of one thread throws at once and leaves out the
-  /// remaining blocks.
+  /// Calls body(begin, end) for each block of [0, count), on all threads of the pool, in any order.
+  /// If a call throws, the first exception is thrown again when all calls have ended; a pool of one
+  /// thread throws at once and leaves out the remaining blocks.
   template <class Body>
   void for_blocks(std::size_t count, const Body& body) {
     const std::size_t blocks = (count + kBlock - 1) / kBlock;
@@ -51,9 +45,8 @@ class ThreadPool {
     });
   }
 
-  /// Calls body(begin, end) for each block as for_blocks() does, and adds the returned values with
-  /// += in the order of the blocks. Returns Result{} if count is 0. Throws the errors of
-  /// for_blocks().
+  /// Adds the values that body(begin, end) returns for each block with += in the order of the
+  /// blocks. Returns Result{} if count is 0. Throws the errors of for_blocks().
   template <class Result, class Body>
   Result sum_of_blocks(std::size_t count, const Body& body) {
     if (count <= kBlock) return count > 0 ? body(std::size_t{0}, count) : Result{};
@@ -67,29 +60,27 @@ class ThreadPool {
   }
 
  private:
+  // Calls body(0) to body(blocks - 1), each once, and returns when all calls have ended.
   void run(std::size_t blocks, const std::function<void(std::size_t)>& body);
 
   struct Workers;
   std::unique_ptr<Workers> workers_;  // null for one thread
 };
 
-/// A type Result for sum_of_blocks() whose sum is the largest value of all blocks; minus infinity
-/// if there are no blocks.
+/// A Result of sum_of_blocks(): the largest value of all blocks; minus infinity if there are none.
+/// A NaN has no effect.
 struct MaximumOfBlocks {
-  double value = -std::numeric_limits<double>::infinity();  ///< largest value so far
-  /// Takes the larger of both values; a NaN in `other` has no effect.
+  double value = -std::numeric_limits<double>::infinity();
   MaximumOfBlocks& operator+=(const MaximumOfBlocks& other) {
     value = std::max(value, other.value);
     return *this;
   }
 };
 
-/// A type Result for sum_of_blocks() whose sum contains the lists of all blocks, one after the
-/// other.
+/// A Result of sum_of_blocks(): the lists of all blocks, in the order of the blocks.
 template <class T>
 struct ConcatenatedBlocks {
-  std::vector<T> values;  ///< in the order of the blocks
-  /// Appends the list of `other`.
+  std::vector<T> values;
   ConcatenatedBlocks& operator+=(const ConcatenatedBlocks& other) {
     values.insert(values.end(), other.values.begin(), other.values.end());
     return *this;

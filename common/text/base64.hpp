@@ -9,13 +9,13 @@
 
 namespace viscontact {
 
-/// Number of characters that `bytes` bytes have in base64, with padding.
+/// Characters that `bytes` bytes have in base64, with padding.
 constexpr std::size_t base64_size(std::size_t bytes) { return (bytes + 2) / 3 * 4; }
 
-/// The bytes in base64 with padding; empty without bytes.
+/// The bytes in base64 with padding.
 std::string to_base64(std::span<const std::byte> bytes);
 
-/// The bytes that this text encodes; nothing if it is not base64 with padding.
+/// Nothing if the text is not base64 with padding.
 std::optional<std::string> from_base64(std::string_view text);
 
 }  // namespace viscontact

@@ -1,23 +1,16 @@
-// Reads CSV files by fast-cpp-csv-parser, for all readers of tables, trajectories and particles.
-// Each field is empty or a finite number in the unit of its column; lines are counted from 1, and
-// at least one column must be asked for. Every fault of a file (it cannot be read, no header line,
-// a column twice or missing, too few or too many fields, a field that is no number, another number
-// of rows than a line "# rows:" says) is an Error(kBadInput) with the file and, if it is in one
-// line, the line. Only a fault that has no message here gets the message of the library. A file
-// without rows is accepted. What `add_row` throws passes unchanged. A change must keep published
-// files readable.
+// Reads CSV files by fast-cpp-csv-parser.
 #include "viscontact/common/text/csv.hpp"
 
 #include <fmt/format.h>
 
-// The library copies names by strncpy on purpose and terminates them in the next line; GCC 12
-// warns.
+// GCC 12 warns, because the library copies names by strncpy and terminates them afterwards.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wstringop-truncation"
 #include <libfccp/csv.h>
 #pragma GCC diagnostic pop
 
 #include <algorithm>
+#include <cassert>
 #include <sstream>
 #include <tuple>
 
@@ -31,9 +24,8 @@ namespace {
 constexpr std::string_view kByteOrderMark =
     "\xEF\xBB\xBF";  // some spreadsheets write it at the head
 
-/// The end of a message about missing columns: the header line of `text` in quotes, or the probable
-/// reason why its columns were not found (names in quotes, another separator). Empty if neither can
-/// be said.
+/// The end of a message about missing columns: the header line in quotes, or the probable reason
+/// why its columns were not found. Empty if neither can be said.
 std::string hint_of_separator(const std::string& text) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
@@ -51,8 +43,7 @@ std::string hint_of_separator(const std::string& text) {
   return "";
 }
 
-/// Removes the lines at the end of `text` that contain only spaces, tabs and commas. Editors and
-/// spreadsheets leave such lines. Blank lines above the last row stay.
+/// Removes lines of spaces, tabs and commas at the end, which editors and spreadsheets leave.
 void remove_trailing_blank_lines(std::string& text) {
   const auto last = text.find_last_not_of(" \t\r\n,");
   if (last == std::string::npos) return;
@@ -61,8 +52,7 @@ void remove_trailing_blank_lines(std::string& text) {
   if (end_of_row != std::string::npos) text.erase(end_of_row + 1);
 }
 
-/// The number in a field, or nothing if the field is empty or missing. Throws Error(kBadInput) for
-/// a field that is no finite number.
+/// Nothing if the field is empty or missing. Throws Error(kBadInput) if it is no finite number.
 std::optional<double> number_of(const char* field, const std::string& column,
                                 const std::string& file, int line) {
   if (field == nullptr || *field == '\0') return {};
@@ -72,9 +62,9 @@ std::optional<double> number_of(const char* field, const std::string& column,
   return number;
 }
 
-/// Throws Error(kBadInput) if the header states a number of rows and the file has another one, or
-/// does not end with a line break. The second test is needed because a file that is cut off within
-/// its last field can still end with a number.
+/// Throws Error(kBadInput) if the header states another number of rows, or the text does not end
+/// with a line break. The second test is needed because a file that is cut off within its last
+/// field can still end with a number.
 void check_not_truncated(const CsvComments& comments, std::size_t rows, const std::string& text,
                          const std::string& file) {
   const auto stated = comments.find("rows");
@@ -88,22 +78,18 @@ void check_not_truncated(const CsvComments& comments, std::size_t rows, const st
 
 using Fields = std::span<const std::optional<double>>;
 
-/// Number of columns that the library reads at once; any number > 0 works. It is a template
-/// argument of the library, and the same for all files, because each other value takes seconds to
-/// compile.
+// Columns that the library reads at once. The number is a template argument of the library, and the
+// same for all files, because each other value takes seconds to compile.
 constexpr std::size_t kColumnsAtOnce = 16;
 
-/// Calls `add_row` with the fields of each row and its line. There are at most kColumnsAtOnce
-/// `names`, of which the first `required` must be in the header line. `text` is the content of the
-/// file, and `file` its name in messages. A column that is missing or whose field is empty gives no
-/// number. Throws Error(kBadInput) for the faults that the first comment of csv.cpp lists, except
-/// for a wrong number of rows.
+/// Calls `add_row` with the fields of each row and its line, for at most kColumnsAtOnce `names`.
+/// Throws the errors of read_csv(), except that for a wrong number of rows.
 void read_columns(const std::string& text, const std::string& file,
                   std::span<const std::string> names, std::size_t required,
                   const std::function<void(Fields fields, int line)>& add_row) {
+  assert(names.size() <= kColumnsAtOnce);
   refuse_utf16(text, file);
-  // The library needs kColumnsAtOnce names. The surplus ones are such that no header line can
-  // contain them.
+  // The library needs kColumnsAtOnce names. No header line can contain the surplus ones.
   std::array<std::string, kColumnsAtOnce> all_names;
   all_names.fill("\n");
   std::ranges::copy(names, all_names.begin());
@@ -150,8 +136,6 @@ void read_columns(const std::string& text, const std::string& file,
 
 }  // namespace
 
-/// The lines "# key: value" of a text. If a key has several values, the last one counts, and the
-/// key is added to `contradictions`, unless this pointer is null. Throws nothing.
 CsvComments read_csv_comments(const std::string& text, std::set<std::string>* contradictions) {
   CsvComments comments;
   std::istringstream stream(text);
@@ -172,15 +156,12 @@ CsvComments read_csv_comments(const std::string& text, std::set<std::string>* co
   return comments;
 }
 
-/// The lines "# key: value", sorted by key. Keys and values must have no line ends, which is not
-/// checked.
 std::string write_csv_comments(const CsvComments& comments) {
   std::string text;
   for (const auto& [key, value] : comments) text += fmt::format("# {}: {}\n", key, value);
   return text;
 }
 
-/// The texts between the commas of a line, unchanged; an empty line has one empty field.
 std::vector<std::string> csv_fields(const std::string& line) {
   std::vector<std::string> fields(1);
   for (const char c : line)
@@ -191,9 +172,6 @@ std::vector<std::string> csv_fields(const std::string& line) {
   return fields;
 }
 
-/// The names in the header line, the first line that is neither empty nor a comment, and its
-/// number. Throws nothing; a text without a header line has no names, and the number is that after
-/// its last line.
 CsvHeader csv_header(const std::string& text) {
   std::istringstream lines(text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size())
                                                             : text);
@@ -210,9 +188,8 @@ CsvHeader csv_header(const std::string& text) {
   return header;
 }
 
-/// The text for a message: at most its first 60 bytes, and "?" for each control character.
 std::string shortened(const std::string& text) {
-  constexpr std::size_t kLongest = 60;  // a free choice
+  constexpr std::size_t kLongest = 60;
   auto shown = text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
   // A terminal would take control characters for commands.
   std::ranges::replace_if(
@@ -220,8 +197,6 @@ std::string shortened(const std::string& text) {
   return shown;
 }
 
-/// The number in the line "# key: NUMBER". Throws Error(kBadInput), which names `file`, if this
-/// line is missing or its value is no finite number.
 double csv_comment_number(const CsvComments& comments, const std::string& key,
                           const std::string& file) {
   const auto found = comments.find(key);
@@ -234,14 +209,11 @@ double csv_comment_number(const CsvComments& comments, const std::string& key,
   return *value;
 }
 
-/// Calls `add_row` with the fields of each row, in the order of `names`, and with the number of its
-/// line. The first `required` of `names` must be in the header line; another column that is missing
-/// has empty fields. Rows above a faulty one may have been passed to `add_row` when the error is
-/// thrown.
 void read_csv_rows(
     std::string text, const std::string& file, std::span<const std::string> names,
     std::size_t required,
     const std::function<void(std::span<const std::optional<double>> fields, int line)>& add_row) {
+  assert(!names.empty());
   remove_trailing_blank_lines(text);
   std::size_t count = 0;
   if (names.size() <= kColumnsAtOnce) {

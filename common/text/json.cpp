@@ -1,11 +1,4 @@
-// Reads JSON for fits, comparisons, provenance and records of runs. Lines are counted from 1, and
-// those of values up to eight levels deep are recorded; numbers must fit into a double. A text is
-// read twice: once for errors, lines and repeated keys, and once for the values. Every fault of a
-// text becomes an Error(kBadInput) with file, line and cause. A file that cannot be read throws
-// Error(kBadInput) with its path. If the argument `read` of read_json() asks for a value that is
-// missing or has another type, Error(kBadInput) without a line is thrown; other exceptions of
-// `read` pass unchanged. What values mean is not checked here. A change must keep published files
-// readable.
+// A text is read twice: once for errors, lines and repeated keys, and once for the values.
 #include "viscontact/common/text/json.hpp"
 
 #include <fmt/format.h>
@@ -30,13 +23,12 @@ namespace {
 /// enough: if a number is too large for a double, it does not say where.
 class LineRecorder {
  public:
-  /// Will read `text` and store in `lines` the line of each value by its path, such as
-  /// "terms[2].name". Both must outlive the object.
+  /// `text` and `lines`, the line of each value by its path, must outlive the object.
   LineRecorder(const std::string& text, std::map<std::string, int>& lines)
       : text_(text), stream_(text), lines_(lines) {}
 
-  /// Reads the text; messages call it `file`. Throws Error(kBadInput) with the line if the text is
-  /// not valid JSON or if a key stands twice in its object.
+  /// Messages call the text `file`. Throws Error(kBadInput) with the line if the text is not valid
+  /// JSON or if a key stands twice in its object.
   void run(const std::string& file) {
     bool is_valid = Json::sax_parse(stream_, this);
     // The parser ends at a NUL character and ignores what follows.
@@ -87,16 +79,15 @@ class LineRecorder {
   }
 
  private:
-  /// An array or object that the parser has entered and not yet left.
+  /// An array or object that the parser has not yet left.
   struct Level {
     bool is_object = false;
     std::string path;            // of the array or object
     std::size_t index = 0;       // number of the current element, in an array
-    std::string key;             // of the current member, in an object
+    std::string key;             // of the current member
     std::set<std::string> keys;  // of an object, found so far
   };
 
-  /// The path of the current member or element.
   std::string path_of_member() const {
     if (levels_.empty()) return {};
     const auto& level = levels_.back();
@@ -104,9 +95,7 @@ class LineRecorder {
     return fmt::format("{}{}{}", level.path, level.path.empty() ? "" : ".", level.key);
   }
 
-  /// The path under which a value is recorded. It is empty deeper than eight levels, because the
-  /// paths of a deeply nested text would take too much memory; any number of levels that the files
-  /// of Viscontact do not exceed works.
+  /// Empty deeper than eight levels, because paths of deeply nested texts would take much memory.
   std::string recorded_path() const {
     constexpr std::size_t kDeepest = 8;
     return levels_.size() > kDeepest ? std::string() : path_of_member();
@@ -156,12 +145,10 @@ class LineRecorder {
 
 }  // namespace
 
-/// The cause that an error of the library states, without the library's prefix and position, and
-/// cut after 200 bytes.
 std::string cause_in_words(const Json::exception& error) {
   // The text of an error has this form:
   // "[json.exception.parse_error.101] parse error at line 1, column 2: what is wrong"
-  constexpr std::size_t kLongest = 200;  // bytes, a free choice
+  constexpr std::size_t kLongest = 200;  // bytes
   const std::string what = error.what();
   std::string cause = what.substr(std::min(what.size(), what.find("] ") + 2));
   if (const auto column = cause.find(", column "); column != std::string::npos)
@@ -169,8 +156,6 @@ std::string cause_in_words(const Json::exception& error) {
   return cause.size() <= kLongest ? cause : cause.substr(0, kLongest) + "...";
 }
 
-/// The values of a text and their lines; messages call the text `file`. Throws Error(kBadInput) as
-/// LineRecorder::run() does.
 JsonDocument JsonDocument::parse(const std::string& text, std::string file) {
   refuse_utf16(text, file);
   JsonDocument document;
@@ -180,8 +165,6 @@ JsonDocument JsonDocument::parse(const std::string& text, std::string file) {
   return document;
 }
 
-/// The line of the value at the path, such as "terms[2].name", or of the nearest recorded array or
-/// object above it. Throws nothing.
 int JsonDocument::line_of(std::string path) const {
   for (;;) {
     if (const auto found = lines_.find(path); found != lines_.end()) return found->second;

@@ -1,21 +1,10 @@
-// Reads and writes structs as JSON objects by one list of their fields. A struct S can be read and
-// written if its namespace has the function
-//
-//   void fields_of(JsonFields& json, S& s) {
-//     json("radius", s.radius, kPositive);   // key, member, what is allowed
-//     json("geometry", s.geometry, kLeftOutIfEmpty);
-//   }
-//
-// with the fields in the order of the file. Numbers have the units of S. Every error of reading is
-// an Error(kBadInput), which names the file, the line, the key and what is allowed there; writing
-// checks and throws nothing, and writes a NaN or infinity as null. lubrication/, motions/,
-// reduced_model/ and swimmer/ use this file for fits and comparisons. Further types of members may
-// be added; a change must keep published files readable.
+// Structs as JSON objects, read and written by one list of their fields.
 #pragma once
 
 #include <fmt/format.h>
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -29,17 +18,25 @@
 
 namespace viscontact {
 
-/// Says whether a file may lack a key. kRefused: the file must have it; kAllowed: it may lack it;
+/// Whether a file may lack a key. kRefused: the file must have it; kAllowed: it may lack it;
 /// kLeftOutIfEmpty: it may lack it, and it is written without the key if the value is an empty text
 /// or list, an optional without a value, or 0.
 enum class Absence { kRefused, kAllowed, kLeftOutIfEmpty };
 
-/// Writes or reads the fields of a JSON object; the functions below are called by fields_of() of a
-/// struct. An object that reads must not outlive the JsonDocument from which it reads.
+/// Writes or reads the fields of a JSON object. The namespace of a struct S has the function
+///
+///     void fields_of(JsonFields& json, S& s) {
+///       json("radius", s.radius, kPositive);   // key, member, what is allowed
+///       json("geometry", s.geometry, kLeftOutIfEmpty);
+///     }
+///
+/// with the fields in the order of the file. Every error of reading is an Error(kBadInput), which
+/// names the file, the line, the key and what is allowed there. A NaN or infinity is written as
+/// null. An object that reads must not outlive the JsonDocument from which it reads.
 class JsonFields {
  public:
-  /// The struct that `text`, the content of a file, describes; `file` names it in messages. Throws
-  /// Error(kBadInput) with the line, the key and what is allowed; the message ends with `remedy`.
+  /// The struct that `text`, the content of `file`, describes. Messages of errors end with
+  /// `remedy`.
   template <class Struct>
   static Struct read(const std::string& text, const std::string& file,
                      const std::string& remedy = "") {
@@ -53,7 +50,6 @@ class JsonFields {
     }
   }
 
-  /// The JSON object of a struct. Throws nothing.
   template <class Struct>
   static Json write(Struct value) {
     JsonFields fields;
@@ -61,38 +57,35 @@ class JsonFields {
     return fields.written_;
   }
 
-  /// The text of a JSON file for `value`, in which each level is indented by `indent` >= 0 spaces
-  /// more than the level around it.
+  /// The text of a JSON file, with `indent` >= 0 spaces for each level.
   template <class Struct>
   static std::string text_of(const Struct& value, int indent = 2) {
-    // Texts from the head of a table may contain bytes that are not UTF-8. dump() replaces them
-    // instead of throwing.
+    assert(indent >= 0);
+    // Texts from the head of a table may contain bytes that are not UTF-8. dump() replaces them.
     return write(value).dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
   }
 
-  /// True while the fields are read, not written; fields_of() may then check their values.
+  /// fields_of() may check values while they are read, not written.
   bool reads() const { return json_ != nullptr; }
 
   /// Throws Error(kBadInput) with "FILE:LINE: KEY WHAT". An empty `key` stands for the object
-  /// itself. It may only be called if reads() is true (not checked).
+  /// itself. Only for objects that read.
   [[noreturn]] void fail(const std::string& key, const std::string& what) const {
+    assert(reads());
     const std::string where = path_of(key);
     throw_bad_input({document_->file(), document_->line_of(where)}, "{} {}",
                     where.empty() ? "the file" : where, what);
   }
-  /// Throws the same error; `what` is a format with these arguments.
   template <class First, class... Rest>
   [[noreturn]] void fail(const std::string& key, fmt::format_string<First, Rest...> what,
                          First&& first, Rest&&... rest) const {
     fail(key, fmt::format(what, std::forward<First>(first), std::forward<Rest>(rest)...));
   }
 
-  /// Reads or writes the member `value` under `key`. Its type is double (finite), bool,
-  /// std::size_t, long, std::string, std::optional (without a value it is written as null, or left
-  /// out with kLeftOutIfEmpty), a map of texts, an array of two numbers, a struct with fields_of(),
-  /// or a vector of any of these. If the key is missing and may be missing, `value` is not changed.
-  /// Throws Error(kBadInput) if the key is missing otherwise, if its value has another type, or if
-  /// the object of a struct has an unknown key.
+  /// The type of `value` is double (finite), bool, std::size_t, long, std::string, std::optional
+  /// (without a value it is written as null, or left out with kLeftOutIfEmpty), a map of texts, an
+  /// array of two numbers, a struct with fields_of(), or a vector of any of these. If the key is
+  /// missing and may be missing, `value` is not changed.
   template <class Value>
   void operator()(const std::string& key, Value& value, Absence absence = Absence::kRefused) {
     if (!reads()) {
@@ -108,7 +101,7 @@ class JsonFields {
     }
   }
 
-  /// The same for a key that had the name `former` in files of earlier versions, which may have it.
+  /// The same for a key that had the name `former` in files of earlier versions.
   template <class Value>
   void renamed(const std::string& key, const std::string& former, Value& value,
                Absence absence = Absence::kRefused) {
@@ -116,24 +109,21 @@ class JsonFields {
     (*this)(is_old ? former : key, value, absence);
   }
 
-  /// Reads or writes a finite number. When it is read, the key must exist and the number must pass
-  /// the test `allowed`, or Error(kBadInput) is thrown.
+  /// A finite number; when it is read, the key must exist and the number be `allowed`.
   void operator()(const std::string& key, double& value, const Allowed& allowed) {
     (*this)(key, value);
     if (reads() && !allowed.test(value)) fail(key, "is {}; it must be {}", value, allowed.words);
   }
 
-  /// Reads or writes two gaps [L]. When they are read, the first must be > 0 and less than the
-  /// second, or Error(kBadInput) is thrown.
+  /// Two gaps [L]. When they are read, the first must be > 0 and less than the second.
   void gap_interval(const std::string& key, std::array<double, 2>& interval) {
     (*this)(key, interval);
     if (reads() && !(interval[0] > 0 && interval[1] > interval[0]))
       fail(key, "is {}; it must be two gaps with 0 < first < second", json_->at(key).dump());
   }
 
-  /// Reads or writes a vector as a JSON object that has one key for each element of `values`. The
-  /// key is the member `name` of the element, and the value is part(element), a reference to
-  /// another member. Throws Error(kBadInput) for a missing key or a value that is not an object.
+  /// A vector as a JSON object that has one key for each element of `values`. The key is the member
+  /// `name` of the element, and the value is part(element), a reference to another member.
   template <class Value, class Part>
   void by_name(const std::string& key, std::vector<Value>& values, std::string Value::*name,
                const Part& part, Absence absence = Absence::kRefused) {
@@ -151,10 +141,9 @@ class JsonFields {
     }
   }
 
-  /// Reads or writes a value, such as an enumerator, as a word: to_string(value) gives the word,
-  /// and parse(word) the value. For a wrong word `parse` must throw an Error whose message ends
-  /// with "; " and what is allowed; this end becomes the end of the Error(kBadInput) that is thrown
-  /// here.
+  /// A value, such as an enumerator, as a word: to_string(value) gives the word, and parse(word)
+  /// the value. For a wrong word `parse` must throw an Error whose message ends with "; " and what
+  /// is allowed; this end becomes the end of the Error(kBadInput) that is thrown here.
   template <class Value, class Parse>
   void word(const std::string& key, Value& value, const Parse& parse,
             Absence absence = Absence::kRefused) {
@@ -170,16 +159,14 @@ class JsonFields {
     }
   }
 
-  /// Reads or writes a key that must exist and have the value `text`; another value throws
-  /// Error(kBadInput).
+  /// A key that must exist and have the value `text`.
   void constant(const std::string& key, const std::string& text) {
     std::string found = text;
     (*this)(key, found);
     if (found != text) fail(key, "is '{}'; it must be '{}'", found, text);
   }
 
-  /// Accepts a key whose object other code reads and writes, and that a file may lack. When a file
-  /// is read, Error(kBadInput) is thrown if the value is not an object; nothing is written.
+  /// A key whose object other code reads and writes, and that a file may lack. Nothing is written.
   void foreign_object(const std::string& key) {
     if (reads() && is_there(key, Absence::kAllowed))
       JsonFields(*document_, json_->at(key), path_of(key));
@@ -192,7 +179,7 @@ class JsonFields {
     if (!json.is_object()) fail("", "is {}; it must be an object", shown(json));
   }
 
-  /// Reads the fields, and refuses a key that fields_of() does not know.
+  /// Refuses a key that fields_of() does not know.
   template <class Struct>
   void read_into(Struct& value) {
     fields_of(*this, value);
@@ -211,8 +198,8 @@ class JsonFields {
     return path_ + (path_.empty() || key.empty() ? "" : ".") + key;
   }
 
-  /// A value as text for a message. An array or object is only named as such, because dump() is
-  /// recursive and a file may nest values so deeply that the stack overflows.
+  /// An array or object is only named as such, because dump() is recursive and a file may nest
+  /// values so deeply that the stack overflows.
   static std::string shown(const Json& value) {
     return value.is_structured() ? value.is_array() ? "an array" : "an object" : value.dump();
   }

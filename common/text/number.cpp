@@ -1,8 +1,4 @@
-// Conversion of numbers by std::to_chars and std::from_chars, for all text files other than JSON
-// and TOML. Numbers have any unit and must be finite: format_number() asserts this, and
-// parse_number() returns nothing for another text. Nothing is thrown. A change must keep that every
-// double is read back with the same bits, that the locale has no effect, and that a number has the
-// same text as before, because hashes in files are computed from these texts.
+// Numbers by std::to_chars and std::from_chars.
 #include "viscontact/common/text/number.hpp"
 
 #include <array>

@@ -1,8 +1,4 @@
-// Splits and quotes the words of command lines (shell_words.hpp has the rules) for app/,
-// freefem_flow/, motions/, particles/, pipeline/ and report/: in messages, scripts of Slurm and
-// records of commands in files. Texts are any bytes except NUL, which is not checked. split_words()
-// gives backslashes no special meaning, and throws Error(kWrongUsage) if a quotation mark is not
-// closed. A change must keep that a POSIX shell reads a quoted word as the text that was quoted.
+// Words of command lines.
 #include "viscontact/common/text/shell_words.hpp"
 
 #include <algorithm>

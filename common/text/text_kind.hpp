@@ -1,13 +1,10 @@
-// The kinds of files that Viscontact writes. The kind says where a file has its line of provenance,
-// the record of how it was made (results/provenance.hpp); a new kind needs such a place there. Used
-// by results/ and all parts that write files. The order of the kinds is free. The file has no
-// numbers and no function that could fail.
+// The kinds of files that Viscontact writes. results/provenance.hpp says where each kind has its
+// line of provenance, the record of how the file was made.
 #pragma once
 
 namespace viscontact {
 
-/// A kind of file, named after its format. kHashComment stands for all texts whose comment lines
-/// begin with "#": CSV, Python and scripts of gnuplot.
+/// kHashComment stands for CSV, Python and scripts of gnuplot, with comment lines "# ...".
 enum class TextKind {
   kHashComment,
   kJson,

@@ -1,9 +1,4 @@
-// Composes the words of units, such as "kg m/s", for pages, axes and tables of particles/,
-// report/, rolling/ and swimmer/. Nothing is converted. Powers of mass, length and time are from -9
-// to 9; another power throws std::out_of_range where a unit or dimension is written. If the case
-// does not say its units (the word for the length is empty), unit_or_dimension() writes the
-// dimension; other words of units are then empty, and texts with dimensions stay unchanged. Words
-// are not checked here. A change must keep the words of files, which users' scripts read.
+// Words of units, such as "kg m/s".
 #include "viscontact/common/text/units.hpp"
 
 #include <algorithm>
@@ -15,7 +10,6 @@
 
 namespace viscontact {
 
-/// Words such as "length m, time s, mass kg"; empty if the case does not say its units.
 std::string Units::words() const {
   return are_said() ? "length " + length + ", time " + time + ", mass " + mass : "";
 }
@@ -36,9 +30,8 @@ Units Units::of_words(const std::string& text) {
 
 namespace {
 
-/// The product of the words with these powers, each from -9 to 9, and with `times` between two
-/// factors. The symbol "/" stands before the words with negative powers. More powers only need more
-/// superscripts in kPowers.
+/// The product of the words with these powers, and with `times` between two factors. The symbol "/"
+/// stands before the words with negative powers.
 std::string quantity(const Units& words, std::string_view times, int mass_power, int length_power,
                      int time_power) {
   constexpr std::array<std::string_view, 10> kPowers = {"",  "",  "²", "³", "⁴",
@@ -59,7 +52,6 @@ std::string quantity(const Units& words, std::string_view times, int mass_power,
   return (above.empty() ? "1" : above) + "/" + (factors_below > 1 ? "(" + below + ")" : below);
 }
 
-/// A unit of the SI with a name of its own.
 struct NamedUnit {
   std::array<int, 3> powers;  ///< of kg, m and s
   std::string_view name;
@@ -75,7 +67,7 @@ bool are_si(const Units& units) {
   return units.mass == "kg" && units.length == "m" && units.time == "s";
 }
 
-/// The named unit of a dimension that may have superscripts of HTML; empty if there is none.
+/// The named unit of a dimension, which may have superscripts of HTML; empty if there is none.
 std::string_view named_unit_of(std::string_view dimension) {
   std::string plain(dimension);
   for (const std::string_view mark : {"<sup>", "</sup>"})
@@ -95,22 +87,16 @@ std::string Units::unit_of(int mass_power, int length_power, int time_power) con
   return are_said() ? quantity(*this, " ", mass_power, length_power, time_power) : "";
 }
 
-/// The text of unit_of() in brackets after a blank, such as " [m/s]", for the end of a label.
 std::string Units::in_brackets(int mass_power, int length_power, int time_power) const {
   return are_said() ? " [" + unit_of(mass_power, length_power, time_power) + "]" : "";
 }
 
-/// The text of unit_of(), or the dimension in words, such as "mass × length/time²", if the case
-/// does not say its units.
 std::string Units::unit_or_dimension(int mass_power, int length_power, int time_power) const {
   return are_said()
              ? unit_of(mass_power, length_power, time_power)
              : quantity({"length", "time", "mass"}, " × ", mass_power, length_power, time_power);
 }
 
-/// The text with the words of the units in place of M, L and T in each pair of brackets that
-/// contains a dimension, such as [M/(L T)]. Superscripts of HTML may be in the brackets; other
-/// brackets stay. Throws nothing.
 std::string Units::in_brackets_of(std::string text) const {
   if (!are_said()) return text;
   std::string result;
@@ -137,9 +123,6 @@ std::string Units::in_brackets_of(std::string text) const {
   return result;
 }
 
-/// The text with the words of the units in place of M, L and T where they stand between blanks,
-/// alone or before a superscript of HTML, such as L<sup>-1</sup>. Several blanks become one. Throws
-/// nothing.
 std::string Units::in_place_of_dimensions(const std::string& html) const {
   if (!are_said()) return html;
   std::istringstream in(html);

@@ -14,7 +14,7 @@ inline bool is_utf16(std::string_view text) {
          (text.size() > 1 && (text[0] == '\0') != (text[1] == '\0'));
 }
 
-/// Throws Error(kBadInput) if the content `text` of `file` is UTF-16.
+/// Throws Error(kBadInput) if the content of `file` is UTF-16.
 inline void refuse_utf16(std::string_view text, const std::string& file) {
   if (is_utf16(text))
     throw_bad_input({file}, "is encoded in UTF-16; save it in UTF-8, in which files are read");

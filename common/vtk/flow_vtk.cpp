@@ -1,15 +1,10 @@
-// Writes flows as VTK files for freefem_axi/ and particles/, and reads them for particles/picture/.
-// Places are in [L], velocities in [L/T], pressures in [M/(L T^2)], in the units of the case; there
-// is one number for each node, and nodes of triangles are counted from 0. When a file is written,
-// lengths of lists are not checked and nothing is thrown. A file that cannot be read, is no such
-// file or is cut short is an Error(kBadInput) with its path; that numbers are finite is not
-// checked. A change must keep the names of the arrays and the order of the nodes, because the
-// reader and users' pictures rely on them.
+// VTK files of flows.
 #include "viscontact/common/vtk/flow_vtk.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "viscontact/common/files/file.hpp"
@@ -18,14 +13,13 @@
 namespace viscontact {
 namespace {
 
-// A quadratic triangle: the number of its nodes, and VTK's number of this type of cell.
 constexpr std::size_t kNodes = 6;
 constexpr std::uint8_t kQuadraticTriangle = 22;
 
-/// Three numbers for each node: (a, b, 0) for a flow in the plane, and (a, 0, b) with `on_axis`,
-/// where a is along x and b along the axis z of VTK.
+/// (a, b, 0) for each node, and (a, 0, b) with `on_axis`.
 std::vector<double> vectors_of(const std::vector<double>& a, const std::vector<double>& b,
                                bool on_axis) {
+  assert(a.size() == b.size());
   std::vector<double> vectors;
   vectors.reserve(3 * a.size());
   for (std::size_t k = 0; k < a.size(); ++k)
@@ -33,8 +27,9 @@ std::vector<double> vectors_of(const std::vector<double>& a, const std::vector<d
   return vectors;
 }
 
-/// The component d (0, 1 or 2) of each vector; `vectors` has three numbers for each.
+/// The component d of each vector of three numbers.
 std::vector<double> component(const std::vector<double>& vectors, std::size_t d) {
+  assert(d < 3 && vectors.size() % 3 == 0);
   std::vector<double> values;
   values.reserve(vectors.size() / 3);
   for (std::size_t i = d; i < vectors.size(); i += 3) values.push_back(vectors[i]);
@@ -43,14 +38,11 @@ std::vector<double> component(const std::vector<double>& vectors, std::size_t d)
 
 }  // namespace
 
-/// The text of a VTK file of quadratic triangles, whose nodes have the arrays "velocity",
-/// "pressure" and "speed" (the length of the velocity) in 64-bit numbers. If `more` is not empty,
-/// its numbers, one for each node in any unit, become the array `more_name`. With `on_axis`, y of
-/// `flow` is the axis z of VTK, and the file says so by the field "axisymmetric". A triangle has
-/// six nodes in the order of VTK: its corners 0, 1, 2, and the middles of the sides 0-1, 1-2 and
-/// 2-0.
 std::string write_flow(const FlowField& flow, bool on_axis, std::string_view more_name,
                        const std::vector<double>& more) {
+  assert(flow.y.size() == flow.x.size() && flow.velocity_x.size() == flow.x.size());
+  assert(flow.velocity_y.size() == flow.x.size() && flow.pressure.size() == flow.x.size());
+  assert(more.empty() || more.size() == flow.x.size());
   std::vector<double> speeds;
   speeds.reserve(flow.x.size());
   for (std::size_t k = 0; k < flow.x.size(); ++k)
@@ -85,9 +77,6 @@ std::string write_flow(const FlowField& flow, bool on_axis, std::string_view mor
   return text;
 }
 
-/// Reads a file of write_flow(). Throws Error(kBadInput) if it cannot be read, lacks an array, has
-/// arrays of different lengths, other cells than quadratic triangles, or a triangle with a node
-/// that does not exist.
 FlowField read_flow(const std::filesystem::path& path) {
   const std::string text = read_file(path);
   const VtkReader reader(text, path.string(), "flow");

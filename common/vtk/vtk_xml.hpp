@@ -29,68 +29,64 @@ constexpr const char* vtk_type() {
   }
 }
 
-/// The first lines of a VTK file of the type `type`, such as PolyData.
+/// `type` is that of the file, such as PolyData.
 std::string vtk_opening(std::string_view type);
-/// The last line of a VTK file.
 inline constexpr std::string_view kVtkClosing = "</VTKFile>\n";
 
-/// vtk_array() of the bytes of values whose VTK type is `type`, such as Float64.
+/// `type` is a VTK type, such as Float64.
 std::string vtk_array_of_bytes(const char* type, std::string_view name, int components,
                                std::span<const std::byte> bytes);
 
-/// The XML element `DataArray` with the name `name` and these values, whose bits stay the same.
-/// `components` >= 1 values of each point or cell follow each other. `values` may be empty.
+/// The XML element `DataArray`. The values keep their bits. `components` >= 1 values of each point
+/// or cell follow each other.
 template <class Number>
 std::string vtk_array(std::string_view name, int components, const std::vector<Number>& values) {
   return vtk_array_of_bytes(vtk_type<Number>(), name, components, std::as_bytes(std::span(values)));
 }
 
 /// The cells of a file of the type PolyData: vertices, which VTK numbers first, and lines between
-/// two points.
+/// two points. Points are numbered from 0.
 struct PolyCells {
-  std::vector<std::int64_t> vertices,  ///< numbers of the points that are vertices, from 0
+  std::vector<std::int64_t> vertices,  ///< the points that are vertices
       vertex_ends,  ///< for each vertex, the number of entries of `vertices` up to it
-      lines,        ///< numbers of the two points of each line, from 0
+      lines,        ///< the two points of each line
       line_ends;    ///< for each line, the number of entries of `lines` up to it
 
-  /// Adds a vertex at the point with this number, from 0.
   void add_vertex(std::int64_t point) {
+    assert(point >= 0);
     vertices.push_back(point);
     vertex_ends.push_back(std::ssize(vertices));
   }
-  /// Adds a line between the points with these numbers, from 0.
   void add_line(std::int64_t first, std::int64_t second) {
+    assert(first >= 0 && second >= 0);
     lines.insert(lines.end(), {first, second});
     line_ends.push_back(std::ssize(lines));
   }
-  /// The XML elements that open PolyData and a piece of it with `points` points and the cells of
-  /// this object.
+  /// The XML elements that open PolyData and a piece of it with `points` points and these cells.
   std::string opening(std::size_t points) const;
   /// The elements of the points, of the cells, and of the end of the piece and of PolyData.
-  /// `points` has the three coordinates x, y, z [L] of each point, one point after the other.
+  /// `points` has the coordinates x, y, z [L] of each point.
   std::string closing(const std::vector<double>& points) const;
 };
 
 /// The part of `text` between the first occurrence of `before` and the next one of `after`; nothing
-/// if one of them is missing. `text` must outlive the result.
+/// if one of them is missing.
 std::optional<std::string_view> between(std::string_view text, std::string_view before,
                                         std::string_view after);
 
-/// Reads the arrays of a file that vtk_array() wrote on a machine with the same byte order. Files of
-/// earlier revisions, whose arrays are appended raw data, are read, too.
+/// Reads the arrays of a file that vtk_array() wrote on a machine with the same byte order. Files
+/// of earlier revisions, whose arrays are appended raw data, are read, too.
 class VtkReader {
  public:
-  /// `text`, which must outlive this object, is the content of the file with the name `file`, which
-  /// messages contain. `what` says in messages what the file should be, such as "frame". Throws the
-  /// error of refuse() if the text is not a whole file.
+  /// `text`, the content of `file`, must outlive this object. `what` says in messages what the file
+  /// should be, such as "frame". Throws the error of refuse() if the text is not a whole file.
   VtkReader(std::string_view text, std::string file, std::string what);
 
-  /// True if the XML element `section`, such as PointData, contains the array `name`.
   bool has_array(std::string_view section, std::string_view name) const;
 
-  /// The array `name` in the XML element `section`: the values of all points or cells, one after
-  /// the other. It may be empty. Throws the error of refuse() if there is no such array of this
-  /// type of numbers, or if it is damaged.
+  /// The values of all points or cells in the XML element `section`, such as PointData, one after
+  /// the other. Throws the error of refuse() if there is no such array of this type, or if it is
+  /// damaged.
   template <class Number>
   std::vector<Number> array(std::string_view section, std::string_view name) const {
     const auto bytes = bytes_of(section, name, vtk_type<Number>());

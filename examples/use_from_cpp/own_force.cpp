@@ -1,23 +1,5 @@
-// Sets the forces on particles in each step from C++: a spring draws nine discs to the origin,
-// where they touch and stay together by viscous contact (docs/physics.md (5.2), (5.3)). Lengths,
-// masses and times are in any consistent units. An error ends the program with its message and the
-// exit code 1. All numbers of the example may be changed: positions, radii, masses, time step,
-// stiffness, end time and number of steps. tests/package/use_installed compares the output with the
-// table at the end of this comment, which must then be changed, too.
-//
-// The program is built together with smallest_gap.cpp; the head of that file says how. Then type
-//
-//   out/use_from_cpp/own_force
-//
-// The program prints this table. The largest distance is that of the centre of a disc from the
-// origin.
-//
-//   time   largest distance   contacts
-//      0            4.24264          0
-//      1             3.2157          0
-//      2            2.82843         12
-//      3            2.82843         12
-//      4            2.82843         12
+// Forces of the caller on particles: a spring draws nine discs to the origin, where they stay
+// together by viscous contact (docs/physics.md (5.2), (5.3)).
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -33,7 +15,7 @@ namespace {
 namespace particles = viscontact::particles;
 
 /// Nine discs of radius 1 [L] and mass 1 [M] at rest, in three rows of three discs. Neighbouring
-/// centres have the distance 3 [L], so that no discs overlap.
+/// centres have the distance 3 [L]. Units are any consistent ones.
 particles::State discs_at_rest() {
   particles::State state;
   auto& p = state.particles;
@@ -61,10 +43,11 @@ void print_row(const particles::Simulation& simulation) {
 
 void run() {
   particles::Setting setting;
-  // The time step is in [T], > 0. The last argument is the number of threads, >= 1.
+  // The last argument is the number of threads.
   setting.time_step = 0.01;
   particles::Simulation simulation(std::move(setting), discs_at_rest(), 1);
 
+  // The forces [M L/T^2] that the caller sets: x and y for each disc, one disc after the other, 0
   // The forces [M L/T^2] that the caller sets: x and y for each disc, one disc after the other, 0
   // at first. They act in the next step with the values that they have when this step begins.
   const auto forces = simulation.added_forces();
@@ -82,6 +65,20 @@ void run() {
 }
 
 }  // namespace
+
+// The comment before main() of smallest_gap.cpp says how to build the program. Then type
+//
+//   out/use_from_cpp/own_force
+//
+// The program prints this table, with which tests/package/use_installed compares its output. The
+// largest distance is that of the centre of a disc from the origin.
+//
+//   time   largest distance   contacts
+//      0            4.24264          0
+//      1             3.2157          0
+//      2            2.82843         12
+//      3            2.82843         12
+//      4            2.82843         12
 
 int main() {
   try {

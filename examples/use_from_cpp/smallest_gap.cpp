@@ -1,28 +1,5 @@
-// Uses Viscontact from C++: reads a table of forces, fits a formula to it, and computes the motion
-// of the sphere of the lecture's case by two models (docs/physics.md (4.1), (4.4)): `inertial`
-// resolves the film between sphere and plane, `viscous_contact` does not. Lengths, masses and times
-// are in the units of the table. An error ends the program with its message and the exit code 1.
-// The numbers of lecture_motion() and the models may be changed. tests/package/use_installed
-// compares the output with the lines at the end of this comment, which must then be changed, too.
-//
-// Type these commands in the source folder of Viscontact, after scripts/build has built it (PREFIX
-// is any folder; without --prefix it is /usr/local):
-//
-//   cmake --install build/release --prefix PREFIX
-//   cmake -S examples/use_from_cpp -B out/use_from_cpp -D CMAKE_PREFIX_PATH=PREFIX -D CMAKE_BUILD_TYPE=Release
-//   cmake --build out/use_from_cpp
-//   out/use_from_cpp/smallest_gap PREFIX/share/viscontact/data/tables/lecture.csv
-//
-// The program prints the following lines. R [M/T] is the resistance (minus the force over the
-// velocity) at the gap q [L], q_min [L] is the smallest gap of the motion, and the last digits
-// depend on the table and the compiler.
-//
-//   40 rows, fitted by 1/q, 1, q, q^2, q^3: largest residual 0.46 %
-//   R(q = 0.01) = 5761.06
-//
-//   model                   q_min    at time
-//   inertial           0.00296729    2.00072
-//   viscous_contact             0      0.447
+// Reads a table of forces, fits a formula to it, and computes the motion of the sphere of the
+// lecture's case by two models (docs/physics.md (4.1), (4.4)).
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -39,8 +16,8 @@
 namespace {
 
 /// A sphere of mass 20 [M], at rest at the gap 1 [L], is pushed towards the plane with the force
-/// 200 [M L/T^2] until t = 2 [T], and then pulled back with the same force until t = 4. Mass, gap,
-/// times and tolerance must be > 0.
+/// 200 [M L/T^2] until t = 2 [T], and then pulled back with the same force until t = 4. Units are
+/// those of the table.
 viscontact::reduced_model::Motion lecture_motion() {
   const std::vector<viscontact::reduced_model::ExternalForce::Piece> pieces = {
       {.until = 2, .value = -200}, {.until = 4, .value = 200}};
@@ -91,6 +68,25 @@ void print_smallest_gaps(const std::string& table_file) {
 }
 
 }  // namespace
+
+// Type these commands in the source folder of Viscontact, after scripts/build has built it (PREFIX
+// is any folder; without --prefix it is /usr/local):
+//
+//   cmake --install build/release --prefix PREFIX
+//   cmake -S examples/use_from_cpp -B out/use_from_cpp -D CMAKE_PREFIX_PATH=PREFIX -D CMAKE_BUILD_TYPE=Release
+//   cmake --build out/use_from_cpp
+//   out/use_from_cpp/smallest_gap PREFIX/share/viscontact/data/tables/lecture.csv
+//
+// The program prints the following lines, with which tests/package/use_installed compares its
+// output. R [M/T] is the resistance (minus the force over the velocity) at the gap q [L], q_min [L]
+// is the smallest gap of the motion, and the last digits depend on the table and the compiler.
+//
+//   40 rows, fitted by 1/q, 1, q, q^2, q^3: largest residual 0.46 %
+//   R(q = 0.01) = 5761.06
+//
+//   model                   q_min    at time
+//   inertial           0.00296729    2.00072
+//   viscous_contact             0      0.447
 
 int main(int argc, char** argv) {
   if (argc != 2) {

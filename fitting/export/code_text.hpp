@@ -1,7 +1,4 @@
-// Numbers and sums of terms as code of C, Fortran, Python and MATLAB. Numbers have the units of the
-// fit, and must be finite (asserted by format_number()). Nothing is thrown. Used by export_fit.cpp
-// and motions/fit/export_pair.cpp. The layout of the code may be changed; a change must keep that a
-// compiler reads each literal as the double that was written.
+// Numbers and sums of terms as code of C, Fortran, Python and MATLAB.
 #pragma once
 
 #include <fmt/format.h>
@@ -17,18 +14,19 @@
 
 namespace viscontact::fitting {
 
-/// The weight of a term in a sum, and the term, which is a function of the gap. The unit of the
-/// weight is the unit of the sum divided by the unit of the term.
+/// The weight of a term in a sum, and the term. The unit of the weight is the unit of the sum
+/// divided by the unit of the term.
 using WeightedTerm = std::pair<double, lubrication::Term>;
 
-/// A function that writes a finite number as a literal of type double in one language.
+/// A function that writes a finite number as a literal of type double in one language, which a
+/// compiler reads as the same double.
 using Literal = std::string (*)(double);
 
-/// A literal of Python or MATLAB, with as many digits as are needed to read the same double back,
-/// such as 56.5, 5 or 1e-05. Unlike C, these languages need no point in a number.
+/// A literal of Python or MATLAB, such as 56.5, 5 or 1e-05. Unlike C, these languages need no point
+/// in a number.
 inline std::string plain(double number) { return format_number(number); }
 
-/// A Fortran literal in double precision, such as 56.5d0 or 1d-05.
+/// A Fortran literal, such as 56.5d0 or 1d-05.
 inline std::string fortran_literal(double number) {
   std::string text = format_number(number);
   const auto exponent = text.find('e');
@@ -46,9 +44,8 @@ inline std::string c_literal(double number) {
 
 /// The sum of weight * formula over `terms` as code, with the gap as variable q and its logarithm
 /// as l. `formula` selects one function of each term: value, log_slope (q times the derivative) or
-/// antiderivative. `literal` writes the weights. `between` is the text that joins two summands: a
-/// plus sign, and a line break in the syntax of the language. The code is empty if there are no
-/// terms.
+/// antiderivative. `between` is the text that joins two summands: a plus sign, and a line break in
+/// the syntax of the language.
 inline std::string terms_text(const std::vector<WeightedTerm>& terms,
                               lubrication::Formula lubrication::Term::*formula, Literal literal,
                               std::string_view between) {
@@ -60,7 +57,6 @@ inline std::string terms_text(const std::vector<WeightedTerm>& terms,
 }
 
 /// The expression with MATLAB's operators for the entries of arrays: "a*b/c" becomes "a.*b./c".
-/// Only * and / are replaced.
 inline std::string elementwise(const std::string& expression) {
   std::string text;
   for (const char c : expression) {

@@ -1,18 +1,11 @@
-// Writes a fit as code or numbers: the resistance R [M/T] of a sphere as a function of the gap
-// q > 0 [L], the sum of weight * term(q), and its primitive Gamma(q) = int_r^q R [M L/T], with the
-// sphere's radius r (docs/physics.md (3.2), (3.3), (4.2)), in the units of the fit. Three faults
-// are an Error(kBadInput): an unknown target, a resistance that is not positive and finite, and a
-// fit without the coefficient k > 0 that a formula for small gaps needs. A formula outside the
-// interval for the target csv is an Error(kWrongUsage). Used by app/ and
-// motions/fit/export_pair.cpp, which repeats the names of the targets. A change must keep the names
-// of functions and keys, which programs of users call, and the order of the sums. The comments in
-// exported texts may be changed.
+// Writes R(q) and its primitive Gamma(q) (docs/physics.md (3.2), (3.3), (4.2)) in each language.
 #include "viscontact/fitting/export/export_fit.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -30,9 +23,8 @@ namespace {
 
 using Limits = lubrication::OutsideInterval;
 
-/// The weights in R(q) = sum of weight * value(q) [M/T] and
-/// Gamma(q) = sum of weight * antiderivative(q) - offset [M L/T]. Value and antiderivative are
-/// functions of each term; the offset makes Gamma(r) = 0.
+/// R(q) = sum of weight * value(q) [M/T] and Gamma(q) = sum of weight * antiderivative(q) - offset
+/// [M L/T]; the offset makes Gamma(r) = 0 at the sphere's radius r.
 struct Sum {
   std::vector<WeightedTerm> terms;
   double offset = 0;
@@ -56,8 +48,8 @@ Sum sum_of(const lubrication::Fit& fit) {
   return sum;
 }
 
-/// The resistance outside the fitted interval [q1, q2], where the user chose a formula for it:
-/// R = k/q + constant below the interval, R = stokes + reflected/(q + r) above it. With a second wall
+/// The resistance outside the fitted interval [q1, q2], where the user chose a formula for it: R =
+/// k/q + constant below the interval, R = stokes + reflected/(q + r) above it. With a second wall
 /// at the gap L, k_wall (1/(L - q) - 1/(L - q2)) is added above, and R is infinite at L.
 struct Outside {
   bool has_below = false, has_above = false;     // true if the user chose the formula
@@ -71,7 +63,7 @@ struct Outside {
 };
 
 /// The numbers of the formulas that the user chose in `limits`, such that R is continuous at q1 and
-/// q2. Throws Error(kBadInput) if the fit has no k > 0 for a formula that needs it.
+/// q2.
 Outside outside_of(const lubrication::Fit& fit, const lubrication::OutsideInterval& limits) {
   const lubrication::LubricationForce force(fit, limits);
   const auto [smallest, largest] = fit.gap_interval;
@@ -97,15 +89,14 @@ Outside outside_of(const lubrication::Fit& fit, const lubrication::OutsideInterv
   return outside;
 }
 
-/// R or Gamma as expressions of a language: `inside` for gaps in the fitted interval, in the
-/// variables q and l = ln q; `below` and `above` for smaller and larger gaps, in q alone. `below`
-/// or `above` is empty if the user chose no formula there.
+/// R or Gamma as expressions of a language: `inside` the fitted interval in the variables q and l =
+/// ln q; `below` and `above` it in q alone, empty if the user chose no formula there.
 struct Expressions {
   std::string inside, below, above;
 };
 
 /// The expressions for R. `number` writes a number as a literal of the language; `between`, which
-/// must contain a "+", stands between two summands, such as a line break and " + ".
+/// contains a "+", stands between two summands.
 Expressions resistance_of(const Sum& sum, const Outside& o, Literal number,
                           std::string_view between) {
   Expressions e{terms_text(sum.terms, &lubrication::Term::value, number, between), "", ""};
@@ -119,8 +110,8 @@ Expressions resistance_of(const Sum& sum, const Outside& o, Literal number,
   return e;
 }
 
-/// The expressions for Gamma, with the same arguments.
 Expressions impulse_of(const Sum& sum, const Outside& o, Literal number, std::string_view between) {
+  assert(between.find('+') != std::string_view::npos);
   std::string minus(between);
   minus.replace(minus.rfind('+'), 1, "-");
   Expressions e{terms_text(sum.terms, &lubrication::Term::antiderivative, number, between) +
@@ -142,7 +133,6 @@ Expressions impulse_of(const Sum& sum, const Outside& o, Literal number, std::st
 }
 
 /// What a user of the exported numbers must know (sign, interval, error, source), one line each.
-/// `source` is the name of the fit's file; if it is empty, no line names it.
 std::vector<std::string> facts(const lubrication::Fit& fit, std::string_view source,
                                const Outside& outside = {}) {
   const auto version = fit.versions.find("Viscontact");
@@ -178,9 +168,7 @@ std::vector<std::string> facts(const lubrication::Fit& fit, std::string_view sou
   return on_lines_of_comments(std::move(lines));
 }
 
-/// The target c-header: inline functions viscontact_resistance(gap), viscontact_impulse(gap)
-/// (Gamma) and viscontact_force(gap, velocity) [M L/T^2]. This function and those below have the
-/// arguments of export_fit(). In C, Fortran and MATLAB a gap without a formula gives NaN.
+/// The target c-header. This function and those below have the arguments of export_fit().
 std::string write_c_header(const lubrication::Fit& fit, std::string_view source,
                            const Limits& limits) {
   const Sum sum = sum_of(fit);
@@ -225,7 +213,7 @@ std::string write_c_header(const lubrication::Fit& fit, std::string_view source,
          "  return -viscontact_resistance(gap) * velocity;\n}\n\n#endif\n";
 }
 
-/// The statements of Fortran with lines of at most 100 characters, of the 132 that it allows.
+/// The statements with lines of at most 100 characters, of the 132 that Fortran allows.
 std::string continued(const std::string& statements) {
   constexpr std::size_t kLongest = 100;
   std::string text;
@@ -242,7 +230,7 @@ std::string continued(const std::string& statements) {
   return text;
 }
 
-/// The target fortran: the same three functions in a module; each takes a number or an array.
+/// The target fortran: a module, whose functions take a number or an array.
 std::string write_fortran(const lubrication::Fit& fit, std::string_view source,
                           const Limits& limits) {
   const Sum sum = sum_of(fit);
@@ -302,8 +290,7 @@ std::string write_fortran(const lubrication::Fit& fit, std::string_view source,
          "end module\n";
 }
 
-/// The target python: functions resistance(gap), impulse(gap) and force(gap, velocity), which raise
-/// ValueError at a gap without a formula.
+/// The target python: functions that raise ValueError at a gap without a formula.
 std::string write_python(const lubrication::Fit& fit, std::string_view source,
                          const Limits& limits) {
   const Sum sum = sum_of(fit);
@@ -349,8 +336,7 @@ std::string write_python(const lubrication::Fit& fit, std::string_view source,
          "    return -resistance(gap) * velocity\n";
 }
 
-/// The target matlab: a function that returns a struct with the three functions and the ends of the
-/// interval.
+/// The target matlab: a function that returns a struct of functions.
 std::string write_matlab(const lubrication::Fit& fit, std::string_view source,
                          const Limits& limits) {
   const Sum sum = sum_of(fit);
@@ -395,9 +381,7 @@ std::string write_matlab(const lubrication::Fit& fit, std::string_view source,
          function("impulse", impulse_of(sum, outside, plain, kBetween));
 }
 
-/// The target json: the terms with their weights and formulas, the numbers of the formulas outside
-/// the interval, and lists of 201 gaps with resistance, impulse (Gamma) and force (at the reference
-/// velocity).
+/// The target json: terms, numbers of the formulas outside the interval, and samples.
 std::string write_json(const lubrication::Fit& fit, std::string_view source, const Limits& limits) {
   const Sum sum = sum_of(fit);
   const Outside outside = outside_of(fit, limits);
@@ -448,9 +432,7 @@ std::string write_json(const lubrication::Fit& fit, std::string_view source, con
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-/// The target csv: 201 rows with the columns gap [L], resistance [M/T], impulse (Gamma) [M L/T] and
-/// force [M L/T^2] at the reference velocity, for gaps within the interval. Throws
-/// Error(kWrongUsage) if `limits` has a formula.
+/// The target csv: samples within the interval.
 std::string write_csv(const lubrication::Fit& fit, std::string_view source, const Limits& limits) {
   if (limits.below != lubrication::BelowInterval::kError ||
       limits.above != lubrication::AboveInterval::kError)
@@ -482,8 +464,6 @@ constexpr std::array kTargets = {
 
 std::span<const ExportTarget> export_targets() { return kTargets; }
 
-/// The text of `fit` for the target with the name `target`. `source` is the name of the fit's file
-/// and may be empty; `outside` chooses the formulas for gaps outside the interval.
 std::string export_fit(const lubrication::Fit& fit, std::string_view target,
                        std::string_view source, const Limits& outside) {
   (void)lubrication::LubricationForce(fit);  // throws if the resistance is not positive

@@ -1,10 +1,5 @@
 // Runs a script of freefem_axi/scripts/ in a FreeFEM process, which gets numbers as arguments and
-// prints lines of text (docs/extending.md). Times are in seconds. If FreeFEM cannot be started,
-// Error(kExternalProgram) is thrown; a requested stop throws Error(kInterrupted). If a script
-// fails, nothing is thrown here: the caller must check the exit status. The default time limits are
-// free choices. Used by tabulation.cpp, motion_row.cpp and swimmer/tabulation/ for the rows of all
-// tables, and by results/, app/ and bench/. A change must keep each process on one thread and
-// within its time limit.
+// prints lines of text (docs/extending.md).
 #pragma once
 
 #include <chrono>
@@ -19,60 +14,54 @@
 
 namespace viscontact::freefem_axi {
 
-/// The FreeFEM program, the folder of its scripts, and when a process is killed.
+/// FreeFEM, its scripts, and when a process is killed.
 struct FreeFem {
-  std::string executable;  ///< a name to look for on PATH, or a path
-  /// Folder share/viscontact/freefem_axi with the scripts.
-  std::filesystem::path script_folder;
+  std::string executable;               ///< a name to look for on PATH, or a path
+  std::filesystem::path script_folder;  ///< share/viscontact/freefem_axi
   /// Time limit for one row of a table [s], > 0. The slowest row that was measured took less than
   /// two minutes; the default leaves a factor of 15 for slower machines.
   std::chrono::seconds row_limit = std::chrono::minutes(30);
   /// Time limit for FreeFEM to print its version [s], > 0. FreeFEM prints it in less than a second.
   std::chrono::seconds version_limit = std::chrono::minutes(2);
-  /// If `stop` requests a stop, the FreeFEM process is killed and Error(kInterrupted) is thrown.
+  /// Kills the FreeFEM process, which throws Error(kInterrupted).
   StopToken stop{};
 };
 
 /// The FreeFEM of the user: the executable is the value of the environment variable
-/// VISCONTACT_FREEFEM if it is set and not empty, else FreeFem++-nw. Whether it exists is not
-/// checked. VISCONTACT_FREEFEM_TIME_LIMIT [s], if set, replaces both time limits. Throws
+/// VISCONTACT_FREEFEM if it is set and not empty, else FreeFem++-nw; it need not exist.
+/// VISCONTACT_FREEFEM_TIME_LIMIT [s], if set, replaces both time limits. Throws
 /// Error(kExternalProgram) if the scripts are not found (freefem::find_script_folder()), and
 /// Error(kWrongUsage) if the limit is not a whole number from 1 to 10 million.
 FreeFem default_freefem(const StopToken& stop = {});
 
 /// Runs the script with the file name `script` on one thread to its end. In `arguments`, "-name"
-/// and "value" alternate, each an element of its own. After `time_limit` or, if this is not given,
-/// freefem.row_limit, FreeFEM is killed, and `timed_out` is true in the result. If the script
-/// fails, nothing is thrown: the caller must check exit_status and timed_out. Throws
-/// Error(kExternalProgram) if FreeFEM cannot be started, and Error(kInterrupted) if freefem.stop
-/// requests a stop.
+/// and "value" alternate. After `time_limit` (else freefem.row_limit) FreeFEM is killed. If the
+/// script fails, no error is thrown: the caller must look at exit_status and timed_out. Throws
+/// Error(kExternalProgram) if FreeFEM cannot be started, and Error(kInterrupted) at a stop.
 ProcessResult run_freefem(const FreeFem& freefem, std::string_view script,
                           const std::vector<std::string>& arguments,
                           std::optional<std::chrono::seconds> time_limit = {});
 
 /// Appends the arguments that all scripts need: -accuracy, the largest relative error estimate of a
-/// force [1], in (0, 1) (not checked), and -cells, -levels and -attempts, constants of freefem.cpp
-/// that say how fine the meshes are.
+/// force [1], in (0, 1), and -cells, -levels and -attempts, constants of freefem.cpp that say how
+/// fine the meshes are.
 void append_mesh_arguments(std::vector<std::string>& arguments, double relative_accuracy);
 
 /// Words for a message: FreeFEM was killed at its time limit, and what the user can do.
 std::string timed_out_in_words(std::chrono::seconds time_limit);
 
-/// Why a script failed, for an error message: that it exceeded `time_limit`, or the error that it
-/// printed after the word "viscontact-error", or else the last four lines of its output. Empty if
-/// it printed nothing.
+/// Why a script failed: that it exceeded `time_limit`, or the error that it printed after the word
+/// "viscontact-error", or else the last lines of its output, which may be empty.
 std::string failure_in_words(const ProcessResult& result, std::chrono::seconds time_limit);
 
-/// The first line of `output` that starts with `prefix` and a space, without prefix and space;
-/// empty if there is no such line.
+/// The rest of the first line that starts with `prefix` and a space; empty if there is none.
 std::string line_after(const std::string& output, std::string_view prefix);
 
-/// The version of FreeFEM in words: the version of the Debian package that has installed the
-/// executable, and the version that FreeFEM states, such as "4.11+dfsg1-3 (Debian package
-/// freefem++; FreeFEM says 4.9)". If no package has installed it, the result is only what FreeFEM
-/// states, "4.9", which may differ from the number of the release. Throws Error(kInterrupted) if
-/// freefem.stop requests a stop, and Error(kExternalProgram) if FreeFEM cannot be started, fails,
-/// or does not answer within freefem.version_limit.
+/// The version of the Debian package that has installed the executable, and the version that
+/// FreeFEM states, such as "4.11+dfsg1-3 (Debian package freefem++; FreeFEM says 4.9)"; only the
+/// latter, "4.9", if no package has installed it. Throws Error(kInterrupted) at a stop, and
+/// Error(kExternalProgram) if FreeFEM cannot be started, fails, or does not answer within
+/// freefem.version_limit.
 std::string freefem_version(const FreeFem& freefem);
 
 }  // namespace viscontact::freefem_axi

@@ -1,14 +1,10 @@
-// Makes a TablePlan, the functions that compute, read and write a table, for any type Row of rows
-// (lubrication/table.hpp). The caller gives what differs between types of rows: which rows there
-// are, how FreeFEM solves them, and what the numbers depend on. Numbers have the units of the
-// table. The arguments are not checked. A plan throws what the functions in PlanParts throw; for a
-// file that is not the planned table nothing is thrown. Used by motion_table_plan.cpp and
-// swimmer/tabulation/. A change must keep the order of the numbers in a row of a journal (the file
-// of finished rows), because journals of earlier runs are read in this order.
+// Makes a TablePlan for any type Row of rows (lubrication/table.hpp) from what differs between
+// types of rows.
 #pragma once
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <memory>
 #include <set>
 
@@ -19,9 +15,8 @@
 
 namespace viscontact::freefem_axi {
 
-/// One call of FreeFEM can compute several rows at a point, the numbers that identify a row, such
-/// as its gap. Each of these rows belongs to another table: sliding and rolling, for example, are
-/// computed together. A PlannedRow is one of these rows, with its table.
+/// One of the rows that one call of FreeFEM computes at a point, with its table. Sliding and
+/// rolling, for example, are computed together.
 template <class Row>
 struct PlannedRow {
   lubrication::TableHead head;  ///< of the table; make_plan() adds hash, versions, failures
@@ -34,32 +29,30 @@ struct PlannedRow {
 /// The argument of make_plan().
 template <class Row>
 struct PlanParts {
-  /// A text with everything that the numbers depend on. A table that was made from another text is
-  /// computed again.
+  /// Everything that the numbers depend on; a table from another text is computed again.
   std::string inputs;
-  /// The points at which rows are computed, in the order of computation. There is at least one, and
-  /// all have the same number of entries, which are the first columns of a row.
+  /// In the order of computation, at least one. All have the same number of entries, which are the
+  /// first columns of a row.
   std::vector<RowPoint> points;
-  /// The rows at each point, in the order in which `solve` returns them; is_asked is true for at
-  /// least one.
+  /// In the order in which `solve` returns them; is_asked is true for at least one.
   std::vector<PlannedRow<Row>> rows;
-  double relative_accuracy = 0;  ///< TablePlan::relative_accuracy [1], > 0
-  double typical_seconds = 0;    ///< TablePlan::typical_seconds [s], > 0
-  bool needs_all_rows = false;   ///< TablePlan::needs_all_rows
+  double relative_accuracy = 0;  ///< as in TablePlan
+  double typical_seconds = 0;    ///< as in TablePlan
+  bool needs_all_rows = false;   ///< as in TablePlan
   /// Computes the rows at a point, one for each element of `rows`. Throws Error(kExternalProgram)
   /// if FreeFEM fails for this point; another Error ends the computation of all rows.
   std::function<std::vector<Row>(const FreeFem&, const RowPoint&)> solve;
-  std::function<std::string(const RowPoint&)> name_of;  ///< TablePlan::name_of
+  std::function<std::string(const RowPoint&)> name_of;  ///< as in TablePlan
   /// Returns the row that was computed at a point; nothing if no row was computed there.
   using Computed = std::function<std::optional<Row>(const RowPoint&)>;
-  /// Makes all rows of a table from the computed ones, in the order of the table. If this function
-  /// is empty, the table has the computed rows in the order of `points`.
+  /// Makes all rows of a table from the computed ones. If this function is empty, the table has the
+  /// computed rows in the order of `points`.
   std::function<std::vector<Row>(const Computed&)> arrange{};
 };
 
 /// The addresses of those numbers of `row` that a journal stores behind the numbers of the point:
-/// all columns but the first `size_of_point` columns and the columns that complete() always
-/// computes from others (IfAbsent::kAlwaysComputed).
+/// all columns but the first `size_of_point` ones and those that complete() always computes from
+/// others. Journals of earlier runs are read in this order.
 template <class Row>
 std::vector<double*> stored_numbers(const lubrication::TableHead& head, Row& row,
                                     std::size_t size_of_point) {
@@ -73,11 +66,10 @@ std::vector<double*> stored_numbers(const lubrication::TableHead& head, Row& row
 
 /// Makes the plan of a table from `given`. A row in a journal consists of a point and of the
 /// numbers of all `given.rows` at this point, one row after the other. TablePlan::solve throws what
-/// given.solve throws. TablePlan::read returns no rows, and throws nothing, if a file is not the
-/// planned table. TablePlan::write throws what given.arrange throws. What the comments of PlanParts
-/// demand is not checked.
+/// given.solve throws, and TablePlan::write what given.arrange throws.
 template <class Row>
 TablePlan make_plan(PlanParts<Row> given) {
+  assert(!given.points.empty());
   const std::size_t size_of_point = given.points.front().size();
   TablePlan plan;
   plan.hash = sha256(given.inputs);
@@ -92,6 +84,7 @@ TablePlan make_plan(PlanParts<Row> given) {
     begins.push_back(plan.shape.numbers);
     plan.shape.numbers += stored_numbers(row.head, row.blank, size_of_point).size();
   }
+  assert(!asked.empty());
   plan.relative_accuracy = given.relative_accuracy;
   plan.typical_seconds = given.typical_seconds;
   plan.needs_all_rows = given.needs_all_rows;
@@ -99,14 +92,16 @@ TablePlan make_plan(PlanParts<Row> given) {
   const auto parts = std::make_shared<const PlanParts<Row>>(std::move(given));
 
   plan.solve = [=](const FreeFem& freefem, const RowPoint& point) {
+    assert(point.size() == size_of_point);
     std::vector<double> numbers;
     auto rows = parts->solve(freefem, point);
+    assert(rows.size() == parts->rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i)
       for (const double* number : stored_numbers(parts->rows[i].head, rows[i], size_of_point))
         numbers.push_back(*number);
     return numbers;
   };
-  // Returns a row of the table of given.rows[i], made from the numbers that a journal has stored.
+  // A row of the table of given.rows[i], from the numbers that a journal has stored.
   const auto row_of = [=](std::size_t i, const FinishedRow& finished) {
     const auto& head = parts->rows[i].head;
     auto row = parts->rows[i].blank;
@@ -117,8 +112,7 @@ TablePlan make_plan(PlanParts<Row> given) {
     complete(head, row);
     return row;
   };
-  // Adds the rows in the file of the table of given.rows[i] to the record. Returns false if the
-  // file is not the planned table.
+  // Returns false if the file is not the planned table.
   const auto add_rows = [=](std::size_t i, const std::filesystem::path& path, RowRecord& record) {
     const auto& planned = parts->rows[i];
     const auto table = lubrication::read_table<Row>(path);

@@ -1,12 +1,5 @@
-// Opens, locks and appends to a journal, the file of the rows of a table that FreeFEM has finished,
-// and writes and reads its lines. A line is "HASH row POINT NUMBERS VERSION CHECKSUM" or "HASH
-// failed POINT REASON CHECKSUM": HASH identifies the table, POINT is gap [L] and velocity [L/T] (or
-// gaps alone), NUMBERS are the columns of the row in the units of the table, all finite; VERSION is
-// that of FreeFEM. A damaged line is read as nothing; a journal that cannot be written or is locked
-// is an Error(kBadInput). Used by tabulate.cpp, row_record.cpp and pipeline/tabulate/. A change
-// must keep that a line is written in one piece and is on disk when append() returns, that
-// is_writer_name() accepts what writer_name() makes, and that journals of interrupted runs can be
-// read.
+// A line is "HASH row POINT NUMBERS VERSION CHECKSUM" or "HASH failed POINT REASON CHECKSUM", with
+// TablePlan::hash and the version of FreeFEM.
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 
 #include <fcntl.h>
@@ -17,6 +10,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cassert>
 #include <cstring>
 #include <sstream>
 
@@ -32,7 +26,6 @@ namespace {
 constexpr std::string_view kFinished = "row";
 constexpr std::string_view kFailed = "failed";
 
-/// The first 16 hexadecimal digits of the SHA-256 of the text.
 std::string checksum(std::string_view text) {
   // 64 bits of SHA-256 are enough to detect damage. With another number all lines of earlier
   // journals count as damaged.
@@ -40,7 +33,7 @@ std::string checksum(std::string_view text) {
   return sha256(text).substr(0, kDigits);
 }
 
-/// Reads the next `count` words as numbers. Nothing if a word is missing or is not a finite number.
+/// The next `count` words. Nothing if a word is missing or is not a finite number.
 std::optional<std::vector<double>> read_numbers(std::istream& words, std::size_t count) {
   std::vector<double> numbers;
   for (std::size_t i = 0; i < count; ++i) {
@@ -53,14 +46,12 @@ std::optional<std::vector<double>> read_numbers(std::istream& words, std::size_t
   return numbers;
 }
 
-/// The numbers in a text from which they are read back exactly, with a blank after each.
 std::string text_of(const std::vector<double>& numbers) {
   std::string text;
   for (const double number : numbers) text += format_number(number) + " ";
   return text;
 }
 
-/// The words of the line that were not read yet.
 std::string rest_of(std::istream& words) {
   std::string rest;
   std::getline(words >> std::ws, rest);
@@ -77,7 +68,7 @@ std::string text_of(const FailedRow& failed) {
   return fmt::format("{} {}{}", kFailed, text_of(failed.point), on_one_line(failed.reason));
 }
 
-/// The line without its checksum, or nothing if the checksum is wrong.
+/// Nothing if the checksum is wrong.
 std::optional<std::string> checked_text(std::string_view line) {
   const auto end = line.rfind(' ');
   if (end == std::string_view::npos || checksum(line.substr(0, end)) != line.substr(end + 1))
@@ -87,22 +78,19 @@ std::optional<std::string> checked_text(std::string_view line) {
 
 }  // namespace
 
-/// The line of a row, with its line end. `hash` must be a word without blanks (not checked).
 std::string write_journal_line(const std::string& hash, const JournalEntry& entry) {
+  assert(hash.find(' ') == std::string::npos);
   const std::string text =
       hash + " " + std::visit([](const auto& row) { return text_of(row); }, entry);
   return fmt::format("{} {}\n", text, checksum(text));
 }
 
-/// The word HASH of a line without its line end; nothing if the line is damaged.
 std::optional<std::string> hash_of_journal_line(std::string_view line) {
   const auto text = checked_text(line);
   if (!text) return {};
   return text->substr(0, text->find(' '));
 }
 
-/// The row in a line without its line end. `shape` says how many numbers POINT and NUMBERS have.
-/// Nothing if the line is damaged or has fewer numbers; HASH is not compared.
 std::optional<JournalEntry> read_journal_line(std::string_view line, const RowShape& shape) {
   const auto text = checked_text(line);
   if (!text) return {};
@@ -121,7 +109,6 @@ std::optional<JournalEntry> read_journal_line(std::string_view line, const RowSh
 
 namespace {
 
-/// True if the open file is empty or ends with a line end.
 bool ends_with_line_end(int file) {
   const off_t size = ::lseek(file, 0, SEEK_END);
   char last = '\n';
@@ -130,27 +117,22 @@ bool ends_with_line_end(int file) {
 
 }  // namespace
 
-/// TABLE.rows, where TABLE is `table_path`, or TABLE.rows.WRITER if `writer` is not empty.
 std::filesystem::path journal_path(const std::filesystem::path& table_path,
                                    const std::string& writer) {
   return table_path.string() + (writer.empty() ? ".rows" : ".rows." + writer);
 }
 
-/// The name of this process as a writer: "NUMBER-of-COUNT.HOST.PROCESS", with the number of its
-/// part of the rows, from 0, the number of parts, and its process id.
 std::string writer_name(std::size_t number, std::size_t count) {
+  assert(number < count);
   std::array<char, 256> host{};  // names of hosts have at most 64 characters in Linux
   ::gethostname(host.data(), host.size() - 1);
   return fmt::format("{}-of-{}.{}.{}", number, count, host.data(), ::getpid());
 }
 
-/// True for names of the form that writer_name() makes.
 bool is_writer_name(const std::string& name) {
   return ::fnmatch("+([0-9])-of-+([0-9]).?*.+([0-9])", name.c_str(), FNM_EXTMATCH) == 0;
 }
 
-/// Opens and locks the journal at `path` for rows of the table `hash`; makes the file and its
-/// folder if they do not exist.
 RowJournal::RowJournal(std::filesystem::path path, std::string hash)
     : path_(std::move(path)), hash_(std::move(hash)) {
   if (path_.has_parent_path()) make_folder(path_.parent_path());
@@ -160,8 +142,6 @@ RowJournal::RowJournal(std::filesystem::path path, std::string hash)
   at_line_start_ = ends_with_line_end(file_.get());
 }
 
-/// Writes a row and flushes it to disk. If the last line of the file is incomplete, a line end is
-/// written first.
 void RowJournal::append(const JournalEntry& entry) {
   const std::string line = (at_line_start_ ? "" : "\n") + write_journal_line(hash_, entry);
   at_line_start_ = false;

@@ -1,10 +1,4 @@
-// Reads all journals of a table (files of the rows that processes have finished), merges their rows
-// with those of the table, and removes from the journals what the table contains. Rows are found by
-// their points, gap [L] and velocity [L/T] (or gaps alone), as they stand in the files, in the
-// units of the table. A damaged line, a file that does not exist and a table of other inputs count
-// as no row; a journal that cannot be read, replaced or removed is an Error(kBadInput). Used by
-// tabulate.cpp, pipeline/ and python/. A change must keep that the table is read after the
-// journals.
+// Merges the rows of the journals with those of the table, and removes what the table contains.
 #include "viscontact/freefem_axi/journal/row_record.hpp"
 
 #include <fcntl.h>
@@ -25,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The paths of a table's journals, in alphabetical order.
+/// In alphabetical order.
 std::vector<fs::path> journals_of(const fs::path& table_path) {
   const fs::path own = journal_path(table_path);
   std::vector<fs::path> journals;
@@ -42,8 +36,8 @@ std::vector<fs::path> journals_of(const fs::path& table_path) {
   return journals;
 }
 
-/// Calls `use` with each complete line of a journal, without its line end. A journal that another
-/// process removes at the same time counts as empty; other failures to read throw Error(kBadInput).
+/// Calls `use` with each complete line, without its line end. A journal that another process
+/// removes at the same time counts as empty; other failures to read throw Error(kBadInput).
 template <class Use>
 void for_each_line(const fs::path& journal, const Use& use) {
   std::string text;
@@ -60,9 +54,6 @@ void for_each_line(const fs::path& journal, const Use& use) {
 
 }  // namespace
 
-/// The finished and failed rows of the table that `plan` describes. Lines with another hash than
-/// plan.hash are skipped. Of several failures at a point the last one in the journals counts,
-/// before that of the table; a finished row takes the place of all failures.
 RowRecord read_row_record(const fs::path& table_path, const TablePlan& plan) {
   RowRecord record;
   for (const auto& journal : journals_of(table_path))
@@ -75,7 +66,8 @@ RowRecord read_row_record(const fs::path& table_path, const TablePlan& plan) {
       else if (const auto* failed = std::get_if<FailedRow>(&*entry))
         record.failed[failed->point] = failed->reason;
     });
-  // The table must be read last, because the process that writes it then removes the journals.
+  // The table must be read last, because the process that writes it then removes the journals: if
+  // the table were read before and the journals after that, its rows would be missing.
   auto in_table = plan.read(table_path);
   record.finished.merge(in_table.finished);
   record.failed.merge(in_table.failed);
@@ -84,8 +76,6 @@ RowRecord read_row_record(const fs::path& table_path, const TablePlan& plan) {
   return record;
 }
 
-/// Those of `points` that have no finished row, in their order; failed rows are among them. Throws
-/// nothing.
 std::vector<RowPoint> missing_points(const RowRecord& record, const std::vector<RowPoint>& points) {
   std::vector<RowPoint> missing;
   std::ranges::copy_if(points, std::back_inserter(missing),
@@ -93,7 +83,6 @@ std::vector<RowPoint> missing_points(const RowRecord& record, const std::vector<
   return missing;
 }
 
-/// The reasons of the failed rows at `points`, in their order. Throws nothing.
 std::vector<std::string> failures_of(const RowRecord& record, const std::vector<RowPoint>& points) {
   std::vector<std::string> reasons;
   for (const auto& point : points)
@@ -102,9 +91,6 @@ std::vector<std::string> failures_of(const RowRecord& record, const std::vector<
   return reasons;
 }
 
-/// Removes the lines of the table `hash` from its journals; the caller must have written the table
-/// before. Lines with another hash stay, and a journal without such lines is removed. A journal
-/// that cannot be opened for writing, or that another process has locked, stays.
 void remove_journals(const fs::path& table_path, const std::string& hash) {
   for (const auto& journal : journals_of(table_path)) {
     // The lock is held while the journal is read and removed. Another process that has opened the

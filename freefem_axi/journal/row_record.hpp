@@ -1,10 +1,4 @@
-// The finished and failed rows of a table, collected from its file and from its journals, the files
-// in which processes store the rows that they have finished (row_journal.hpp). Numbers have the
-// units of the table. If a journal cannot be read or removed, Error(kBadInput) is thrown; damaged
-// lines are skipped. Used by tabulate.cpp, pipeline/ and the Python module. A change must keep that
-// the journals are read before the table: another process may write the table and then remove the
-// journals, and if the table were read before and the journals after that, its rows would be
-// missing.
+// The finished and failed rows of a table, collected from its file and from its journals.
 #pragma once
 
 #include <filesystem>
@@ -23,12 +17,10 @@ namespace viscontact::freefem_axi {
 /// Error(kBadInput) if a journal exists but cannot be read.
 RowRecord read_row_record(const std::filesystem::path& table_path, const TablePlan& plan);
 
-/// The entries of `points` whose rows are not finished, in the order of `points`. Points whose row
-/// failed are among them.
+/// Those of `points` that have no finished row, in their order; failed rows are among them.
 std::vector<RowPoint> missing_points(const RowRecord& record, const std::vector<RowPoint>& points);
 
-/// The reasons why rows at `points` failed, in the order of `points`; points without a failed row
-/// are left out.
+/// The reasons why rows at `points` failed, in their order; other points are left out.
 std::vector<std::string> failures_of(const RowRecord& record, const std::vector<RowPoint>& points);
 
 /// Removes the rows of the table whose TablePlan::hash is `hash` from the journals beside

@@ -1,11 +1,5 @@
-// A table whose rows FreeFEM computes one by one, independent of what its rows contain: forces and
-// torques on a sphere (motion_table_plan.hpp), or resistance matrices of spheres on a line
-// (swimmer/tabulation/). make_plan.hpp makes a TablePlan; the other files of this folder, pipeline/
-// and swimmer/ use it. Times are in seconds; other numbers have the units of the table. If a row
-// fails, TablePlan::solve throws Error(kExternalProgram), whose message is recorded as the reason;
-// any other Error ends the computation. Sizes of points and rows are not checked. Further members
-// may be added. A change must keep that equal inputs give equal hashes, by which tables and rows of
-// earlier runs are found.
+// A table whose rows FreeFEM computes one by one, independent of what its rows contain. Numbers are
+// in the units of the table.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +20,7 @@ using RowPoint = std::vector<double>;
 /// A row that was computed.
 struct FinishedRow {
   RowPoint point;  ///< which row
-  /// The computed numbers, as TablePlan::solve returns them. Their number is RowShape::numbers.
+  /// As TablePlan::solve returns them.
   std::vector<double> numbers;
   std::string freefem_version;  ///< text of freefem_version() (freefem.hpp); may be empty
 };
@@ -53,18 +47,17 @@ struct RowShape {
 /// Names and versions of the programs that made a table.
 using Versions = std::map<std::string, std::string>;
 
-/// Another table whose rows the same calls of FreeFEM compute, such as the table of rolling beside
-/// the table of sliding.
+/// Another table whose rows the same calls of FreeFEM compute, such as rolling beside sliding.
 struct CompanionTable {
   std::filesystem::path path;  ///< of its file
-  /// Makes the text of its file from the finished rows and the versions of the programs, as
-  /// TablePlan::write does for the first table.
+  /// As TablePlan::write.
   std::function<std::string(const RowRecord&, const Versions&)> write;
 };
 
 /// A table and the functions that compute, read and write it.
 struct TablePlan {
-  /// SHA-256 of everything that the numbers depend on, in hexadecimal digits.
+  /// SHA-256 of everything that the numbers depend on, in hexadecimal digits. Tables and rows of
+  /// earlier runs are found by it.
   std::string hash;
   /// The points of all rows, in the order of computation; at least one.
   std::vector<RowPoint> points;
@@ -72,24 +65,22 @@ struct TablePlan {
   double relative_accuracy = 0;  ///< largest relative error that the user allows a row [1], > 0
   double typical_seconds = 0;    ///< time of a row on one core [s], > 0, only for estimates of time
   /// Computes the numbers of the row at a point, RowShape::numbers of them. Throws
-  /// Error(kExternalProgram) if FreeFEM fails for this row. An Error of another kind ends the
-  /// computation of all rows.
+  /// Error(kExternalProgram) if FreeFEM fails for this row; its message is recorded as the reason.
+  /// An Error of another kind ends the computation of all rows.
   std::function<std::vector<double>(const FreeFem&, const RowPoint&)> solve;
   /// Reads the finished rows in the file of the table, and the failed rows that it names. Returns
-  /// no rows, and throws nothing, if there is no such file or if it was computed with other inputs.
+  /// no rows if there is no such file or if it was computed with other inputs.
   std::function<RowRecord(const std::filesystem::path&)> read;
-  /// Makes the text of the file of the table from the finished rows, of which there must be at
-  /// least one (not checked), and from the versions of the programs. The head of the file names the
-  /// failed rows.
+  /// Makes the text of the file of the table from at least one finished row and from the versions
+  /// of the programs. The head of the file names the failed rows.
   std::function<std::string(const RowRecord&, const Versions&)> write;
   /// True if the table cannot be used when rows are missing. `write` must then get all rows.
   bool needs_all_rows = false;
   /// Tables that are written together with this one.
   std::vector<CompanionTable> companions;
-  /// Describes the row at a point in messages and in the head of the file, such as "gap 0.1,
-  /// velocity -1". No two rows have the same description.
+  /// The row at a point in words, such as "gap 0.1, velocity -1", unique.
   std::function<std::string(const RowPoint&)> name_of;
-  /// The largest relative error estimate [1], >= 0, of the row in this table and in its companions.
+  /// The largest relative error estimate of the row in this table and in its companions.
   std::function<double(const FinishedRow&)> estimate_of;
   std::function<double(const FinishedRow&)> seconds_of;  ///< time that the row took [s], >= 0
 };

@@ -1,15 +1,8 @@
-// Distributes the rows of a table over threads, each of which runs one FreeFEM process at a time
-// and waits for it. Times are in seconds, points of rows in the units of the table (gap [L],
-// velocity [L/T], or gaps alone); the number of threads is at least 1 (not checked: with fewer no
-// row is computed). A row that FreeFEM cannot solve is recorded as failed; every other error stops
-// all threads and is thrown: Error(kExternalProgram) if FreeFEM cannot be run, Error(kBadInput) if
-// the journal cannot be written or read, Error(kInterrupted) for a stop. Used by
-// pipeline/tabulate/. A change must keep that a row is on disk before its thread starts the next
-// one, and that only one thread at a time uses the journal (the file of finished rows) and the
-// progress report.
+// Distributes the rows over threads, each of which runs one FreeFEM process at a time.
 #include "viscontact/freefem_axi/journal/tabulate.hpp"
 
 #include <atomic>
+#include <cassert>
 #include <chrono>
 #include <mutex>
 #include <thread>
@@ -20,9 +13,9 @@
 namespace viscontact::freefem_axi {
 namespace {
 
-/// The version of FreeFEM. It is needed before the first row, so that a missing FreeFEM is reported
-/// once and not for each row. A worker with a name is a job on a cluster, whose messages may go
-/// unread. If FreeFEM is missing there, each of `points` is also written to the journal as failed.
+/// The version is needed before the first row, so that a missing FreeFEM is reported once and not
+/// for each row. A worker with a name is a job on a cluster, whose messages may go unread. If
+/// FreeFEM is missing there, each of `points` is also written to the journal as failed.
 std::string version_for(const RowWorker& worker, const std::vector<RowPoint>& points,
                         const std::filesystem::path& journal_file, const std::string& hash) {
   try {
@@ -36,8 +29,7 @@ std::string version_for(const RowWorker& worker, const std::vector<RowPoint>& po
   }
 }
 
-/// Solves the row at `point`. Returns the finished row or, if it throws Error(kExternalProgram), a
-/// failed row with the text of this error. Other errors are thrown.
+/// The row is failed if it throws Error(kExternalProgram). Other errors are thrown.
 JournalEntry solve(const FreeFem& freefem, const std::string& version, const TablePlan& plan,
                    const RowPoint& point) {
   try {
@@ -50,14 +42,10 @@ JournalEntry solve(const FreeFem& freefem, const std::string& version, const Tab
 
 }  // namespace
 
-/// Computes the rows at `points` that are not finished yet, those that failed before among them, on
-/// worker.jobs threads, and writes each to the journal beside `table_path`. `report` is called
-/// after each row with the number of rows that are done, the number of all rows, and the estimated
-/// time that is left [s]. If no row is missing, neither FreeFEM nor `report` is called. The table
-/// itself is not written.
 void compute_rows(const RowWorker& worker, const TablePlan& plan,
                   const std::vector<RowPoint>& points, const std::filesystem::path& table_path,
                   const TabulateReport& report) {
+  assert(worker.jobs >= 1 && report);
   const auto missing = missing_points(read_row_record(table_path, plan), points);
   if (missing.empty()) return;
   const auto journal_file = journal_path(table_path, worker.name);

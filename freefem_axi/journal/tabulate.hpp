@@ -1,10 +1,4 @@
-// Computes the rows of a table with several FreeFEM processes at once, for pipeline/tabulate/.
-// Times are in seconds; other numbers have the units of the table. A row that FreeFEM cannot
-// compute is recorded and not thrown. Error(kExternalProgram) says that FreeFEM cannot be run,
-// Error(kBadInput) that the journal cannot be written or read, and Error(kInterrupted) that a stop
-// was requested. A journal is a file beside the table that stores finished and failed rows
-// (row_journal.hpp). A change must keep that each finished row is on disk before the thread that
-// computed it starts the next one.
+// Computes the rows of a table with several FreeFEM processes at once.
 #pragma once
 
 #include <filesystem>
@@ -24,31 +18,28 @@ struct TabulateProgress {
   double seconds_left = 0;  ///< estimated time for the other rows [s], >= 0
 };
 
-/// The function that compute_rows() calls with its progress. It must not be empty (not checked).
+/// The function that compute_rows() calls with its progress; not empty.
 using TabulateReport = std::function<void(const TabulateProgress&)>;
 
-/// How this process computes rows. On a cluster several such processes work on one table.
+/// How this process computes rows.
 struct RowWorker {
   FreeFem freefem;  ///< how FreeFEM is run
-  /// Number of FreeFEM processes that run at once, >= 1. This is not checked: with 0 no row is
-  /// computed.
-  int jobs = 1;
-  /// On a cluster: the name of this process that writer_name() makes (row_journal.hpp). Empty on a
-  /// single machine.
+  int jobs = 1;     ///< number of FreeFEM processes that run at once, >= 1
+  /// On a cluster: the name of this process that writer_name() makes (row_journal.hpp).
   std::string name;
 };
 
-/// Computes the rows at `points` that are not finished, also those that failed before. `points` are
-/// some of plan.points, in the units of the table (not checked); `table_path` is the path of the
-/// file of the table. Before a thread computes a row, it reads that file and the journals beside it
-/// again, because another process may have finished the row meanwhile. Each finished row, and the
-/// reason of each failed one, is written at once to the journal of the worker. `report` is called
-/// after each row, by one thread at a time. If no row is missing, neither `report` nor FreeFEM is
-/// called. A row that fails does not stop the others and is not thrown; read_row_record() returns
-/// its reason. Throws Error(kExternalProgram) if FreeFEM cannot be run at all, Error(kBadInput) if
-/// a journal cannot be written or read or if another process has locked it, Error(kInterrupted) if
-/// worker.freefem.stop requests a stop, and any other error of TablePlan::solve. This function does
-/// not write the table: the caller does, and then removes the journals.
+/// Computes the rows at `points`, some of plan.points, that are not finished, also those that
+/// failed before. Before a thread computes a row, it reads the table at `table_path` and the
+/// journals beside it again, because another process may have finished the row meanwhile. Each
+/// finished row, and the reason of each failed one, is on disk in the journal of the worker
+/// (row_journal.hpp) before its thread starts the next row. `report` is called after each row, by
+/// one thread at a time. If no row is missing, neither `report` nor FreeFEM is called. A row that
+/// fails does not stop the others and is not thrown; read_row_record() returns its reason. Throws
+/// Error(kExternalProgram) if FreeFEM cannot be run at all, Error(kBadInput) if a journal cannot be
+/// written or read or if another process has locked it, Error(kInterrupted) at a stop, and any
+/// other error of TablePlan::solve. This function does not write the table: the caller does, and
+/// then removes the journals.
 void compute_rows(const RowWorker& worker, const TablePlan& plan,
                   const std::vector<RowPoint>& points, const std::filesystem::path& table_path,
                   const TabulateReport& report);

@@ -1,13 +1,8 @@
-// The lengths of edges of the mesh, from distances to particles and walls. mesh_boundary.cpp,
-// freefem_solver.cpp and membranes/ use them. Lengths [L] are in the unit of the arguments; those
-// of edges are > 0 if there are gaps, and <= 0 where surfaces touch. Radii, the number of edges on
-// a particle and `coarsening` must be > 0, and a particle with the given number (from 0) must
-// exist, which is not checked. check_edge_length() throws Error(kNotConverged); without a domain,
-// size_of() and the constructor throw std::bad_variant_access. The constants are chosen by the
-// table of errors in bench/README.md ("Particles in a fluid"), which must be measured again after a
-// change, because it changes all meshes; 24 is the default of fluid.edges_per_particle.
+// The lengths of edges of the mesh, from distances to particles and walls. The constants are chosen
+// by the table of errors in bench/README.md; 24 is the default of fluid.edges_per_particle.
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
 
+#include <cassert>
 #include <limits>
 
 #include "viscontact/common/error.hpp"
@@ -38,7 +33,6 @@ constexpr double kFasterWithInertia = 2, kFastestWithInertia = 0.1;
 
 }  // namespace
 
-/// The smallest extent [L] of the domain: a diameter, or the shorter side.
 double size_of(const particles::Domain& domain) {
   if (const auto* disc = std::get_if<particles::DiscDomain>(&domain)) return 2 * disc->radius;
   if (const auto* cylinder = std::get_if<particles::CylinderDomain>(&domain))
@@ -47,8 +41,6 @@ double size_of(const particles::Domain& domain) {
   return std::min(box.to[0] - box.from[0], box.to[1] - box.from[1]);
 }
 
-/// Throws Error(kNotConverged) if the length `edge` [L] is NaN or not more than 1e-7 times `length`
-/// [L], the length of the curve that is cut into edges.
 void check_edge_length(double edge, double length) {
   constexpr double kShortest = 1e-7;      // FreeFEM merges nearer points
   if (edge > kShortest * length) return;  // false for NaN
@@ -59,17 +51,10 @@ void check_edge_length(double edge, double length) {
               edge / length, kShortest);
 }
 
-/// Computes the images of the particles (the particles shifted by periods), for each particle the
-/// neighbours that are near enough to shorten its edges, and these numbers, which are multiplied by
-/// `coarsening` (narrow_ and kFastestWithInertia are not): longest_ [L], the edge on the smallest
-/// particle; cap_ [L], the longest edge on walls and in the fluid; per_radius_ [1], the edge on a
-/// particle over the radius of curvature; growth_ [1], the increase of an edge per distance; and
-/// of_gap_ [1] and further_ [1], with which across(gap) = of_gap_ gap + further_ max(0, gap -
-/// narrow_) is the longest edge [L] in a gap [L]. `bodies.particles` must not be null; there may be
-/// no particles.
 EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain& domain,
                          const particles::FluidParticles& bodies, double coarsening)
     : domain_(domain) {
+  assert(bodies.particles != nullptr && fluid.edges_per_particle > 0 && coarsening > 0);
   const auto& p = *bodies.particles;
   const double ratio = 24.0 / fluid.edges_per_particle;
   double smallest = kFar;
@@ -78,8 +63,7 @@ EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain&
     smallest = std::min(smallest, fluid.is_ellipse(k) ? std::ranges::min(fluid.semi_axes[k])
                                                       : fluid.end_radius(k, p.radii[k]));
   }
-  // The least number of edges across the domain, so that the flow far from all particles is
-  // resolved. It is chosen as the constants above are.
+  // So that the flow far from all particles is resolved.
   constexpr double kEdgesOfAWall = 6;
   cap_ = coarsening * size_of(domain) / kEdgesOfAWall;
   per_radius_ = coarsening * 2 * std::numbers::pi / fluid.edges_per_particle;
@@ -118,8 +102,6 @@ EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain&
   }
 }
 
-/// Distance [L] of the point x from the nearest wall, negative outside the domain. In a cylinder x
-/// has the coordinates r and z. Infinite if all sides of a box are periodic.
 double EdgeLengths::distance_to_wall(const Point& x) const {
   if (const auto* disc = std::get_if<particles::DiscDomain>(&domain_))
     return disc->radius - std::hypot(x[0] - disc->centre[0], x[1] - disc->centre[1]);
@@ -133,8 +115,6 @@ double EdgeLengths::distance_to_wall(const Point& x) const {
   return distance;
 }
 
-/// Distances [L] of the point x from the nearest and the second nearest particle or image, negative
-/// inside; infinite if there is none.
 std::array<double, 2> EdgeLengths::distances_to_particles(const Point& x) const {
   double nearest = kFar, second = kFar;
   for (const auto& image : images_) {
@@ -145,35 +125,28 @@ std::array<double, 2> EdgeLengths::distances_to_particles(const Point& x) const 
   return {nearest, second};
 }
 
-/// Length of an edge at the point x of the surface of particle k: that of an edge on the smallest
-/// particle, or across(gap) if this is shorter, the longest edge in the gap to the nearest other
-/// surface.
 double EdgeLengths::on_particle(std::size_t k, const Point& x) const {
+  assert(k < neighbours_.size());
   double distance = distance_to_wall(x);
   for (const auto& other : neighbours_[k]) distance = std::min(distance, distance_to(other, x));
   return std::min(longest_, across(distance));
 }
 
-/// Length of an edge at the point of particle k that has the parameter `t` [rad] on its outline:
-/// that of on_particle(), but on an ellipse or plate at most per_radius_ times the radius of
-/// curvature at the point.
 double EdgeLengths::on_outline(std::size_t k, double t) const {
+  assert(k < outlines_.size());
   const auto& outline = outlines_[k];
   const double length = on_particle(k, outline.at(t));
   if (outline.is_circle()) return length;
   return std::min(length, per_radius_ * outline.curvature_radius_at(t));
 }
 
-/// Length of an edge at the point x of a wall; it increases with the distance from the nearest
-/// particle.
 double EdgeLengths::on_wall(const Point& x) const {
   const double distance = distances_to_particles(x)[0];
   return std::min({longest_ + growth_ * distance, across(distance), cap_});
 }
 
-/// Length of an edge at the point x of the fluid; the gap there is the sum of the distances from
-/// the two nearest surfaces, of which one may be a wall.
 double EdgeLengths::in_fluid(const Point& x) const {
+  // The gap is the sum of the distances from the two nearest surfaces, of which one may be a wall.
   const auto [nearest, second] = distances_to_particles(x);
   const double wall = distance_to_wall(x);
   const double gap = std::min({nearest + second, nearest + wall});

@@ -1,15 +1,9 @@
 // Puts the boundary of a mesh together from walls, periodic sides, the axis of a cylinder and the
-// surfaces of the particles, for freefem_solver.cpp. Lengths [L] are in the unit of the arguments;
-// radii and `coarsening` are > 0, and particles are inside the domain (not checked). The labels of
-// curves are 1 to 4 for walls, 5 for the axis, 8 for lines inside particles, 9 for periodic sides,
-// and 100 + k for particle k, where k counts from 0. A gap that is too narrow for an edge, or discs
-// of one body that overlap across a periodic side, throw Error(kNotConverged). Without a domain the
-// constructor of EdgeLengths throws std::bad_variant_access. A change must keep that opposite
-// periodic sides get the same points, because scripts/constraints.idp identifies these, and the
-// labels, which scripts/ and docs/fluid-solver.md repeat.
+// surfaces of the particles.
 #include "viscontact/freefem_flow/boundary/mesh_boundary.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -23,12 +17,11 @@
 namespace viscontact::freefem_flow {
 namespace {
 
-// The least number of edges on a circle. It is the least number that a case may ask for.
+// The least number of edges on a circle, which is the least that a case may ask for.
 constexpr std::size_t kLeastOnCircle = 6;
 
-/// Makes the boundary for one placement of the particles. The constructor throws
-/// std::bad_variant_access without a domain. of(), which may be called once only, returns the
-/// curves for a disc, a box or a cylinder. The arguments must outlive the object.
+/// Makes the boundary for one placement of the particles. of() may be called once only. The
+/// arguments must outlive the object.
 class BoundaryMaker {
  public:
   BoundaryMaker(const particles::Fluid& fluid, const particles::Domain& domain,
@@ -70,25 +63,20 @@ class BoundaryMaker {
   static MeshBoundary of(const std::monostate&) { return {}; }
 
  private:
-  /// The wanted length [L] of an edge at the point x [L] on a wall. On a fixed mesh, which does not
-  /// follow the particles, all edges have one length.
+  // On a fixed mesh, which does not follow the particles, all edges have one length.
   double on_wall(const Point& x) const {
     return fitted_ ? lengths_.on_wall(x) : lengths_.uniform();
   }
-  /// The wanted length [L] of an edge at a point of the fluid, such as one on the axis or on a
-  /// periodic side.
   double in_fluid(const Point& x) const {
     return fitted_ ? lengths_.in_fluid(x) : lengths_.uniform();
   }
 
-  /// Adds the line from `from` to `to` [L]. `edge_length(x)` [L] is the wanted length at x.
   template <class EdgeLength>
   void add_line(const Point& from, const Point& to, int label, const EdgeLength& edge_length) {
     boundary_.add(cut_line(from, to, edge_length), label);
   }
 
-  /// Adds a closed curve. `edge_length(t)` [L] is the wanted length at the point outline.at(t). The
-  /// curve of a hole is clockwise, so that the fluid is on its left.
+  /// Adds a closed curve. The curve of a hole is clockwise, so that the fluid is on its left.
   template <class EdgeLength>
   void add_outline(const particles::Outline& outline, int label, bool is_hole,
                    const EdgeLength& edge_length) {
@@ -98,11 +86,10 @@ class BoundaryMaker {
   }
 
   /// Adds the surfaces of the particles. If the inside of a particle is meshed, too, a polygon in
-  /// it with few edges makes this part of the mesh coarse. The polygon is kOfRadius times as large
-  /// as the outline, and its edges may be as long as kLongest radii. FreeFEM derives the size of
-  /// triangles from the nearest edges, and a few triangles represent a rigid motion exactly.
-  /// kLongest is a free choice. kOfRadius must be between 0.2 and 0.7, because curved_mesh.idp
-  /// looks for both parts of a particle at these two fractions of its radius.
+  /// it, kOfRadius times as large as the outline and with edges of up to kLongest radii, makes this
+  /// part of the mesh coarse: FreeFEM derives the size of triangles from the nearest edges, and a
+  /// few triangles represent a rigid motion exactly. kOfRadius must be between 0.2 and 0.7, because
+  /// curved_mesh.idp looks for both parts of a particle at these two fractions of its radius.
   void add_particles() {
     if (!fitted_) return;
     for (std::size_t k = 0; k < lengths_.outlines().size(); ++k) {
@@ -123,8 +110,7 @@ class BoundaryMaker {
     }
   }
 
-  /// Adds the arcs of disc k that are outside the overlapping discs of its body, as parts of the
-  /// hole that the body makes in the mesh.
+  /// Adds the arcs of disc k that are outside the overlapping discs of its body.
   void add_arcs(std::size_t k) {
     const auto chords = chords_of(fluid_, bodies_, k);
     constexpr double kTurn = 2 * std::numbers::pi;
@@ -145,8 +131,7 @@ class BoundaryMaker {
     }
   }
 
-  /// Adds the four sides of a box. Opposite periodic sides get the same points, because all edges
-  /// on these sides have the same length.
+  /// Opposite periodic sides get the same points, because all edges on them have the same length.
   void add_sides(const particles::BoxDomain& box) {
     const auto& a = box.from;
     const auto& b = box.to;
@@ -164,9 +149,8 @@ class BoundaryMaker {
     side({a[0], b[1]}, {a[0], a[1]}, 1, box.periodic[0]);
   }
 
-  /// Adds the boundary of a region that takes the place of a periodic box (periodic_cells.hpp). Its
-  /// edges lie on walls or between particles; edges that are periodic images of each other get the
-  /// same points.
+  /// Adds the boundary of a region that takes the place of a periodic box (periodic_cells.hpp).
+  /// Edges that are periodic images of each other get the same points.
   void add_cells(const particles::BoxDomain& box) {
     const auto edges = periodic_cells(box, lengths_.outlines());
     std::vector<std::vector<Point>> points(edges.size());
@@ -191,8 +175,7 @@ class BoundaryMaker {
     }
   }
 
-  /// Adds the axis from the lid, at the `height` [L], to the floor at 0, and the half circles of
-  /// the spheres on the axis.
+  /// Adds the axis from the lid to the floor at 0, and the half circles of the spheres on it.
   void add_axis(double height) {
     const auto& outlines = lengths_.outlines();
     std::vector<std::size_t> order(fitted_ ? outlines.size() : 0);
@@ -234,13 +217,14 @@ class BoundaryMaker {
 };
 
 /// Throws Error(kNotConverged) if discs of one body overlap across a periodic side. chords_of()
-/// takes only discs that overlap inside the box. If other discs overlap across a side, the area
-/// [L^2] that the chords cut off a disc differs from that in fluid.cut_areas.
+/// takes only discs that overlap inside the box. If others overlap, the area [L^2] that the chords
+/// cut off a disc differs from that in fluid.cut_areas.
 void check_unions(const particles::Fluid& fluid, const particles::Particles& particles) {
+  assert(fluid.cut_areas.size() <= particles.count());
   for (std::size_t k = 0; k < fluid.cut_areas.size(); ++k) {
     double area = 0;
     for (const auto& chord : chords_of(fluid, particles, k)) area += chord.area;
-    // Above the rounding errors of positions that move with their body; a free choice.
+    // Above the rounding errors of positions that move with their body.
     constexpr double kRounding = 1e-9;
     if (std::abs(area - fluid.cut_areas[k]) > kRounding * particles.radii[k] * particles.radii[k])
       throw Error(ErrorKind::kNotConverged,
@@ -253,11 +237,9 @@ void check_unions(const particles::Fluid& fluid, const particles::Particles& par
 
 }  // namespace
 
-/// The boundary of the mesh around `bodies` in `domain`. Edges are about `coarsening` times as long
-/// as the fluid's edges_per_particle asks for. MeshBoundary has points [L] as (x, y), or as
-/// (distance from the axis, z) in a cylinder. bodies.particles must not be null (not checked).
 MeshBoundary mesh_boundary(const particles::Fluid& fluid, const particles::Domain& domain,
                            const particles::FluidParticles& bodies, double coarsening) {
+  assert(bodies.particles != nullptr && coarsening > 0);
   check_unions(fluid, *bodies.particles);
   BoundaryMaker maker(fluid, domain, bodies, coarsening);
   return std::visit([&](const auto& shape) { return maker.of(shape); }, domain);

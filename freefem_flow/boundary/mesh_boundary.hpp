@@ -1,11 +1,9 @@
-// Makes the boundary of the mesh of a fluid with particles, as the fluid solver gets it. Lengths
-// are in the unit of the arguments. freefem_solver.cpp and membranes/ make boundaries, and process/
-// sends them. A gap without room for an edge throws Error(kNotConverged). That particles are inside
-// the domain is not checked. A change of labels must also be made in scripts/ and in
-// docs/fluid-solver.md.
+// The boundary of the mesh of a fluid with particles, as the fluid solver gets it. scripts/ and
+// docs/fluid-solver.md repeat its labels.
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <vector>
 
 #include "viscontact/particles/domain/domain.hpp"
@@ -24,34 +22,34 @@ inline constexpr int kPeriodicLabel = 9;
 /// Label of the surface of particle 0; that of particle k is larger by k.
 inline constexpr int kFirstParticleLabel = 100;
 
-/// Curves, each a chain of straight edges. The fluid is on the left of each outer curve.
+/// Curves, each a chain of straight edges. The fluid is on the left of each outer curve, and of
+/// holes.
 struct MeshBoundary {
-  /// A chain of edges between points that follow each other.
   struct Curve {
     int first = 0;  ///< the curve goes through the points first, first + 1, ..., first + edges
-    int edges = 0;  ///< number of edges, > 0
+    int edges = 0;
     int label = 0;  ///< one of those above, or of a membrane (membranes/membrane_boundary.hpp)
   };
   std::vector<std::array<double, 2>> points;  ///< (x, y), or (distance from the axis, z) [L]
   std::vector<Curve> curves;                  ///< curves may share points
 
-  /// Adds the curve through the points `more` [L], at least two (not checked), and these points.
+  /// Adds the curve through the points `more` [L], and these points.
   void add(const std::vector<std::array<double, 2>>& more, int label) {
+    assert(more.size() >= 2);
     curves.push_back({static_cast<int>(points.size()), static_cast<int>(more.size()) - 1, label});
     points.insert(points.end(), more.begin(), more.end());
   }
 };
 
-/// The boundary of a mesh for these particles. The edges are about `coarsening` > 0 times as long
-/// as `fluid.edges_per_particle` says. If `fluid.mesh` is kFixed, the particles are not in the
-/// boundary. If it is kFitted, their surfaces are curves of the boundary. These curves are holes of
-/// the mesh if `fluid.constraint` is kRigid, and otherwise lines inside the mesh. Edges are shorter
-/// where a gap is narrow (boundary/edge_lengths.hpp). In a box with periodic sides a fitted mesh
-/// ends on lines between particles, because these sides would cut particles
-/// (boundary/periodic_cells.hpp). All gaps must be > 0, but discs of one body may overlap with
-/// kRigid. Throws Error(kNotConverged) if a gap is too narrow for an edge, or if discs of one body
-/// overlap across a periodic side, and std::bad_variant_access if there is no domain.
-/// bodies.particles must not be null; this and other arguments are not checked.
+/// The boundary of a mesh for these particles, which are inside the domain. The edges are about
+/// `coarsening` times as long as `fluid.edges_per_particle` says, and shorter where a gap is narrow
+/// (boundary/edge_lengths.hpp). If `fluid.mesh` is kFixed, the particles are not in the boundary.
+/// If it is kFitted, their surfaces are curves of the boundary: holes of the mesh if
+/// `fluid.constraint` is kRigid, otherwise lines inside the mesh. In a box with periodic sides a
+/// fitted mesh ends on lines between particles (boundary/periodic_cells.hpp). Opposite periodic
+/// sides get the same points. Throws Error(kNotConverged) if a gap is too narrow for an edge, or if
+/// discs of one body overlap across a periodic side; with kRigid they may overlap elsewhere. Throws
+/// std::bad_variant_access if there is no domain.
 MeshBoundary mesh_boundary(const particles::Fluid& fluid, const particles::Domain& domain,
                            const particles::FluidParticles& bodies, double coarsening = 1);
 

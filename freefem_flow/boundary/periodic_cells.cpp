@@ -1,14 +1,9 @@
-// Computes the edges where a mesh of a periodic box ends, for mesh_boundary.cpp. The cell of each
-// particle is a convex polygon. Corners that are very near to each other are joined. Edges that lie
-// on a wall, or between a particle and an image (a particle shifted by whole periods), are kept;
-// the other edges are inside the mesh. Lengths [L] are in the unit of the arguments. There must be
-// at least one particle, with its centre in the box, and circles must not overlap; nothing is
-// checked or thrown. A change must keep that an edge and its partner differ by a period only,
-// because a mesh is not periodic otherwise, and the labels of walls in mesh_boundary.hpp (1 left, 2
-// right, 3 bottom, 4 top).
+// Power diagrams of a periodic box. Corners that are very near to each other are joined, and edges
+// between particles of the box are left out.
 #include "viscontact/freefem_flow/boundary/periodic_cells.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -18,11 +13,10 @@
 namespace viscontact::freefem_flow {
 namespace {
 
-/// What lies on the other side of an edge: a particle shifted by whole periods, or a wall.
 struct Neighbour {
-  int particle = -1;           ///< number of the particle; -1: a wall
+  int particle = -1;           ///< -1: a wall
   int label = 0;               ///< of the wall; 0: a particle
-  std::array<int, 2> image{};  ///< numbers of periods along x and y by which it is shifted
+  std::array<int, 2> image{};  ///< numbers of periods by which the particle is shifted
 };
 
 /// A corner of a cell, and what lies behind the edge from it to the next corner.
@@ -34,8 +28,7 @@ struct Corner {
 using Polygon = std::vector<Corner>;
 
 /// Replaces the convex polygon, given counter-clockwise, by its part with normal.x <= offset, which
-/// may be empty. `behind` is what lies beyond the line normal.x = offset. `normal` need not have
-/// the length 1; `offset` has the unit of normal.x.
+/// may be empty. `behind` is what lies beyond this line. `normal` need not have the length 1.
 void clip(Polygon& polygon, const Point& normal, double offset, const Neighbour& behind) {
   const auto excess = [&](const Corner& c) {
     return normal[0] * c.at[0] + normal[1] * c.at[1] - offset;
@@ -58,7 +51,7 @@ void clip(Polygon& polygon, const Point& normal, double offset, const Neighbour&
   polygon = std::move(kept);
 }
 
-/// Square [L^2] of the distance of the furthest corner from the point `from`; 0 without corners.
+/// Square of the distance of the furthest corner from the point `from`; 0 without corners.
 double square_of_reach(const Polygon& polygon, const Point& from) {
   double reach = 0;
   for (const auto& corner : polygon) {
@@ -68,11 +61,11 @@ double square_of_reach(const Polygon& polygon, const Point& from) {
   return reach;
 }
 
-/// The cell of particle k, counter-clockwise: the points whose power distance |x - c|^2 - r^2 from
-/// its centre c with its radius r is smaller than that from any other particle or image. Walls
-/// bound the cell along directions that are not periodic.
+/// The cell of particle k, counter-clockwise. Walls bound it along directions that are not
+/// periodic.
 Polygon cell_of(std::size_t k, const particles::BoxDomain& box,
                 std::span<const particles::Outline> circles) {
+  assert(k < circles.size());
   const auto& own = circles[k];
   std::array<double, 2> period{}, low{}, high{};
   for (std::size_t d = 0; d < 2; ++d) {
@@ -80,9 +73,8 @@ Polygon cell_of(std::size_t k, const particles::BoxDomain& box,
     low[d] = box.periodic[d] ? own.centre[d] - period[d] : box.from[d];
     high[d] = box.periodic[d] ? own.centre[d] + period[d] : box.to[d];
   }
-  // The labels 1 to 4 are those of the left, right, bottom and top wall. Along a periodic direction
-  // the polygon begins a period away from the centre. The lines to the two images of the particle
-  // itself, half a period away, cut these sides off.
+  // Along a periodic direction the polygon begins a period away from the centre. The lines to the
+  // two images of the particle itself, half a period away, cut these sides off.
   Polygon cell = {{{low[0], low[1]}, {-1, 3, {}}},
                   {{high[0], low[1]}, {-1, 2, {}}},
                   {{high[0], high[1]}, {-1, 4, {}}},
@@ -121,8 +113,7 @@ class Corners {
 
   /// The place of the corner x. If an earlier corner, shifted by whole periods to be next to x, is
   /// nearer to x than a tenth of its own distance from the particles, the place is that of the
-  /// earlier corner; otherwise it is x. The tenth is a free choice: much smaller fractions give
-  /// edges that are too short for the mesh there.
+  /// earlier corner. Much smaller fractions give edges that are too short for the mesh there.
   Point joined(const Point& x) {
     const Point wrapped =
         moved_near(x, {(box_.from[0] + box_.to[0]) / 2, (box_.from[1] + box_.to[1]) / 2});
@@ -150,7 +141,7 @@ class Corners {
       }
     return x;
   }
-  /// Distance [L] of x from the nearest particle or image, at most the larger side of the box.
+  /// Distance of x from the nearest particle or image, at most the larger side of the box.
   double distance(const Point& x) const {
     double least = std::max(box_.to[0] - box_.from[0], box_.to[1] - box_.from[1]);
     for (const auto& circle : circles_) {
@@ -166,12 +157,9 @@ class Corners {
 
 }  // namespace
 
-/// The edges of the union of all cells, in the order of the particles; each is seen from its
-/// particle, counter-clockwise. `circles` are the particles, or the circles around them. `partner`
-/// of an edge is the index in the list, from 0, of the edge that differs from it by whole periods;
-/// -1 on a wall. `box` must be periodic along x or y.
 std::vector<CellEdge> periodic_cells(const particles::BoxDomain& box,
                                      std::span<const particles::Outline> circles) {
+  assert(!circles.empty() && (box.periodic[0] || box.periodic[1]));
   std::vector<CellEdge> edges;
   Corners corners(box, circles);
   std::vector<Polygon> cells;

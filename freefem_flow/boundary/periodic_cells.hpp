@@ -1,8 +1,5 @@
-// Finds the lines on which a mesh of a periodic box ends if the mesh follows the particles. The
-// sides of the box would cut particles. Therefore the mesh ends on lines between particles and
-// their images, which are particles shifted by whole periods. Lengths are in the unit of the
-// arguments; nothing is checked or thrown. mesh_boundary.cpp uses this file. A change must keep
-// that each edge that is not on a wall has a partner.
+// The lines on which a mesh of a periodic box ends if it follows the particles, because the sides
+// of the box would cut particles.
 #pragma once
 
 #include <span>
@@ -17,24 +14,23 @@ namespace viscontact::freefem_flow {
 struct CellEdge {
   Point from,  ///< first end [L]; seen from here towards `to`, the region is on the left
       to;      ///< last end [L]
-  /// Label of the wall that the edge lies on (1 left, 2 right, 3 bottom, 4 top), or kPeriodicLabel.
+  /// Of the wall that the edge lies on, or kPeriodicLabel.
   int label = 0;
-  /// Place, from 0, in the list of edges, of the edge that differs from this one by a shift of
-  /// whole periods and has the opposite direction; -1 if this edge lies on a wall.
+  /// Place in the list of edges of the edge that differs from this one by a shift of whole periods
+  /// and has the opposite direction; -1 if this edge lies on a wall.
   int partner = -1;
 };
 
 /// The edges of the region that is the union of one cell for each particle, in the order of the
 /// particles. A cell is that of a power diagram (Aurenhammer 1987): the points x whose power
 /// distance |x - c|^2 - r^2 from the centre c of the particle with radius r is smaller than that
-/// from any other particle or image. Exactly one shift by whole periods takes a point of the plane
-/// into the region, and no cell cuts a particle, so that the region can take the place of the box.
-/// An edge is left out if it is shorter than a tenth of the distance of its end from the particles;
-/// its ends are joined.
+/// from any other particle or image, which is a particle shifted by whole periods. Exactly one such
+/// shift takes a point of the plane into the region, and no cell cuts a particle, so that the
+/// region can take the place of the box. An edge is left out if it is shorter than a tenth of the
+/// distance of its end from the particles; its ends are joined.
 ///
-/// `box` is periodic along at least one axis. `circles` are the particles, at least one, with
-/// centres in the box. An ellipse or plate is represented by the circle around it. The circles must
-/// not overlap. None of this is checked.
+/// `box` is periodic along at least one axis. `circles` are the particles, or the circles around
+/// them, with centres in the box; they must not overlap.
 std::vector<CellEdge> periodic_cells(const particles::BoxDomain& box,
                                      std::span<const particles::Outline> circles);
 

@@ -1,17 +1,9 @@
-// Puts the boundary of a mesh together from walls, periodic sides, rigid discs and membranes, for
-// membrane_process.cpp. Lengths [L] have the unit of the arguments; numbers of edges and radii are
-// > 0 (not checked). The labels of curves are 1 to 4 for walls, 9 for periodic sides, 20 + k for
-// membrane k and 100 + k for disc k, where k counts from 0. In a box that is periodic along x the
-// mesh ends at two straight lines one period apart, the images of one line that no membrane or disc
-// crosses; shift_between_membranes() finds it. Three faults are an Error(kNotConverged): a membrane
-// or disc leaves the domain or a membrane meets a disc; no such line exists; an edge is too short.
-// A domain that is neither a disc nor a box is a std::bad_variant_access. A change must keep that
-// opposite periodic sides get the same points, because scripts/constraints.idp identifies these,
-// and the labels, which scripts/membranes.edp repeats.
+// Puts the boundary of a mesh together from walls, periodic sides, rigid discs and membranes.
 #include "viscontact/freefem_flow/membranes/membrane_boundary.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <variant>
@@ -28,8 +20,7 @@ using particles::DiscDomain;
 
 namespace {
 
-/// Distance [L] of a point from the walls of the domain, < 0 outside; infinite if all sides are
-/// periodic.
+/// < 0 outside; infinite if all sides are periodic.
 double distance_to_walls(const particles::Domain& domain, const Point& x) {
   if (const auto* disc = std::get_if<DiscDomain>(&domain))
     return disc->radius - std::hypot(x[0] - disc->centre[0], x[1] - disc->centre[1]);
@@ -40,14 +31,15 @@ double distance_to_walls(const particles::Domain& domain, const Point& x) {
   return distance;
 }
 
-/// Wanted lengths [L] of edges on walls and discs.
 class WantedEdges {
  public:
   WantedEdges(const particles::Domain& domain, const InnerCurves& curves)
-      : curves_(curves), cap_(size_of(domain) / kEdgesOfAWall) {}
+      : curves_(curves), cap_(size_of(domain) / kEdgesOfAWall) {
+    assert(curves.edges > 0 && curves.edges_of_disc > 0);
+  }
 
-  /// The wanted length [L], > 0, of an edge at the point x [L] on a wall, or on the disc with the
-  /// number `own`. Walls do not shorten this length.
+  /// The wanted length [L] of an edge at the point x on a wall, or on the disc with the number
+  /// `own`. Walls do not shorten this length.
   double at(const Point& x, std::size_t own = std::numeric_limits<std::size_t>::max()) const {
     double wanted = cap_;
     const auto shorten = [&](double edge, int edges, double distance) {
@@ -70,9 +62,9 @@ class WantedEdges {
     return wanted;
   }
 
-  /// The wanted length [L] of an edge at the point x [L] on the disc with the number `own`. It is
-  /// that of at(), but shorter near a wall. It is > 0.
+  /// The same on the disc with the number `own`, but shorter near a wall.
   double on_disc(const particles::Domain& domain, std::size_t own, const Point& x) const {
+    assert(own < curves_.discs.size());
     const double edge = particles::kTwoPi * curves_.discs[own].radius / curves_.edges_of_disc;
     return std::min(at(x, own), std::max(edge / 8, kOfGap * distance_to_walls(domain, x)));
   }
@@ -80,19 +72,16 @@ class WantedEdges {
  private:
   // kGrowth: increase of the edge length per distance from a curve with 24 edges. kEdgesOfAWall:
   // least number of edges across the domain. kOfGap: largest edge over the distance from a curve;
-  // an eighth of the length of that curve's own edges is always allowed. The four numbers are free
-  // choices.
+  // an eighth of the length of that curve's own edges is always allowed.
   static constexpr double kGrowth = 0.25, kEdgesOfAWall = 6, kOfGap = 0.5;
   const InnerCurves& curves_;
-  double cap_;  // the longest edge [L]
+  double cap_;  // the longest edge
 };
 
 }  // namespace
 
-/// Throws Error(kNotConverged) if a curve leaves the domain or a membrane meets a disc; NaN counts
-/// as outside. `unit` > 0 is the unit of length of `curves` in that of the case; only the message
-/// uses it.
 void check_places(const particles::Domain& domain, const InnerCurves& curves, double unit) {
+  assert(unit > 0);
   const auto fail = [&](const char* what, const Point& x) {
     throw Error(ErrorKind::kNotConverged,
                 "{} at ({:.6g}, {:.6g}); use a shorter time_step, or more room between membranes, "
@@ -113,15 +102,12 @@ void check_places(const particles::Domain& domain, const InnerCurves& curves, do
   }
 }
 
-/// The distance [L] from the left side of the box to the line at which the mesh ends; it may be
-/// negative. It is 0 without a period along x or without curves. Throws Error(kNotConverged) if no
-/// strip wider than a thousandth of the period is free.
 double shift_between_membranes(const particles::Domain& domain, const InnerCurves& curves) {
   const auto cell = particles::cell_of(domain);
   const double period = cell.lengths[0];
   if (!(period > 0) || (curves.membranes.empty() && curves.discs.empty())) return 0;
-  // The coordinates x [L] at which membranes and discs begin and end. Each of them is shifted by
-  // whole periods so that it begins inside the box.
+  // Where membranes and discs begin and end, each shifted by whole periods so that it begins inside
+  // the box.
   std::vector<std::array<double, 2>> ranges;
   const auto add = [&](double from, double width) {
     const double start = from - period * particles::periods_beyond(cell, 0, from);
@@ -141,22 +127,19 @@ double shift_between_membranes(const particles::Domain& domain, const InnerCurve
     }
     end = std::max(end, to);
   }
-  if (!(widest > 1e-3 * period))  // the least width of a strip is a free choice
+  if (!(widest > 1e-3 * period))
     throw Error(ErrorKind::kNotConverged,
                 "no straight line across the periodic domain passes between the membranes and "
                 "particles, at which the mesh could end; use a longer domain");
   return middle - cell.from[0];
 }
 
-/// Returns the curves in the order: walls and periodic sides, discs, membranes. The sides of a box
-/// are in the order 3, 2, 4, 1 of their labels. That no curve crosses a periodic side is not
-/// checked.
 MeshBoundary membrane_boundary(const particles::Domain& domain, const InnerCurves& curves) {
   const WantedEdges edges(domain, curves);
   const auto wanted_at = [&](const Point& x) { return edges.at(x); };
   MeshBoundary boundary;
   if (const auto* disc = std::get_if<DiscDomain>(&domain)) {
-    // The least number of edges on the wall, a free choice: the polygon is then nearly a circle.
+    // The polygon is then nearly a circle.
     constexpr std::size_t kLeastOnWall = 24;
     const particles::Outline wall{{disc->centre[0], disc->centre[1]}, disc->radius};
     boundary.add(cut_outline(wall, kLeastOnWall, [&](double t) { return wanted_at(wall.at(t)); }),
@@ -178,7 +161,7 @@ MeshBoundary membrane_boundary(const particles::Domain& domain, const InnerCurve
     boundary.add(left, box.periodic[0] ? kPeriodicLabel : 1);
   }
   for (std::size_t k = 0; k < curves.discs.size(); ++k) {
-    // The least number of edges on a disc. It is the least number that a case may ask for.
+    // The least number that a case may ask for.
     constexpr std::size_t kLeastOnCircle = 6;
     const auto& disc = curves.discs[k];
     auto points = cut_outline(disc, kLeastOnCircle,

@@ -1,17 +1,11 @@
-// Asks FreeFEM with the script scripts/membranes.edp for Stokes flow around membranes and rigid
-// discs; freefem_solver.cpp uses this file. Lengths, masses (per length of the third dimension) and
-// times are in the units of the arguments, so that forces are in [M L/T^2] and entries of the
-// mobility in [T/M]; radii and `unit` are > 0, and a box has no period along y (neither is
-// checked). A solver that fails is an Error(kExternalProgram), a place outside the domain or a
-// number that is not finite an Error(kNotConverged), more than kMostMembranes (80) membranes or a
-// wrong domain an Error(kBadInput), and a requested stop an Error(kInterrupted). A change must
-// agree with what the script reads and writes.
+// Asks FreeFEM with scripts/membranes.edp for Stokes flow around membranes and rigid discs.
 #include "viscontact/freefem_flow/membranes/membrane_process.hpp"
 
 #include <fmt/format.h>
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cassert>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,29 +27,28 @@ using particles::Membrane;
 
 constexpr std::size_t kComponents = 3;  // of the motion of a particle in the plane
 
-/// Two matrices between the N beads of a membrane and the 2 E nodes of its E edges in the mesh. The
-/// nodes are the ends and middles of the edges, so that a function on an edge is quadratic.
+/// Two matrices of 2 E rows and N columns between the N beads of a membrane and the 2 E nodes of
+/// its E edges in the mesh: the ends and middles, so that a function on an edge is quadratic.
 struct MembraneNodes {
-  /// The matrix that multiplies positions of beads and gives those of nodes, by trigonometric
-  /// interpolation. It has 2 E rows and N columns.
+  /// Takes positions of beads to those of nodes, by trigonometric interpolation.
   Eigen::MatrixXd sampling;
-  /// The matrix that multiplies forces on beads and gives forces on nodes. It has 2 E rows and N
-  /// columns. Its transpose multiplies velocities of nodes and gives velocities of beads, by least
-  /// squares along the edges. The power of forces is therefore the same on beads as on nodes.
+  /// Takes forces on beads to forces on nodes. Its transpose takes velocities of nodes to those of
+  /// beads, by least squares along the edges, so that the power of forces is the same on both.
   Eigen::MatrixXd smoothing;
 };
 
-/// Makes both matrices for a membrane of `beads` and `edges`, both > 0. `edges` must be at least
-/// half of `beads`, so that the least squares have one solution. Nothing is checked or thrown.
+/// Both matrices. `edges` must be at least half of `beads`, so that the least squares have one
+/// solution.
 MembraneNodes nodes_of(int beads, int edges) {
+  assert(beads > 0 && 2 * edges >= beads);
   MembraneNodes nodes;
   nodes.sampling.resize(2 * edges, beads);
   for (int i = 0; i < 2 * edges; ++i)
     for (int k = 0; k < beads; ++k)
       nodes.sampling(i, k) = particles::cardinal(
           beads, particles::kTwoPi * (i / (2.0 * edges) - static_cast<double>(k) / beads), 0);
-  // `mass` has the integrals of products of two quadratic basis functions over the edges, each
-  // divided by the length of the edge.
+  // The integrals of products of two quadratic basis functions over the edges, each divided by the
+  // length of the edge.
   Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(2 * edges, 2 * edges);
   const Eigen::Matrix3d own = (Eigen::Matrix3d() << 4, 2, -1, 2, 16, 2, -1, 2, 4).finished() / 30;
   for (int e = 0; e < edges; ++e)
@@ -67,7 +60,6 @@ MembraneNodes nodes_of(int beads, int edges) {
   return nodes;
 }
 
-/// Stokes flow around membranes, computed by FreeFEM.
 class MembraneProcess : public particles::FluidSolver {
  public:
   MembraneProcess(const particles::Fluid& fluid, const particles::Domain& domain,
@@ -77,8 +69,7 @@ class MembraneProcess : public particles::FluidSolver {
   void place(const particles::FluidParticles& bodies) override;
   std::vector<double> velocities(std::span<const double> forces, bool driving) override;
   std::vector<double> mobility(std::size_t components) override;
-  /// Dissipation, apparent viscosity [1] (0: not known) and forces of the fluid on the particles,
-  /// from the last velocities() with `driving`, which must have been called.
+  /// Of the last velocities() with `driving`, which must have been called.
   particles::FlowQuantities quantities() override {
     particles::FlowQuantities quantities;
     quantities.dissipation = dissipation_;
@@ -96,8 +87,7 @@ class MembraneProcess : public particles::FluidSolver {
   }
 
  private:
-  /// Starts the process, sends the opening and waits until it is ready. If there is a process
-  /// already, ends it first.
+  /// Starts the process, instead of one that there is already, and sends the opening.
   void start();
 
   SolverCommand command_;
@@ -106,29 +96,25 @@ class MembraneProcess : public particles::FluidSolver {
   particles::Domain domain_;
   double unit_;  // unit of length of the arguments in that of the case; for messages
   std::vector<Membrane> membranes_;
-  int edges_;                         // number of edges on each membrane
-  int edges_of_disc_;                 // least number of edges on each disc
+  int edges_;                         // on each membrane
+  int edges_of_disc_;                 // least number on each disc
   std::vector<MembraneNodes> nodes_;  // one for each of membranes_
-  std::vector<double> radii_;         // of all particles [L]
-  std::vector<std::size_t> discs_;    // numbers of the particles that are not beads
+  std::vector<double> radii_;         // of all particles
+  std::vector<std::size_t> discs_;    // the particles that are not beads
   // The script has the components of motions in another order than FluidSolver: x of the beads of
   // all membranes, y of the same beads, then x, y and angle of each disc. In the order of the
   // script, this list has the place of each component in the arrays of FluidSolver.
   std::vector<std::size_t> components_;
-  // Dissipation [M L^2/T^3] of the last velocities() with `driving`, in which walls and driven
-  // discs move; and the dissipation of the fluid with the same walls but without membranes and
-  // discs (0: not known).
+  // Of the last velocities() with `driving`, and of the fluid without membranes and discs (0: not
+  // known).
   double dissipation_ = 0, dissipation_alone_;
-  std::vector<double> forces_of_fluid_;  // on all particles, 3 numbers each
+  std::vector<double> forces_of_fluid_;
   std::unique_ptr<SolverDialogue> solver_;
   double shift_ = 0;  // coordinate x in the domain minus that in the mesh [L]
   std::size_t unknowns_ = 0;
-  long peak_memory_kb_ = 0;  // largest memory [kB] of the processes that were replaced
+  long peak_memory_kb_ = 0;  // of the processes that were replaced
 };
 
-/// Writes the opening and starts the process. The opening has the lines of opening() for the discs
-/// and then, for each membrane, a line with its numbers of beads and edges and its viscosity ratio
-/// [1], and the rows of the matrix `smoothing`. `radii` [L] are those of all particles.
 MembraneProcess::MembraneProcess(const particles::Fluid& fluid, const particles::Domain& domain,
                                  std::span<const double> radii, double unit, SolverCommand command,
                                  const SolverLimits& limits)
@@ -141,6 +127,7 @@ MembraneProcess::MembraneProcess(const particles::Fluid& fluid, const particles:
       edges_of_disc_(fluid.edges_per_particle),
       radii_(radii.begin(), radii.end()),
       dissipation_alone_(dissipation_alone(fluid, domain)) {
+  assert(unit > 0);
   if (membranes_.size() > kMostMembranes)
     throw Error(ErrorKind::kBadInput, "the case has {} membranes; at most {} are allowed",
                 membranes_.size(), kMostMembranes);
@@ -152,6 +139,8 @@ MembraneProcess::MembraneProcess(const particles::Fluid& fluid, const particles:
       for (const auto bead : membrane.beads)
         components_.push_back(kComponents * particles::index_of(bead) + d);
   std::vector<double> radii_of_discs;
+  // The opening has the lines of opening() for the discs and then, for each membrane, a line with
+  // its numbers of beads and edges and its viscosity ratio, and the rows of the matrix `smoothing`.
   for (std::size_t k = 0; k < radii.size(); ++k) {
     const auto has = [&](const Membrane& membrane) {
       return membrane.has(static_cast<std::int32_t>(k));
@@ -192,10 +181,9 @@ void MembraneProcess::start() {
   solver_->expect("driving");
 }
 
-/// Sends the mesh around the places of `bodies`: positions [L], 2 for each particle, angles [rad],
-/// and the motions of driven discs. Inertia is not used. Throws Error(kNotConverged) if a place is
-/// not finite, leaves the domain or leaves no room for a mesh.
 void MembraneProcess::place(const particles::FluidParticles& bodies) {
+  assert(bodies.particles != nullptr && bodies.particles->count() == radii_.size());
+  assert(bodies.angles.size() == radii_.size());
   InnerCurves curves{.edges = edges_, .edges_of_disc = edges_of_disc_};
   auto& nodes = curves.membranes;
   for (std::size_t m = 0; m < nodes_.size(); ++m) {
@@ -259,9 +247,8 @@ void MembraneProcess::place(const particles::FluidParticles& bodies) {
   unknowns_ = static_cast<std::size_t>(solver_->whole_number(kMost));
 }
 
-/// Returns `components` x `components` numbers, row after row: row i has the velocities under a
-/// unit force or torque on component i.
 std::vector<double> MembraneProcess::mobility(std::size_t components) {
+  assert(components == kComponents * radii_.size());
   solver_->ask("mobility", "mobility\n");
   solver_->expect("mobility");
   // Beads have no angular velocity, so that the rows and columns of torques on them are 0.
@@ -271,11 +258,8 @@ std::vector<double> MembraneProcess::mobility(std::size_t components) {
   return rows;
 }
 
-/// `forces` has 3 numbers for each particle (forces along x and y, torque), and so has the result
-/// (velocity along x and y, angular velocity). Torques on beads are not sent, and their angular
-/// velocities are 0. With `driving`, also keeps the dissipation and the forces of the fluid: on a
-/// bead minus the given force, on a disc what the script answers.
 std::vector<double> MembraneProcess::velocities(std::span<const double> forces, bool driving) {
+  assert(forces.size() == kComponents * radii_.size());
   std::string text = driving ? "solve 1" : "solve 0";
   for (const auto component : components_) append(text, forces.subspan(component, 1), "a force");
   solver_->ask("solve", text + '\n');
@@ -292,7 +276,6 @@ std::vector<double> MembraneProcess::velocities(std::span<const double> forces, 
   return velocities;
 }
 
-/// The flow of the last solution, as read_flow() returns it, with x in the domain.
 FlowField MembraneProcess::flow() {
   auto field = read_flow(*solver_);
   for (auto& x : field.x) x += shift_;

@@ -1,9 +1,5 @@
 // Starts FreeFEM with scripts/membranes.edp, which computes Stokes flow with membranes and rigid
-// discs in the plane. All numbers have the units of the arguments; freefem_solver.cpp, which calls
-// this file, scales the case so that radii and viscosity are about 1. Error(kExternalProgram) says
-// that FreeFEM failed, Error(kBadInput) that the domain or the number of membranes is not allowed,
-// Error(kNotConverged) that there is no mesh around the particles. A change must agree with the
-// script.
+// discs in the plane.
 #pragma once
 
 #include <memory>
@@ -15,23 +11,21 @@
 namespace viscontact::freefem_flow {
 
 /// Starts the process and waits until it is ready. `domain` is a disc, or a box that is not
-/// periodic along y. `fluid` has membranes, no inertia, and no solver of the user's own. `radii`
-/// [L], > 0, are those of all particles. Particles are either beads, which are points of the
-/// membranes and feel no torque, or rigid discs, free or driven. `limits` says when the process is
-/// killed. `unit` > 0 is the unit of length of the arguments, measured in that of the case; only
-/// messages use it. Throws Error(kExternalProgram) if FreeFEM cannot be run or is not ready in
-/// time, Error(kInterrupted) if a stop is requested, and Error(kBadInput) if there are more than 80
-/// membranes (kMostMembranes) or no domain in the plane (opening()). A period along y and the other
-/// conditions are not checked. The result is never null; its functions throw the errors that
+/// periodic along y. `fluid` has membranes, no inertia, and no solver of the user's own; radii and
+/// viscosity should be about 1. `radii` [L] are those of all particles, which are either beads,
+/// which are points of the membranes and feel no torque, or rigid discs, free or driven. `unit` is
+/// the unit of length of the arguments, measured in that of the case, for messages. Throws
+/// Error(kExternalProgram) if FreeFEM cannot be run or is not ready in time, Error(kInterrupted) if
+/// a stop is requested, and Error(kBadInput) if there are more than kMostMembranes membranes or no
+/// domain in the plane (opening()). The result is never null; its functions throw the errors that
 /// FluidSolver names.
 ///
 /// The mesh has `edges_per_particle` edges on each membrane, but at least two thirds as many as any
 /// membrane has beads. In a box that is periodic along x the mesh ends at a straight line that no
-/// membrane or disc crosses. place() of the result needs the beads of each membrane at images
-/// without jumps by a period between neighbours (not checked); beads may be outside the box.
-/// place() throws Error(kNotConverged) if there is no such line, and if a membrane meets a disc or
-/// a membrane or disc leaves the domain. vary_penalty() and vary_mesh() return zeros: there is
-/// neither a penalty nor a second mesh.
+/// membrane or disc crosses. place() needs the beads of each membrane at images without jumps by a
+/// period between neighbours; beads may be outside the box. It throws Error(kNotConverged) if there
+/// is no such line, and if a membrane meets a disc or a membrane or disc leaves the domain. There
+/// is neither a penalty nor a second mesh.
 std::unique_ptr<particles::FluidSolver> start_membrane_solver(const particles::Fluid& fluid,
                                                               const particles::Domain& domain,
                                                               std::span<const double> radii,

@@ -1,11 +1,4 @@
-// Writes the requests to a fluid solver and reads its answers, for freefem_solver.cpp and
-// membranes/. A change must agree with docs/fluid-solver.md. In the units of the arguments
-// velocities are in [L/T, 1/T], forces and torques in [M L/T^2, M L^2/T^2]. Arrays have 3 numbers
-// for each particle in the plane and 1 on an axis; their sizes are only asserted. A wrong answer is
-// an Error(kExternalProgram), a number for the solver that is not finite an Error(kNotConverged), a
-// wrong domain or a file of the flow that cannot be read or written an Error(kBadInput), a missing
-// temporary folder an Error(kWrongUsage), and a requested stop an Error(kInterrupted). A change
-// must keep that numbers read back to the same double.
+// Requests to a fluid solver and its answers, docs/fluid-solver.md.
 #include "viscontact/freefem_flow/process/flow_process.hpp"
 
 #include <fmt/format.h>
@@ -39,7 +32,6 @@ constexpr double kCoarsening = 2;
 // The coarser mesh is too coarse for this, so that p = 3 is taken, which gives a larger estimate.
 constexpr double kErrorOfDifference = 1.0 / 7;
 
-/// Appends one line for each particle: its centre [L] and, in the plane, its angle [rad].
 void append_places(std::string& text, const FluidParticles& bodies, int dimension) {
   const auto& positions = bodies.particles->positions;
   const auto width = static_cast<std::size_t>(dimension);
@@ -50,8 +42,6 @@ void append_places(std::string& text, const FluidParticles& bodies, int dimensio
   }
 }
 
-/// Appends how many particles are driven, and for each one a line with its number, from 0, and its
-/// motion [L/T, 1/T].
 void append_driven(std::string& text, const FluidParticles& bodies, int dimension) {
   text += fmt::format("driven {}\n", bodies.driven.size());
   for (const auto& [k, motion] : bodies.driven) {
@@ -61,8 +51,8 @@ void append_driven(std::string& text, const FluidParticles& bodies, int dimensio
   }
 }
 
-/// A new folder for files that the solver reads or writes. The destructor removes it with all
-/// files. The constructor throws Error(kWrongUsage) if it cannot be made.
+/// A new folder for files of the solver, which the destructor removes. The constructor throws
+/// Error(kWrongUsage) if it cannot be made.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -89,8 +79,6 @@ class TemporaryFolder {
 
 }  // namespace
 
-/// Starts the process and waits until it is ready. `radii` [L] are those of all particles, and
-/// `dimension` is 2 in the plane and 1 on an axis. `make_boundary` makes the boundary of a mesh.
 FlowProcess::FlowProcess(const particles::Fluid& fluid, const particles::Domain& domain,
                          std::span<const double> radii, int dimension, SolverCommand command,
                          MeshBoundaryMaker make_boundary, const SolverLimits& limits)
@@ -103,6 +91,7 @@ FlowProcess::FlowProcess(const particles::Fluid& fluid, const particles::Domain&
       command_(std::move(command)),
       limits_(limits),
       opening_(opening(fluid, domain, radii, dimension)) {
+  assert(dimension == 1 || dimension == 2);
   // saved_flow() needs a temporary folder. If none can be made, the error comes now and not after
   // the first steps.
   if (fluid.has_inertia()) const TemporaryFolder needed;
@@ -137,9 +126,8 @@ void FlowProcess::start() {
 
 FlowProcess::~FlowProcess() = default;
 
-/// Sends places, driven motions, inertia and, in a fluid with inertia, the time step; also the
-/// boundary of the mesh if the solver asks for it. Throws what make_boundary_ throws, too.
 void FlowProcess::place(const FluidParticles& bodies) {
+  assert(bodies.particles != nullptr);
   assert(bodies.particles->count() * particles::motion_components(dimension_) == components_);
   assert(dimension_ == 1 || bodies.angles.size() == bodies.particles->count());
   assert(bodies.inertia.empty() || bodies.inertia.size() == components_);
@@ -159,11 +147,12 @@ void FlowProcess::place(const FluidParticles& bodies) {
     append(placement_, step.masses, "a mass");
     placement_ += '\n';
   }
+  assert(!wants_boundary_ || make_boundary_);
   boundary_ = wants_boundary_ ? words_of(make_boundary_(bodies, 1)) : "";
   coarser_boundary_.clear();
   // A process that has solved a large system gives other rounding errors afterwards. A process for
-  // a fluid with inertia is kept, because it remembers the flow. It does not use the random numbers
-  // that cause these other rounding errors.
+  // a fluid with inertia is kept, because it remembers the flow; it does not use the random numbers
+  // that cause them.
   if (!fluid_.has_inertia() && largest_system_ > command_.most_unknowns_reproduced) start();
   unknowns_ = ask_to_place(boundary_);
   is_on_coarser_mesh_ = false;
@@ -171,7 +160,6 @@ void FlowProcess::place(const FluidParticles& bodies) {
     coarser_boundary_ = words_of(make_boundary_(bodies, kCoarsening));
 }
 
-/// Returns the number of unknowns, 0 to 2^53, that the solver answers.
 std::size_t FlowProcess::ask_to_place(const std::string& boundary) {
   solver_->ask("place", placement_ + boundary);
   solver_->expect("placed", command_.remarks_on_meshes);
@@ -182,8 +170,6 @@ std::size_t FlowProcess::ask_to_place(const std::string& boundary) {
   return unknowns;
 }
 
-/// The velocities of all particles under `forces`. With `driving`, walls and driven particles move;
-/// otherwise they are at rest.
 std::vector<double> FlowProcess::velocities(std::span<const double> forces, bool driving) {
   assert(forces.size() == components_);
   if (driving) forces_.assign(forces.begin(), forces.end());
@@ -194,10 +180,6 @@ std::vector<double> FlowProcess::velocities(std::span<const double> forces, bool
   return solver_->numbers(components_);
 }
 
-/// Reads in this order: the dissipation, the dissipation without particles (0: the solver does not
-/// know it), the forces of the fluid; with inertia the kinetic energy and the Courant number,
-/// and with characteristics the error of the advection [1], >= 0; for each probe the flow [L^2/T]
-/// and the pressure [M/(L T^2)].
 particles::FlowQuantities FlowProcess::quantities() {
   solver_->ask("quantities", "quantities\n");
   solver_->expect("quantities");
@@ -220,8 +202,6 @@ particles::FlowQuantities FlowProcess::quantities() {
   return quantities;
 }
 
-/// Asks the solver to keep its last flow, or a flow at rest, for the next time step. `motions` are
-/// the velocities of all particles.
 void FlowProcess::keep_flow(bool at_rest, std::span<const double> motions) {
   assert(motions.size() == components_);
   std::string text = at_rest ? "keep rest" : "keep flow";
@@ -230,7 +210,6 @@ void FlowProcess::keep_flow(bool at_rest, std::span<const double> motions) {
   solver_->expect("kept");
 }
 
-/// The text of the file that the solver writes, whose last line must be "complete".
 std::string FlowProcess::saved_flow() {
   const TemporaryFolder folder;
   const auto file = folder.path() / "flow.msh";
@@ -243,7 +222,6 @@ std::string FlowProcess::saved_flow() {
   return text;
 }
 
-/// `flow` is the text that saved_flow() of an earlier process returned. The solver goes on from it.
 void FlowProcess::load_flow(const std::string& flow) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "flow.msh";
@@ -252,15 +230,12 @@ void FlowProcess::load_flow(const std::string& flow) {
   solver_->expect("loaded");
 }
 
-/// Returns the factor >= 0 that the solver answers.
 double FlowProcess::vary_penalty() {
   solver_->ask("vary", "vary penalty\n");
   solver_->expect("varied");
   return solver_->number_from_zero();
 }
 
-/// Goes on to the coarser mesh, if place() made one, or else asks the solver to refine its mesh.
-/// Returns the three factors [1], >= 0, of SecondMesh.
 particles::SecondMesh FlowProcess::vary_mesh() {
   if (!coarser_boundary_.empty()) {
     ask_to_place(coarser_boundary_);
@@ -281,7 +256,6 @@ double FlowProcess::peak_memory_mebibytes() const {
   return static_cast<double>(std::max(peak_memory_of_earlier_, solver_->peak_memory_kb())) / 1024;
 }
 
-/// After vary_mesh() has gone on to the coarser mesh, first solves again on the finer one.
 particles::FlowField FlowProcess::flow() {
   if (is_on_coarser_mesh_) {
     ask_to_place(boundary_);
@@ -292,8 +266,6 @@ particles::FlowField FlowProcess::flow() {
   return read_flow(*solver_);
 }
 
-/// Asks for the flow and reads places [L], velocities [L/T] and pressures [M/(L T^2)] of the nodes,
-/// and the six nodes, counted from 0, of each triangle.
 particles::FlowField read_flow(SolverDialogue& solver) {
   solver.ask("flow", "flow\n");
   solver.expect("flow");

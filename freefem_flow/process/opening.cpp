@@ -1,15 +1,10 @@
-// Writes the opening, the first text that a fluid solver gets, for flow_process.cpp and
-// membranes/membrane_process.cpp. In the units of the arguments, radii and lengths [L] and the
-// viscosity [M/(L T)] are > 0; velocities are in [L/T], gradients in [1/T], the density in [M/L^3].
-// That numbers are finite and in range is not checked. A domain that is missing, or does not fit
-// the dimension or the velocities of sides, is an Error(kBadInput). A change must agree with
-// docs/fluid-solver.md and with scripts/opening.idp; numbers must read back to the same double, and
-// the labels 1 to 4 of a box must be in the order of particles::SideVelocities.
+// Writes the opening. The labels 1 to 4 of a box are in the order of particles::SideVelocities.
 #include "viscontact/freefem_flow/process/opening.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
+#include <cassert>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/text/number.hpp"
@@ -22,16 +17,14 @@ using particles::CylinderDomain;
 using particles::DiscDomain;
 using particles::WallVelocity;
 
-/// The numbers, with a space before each.
 std::string words_of(std::span<const double> values) {
   std::string text;
   for (const double value : values) text += ' ' + format_number(value);
   return text;
 }
 
-/// The kind and the lengths [L] of the domain: a disc with centre x, y and radius; a box with its
-/// lower left and upper right corners and 1 or 0 for each axis, periodic or not; a cylinder with
-/// radius and height.
+/// A disc with centre and radius; a box with its lower left and upper right corners and 1 or 0 for
+/// each axis, periodic or not; a cylinder with radius and height.
 std::string domain_line(const particles::Domain& domain) {
   if (const auto* disc = std::get_if<DiscDomain>(&domain))
     return "domain disc" + words_of(std::array{disc->centre[0], disc->centre[1], disc->radius});
@@ -42,9 +35,7 @@ std::string domain_line(const particles::Domain& domain) {
   return "domain cylinder" + words_of(std::array{cylinder.radius, cylinder.height});
 }
 
-/// The labels of the walls. A box has the walls 1 left, 2 right, 3 bottom and 4 top; a disc has the
-/// wall 1; a cylinder has the walls 1 side, 2 floor and 3 lid. Periodic sides of a box are no
-/// walls.
+/// The labels of the walls (mesh_boundary.hpp). Periodic sides of a box are no walls.
 std::vector<int> walls_of(const particles::Domain& domain) {
   if (std::holds_alternative<DiscDomain>(domain)) return {1};
   if (std::holds_alternative<CylinderDomain>(domain)) return {1, 2, 3};
@@ -55,20 +46,18 @@ std::vector<int> walls_of(const particles::Domain& domain) {
   return labels;
 }
 
-/// The eight coefficients, in the order a0, ax, ay, b0, bx, by, p, q, of the velocity of a wall at
-/// the point (x, y): (a0 + ax x + ay y, b0 + bx x + by y) + 4 s (1 - s) (p, q), where s goes from 0
-/// to 1 along the wall. a0, b0, p and q are in [L/T], the others in [1/T]. On a cylinder, x is the
-/// distance from the axis and y is z.
+/// The eight coefficients of walls_at(). On a cylinder, x is the distance from the axis and y is z.
 using WallCoefficients = std::array<double, 8>;
 
 std::string wall_line(int label, const char* kind, const WallCoefficients& coefficients) {
   return fmt::format("{} {}{}\n", label, kind, words_of(coefficients));
 }
 
-/// The coefficients of the side of a box with this label, 1 to 4, at the time of `step`. They are
-/// all 0 if the side is open, which means that fluid flows through it freely.
+/// Those of the side of a box with this label. They are 0 if the side is open, which means that
+/// fluid flows through it freely.
 WallCoefficients side_coefficients(int label, const WallVelocity& velocity,
                                    const particles::FlowStep& step) {
+  assert(label >= 1 && label <= 4);
   const auto value = velocity.at(step.time, step.from, step.to);
   switch (velocity.kind) {
     case WallVelocity::Kind::kConstant:
@@ -85,8 +74,7 @@ WallCoefficients side_coefficients(int label, const WallVelocity& velocity,
   return coefficients;
 }
 
-/// The coefficients of the wall with this label at the time of `step`. In a linear flow they are
-/// those of the gradient, and do not depend on the wall.
+/// In a linear flow they are those of the gradient, and do not depend on the wall.
 WallCoefficients wall_coefficients(const particles::Fluid& fluid, int label,
                                    const particles::FlowStep& step) {
   if (const auto* flow = std::get_if<particles::LinearFlow>(&fluid.boundary)) {
@@ -97,7 +85,6 @@ WallCoefficients wall_coefficients(const particles::Fluid& fluid, int label,
   return side_coefficients(label, sides[static_cast<std::size_t>(label - 1)], step);
 }
 
-/// True if the wall with this label is an open side of a box.
 bool is_open(const particles::Fluid& fluid, int label) {
   const auto* sides = std::get_if<particles::SideVelocities>(&fluid.boundary);
   return sides != nullptr &&
@@ -122,12 +109,11 @@ void check_domain(const particles::Fluid& fluid, const particles::Domain& domain
 
 }  // namespace
 
-/// The lines of the opening in the order in which the solver reads them. `dimension` is 2 in the
-/// plane and 1 on the axis of a cylinder. `radii` [L] has one number for each particle, or none.
-/// The version in the first line is 3 for a fluid with inertia and 2 otherwise.
 std::string opening(const particles::Fluid& fluid, const particles::Domain& domain,
                     std::span<const double> radii, int dimension) {
   check_domain(fluid, domain, dimension);
+  assert(fluid.semi_axes.empty() || fluid.semi_axes.size() >= radii.size());
+  assert(fluid.cut_areas.empty() || fluid.cut_areas.size() >= radii.size());
   const bool penalty = fluid.constraint == particles::RigidConstraint::kPenalty;
   std::string text = fmt::format(
       "viscontact-fluid {}\ndimension {}\nviscosity {}\nconstraint {}\nmesh {}\nedges {}\n",
@@ -142,8 +128,7 @@ std::string opening(const particles::Fluid& fluid, const particles::Domain& doma
   for (const int label : labels)
     text += wall_line(label, is_open(fluid, label) ? "open" : "moving",
                       wall_coefficients(fluid, label, {}));
-  // A mean gradient is sent for a box without walls only. If there are walls, their velocities
-  // contain the gradient.
+  // If there are walls, their velocities contain the gradient.
   const bool mean_gradient = flow != nullptr && labels.empty();
   text += "gradient" + words_of(mean_gradient ? flow->gradient : std::array<double, 4>{}) + '\n';
   const bool are_outlines = !fluid.plates.empty() || !fluid.cut_areas.empty();
@@ -176,8 +161,6 @@ std::string gradient_request(const particles::Fluid& fluid) {
   return "pressure_gradient" + words_of(fluid.pressure_gradient) + '\n';
 }
 
-/// One line for each wall, in the order of walls_of(), with its eight WallCoefficients at the time
-/// of `step`. Throws nothing if opening() accepted the arguments.
 std::string walls_at(const particles::Fluid& fluid, const particles::Domain& domain,
                      const particles::FlowStep& step) {
   std::string text;

@@ -1,6 +1,4 @@
-// Says how the process of a fluid solver is started, and what messages about it contain.
-// freefem_solver.cpp makes the command; process/ and membranes/ use it. Nothing is checked or
-// thrown. A change must keep that the words of a user's command reach the solver unchanged.
+// How the process of a fluid solver is started, and what messages about it contain.
 #pragma once
 
 #include <cstddef>
@@ -10,19 +8,17 @@
 
 namespace viscontact::freefem_flow {
 
-/// The command of a fluid solver, and how this solver behaves.
 struct SolverCommand {
-  /// The program, which is looked up on PATH, and then its arguments; at least the program.
+  /// The program, which is looked up on PATH, and then its arguments.
   std::vector<std::string> arguments;
   std::vector<std::string> environment{};  ///< "NAME=value" each, set for the solver only
   std::string folder{};                    ///< working folder; empty: that of this process
-  // The ends of messages, which say what a user can do; they may be empty.
+  // The ends of messages, which say what a user can do.
   std::string remedy_if_missing{},  ///< if the program cannot be run
       remedy_if_silent{};           ///< if the program does not answer in time
-  /// After a system of more unknowns than this number (>= 0; the default means never) the solver
-  /// would give other rounding errors. Before the next placement the process is then replaced by a
-  /// new one, so that a run that is continued after an interrupt gives the same bits as one without
-  /// interrupt.
+  /// After a system of more unknowns than this number the solver would give other rounding errors.
+  /// Before the next placement the process is then replaced by a new one, so that a run that is
+  /// continued after an interrupt gives the same bits as one without interrupt.
   std::size_t most_unknowns_reproduced = std::numeric_limits<std::size_t>::max();
   /// Whether lines of other text before the answer to a placement are skipped. If it is false, such
   /// lines are an error of the solver.

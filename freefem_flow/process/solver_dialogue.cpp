@@ -1,17 +1,10 @@
-// Asks a fluid solver and checks its answers, and writes numbers and boundaries for it;
-// flow_process.cpp and membranes/membrane_process.cpp use this file. Numbers have the units of the
-// caller and are finite. Time limits are > 0 milliseconds and begin with the request. Each fault of
-// the solver (it ends, is late, answers wrongly, or its program cannot be run) is an
-// Error(kExternalProgram); afterwards only ask() may be called, which then always throws an
-// Error(kExternalProgram). A number for the solver that is not finite is an Error(kNotConverged), a
-// requested stop an Error(kInterrupted), and a system without free sockets a std::system_error. A
-// change must keep that a solver that does not answer is killed at its time limit, and the messages
-// that docs/troubleshooting.md quotes.
+// Asks a fluid solver and checks its answers. docs/troubleshooting.md quotes the messages.
 #include "viscontact/freefem_flow/process/solver_dialogue.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cassert>
 #include <charconv>
 #include <cmath>
 
@@ -24,21 +17,20 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// How long a solver that has failed may take to write its last lines and to end; a free choice.
+// How long a solver that has failed may take to write its last lines and to end.
 constexpr auto kGraceOfFailed = 1000ms;
 
-// How long a solver may take to end after the request `end`; docs/fluid-solver.md promises this
-// time.
+// How long a solver may take to end after the request `end`, docs/fluid-solver.md.
 constexpr auto kGraceAtEnd = 2000ms;
 
-/// The program and its arguments as a user would type them.
+/// As a user would type it.
 std::string command_in_words(const std::vector<std::string>& arguments) {
   std::string text;
   for (const auto& argument : arguments) text += (text.empty() ? "" : " ") + shell_word(argument);
   return text;
 }
 
-/// The first `longest` bytes of a text of the solver, with dots if it is longer.
+/// The first `longest` bytes, with dots if there are more.
 std::string shortened(std::string_view text, std::size_t longest) {
   if (text.size() <= longest) return std::string(text);
   return std::string(text.substr(0, longest)) + "...";
@@ -47,7 +39,7 @@ std::string shortened(std::string_view text, std::size_t longest) {
 /// A word of the solver for a message. A byte that is no printable ASCII character becomes a
 /// question mark, because it could end the message or disturb a terminal.
 std::string in_quotes(std::string_view word) {
-  auto text = shortened(word, 40);  // bytes; a free choice
+  auto text = shortened(word, 40);  // bytes
   for (char& c : text)
     if (c < ' ' || c > '~') c = '?';
   return "'" + text + "'";
@@ -59,14 +51,13 @@ double in_seconds(ChildProcess::Clock::duration time) {
 
 }  // namespace
 
-/// Starts the program. `first_limit` is the time limit of the first answer, and `time_limit` that
-/// of each later one.
 SolverDialogue::SolverDialogue(const SolverCommand& command, std::chrono::milliseconds time_limit,
                                std::chrono::milliseconds first_limit, const StopToken& stop)
     : name_(command_in_words(command.arguments)),
       remedy_if_silent_(command.remedy_if_silent),
       time_limit_(time_limit),
       first_limit_(first_limit) {
+  assert(time_limit.count() > 0 && first_limit.count() > 0);
   try {
     process_.emplace(ProcessCommand{command.arguments, command.environment, command.folder}, stop);
   } catch (const Error& error) {
@@ -76,15 +67,12 @@ SolverDialogue::SolverDialogue(const SolverCommand& command, std::chrono::millis
   }
 }
 
-/// Asks the solver to end, and kills it after kGraceAtEnd.
 SolverDialogue::~SolverDialogue() {
   if (!process_) return;
   process_->send("end\n");
   process_->finish(kGraceAtEnd);
 }
 
-/// Sends `text`. `name` is what messages call the request. Throws Error(kExternalProgram) if there
-/// is output of the solver that no answer needed.
 void SolverDialogue::ask(std::string_view name, std::string_view text) {
   if (!process_)
     throw Error(ErrorKind::kExternalProgram,
@@ -98,9 +86,9 @@ void SolverDialogue::ask(std::string_view name, std::string_view text) {
   process_->send(text);
 }
 
-/// Calls the function `what` of the process, which reads a word or a line, with the time limit.
 SolverDialogue::Reading SolverDialogue::read(
     Reading (ChildProcess::*what)(ChildProcess::Clock::time_point)) {
+  assert(process_);
   try {
     return ((*process_).*what)(asked_at_ + limit());
   } catch (const Error&) {
@@ -109,7 +97,6 @@ SolverDialogue::Reading SolverDialogue::read(
   }
 }
 
-/// The next word of the answer. It is valid until the next call that reads.
 std::string_view SolverDialogue::next_word() {
   const auto reading = read(&ChildProcess::read_word);
   if (reading.state == ChildProcess::State::kRead) {
@@ -119,8 +106,6 @@ std::string_view SolverDialogue::next_word() {
   fail_without_answer(reading.state);
 }
 
-/// Reads words until one is `word`. Without `skip_lines` the first word must be `word`; with it, up
-/// to 1000 other lines may come before.
 void SolverDialogue::expect(std::string_view word, bool skip_lines) {
   awaited_ = in_quotes(word);
   constexpr int kMostLines = 1000;  // docs/fluid-solver.md promises this number
@@ -138,7 +123,6 @@ void SolverDialogue::expect(std::string_view word, bool skip_lines) {
 
 std::string SolverDialogue::word() { return std::string(next_word()); }
 
-/// The next word as a finite number; number_from_zero() requires a number >= 0.
 double SolverDialogue::number() {
   const auto value = parse_number(next_word());
   if (!value) refuse("a finite number");
@@ -151,7 +135,6 @@ double SolverDialogue::number_from_zero() {
   return value;
 }
 
-/// Reads `count` finite numbers. The counters are for the message if the solver is late.
 std::vector<double> SolverDialogue::numbers(std::size_t count) {
   std::vector<double> values(count);
   numbers_asked_ = count;
@@ -160,8 +143,8 @@ std::vector<double> SolverDialogue::numbers(std::size_t count) {
   return values;
 }
 
-/// Reads a whole number from 0 to `largest`.
 std::int64_t SolverDialogue::whole_number(std::int64_t largest) {
+  assert(largest >= 0);
   const auto word = next_word();
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -170,15 +153,14 @@ std::int64_t SolverDialogue::whole_number(std::int64_t largest) {
   return value;
 }
 
-/// Throws the error that the last word was read in place of `needed`.
 void SolverDialogue::refuse(std::string_view needed) {
+  assert(process_);
   process_->put_word_back();
   const std::string word(process_->read_word(ChildProcess::Clock::now()).text);
   process_->put_word_back();  // so that the message shows the whole line
   fail(fmt::format("it answered {} in place of {}", in_quotes(word), needed), kGraceOfFailed);
 }
 
-/// Throws the error whose text is the rest of the line, after the solver wrote `error`.
 void SolverDialogue::fail_as_solver_says() {
   const auto line = read(&ChildProcess::read_line);
   const auto start = line.text.find_first_not_of(" \t\r");
@@ -187,7 +169,6 @@ void SolverDialogue::fail_as_solver_says() {
        kGraceOfFailed);
 }
 
-/// Throws the error that no word was read; `state` says why.
 void SolverDialogue::fail_without_answer(ChildProcess::State state) {
   switch (state) {
     case ChildProcess::State::kTimedOut:
@@ -212,13 +193,11 @@ std::string SolverDialogue::asked_in_words() const {
                      in_seconds(ChildProcess::Clock::now() - asked_at_));
 }
 
-/// Ends the solver, which gets the time `grace` to end by itself, and throws
-/// Error(kExternalProgram) with `reason` and the last lines that the solver wrote.
 void SolverDialogue::fail(const std::string& reason, std::chrono::milliseconds grace) {
   const std::string asked = asked_in_words();
   const std::string end = process_->finish(grace);
   std::vector<std::string> lines;
-  constexpr std::size_t kLongestLine = 200;  // bytes; a free choice
+  constexpr std::size_t kLongestLine = 200;  // bytes
   for (const auto& line : process_->last_lines()) lines.push_back(shortened(line, kLongestLine));
   process_.reset();
   throw Error(ErrorKind::kExternalProgram, "the fluid solver ({}) failed at {}: {}; it {}; {}",
@@ -227,8 +206,6 @@ void SolverDialogue::fail(const std::string& reason, std::chrono::milliseconds g
                             : fmt::format("its last lines: {}", fmt::join(lines, " | ")));
 }
 
-/// Appends a space and a number for each of `values`. `what` is what the message calls a number
-/// that is not finite.
 void append(std::string& text, std::span<const double> values, const char* what) {
   for (const double value : values) {
     if (!std::isfinite(value))
@@ -239,8 +216,6 @@ void append(std::string& text, std::span<const double> values, const char* what)
   }
 }
 
-/// A line with the numbers of points and curves, a line with the coordinates [L] of each point, and
-/// a line for each curve: its first point, from 0, its number of edges and its label.
 std::string words_of(const MeshBoundary& boundary) {
   std::string text =
       fmt::format("boundary {} {}\n", boundary.points.size(), boundary.curves.size());

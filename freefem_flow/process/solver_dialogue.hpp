@@ -1,9 +1,4 @@
-// Sends requests to the process of a fluid solver, and reads and checks its answers word by word,
-// by the protocol of docs/fluid-solver.md. A solver that ends, is late or answers wrongly throws
-// Error(kExternalProgram), which names the solver, the request and the last lines that the solver
-// wrote. Numbers have the units of the caller. flow_process.cpp and membrane_process.cpp use this
-// file. A change must keep that each answer has a time limit, and that numbers read back to the
-// same double.
+// Requests to the process of a fluid solver and answers, word by word, docs/fluid-solver.md.
 #pragma once
 
 #include <chrono>
@@ -21,16 +16,17 @@
 
 namespace viscontact::freefem_flow {
 
-/// The dialogue with one process. All functions that read or write throw Error(kExternalProgram) if
-/// the solver ends, answers wrongly or too late, and Error(kInterrupted) if a stop is requested.
-/// The process is ended then. After that ask() throws Error(kExternalProgram), and the other
-/// functions must not be called (not checked).
+/// The dialogue with one process. All functions that read or write throw Error(kExternalProgram),
+/// which names the solver, the request and the last lines that the solver wrote, if the solver
+/// ends, answers wrongly or too late, and Error(kInterrupted) if a stop is requested. The process
+/// is ended then. After that ask() throws Error(kExternalProgram), and no other function may be
+/// called.
 class SolverDialogue {
  public:
-  /// Starts the solver. `first_limit` > 0 is the time limit of the answer to the first request,
-  /// `time_limit` > 0 that of each other answer, both counted from the request on. Throws
+  /// Starts the solver. `first_limit` is the time limit of the answer to the first request,
+  /// `time_limit` that of each other answer, both from the request on. Throws
   /// Error(kExternalProgram) if the program cannot be run, and std::system_error if the system has
-  /// no free sockets. `stop` may be a token that never requests a stop.
+  /// no free sockets.
   SolverDialogue(const SolverCommand& command, std::chrono::milliseconds time_limit,
                  std::chrono::milliseconds first_limit, const StopToken& stop);
   SolverDialogue(const SolverDialogue&) = delete;
@@ -42,37 +38,37 @@ class SolverDialogue {
   /// solver wrote more than the answer to the request before.
   void ask(std::string_view name, std::string_view text);
 
-  /// Reads the first word of the answer. Throws Error(kExternalProgram) if it is not `word`. With
-  /// `skip_lines`, up to a thousand lines before `word` are skipped, except one that begins with
-  /// the word `error`, which throws Error(kExternalProgram).
+  /// Reads the first word of the answer, which must be `word`. With `skip_lines`, up to a thousand
+  /// lines before it are skipped, except one that begins with the word `error`.
   void expect(std::string_view word, bool skip_lines = false);
 
-  /// Reads the next word of the answer. If the word is `error`, Error(kExternalProgram) is thrown,
-  /// which contains the rest of the line.
+  /// Reads the next word of the answer. If it is `error`, the rest of the line is the text of the
+  /// Error(kExternalProgram) that is thrown.
   std::string word();
-  double number();            ///< reads a finite number; throws Error(kExternalProgram) otherwise
-  double number_from_zero();  ///< the same, but the number must be >= 0
-  /// Reads the next `count` >= 0 words of the answer as finite numbers, in their order.
+  double number();            ///< reads a finite number
+  double number_from_zero();  ///< the same, but >= 0
+  /// Reads the next `count` words of the answer as finite numbers.
   std::vector<double> numbers(std::size_t count);
-  /// Reads a whole number from 0 to `largest` >= 0. Throws Error(kExternalProgram) for anything
-  /// else.
+  /// Reads a whole number from 0 to `largest`.
   std::int64_t whole_number(std::int64_t largest);
 
   /// The largest resident memory of the solver so far [kB]; 0 after an error.
   long peak_memory_kb() const { return process_ ? process_->peak_memory_kb() : 0; }
 
-  /// Ends the solver and throws Error(kExternalProgram). The message says that the solver answered
-  /// the last word that was read in place of `needed`.
+  /// Ends the solver and throws Error(kExternalProgram), which says that the solver answered the
+  /// last word in place of `needed`.
   [[noreturn]] void refuse(std::string_view needed);
 
  private:
   using Reading = ChildProcess::Reading;
-  /// Reads by `what`, ChildProcess::read_word or read_line, within the time limit. A requested stop
-  /// ends the solver.
+  /// Reads by `what`, ChildProcess::read_word or read_line, within the time limit.
   Reading read(Reading (ChildProcess::*what)(ChildProcess::Clock::time_point));
+  /// Valid until the next call that reads.
   std::string_view next_word();
   /// The time limit of the answer to the last request.
   std::chrono::milliseconds limit() const { return requests_ > 1 ? time_limit_ : first_limit_; }
+  /// Ends the solver, which gets the time `grace` to end by itself, and throws
+  /// Error(kExternalProgram) with `reason` and the last lines that the solver wrote.
   [[noreturn]] void fail(const std::string& reason, std::chrono::milliseconds grace);
   [[noreturn]] void fail_without_answer(ChildProcess::State state);
   [[noreturn]] void fail_as_solver_says();

@@ -1,10 +1,4 @@
-// Writes each resistance of a pair, which is a sphere beside a body at rest, as a function of the
-// gap > 0 [L] in C, Fortran, Python, MATLAB, JSON or CSV. In the units of the fit, the resistances
-// called squeeze and slide are in [M/T], slide_roll in [M L/T], roll and spin in [M L^2/T]; that
-// they are positive is not checked. An unknown target (name of a format) is an Error(kBadInput);
-// nothing else is thrown. The command export in app/ uses this file. A change must keep the names
-// of functions, columns and keys, which users rely on, and the same targets as
-// fitting/export/export_fit.cpp. The layout of the code and the words of comments may be changed.
+// Each resistance of a pair as a function of the gap in C, Fortran, Python, MATLAB, JSON or CSV.
 #include "viscontact/motions/fit/export_pair.hpp"
 
 #include <array>
@@ -16,12 +10,10 @@
 namespace viscontact::motions {
 namespace {
 
-/// Name and description of a resistance (entry) of the pair.
 const NamedEntry& named(PairEntry entry) { return pair_entries()[static_cast<std::size_t>(entry)]; }
 
 /// The terms of the fit of one resistance with their coefficients. The sum of coefficient times
-/// term is the resistance, because the fit is at the velocity -1. Each term must be known (not
-/// checked); readers of fits refuse others.
+/// term is the resistance, because the fit is at the velocity -1.
 std::vector<fitting::WeightedTerm> weighted_terms(const EntryFit& entry) {
   std::vector<fitting::WeightedTerm> terms;
   for (const auto& term : entry.fit.terms)
@@ -29,9 +21,6 @@ std::vector<fitting::WeightedTerm> weighted_terms(const EntryFit& entry) {
   return terms;
 }
 
-/// The lines of the comment at the head of each text: what the functions mean, the interval of gaps
-/// [L], the sphere, the neighbour, and how accurate each fit is. `source` is the name of the fit's
-/// file, which may be empty.
 std::vector<std::string> facts_of_pair(const PairFit& fit, std::string_view source) {
   const auto version = fit.versions.find("Viscontact");
   std::vector<std::string> lines = {
@@ -57,8 +46,7 @@ std::vector<std::string> facts_of_pair(const PairFit& fit, std::string_view sour
   return fitting::on_lines_of_comments(std::move(lines));
 }
 
-/// A header file with a function viscontact_NAME(gap) for each resistance NAME. Each of the
-/// functions pair_in_...() returns the whole text of its format, for gaps in fit.gap_interval [L].
+/// A header file. Each of the functions pair_in_...() returns the whole text of its format.
 std::string pair_in_c(const PairFit& fit, std::string_view source) {
   std::string text =
       fitting::commented(facts_of_pair(fit, source), "//") +
@@ -80,7 +68,6 @@ std::string pair_in_c(const PairFit& fit, std::string_view source) {
   return text + "#endif\n";
 }
 
-/// A module with an elemental function viscontact_NAME(gap) for each resistance.
 std::string pair_in_fortran(const PairFit& fit, std::string_view source) {
   std::string text = fitting::commented(facts_of_pair(fit, source), "!") +
                      fmt::format(
@@ -109,8 +96,6 @@ std::string pair_in_fortran(const PairFit& fit, std::string_view source) {
   return text + "end module\n";
 }
 
-/// A module with a function NAME(gap) for each resistance, which raises ValueError outside the
-/// interval.
 std::string pair_in_python(const PairFit& fit, std::string_view source) {
   std::string text =
       fitting::commented(facts_of_pair(fit, source), "#") +
@@ -130,7 +115,6 @@ std::string pair_in_python(const PairFit& fit, std::string_view source) {
   return text;
 }
 
-/// A function that returns a struct with a function handle NAME for each resistance.
 std::string pair_in_matlab(const PairFit& fit, std::string_view source) {
   const auto smallest = fitting::plain(fit.gap_interval[0]);
   const auto largest = fitting::plain(fit.gap_interval[1]);
@@ -156,8 +140,6 @@ std::string pair_in_matlab(const PairFit& fit, std::string_view source) {
   return text + "end\n" + functions;
 }
 
-/// An object with the terms of each resistance, and with samples: lists of the gap [L] and of each
-/// resistance at the gaps of spread_gaps(), 201 in equal ratios.
 std::string pair_in_json(const PairFit& fit, std::string_view source) {
   nlohmann::ordered_json json;
   json["about"] = facts_of_pair(fit, source);
@@ -180,8 +162,6 @@ std::string pair_in_json(const PairFit& fit, std::string_view source) {
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-/// A line of column names (gap, then squeeze, slide, roll, slide_roll and spin as far as the fit
-/// has them), and a row for each of the same 201 gaps.
 std::string pair_in_csv(const PairFit& fit, std::string_view source) {
   std::string text = fitting::commented(facts_of_pair(fit, source), "#") + "gap";
   for (const auto& [entry, one] : fit.entries) text += "," + std::string(named(entry).name);

@@ -1,14 +1,8 @@
-// Makes, from tables of force and torque on a sphere beside a body at rest, a table of each
-// resistance of the sphere (squeeze, slide, roll, slide_roll, spin), and fits it. A resistance is
-// also called an entry. In the units of the tables, gaps [L] are > 0; squeeze and slide are in
-// [M/T], slide_roll in [M L/T], roll and spin in [M L^2/T]; factors of force and torque have no
-// dimension. Tables that do not belong together are an Error(kBadInput), as are too few gaps; terms
-// that cannot be told apart are an Error(kNotConverged), a stop during a robust fit is an
-// Error(kInterrupted). This file is used by motions/job/ and python/. A change must keep the check
-// that slide_roll is the same in both tables.
+// Makes a table of each resistance (entry) from the tables of force and torque, and fits it.
 #include "viscontact/motions/fit/fit_pair.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -26,11 +20,11 @@ using lubrication::MotionTable;
 /// The table of an entry: forces at the velocity -1, which are equal to the resistance.
 struct EntryTable {
   MotionTable table;
-  std::vector<double> scales;    // for each row what its residual is divided by, > 0; unit of entry
+  std::vector<double> scales;    // for each row what its residual is divided by; unit of entry
   std::optional<double> theory;  // theory's coefficient of the leading term; unit of entry/term
 };
 
-/// Returns the first table. Throws Error(kBadInput) if the tables are of different pairs.
+/// The first table. Throws Error(kBadInput) if the tables are of different pairs.
 const MotionTable& first_of_pair(const PairTables& tables) {
   if (tables.empty()) throw Error(ErrorKind::kBadInput, "there is no table to fit");
   const auto require_same = [](bool is_same, const char* what, const auto& one, const auto& other) {
@@ -55,8 +49,8 @@ const MotionTable& first_of_pair(const PairTables& tables) {
   return first;
 }
 
-/// A table without rows. `pair` is any table of the pair, and `of_motion` is the table from which
-/// the rows will be made.
+/// A table without rows. `pair` is any table of the pair, and `of_motion` that from which the rows
+/// will be made.
 EntryTable empty_table(const MotionTable& pair, const MotionTable& of_motion) {
   EntryTable entry;
   entry.table.viscosity = pair.viscosity;
@@ -67,9 +61,8 @@ EntryTable empty_table(const MotionTable& pair, const MotionTable& of_motion) {
   return entry;
 }
 
-/// Appends a row: the gap [L], the resistance `value` in the unit of the entry, `scale` > 0 in the
-/// same unit, by which residuals are divided, and the relative error `estimate` [1], >= 0 (0: not
-/// known).
+/// Appends a row: the gap [L], the resistance `value`, `scale`, by which residuals are divided,
+/// both in the unit of the entry, and the relative error `estimate` (0: not known).
 void add_row(EntryTable& entry, double gap, double value, double scale, double estimate) {
   MotionRow row;
   row.gap = gap;
@@ -81,8 +74,7 @@ void add_row(EntryTable& entry, double gap, double value, double scale, double e
 }
 
 /// The table of squeeze or slide, which are a force per velocity [M/T], or of roll or spin, which
-/// are a torque per angular velocity [M L^2/T]. The motion of `table` says which. Residuals are
-/// relative to the resistance itself.
+/// are a torque per angular velocity [M L^2/T], as the motion of `table` says.
 EntryTable diagonal_entry(const MotionTable& pair, const MotionTable& table) {
   EntryTable entry = empty_table(pair, table);
   if (table.motion == MotionKind::kApproach) {
@@ -106,14 +98,13 @@ EntryTable diagonal_entry(const MotionTable& pair, const MotionTable& table) {
   return entry;
 }
 
-/// slide_roll at one gap [M L/T], from the torque of sliding or the force of rolling: its value and
-/// the estimate of its error, >= 0 (0: not known). `diagonal` is slide [M/T] or roll [M L^2/T] from
-/// the same row of the table.
+/// slide_roll at one gap [M L/T], from the torque of sliding or the force of rolling, and the
+/// estimate of its error (0: not known). `diagonal` is slide [M/T] or roll [M L^2/T] from the same
+/// row of the table.
 struct Coupling {
   double value = 0, error = 0, diagonal = 0;
 };
 
-/// `row` is a row of `table`, which is that of sliding or rolling.
 Coupling coupling_of(const MotionTable& pair, const MotionTable& table, const MotionRow& row) {
   const auto units = lubrication::action_units(table.motion, pair.viscosity, pair.radius);
   if (table.motion == MotionKind::kSlide)
@@ -125,11 +116,11 @@ Coupling coupling_of(const MotionTable& pair, const MotionTable& table, const Mo
           units.torque * row.torque_factor};
 }
 
-/// Throws Error(kBadInput) if the values of slide_roll from both tables at the gap `gap` [L] differ
-/// by more than the sum of their error estimates. By the reciprocal theorem both values are equal.
+/// Throws Error(kBadInput) if the values of slide_roll from both tables, which are equal by the
+/// reciprocal theorem, differ by more than the sum of their error estimates.
 void check_symmetry(double gap, const Coupling& slide, const Coupling& roll) {
   // The difference that is allowed if the tables have no error estimates, relative to sqrt(slide
-  // roll): published tables usually have at least three digits. It is a free choice.
+  // roll): published tables usually have at least three digits.
   constexpr double kUnknown = 1e-3;
   const double scale = std::sqrt(slide.diagonal * roll.diagonal);
   const double error = slide.error + roll.error;
@@ -143,15 +134,13 @@ void check_symmetry(double gap, const Coupling& slide, const Coupling& roll) {
         gap, slide.value, roll.value, allowed);
 }
 
-/// The table of slide_roll [M L/T]. If there are tables of sliding and rolling, it has the mean of
-/// both values at each gap of sliding; other rows of rolling are not used. If there is one of these
-/// tables only, it has the values of this table. At least one must exist (not checked). Residuals
-/// are relative to sqrt(slide roll), or with one table to slide times the radius, or to roll over
-/// the radius. Throws Error(kBadInput) if rolling lacks a gap of sliding, and the error of
-/// check_symmetry().
+/// The table of slide_roll [M L/T]. With tables of sliding and rolling, it has the mean of both
+/// values at each gap of sliding; other rows of rolling are not used. Throws Error(kBadInput) if
+/// rolling lacks a gap of sliding, and the error of check_symmetry().
 EntryTable coupling_entry(const MotionTable& pair, const PairTables& tables) {
   const auto slide = tables.find(MotionKind::kSlide), roll = tables.find(MotionKind::kRoll);
   const bool slides = slide != tables.end(), both = slides && roll != tables.end();
+  assert(slides || roll != tables.end());
   const auto& first = slides ? slide->second : roll->second;
   EntryTable entry = empty_table(pair, first);
   for (const auto& row : first.rows) {
@@ -179,7 +168,7 @@ EntryTable coupling_entry(const MotionTable& pair, const PairTables& tables) {
   return entry;
 }
 
-/// Fits the table of the resistance `which`. Errors of the fit get the name of the resistance.
+/// Errors of the fit get the name of the resistance `which`.
 EntryFit fit_entry(PairEntry which, const EntryTable& entry, const PairFitSettings& settings,
                    const StopToken& stop) {
   const auto& named = pair_entries()[static_cast<std::size_t>(which)];
@@ -195,8 +184,6 @@ EntryFit fit_entry(PairEntry which, const EntryTable& entry, const PairFitSettin
 
 }  // namespace
 
-/// Fits all resistances that the tables determine. The interval of gaps [L] of the result is the
-/// one that all tables have in common.
 PairFit fit_pair(const PairTables& tables, const PairFitSettings& settings, const StopToken& stop) {
   const auto& pair = first_of_pair(tables);
   std::map<PairEntry, EntryTable> entries;

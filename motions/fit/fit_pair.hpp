@@ -1,9 +1,4 @@
-// Fits all resistances of a pair, which is a sphere beside a body at rest (pair_fit.hpp), to tables
-// of force and torque on the sphere in its motions: approach, slide, roll, spin. Lengths, masses
-// and times are in the units of the tables. Tables that are not those of one pair throw
-// Error(kBadInput); other errors are those of fit_force_table(). motions/job/ (commands `fit` and
-// `rolling`) and the Python module use it. A change must keep the check that the matrix of
-// resistances is symmetric.
+// Fits all resistances of a pair (pair_fit.hpp) to tables of force and torque on the sphere.
 #pragma once
 
 #include <map>
@@ -18,9 +13,9 @@ namespace viscontact::motions {
 /// The tables of one pair by their motions: at least one table, each with at least one row.
 using PairTables = std::map<lubrication::MotionKind, lubrication::MotionTable>;
 
-/// The choices of the fits of a pair, the same for all resistances.
+/// The choices of the fits of a pair.
 struct PairFitSettings {
-  std::string basis{kDefaultPairBasis};  ///< a name of pair_bases(); a free choice
+  std::string basis{kDefaultPairBasis};  ///< a name of pair_bases()
   /// kSquared is plain least squares; with kHuber and kCauchy large residuals count less.
   lubrication::Loss loss = lubrication::Loss::kSquared;
 };
@@ -29,7 +24,8 @@ struct PairFitSettings {
 /// roll and spin by the tables of these names, slide_roll by those of sliding or rolling. Residuals
 /// are relative to the entry. Those of slide_roll, which can be 0, are relative to sqrt(slide
 /// roll). If there is no table of rolling, they are relative to slide r, and if there is none of
-/// sliding, to roll/r, with the radius r of the sphere. `versions` of the result is empty.
+/// sliding, to roll/r, with the radius r of the sphere. The interval of gaps of the result is the
+/// one that all tables have in common, its units are those of the tables, and `versions` is empty.
 ///
 /// Throws Error(kBadInput) if there is no table; if viscosity, radius, geometry or container of two
 /// tables differ, or their intervals of gaps do not overlap; if the neighbour moves; if the table

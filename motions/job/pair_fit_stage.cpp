@@ -1,17 +1,10 @@
-// Finds and reads the tables of a sphere beside a body at rest, fits them, and prints the
-// residuals. In the units of the tables gaps are in [L]; residuals are relative and >= 0. There
-// must be at least one table (not checked). A folder in which a table is missing is an
-// Error(kBadInput) with the remedy, and so are a table that cannot be read or does not belong to
-// the others, and a fit that cannot be written; terms that cannot be told apart are an
-// Error(kNotConverged), a stop is an Error(kInterrupted). A path that the system cannot look up,
-// such as one in a folder without permission, is a std::filesystem::filesystem_error. This file is
-// used by app/, rolling/job/ and python/. A change must keep the names approach.csv, slide.csv,
-// roll.csv and spin.csv of tables, and must not write a fit again that did not change.
+// Prints what the fit of each resistance is worth, and tells which tables of a folder are missing.
 #include "viscontact/motions/job/pair_fit_stage.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <nlohmann/json.hpp>
 
 #include "viscontact/common/error.hpp"
@@ -27,10 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 using lubrication::MotionKind;
 
-/// The line that is printed for a resistance (`entry`): its largest relative residual [1]; if it is
-/// known, the largest relative residual of an inner row in a fit without this row (inner rows are
-/// not at the smallest or the largest gap); and the coefficient of the leading term beside that of
-/// theory, if theory knows it.
+/// The line that is printed for a resistance: its residuals, and the coefficient of the leading
+/// term beside that of theory.
 std::string words_of(const NamedEntry& entry, const EntryFit& one) {
   std::string text = fmt::format("  {:<10}  residual {:.1e} at most (relative)", entry.name,
                                  one.fit.largest_relative_residual);
@@ -44,13 +35,12 @@ std::string words_of(const NamedEntry& entry, const EntryFit& one) {
   return text;
 }
 
-/// The path of the table of this motion in a folder: MOTION.csv.
 fs::path table_of(const fs::path& folder, MotionKind motion) {
   return folder / fmt::format("{}.csv", to_string(motion));
 }
 
-/// False if the file was copied: its provenance, the record in the file of how it was made, names
-/// another path. True if there is no provenance or no path in it.
+/// False if the file was copied: its provenance names another path. True if there is no provenance
+/// or no path in it.
 bool is_where_made(const fs::path& file) {
   const auto provenance = results::read_provenance(file);
   if (!provenance || provenance->folder.empty()) return true;
@@ -76,7 +66,7 @@ std::string reason_and_remedy(const fs::path& folder, const fs::path& file,
 }
 
 /// Throws Error(kBadInput) if the head of one of `files` names a motion whose table is not in the
-/// folder: the tables are not all computed yet, or only some of them were copied.
+/// folder.
 void check_complete(const fs::path& folder, const std::vector<fs::path>& files) {
   for (const auto& file : files) {
     auto comments = read_csv_comments(read_file(file));
@@ -96,9 +86,6 @@ void check_complete(const fs::path& folder, const std::vector<fs::path>& files) 
 
 }  // namespace
 
-/// The paths of tables that `paths` means: a file stands for itself, a folder for its tables, in
-/// the order approach, slide, roll, spin. Throws Error(kBadInput) for a folder without a table, or
-/// in which one is missing.
 std::vector<fs::path> pair_table_files(const std::vector<std::string>& paths) {
   std::vector<fs::path> files;
   for (const auto& path : paths) {
@@ -119,8 +106,6 @@ std::vector<fs::path> pair_table_files(const std::vector<std::string>& paths) {
   return files;
 }
 
-/// True if the tables must be fitted as a pair: there are several, one of `paths` is a folder, or
-/// the only table is not that of the approach. False for a single table of the approach.
 bool are_of_pair(const std::vector<std::string>& paths, const std::vector<fs::path>& files) {
   return files.size() > 1 ||
          std::ranges::any_of(paths,
@@ -128,7 +113,6 @@ bool are_of_pair(const std::vector<std::string>& paths, const std::vector<fs::pa
          (files.size() == 1 && lubrication::is_motion_table(files.front()));
 }
 
-/// Reads the tables, one for each motion. Throws Error(kBadInput) if two are of the same motion.
 PairTables read_pair_tables(const std::vector<fs::path>& files) {
   PairTables tables;
   for (const auto& file : files) {
@@ -140,10 +124,9 @@ PairTables read_pair_tables(const std::vector<fs::path>& files) {
   return tables;
 }
 
-/// Fits the tables in `files`, writes the fit to `fit_path` unless this file has the same content
-/// already, and prints warnings and a line for each resistance.
 void fit_pair_stage(const std::vector<fs::path>& files, const fs::path& fit_path,
                     const PairFitSettings& settings, const StopToken& stop) {
+  assert(!files.empty());
   const auto provenance = results::provenance_of({files, {}});
   const std::string place = files.front().string();
   auto fit = with_place(files.size() == 1 ? place : place + " ...",
@@ -165,11 +148,9 @@ void fit_pair_stage(const std::vector<fs::path>& files, const fs::path& fit_path
     terminal::say(words_of(pair_entries()[static_cast<std::size_t>(which)], one));
 }
 
-/// Fits the tables with each basis and prints the largest relative residuals [1]: as a table with a
-/// line for each basis and a column for each resistance, or with `json` as an object. The basis in
-/// `settings` is not used. An error of one fit ends the comparison.
 void compare_pair_bases_stage(const std::vector<fs::path>& files, PairFitSettings settings,
                               bool json, const StopToken& stop) {
+  assert(!files.empty());
   const auto tables = read_pair_tables(files);
   nlohmann::ordered_json all;
   std::string text = fmt::format("{:<20}", "basis");

@@ -1,12 +1,5 @@
-// Fits the resistances of a pair, which is a sphere beside a body at rest: reads its tables of
-// force and torque (docs/motions.md), fits them, writes the fit and reports to the user. Lengths,
-// masses and times are in the units of the tables. The command `fit` (app/commands/), rolling/job/
-// and the Python module use it. Besides the errors below, functions that read tables throw
-// Error(kBadInput) for a wrong table (read_motion_table()). Functions that fit throw
-// Error(kBadInput) for tables that do not belong together or have too few gaps,
-// Error(kNotConverged) if terms cannot be told apart, and, if `stop` requests a stop during a
-// robust fit, Error(kInterrupted) (fit_pair()). A change must keep the file names approach.csv,
-// slide.csv, roll.csv and spin.csv, and that a fit that did not change is not written again.
+// Finds, reads and fits the tables of a pair (docs/motions.md), writes the fit and reports to the
+// user.
 #pragma once
 
 #include <filesystem>
@@ -18,10 +11,10 @@
 
 namespace viscontact::motions {
 
-/// The paths of the tables that `paths` names. Each of these is a file, or a folder with some of
-/// approach.csv, slide.csv, roll.csv and spin.csv; whether a file exists is not checked. Throws
-/// Error(kBadInput) for a folder with none of these tables, and for a folder that lacks a table
-/// which, by the head of another table, was computed together with it.
+/// The paths of the tables that `paths` names, each of which is a file or a folder with some of
+/// approach.csv, slide.csv, roll.csv and spin.csv. Throws Error(kBadInput) for a folder with none
+/// of these tables, and for a folder that lacks a table which, by the head of another table, was
+/// computed together with it.
 std::vector<std::filesystem::path> pair_table_files(const std::vector<std::string>& paths);
 
 /// True if fit_pair_stage() must fit the tables, false if they are a single table of the approach,
@@ -32,23 +25,24 @@ std::vector<std::filesystem::path> pair_table_files(const std::vector<std::strin
 bool are_of_pair(const std::vector<std::string>& paths,
                  const std::vector<std::filesystem::path>& files);
 
-/// Reads the tables in `files`. Throws Error(kBadInput) if two of them are of the same motion.
+/// Reads the tables in `files`. Throws Error(kBadInput) if a table is wrong or two of them are of
+/// the same motion.
 PairTables read_pair_tables(const std::vector<std::filesystem::path>& files);
 
-/// Fits the tables in `files`, at least one (not checked), and writes the fit (JSON, PairFit) to
-/// `fit_path`. Prints, for each resistance, the largest relative residual [1] and the coefficient
-/// of its leading term beside that of theory. If `fit_path` already contains this fit, it is not
-/// written. Throws Error(kBadInput) if the fit cannot be written.
+/// Fits the tables in `files`, at least one, and writes the fit (JSON, PairFit) to `fit_path`,
+/// unless this file already contains it. Prints, for each resistance, the largest relative residual
+/// [1] and the coefficient of its leading term beside that of theory. Throws the errors of
+/// read_pair_tables() and fit_pair(), and Error(kBadInput) if the fit cannot be written.
 void fit_pair_stage(const std::vector<std::filesystem::path>& files,
                     const std::filesystem::path& fit_path, const PairFitSettings& settings,
                     const StopToken& stop);
 
-/// Fits the tables in `files`, at least one (not checked), with each basis of pair_bases(), and
-/// prints the largest relative residual [1] of each resistance as a table. If `json`, it prints an
-/// object for each basis with an object for each resistance, whose keys are
-/// largest_relative_residual, condition_number and, if it is known, left_one_out, the largest
-/// relative residual of an inner row that was left out. The basis in `settings` is not used. The
-/// first basis that cannot be fitted ends the comparison with its error.
+/// Fits the tables in `files`, at least one, with each basis of pair_bases(), and prints the
+/// largest relative residual [1] of each resistance as a table. If `json`, it prints an object for
+/// each basis with an object for each resistance, whose keys are largest_relative_residual,
+/// condition_number and, if it is known, left_one_out, the largest relative residual of an inner
+/// row that was left out. The basis in `settings` is not used. The first basis that cannot be
+/// fitted ends the comparison with its error.
 void compare_pair_bases_stage(const std::vector<std::filesystem::path>& files,
                               PairFitSettings settings, bool json, const StopToken& stop);
 

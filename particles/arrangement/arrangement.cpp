@@ -1,17 +1,12 @@
-// Places discs or spheres at random in a disc or box such that all gaps have at least a given
-// length. Lengths are in the unit of the case file. Radii [L] are > 0, the least gap [L] is >= 0,
-// and there is at least one particle (not checked); the result has 2 or 3 coordinates [L] for each
-// particle. Throws Error(kBadInput) if the particles do not fit, or if ten arrangements from new
-// random places fail, and std::bad_variant_access if the domain is neither a disc nor a box.
-// particles/case and particles/sweep use this file. A change must keep the arrangement of each seed
-// bit for bit on every machine. Therefore only + - * / and sqrt may be used, and the compiler must
-// not fuse a product and a sum into one operation (-ffp-contract=off in CMakeLists.txt).
+// Only + - * / and sqrt are used, and nothing is fused (-ffp-contract=off in CMakeLists.txt), so
+// that every machine computes the same bits.
 #include "viscontact/particles/arrangement/arrangement.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -24,12 +19,10 @@
 namespace viscontact::particles {
 namespace {
 
-/// The region for the centre of a particle: a disc, or a box with sides that may be periodic, on the
-/// free side of all planes.
+/// The region for the centre of a particle: a disc or a box, on the free side of all planes.
 class Places {
  public:
-  /// `from_wall` is the least distance of the centre from a wall or plane [L]. Throws
-  /// std::bad_variant_access if `domain` is neither a disc nor a box.
+  /// `from_wall` is the least distance of the centre from a wall or plane [L].
   Places(const Domain& domain, std::span<const PlanePosition> planes, double from_wall) {
     set_domain(domain, from_wall);
     for (auto plane : planes) {
@@ -66,9 +59,7 @@ class Places {
   }
 
  public:
-  /// Number of dimensions, 2 or 3.
   std::size_t dimension() const { return dimension_; }
-  /// True if the region is empty.
   bool are_empty() const {
     double size = 1;
     for (std::size_t d = 0; d < dimension_; ++d) {
@@ -82,20 +73,18 @@ class Places {
     if (!round_) whole = BoxDomain{from_, to_, {}};
     return measure(whole, planes_) < kLeastFraction * size;
   }
-  /// Period along axis `d` [L]; 0 if the domain is not periodic along it.
+  /// Period along axis `d` [L]; 0 if there is none.
   double period(std::size_t d) const { return periods_[d]; }
-  /// Smallest coordinate of the region along axis `d` [L].
+  /// Lowest coordinate along axis `d` [L].
   double from(std::size_t d) const { return from_[d]; }
-  /// Width of the region along axis `d` [L].
+  /// Width along axis `d` [L].
   double length(std::size_t d) const { return to_[d] - from_[d]; }
 
-  /// True if a centre may be at `x`.
   bool contain(const Vector& x) const {
     for (const auto& plane : planes_)
       if (!(dot(plane.normal, x - plane.point) >= 0)) return false;
     return is_in_domain(x);
   }
-  /// True if planes bound the region.
   bool has_planes() const { return !planes_.empty(); }
 
   bool is_in_domain(const Vector& x) const {
@@ -108,7 +97,7 @@ class Places {
     return dx * dx + dy * dy <= radius_ * radius_;
   }
 
-  /// The periodic image of `x` [L] in the box. `x` may be outside by less than one period.
+  /// The periodic image of `x` in the box. `x` may be outside by less than one period.
   Vector wrapped(Vector x) const {
     for (std::size_t d = 0; d < dimension_; ++d) {
       if (periods_[d] == 0) continue;
@@ -124,7 +113,7 @@ class Places {
   /// planes, a point near that one, which may be outside the region in a corner.
   Vector nearest(Vector x) const {
     x = nearest_in_domain(x);
-    constexpr int kRounds = 20;  // a free choice
+    constexpr int kRounds = 20;
     for (int round = 0; round < kRounds && !contain(x); ++round) {
       for (const auto& plane : planes_) {
         const double height = dot(plane.normal, x - plane.point);
@@ -152,8 +141,7 @@ class Places {
     return {centre_[0] + factor * dx, centre_[1] + factor * dy};
   }
 
-  /// A random point of the region [L], uniformly distributed. The region must not be empty (not
-  /// checked).
+  /// A random point, uniformly distributed, of the region, which is not empty.
   Vector random(SplitMix64& random) const {
     for (;;) {
       Vector x{};
@@ -162,7 +150,7 @@ class Places {
     }
   }
 
-  /// The shortest vector from `a` to an image of `b`, for two points of the region [L].
+  /// The shortest vector from `a` to an image of `b`, for two points of the region.
   Vector difference(const Vector& a, const Vector& b) const {
     Vector apart = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
     for (std::size_t d = 0; d < dimension_; ++d) {
@@ -174,8 +162,8 @@ class Places {
   }
 
  private:
-  // round_: the region is a disc with this radius [L] and centre [L]. from_, to_: lowest and
-  // highest coordinates of the region [L]; periods_ [L]: 0 along an axis without a period.
+  // round_: the region is a disc. from_, to_: lowest and highest coordinates of the region [L];
+  // periods_ [L]: 0 along an axis without a period.
   bool round_ = false;
   std::size_t dimension_ = 2;
   double radius_ = 0;
@@ -185,10 +173,10 @@ class Places {
 
 double length_of(const Vector& x) { return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); }
 
-/// The square root (dimension 2) or cube root (dimension 3) of `size`, which must be > 0 (not
-/// checked). The cube root is computed by Newton's method, because that of the C library differs
-/// between machines.
+/// The square root (dimension 2) or cube root (dimension 3). The cube root is computed by Newton's
+/// method, because that of the C library differs between machines.
 double edge_of(double size, std::size_t dimension) {
+  assert(size > 0);
   if (dimension == 2) return std::sqrt(size);
   double root = size < 1 ? 1 : size;  // at least the cube root, so that the iterates fall to it
   for (double next = 0;; root = next) {
@@ -197,23 +185,24 @@ double edge_of(double size, std::size_t dimension) {
   }
 }
 
-/// A particle that is in the domain before the new ones are placed, and stays where it is. Both
-/// members are in [L].
+/// A particle that is in the domain before the new ones are placed.
 struct FixedParticle {
   Vector centre;
   double radius;
 };
 
 /// The particles that are placed so far, in the order of falling radii, sorted into a grid of
-/// cells. Each cell is at least as wide as the least distance that the centres of the two largest
-/// particles must have. Only particles in one cell or in neighbouring cells can thus be too close.
+/// cells. Each cell is at least as wide as the least distance of the centres of the two largest
+/// particles, so that only particles in one cell or in neighbouring cells can be too close.
 class PlacedParticles {
  public:
-  /// `radii` [L] are sorted from large to small. `places` has their regions, or one if all radii
-  /// are equal, and must outlive the object. `gap` [L] >= 0 is the least gap of two particles.
+  /// `places` has the regions of the particles, or one if all radii are equal, and must outlive the
+  /// object. `gap` [L] is the least gap of two particles.
   PlacedParticles(const std::vector<Places>& places, std::vector<double> radii, double gap,
                   std::vector<FixedParticle> fixed)
       : places_(places), radii_(std::move(radii)), gap_(gap), fixed_(std::move(fixed)) {
+    assert(std::ranges::is_sorted(radii_, std::greater<>()));
+    assert(places_.size() == 1 || places_.size() == radii_.size());
     // More cells than particles would cost memory without saving time.
     const double side = edge_of(static_cast<double>(radii_.size()), dimension()) + 1;
     const double widest = 2 * radii_.front() + gap_;
@@ -227,7 +216,6 @@ class PlacedParticles {
   std::size_t dimension() const { return widest_places().dimension(); }
   std::size_t count() const { return radii_.size(); }
   const std::vector<Vector>& centres() const { return centres_; }
-  /// The region of the centre of particle k.
   const Places& places(std::size_t k) const { return places_[places_.size() == 1 ? 0 : k]; }
   /// The region of the smallest particle, which contains the regions of all others.
   const Places& widest_places() const { return places_.back(); }
@@ -242,11 +230,11 @@ class PlacedParticles {
 
   /// Adds the next particle, in the order of the radii, with its centre at `x`.
   void add(const Vector& x) {
+    assert(centres_.size() < radii_.size());
     numbers_[cell_of(x)].push_back(centres_.size());
     centres_.push_back(x);
   }
 
-  /// Moves the centre of particle k to `x` [L].
   void move(std::size_t k, const Vector& x) {
     const std::size_t before = cell_of(centres_[k]), now = cell_of(x);
     centres_[k] = x;
@@ -262,7 +250,7 @@ class PlacedParticles {
   /// whose centre is closer to `x` than factor * distance. `distance` [L] is the least distance
   /// that its centre must have from that of `self`, `apart` [L] the vector from `x` to its centre,
   /// and `number` its number, which a fixed one does not have. Stops and returns true as soon as
-  /// `visit` returns true; otherwise returns false.
+  /// `visit` returns true.
   template <class Visit>
   bool any_close(const Vector& x, std::size_t self, double factor, const Visit& visit) const {
     const double radius = radii_[self];
@@ -287,15 +275,13 @@ class PlacedParticles {
     return false;
   }
 
-  /// True if no other particle is too close to particle `self` with its centre at `x`, and `x` is on
-  /// the free side of all planes.
+  /// True if particle `self` may have its centre at `x`.
   bool is_free(const Vector& x, std::size_t self) const {
     if (places(self).has_planes() && !places(self).contain(x)) return false;
     return !any_close(x, self, 1, [](const auto&...) { return true; });
   }
 
  private:
-  /// The number of a cell of the grid, from 0, by its place along the three axes.
   std::size_t number_of(const std::array<std::size_t, 3>& place) const {
     return (place[0] * cells_[1] + place[1]) * cells_[2] + place[2];
   }
@@ -332,7 +318,7 @@ class PlacedParticles {
 };
 
 /// Moves particles that are too close apart, in up to `rounds` rounds over all of them. Returns
-/// true as soon as none is too close after a round, otherwise false.
+/// true as soon as none is too close after a round.
 bool push_apart(PlacedParticles& placed, int rounds) {
   // The aim of a push is 1.001 times the distance that two particles must have, because pushes
   // approach their aim without reaching it. Another factor changes the arrangements of seeds.
@@ -366,17 +352,16 @@ bool push_apart(PlacedParticles& placed, int rounds) {
   return false;
 }
 
-/// Moves particles at random and keeps the moves that leave all gaps large enough. `size` > 0 is
-/// the area or volume of the domain [L^2, L^3]. The numbers of moves and the lengths of steps below
-/// are free choices, but other ones change the arrangements of seeds.
+/// Moves particles at random and keeps the moves that leave all gaps large enough. `size` is the
+/// area or volume of the domain [L^2, L^3]. The numbers of moves and the lengths of steps below
+/// decide the arrangements of seeds.
 void shuffle(PlacedParticles& placed, double size, SplitMix64& random) {
   const auto count = placed.count();
   const auto dimension = placed.dimension();
   // If the same number of particles formed the densest lattice (triangular or face-centred cubic)
   // in the domain, the distance of neighbours would be `lattice`. About half of the moves are kept
   // if the largest move along an axis is half of the gap in this lattice. It is at least 0.01 of
-  // the least distance, so that a dense arrangement can move too, and at most half of the width of
-  // the region.
+  // the least distance, so that a dense arrangement can move too.
   const double n = static_cast<double>(count);
   const double lattice = edge_of(
       dimension == 2 ? 2 * size / (std::sqrt(3.0) * n) : std::sqrt(2.0) * size / n, dimension);
@@ -401,18 +386,16 @@ void shuffle(PlacedParticles& placed, double size, SplitMix64& random) {
 
 }  // namespace
 
-/// Sum of the areas (dimension 2) [L^2] or volumes (3) [L^3] of the particles.
 double size_of(const Arrangement& asked, int dimension) {
+  assert(dimension == 2 || dimension == 3);
   double sum = 0;
   for (const double radius : asked.radii) sum += size_of_particle(dimension, radius);
   return sum;
 }
 
-/// The coordinates [L] of the new centres, in the order of the radii. Each particle, the largest
-/// first, gets a random place; particles that are too close are then pushed apart, and all are
-/// moved at random. The particles in `present` stay where they are.
 std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
                             const Particles& present, std::span<const PlanePosition> planes) {
+  assert(!asked.radii.empty() && asked.smallest_gap >= 0);
   const auto& radii = asked.radii;
   const double gap = asked.smallest_gap, size = measure(domain, planes);
   const auto [smallest, largest] = std::ranges::minmax(radii);
@@ -456,8 +439,7 @@ std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
     fixed.push_back({present.position(k), present.radii[k]});
   SplitMix64 random(asked.seed);
   // push_apart() can fail although an arrangement exists. All particles then get new random places.
-  // The numbers are free choices: larger ones find more of the dense arrangements, but change those
-  // that seeds give.
+  // Larger numbers find more of the dense arrangements, but change those that seeds give.
   constexpr int kBeginnings = 10, kTries = 1000, kRounds = 2000;
   for (int beginning = 0; beginning < kBeginnings; ++beginning) {
     PlacedParticles placed(places, falling, gap, fixed);

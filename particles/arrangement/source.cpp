@@ -1,13 +1,9 @@
-// Decides when the particles that a source adds to a simulation are due, and where they appear. In
-// the units of the case file, the rate [1/T] of a source is > 0, times [T] are >= 0, its `end` is
-// later than its `begin`, `from` and `to` [L] are the lowest and the highest corner of its box, and
-// radii [L] and masses [M] are > 0; nothing is checked or thrown. A particle for which no place is
-// free waits. simulation.cpp and particles/run use this file. A change must keep the due times and
-// places bit for bit, because users repeat runs by their seeds. Therefore the compiler must not
-// fuse a product and a sum into one operation (-ffp-contract=off in CMakeLists.txt).
+// Due times and places are the same on every machine, because users repeat runs by their seeds. No
+// product and sum are fused into one operation (-ffp-contract=off in CMakeLists.txt).
 #include "viscontact/particles/arrangement/source.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "viscontact/common/splitmix.hpp"
@@ -17,8 +13,8 @@
 
 namespace viscontact::particles {
 
-/// The number of particles that are due up to `time` [T]: 0 before `begin`, at most largest_count.
 std::size_t Source::due(double time) const {
+  assert(rate > 0);
   // A particle counts as due although `time` is too early by a rounding error. A billionth is far
   // above rounding errors, and far below the time between two particles.
   constexpr double kRounding = 1e-9;
@@ -31,8 +27,7 @@ std::size_t Source::due(double time) const {
 
 namespace {
 
-/// The numbers, from 0, of those particles of `p` that a new particle of this radius [L] in the box
-/// of the source may touch.
+/// The particles of `p` that a new particle of this radius in the box of the source may touch.
 std::vector<std::size_t> near_region(const Source& source, double radius, const Particles& p) {
   const Vector middle = 0.5 * (source.from + source.to), half = source.to - middle;
   std::vector<std::size_t> near;
@@ -50,9 +45,9 @@ std::vector<std::size_t> near_region(const Source& source, double radius, const 
   return near;
 }
 
-/// A random place [L] in the box of the source where its particle `number` (from 0), which has this
-/// radius [L], touches nothing. If 1000 random places are not free, the result is std::nullopt. The
-/// number 1000 bounds the time; another one changes runs.
+/// A random place in the box of the source where its particle `number` (from 0), which has this
+/// radius, touches nothing; std::nullopt if 1000 random places are not free. The number 1000 bounds
+/// the time; another one changes runs.
 std::optional<Vector> free_place(const Source& source, double radius, std::size_t number,
                                  const State& state, std::span<const PlanePosition> obstacles) {
   constexpr int kTries = 1000;
@@ -76,8 +71,7 @@ std::optional<Vector> free_place(const Source& source, double radius, std::size_
   return {};
 }
 
-/// Appends a particle with its centre at `place` [L] and the velocity `velocity` [L/T] to all
-/// arrays of `p`. If `turns` is true, the arrays of angles and angular velocities grow, too.
+/// Appends a particle to all arrays of `p`, with angles and angular velocities if `turns`.
 void add(const DrawnParticle& particle, const Vector& place, const Vector& velocity, bool turns,
          Particles& p) {
   for (std::size_t d = 0; d < static_cast<std::size_t>(p.dimension); ++d) {
@@ -92,7 +86,6 @@ void add(const DrawnParticle& particle, const Vector& place, const Vector& veloc
   if (!p.neighbours.empty()) p.neighbours.push_back({-1, -1});
 }
 
-/// The sequence of the particles of a source, with the first `poured` ones already drawn.
 DrawnSpecies species_after(std::int64_t poured, const Source& source, const State& state) {
   DrawnSpecies species(source.species, state.particles.dimension, source.seed);
   for (std::int64_t k = 0; k < poured; ++k) species.next();
@@ -101,8 +94,6 @@ DrawnSpecies species_after(std::int64_t poured, const Source& source, const Stat
 
 }  // namespace
 
-/// Adds the progress of each new source to `state`, sets Source::begin [T] of all sources to the
-/// times in `state`, and draws the particles again that were added before.
 Pouring::Pouring(std::vector<Source>& sources, State& state) : waiting_(sources.size()) {
   for (std::size_t s = 0; s < sources.size(); ++s) {
     auto& source = sources[s];
@@ -119,10 +110,9 @@ Pouring::Pouring(std::vector<Source>& sources, State& state) : waiting_(sources.
   }
 }
 
-/// Adds the particles that are due at state.time. If one finds no free place, it and the later ones
-/// of its source wait for the next call.
 void Pouring::pour(const Setting& setting, State& state) {
   if (drawn_.empty()) return;
+  assert(setting.sources.size() == drawn_.size() && state.sources.size() >= drawn_.size());
   auto& p = state.particles;
   const bool turns = p.turn() || setting.laws.friction.has_value();
   const auto obstacles = positions_of(obstacles_of(setting, state.planes), state.time);
@@ -145,8 +135,6 @@ void Pouring::pour(const Setting& setting, State& state) {
   }
 }
 
-/// For each source with particles that are due but not added: its number, from 0, how many wait,
-/// and the radius [L] of the first of them.
 std::vector<WaitingParticles> waiting_particles(const std::vector<Source>& sources,
                                                 const State& state) {
   std::vector<WaitingParticles> waiting;

@@ -1,16 +1,10 @@
-// Draws particles one after the other: which species (kind of particles) each one has, its radius
-// [L], which is positive, and its mass [M], which is positive or 0. Numbers are in the units of the
-// case. Densities are in [M/L^2] (discs) or [M/L^3] (spheres), shares are > 0, the standard
-// deviation sigma of the logarithm of a radius is at most 1, and there is at least one species;
-// nothing is checked or thrown. particles/case and source.cpp use this file. A change must keep
-// hash_of(), whose values restart files store, and the radii of each seed bit for bit on every
-// machine. Therefore the compiler must not fuse a product and a sum into one operation
-// (-ffp-contract=off in CMakeLists.txt), and only + - * / sqrt, floor, frexp and ldexp may be used;
-// exp and log of the C library differ between versions.
+// Every machine must compute the same bits: only + - * / sqrt, floor, frexp and ldexp are used, as
+// exp and log differ between C libraries, and nothing is fused (-ffp-contract=off).
 #include "viscontact/particles/arrangement/species.hpp"
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -24,6 +18,7 @@ constexpr double kLog2 = 0.6931471805599453;
 
 /// Natural logarithm of a finite x > 0, with an error of a few units in the last place.
 double portable_log(double x) {
+  assert(x > 0);
   int exponent = 0;
   double mantissa = std::frexp(x, &exponent);  // from 0.5 to 1
   if (mantissa < 0.7071067811865476) {         // sqrt(1/2)
@@ -38,12 +33,13 @@ double portable_log(double x) {
   return exponent * kLog2 + 2 * s * sum;
 }
 
-/// exp x for |x| < 700. The relative error is at most a few 1e-16 plus 1.5e-16 |x|, because log 2
-/// and its product with the number `halvings` are rounded. Here x is the logarithm of a radius over
-/// the median, which is at most 12 in magnitude (sigma is at most 1), so that the error is at most
-/// 2e-15. Splitting log 2 in two parts (Cody & Waite 1980) would be more accurate, but would change
-/// the radii of seeds.
+/// exp x. The relative error is at most a few 1e-16 plus 1.5e-16 |x|, because log 2 and its product
+/// with the number `halvings` are rounded. Here x is the logarithm of a radius over the median, at
+/// most 12 in magnitude because sigma is at most 1, so that the error is at most 2e-15. Splitting
+/// log 2 in two parts (Cody & Waite 1980) would be more accurate, but would change the radii of
+/// seeds.
 double portable_exp(double x) {
+  assert(std::abs(x) < 700);
   const double halvings = std::floor(x / kLog2 + 0.5);
   const double rest = x - halvings * kLog2;  // at most 0.347 in magnitude
   double sum = 1;
@@ -63,6 +59,7 @@ double normal(SplitMix64& random) {
 double radius_of(const RadiusDistribution& radius, std::size_t number, SplitMix64& random) {
   switch (radius.kind) {
     case RadiusDistribution::Kind::kList:
+      assert(!radius.list.empty());
       return radius.list[number % radius.list.size()];
     case RadiusDistribution::Kind::kUniform:
       return random.between(radius.from, radius.to);
@@ -82,8 +79,8 @@ DrawnSpecies::DrawnSpecies(std::vector<Species> species, int dimension, std::uin
       dimension_(dimension),
       random_(splitmix_hash(seed) ^ 0x7370656369657321ULL) {}
 
-/// The next particle of the sequence, which has no end.
 DrawnParticle DrawnSpecies::next() {
+  assert(!species_.empty());
   // For m species, Tijdeman's rule ("The chairman assignment problem", Discrete Mathematics 32,
   // 1980) keeps the number of particles of each species within 1 - 1/(2m - 2) (`farthest`) of its
   // share of the total. A species may come next if its number would then exceed its share by at
@@ -94,7 +91,7 @@ DrawnParticle DrawnSpecies::next() {
     shares += species_[s].share;
     total += static_cast<double>(counts_[s]);
   }
-  // A free choice above rounding errors; a change may alter draws.
+  // Above rounding errors; a change may alter draws.
   constexpr double kRounding = 1e-9;
   const double farthest =
       1 - 0.5 / static_cast<double>(std::max<std::size_t>(species_.size(), 2) - 1);
@@ -118,18 +115,15 @@ DrawnParticle DrawnSpecies::next() {
                                       : species.mass};
 }
 
-/// The next `count` particles of the sequence.
 std::vector<DrawnParticle> drawn(DrawnSpecies species, std::size_t count) {
   std::vector<DrawnParticle> particles;
   while (particles.size() < count) particles.push_back(species.next());
   return particles;
 }
 
-/// The next particles of the sequence, as many as bring the sum of their areas (dimension 2) [L^2]
-/// or volumes (dimension 3) [L^3] nearest to `size` > 0, but at least 1 and at most
-/// `largest_count`.
 std::vector<DrawnParticle> drawn_to_size(DrawnSpecies species, int dimension, double size,
                                          std::size_t largest_count) {
+  assert(largest_count >= 1);
   std::vector<DrawnParticle> particles;
   double sum = 0;
   while (particles.size() < largest_count) {
@@ -143,8 +137,6 @@ std::vector<DrawnParticle> drawn_to_size(DrawnSpecies species, int dimension, do
   return particles;
 }
 
-/// A hash of all numbers of the species, in this order. Restart files store it, so that a run that
-/// continues can see whether its species are the same.
 std::uint64_t hash_of(const std::vector<Species>& species) {
   std::uint64_t hash = species.size();
   const auto add = [&](double number) {

@@ -1,9 +1,4 @@
-// Draws discs or spheres with random radii from species, which are kinds of particles.
-// particles/case draws the particles of random arrangements, and source.hpp those that are added
-// while a simulation runs. Lengths and masses are in the units of the case file. Nothing is checked
-// or thrown here: particles/case checks the values, and values out of range give numbers without
-// meaning. A change must keep the radii of each seed bit for bit, because users repeat runs by
-// their seeds, and hash_of(), because restart files store its values.
+// Particles with random radii from species, which are kinds of particles.
 #pragma once
 
 #include <cstddef>
@@ -16,13 +11,12 @@ namespace viscontact::particles {
 
 /// How the radii of a species are distributed.
 struct RadiusDistribution {
-  /// The distributions.
   enum class Kind {
     kList,      ///< not random: the radii of `list` in order, then again from the first
     kUniform,   ///< every radius from `from` to `to` is equally likely
     kLognormal  ///< the logarithm of the radius is normally distributed
   };
-  Kind kind = Kind::kList;     ///< which of these distributions
+  Kind kind = Kind::kList;
   std::vector<double> list{};  ///< of kList [L], each > 0; not empty
   double from = 0,             ///< least radius of kUniform [L], > 0
       to = 0;                  ///< largest radius of kUniform [L], > `from`
@@ -41,23 +35,21 @@ struct Species {
   double density = 0;
 };
 
-/// A particle that was drawn from a species.
 struct DrawnParticle {
   double radius = 0;  ///< [L], > 0
   double mass = 0;    ///< [M], >= 0
-  /// True if both are equal.
   bool operator==(const DrawnParticle&) const = default;
 };
 
 /// Draws particles of several species one after the other. Among the first n particles, for every
-/// n, the number of particles of each species is its share of n, rounded up or down.
+/// n, the number of particles of each species is its share of n, rounded up or down. The radii of
+/// each seed are the same to the last bit, because users repeat runs by their seeds.
 class DrawnSpecies {
  public:
-  /// `dimension` is 2 for discs and 3 for spheres; `seed` is any number. `species` must not be
-  /// empty, which is not checked: next() would read beyond its end.
+  /// `dimension` is 2 for discs and 3 for spheres; there is at least one species.
   DrawnSpecies(std::vector<Species> species, int dimension, std::uint64_t seed);
 
-  DrawnParticle next();  ///< the next particle; the sequence has no end
+  DrawnParticle next();  ///< the sequence has no end
 
  private:
   std::vector<Species> species_;
@@ -66,17 +58,17 @@ class DrawnSpecies {
   SplitMix64 random_;
 };
 
-/// The next `count` >= 0 particles of the sequence `species`.
+/// The next `count` particles of the sequence.
 std::vector<DrawnParticle> drawn(DrawnSpecies species, std::size_t count);
 
-/// The next particles of the sequence `species`, as many as bring the sum of their areas (dimension
-/// 2) or volumes (dimension 3) nearest to `size` [L^2, L^3], > 0, but at least 1 and at most
-/// `largest_count` >= 1.
+/// The next particles of the sequence, as many as bring the sum of their areas (dimension 2) or
+/// volumes (dimension 3) nearest to `size` [L^2, L^3], but at least 1 and at most `largest_count`.
 std::vector<DrawnParticle> drawn_to_size(DrawnSpecies species, int dimension, double size,
                                          std::size_t largest_count);
 
-/// A hash of all numbers of `species`. With the seed and the dimension, they determine the radii
-/// and masses that are drawn.
+/// A hash of all numbers of `species`, which determine, with the seed and the dimension, the radii
+/// and masses that are drawn. Restart files store it, so that a run that continues can see whether
+/// its species are the same.
 std::uint64_t hash_of(const std::vector<Species>& species);
 
 }  // namespace viscontact::particles

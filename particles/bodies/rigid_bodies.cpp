@@ -1,15 +1,8 @@
-// Makes rigid bodies of several discs or spheres, and moves them in a time step (docs/physics.md
-// (5.11)). Lengths [L], masses [M] and times [T] are in any consistent units, turns in [rad]. The
-// length h [T] of a step must be > 0, and free_step() needs a mass [M] and an inertia [M L^2] > 0.
-// `dimension` is 2 for discs, of which only component 2 of turns counts, and 3 for spheres.
-// simulation.cpp, free_motion.cpp, case/, constraints/, fluid/, impacts/ and links/ use this file.
-// Nothing is checked or thrown: wrong numbers give infinite results or NaN, and if the iteration
-// for the turn of a body does not converge, its last value is taken. A change must keep that a body
-// that crosses no side of a periodic cell has the same bits as without periods, and that the
-// angular momentum stays constant to rounding without a torque.
+// Motion of rigid bodies, docs/physics.md (5.11).
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -18,8 +11,8 @@
 namespace viscontact::particles {
 namespace {
 
-/// Adds the inertia [M L^2] of the point mass m [M] at the vector r [L] from the centre, which is m
-/// times |r|^2 times the unit matrix, minus m r r^T.
+/// Adds m times |r|^2 times the unit matrix, minus m r r^T, for the mass m [M] at r [L] from the
+/// centre.
 void add_point_mass(Matrix3& inertia, double mass, const Vector& r) {
   const double square = dot(r, r);
   for (std::size_t i = 0; i < 3; ++i)
@@ -27,14 +20,12 @@ void add_point_mass(Matrix3& inertia, double mass, const Vector& r) {
       inertia[3 * i + j] += mass * ((i == j ? square : 0) - r[i] * r[j]);
 }
 
-/// Vector `k` of an array that has one number for each disc, which is component 2 of its vector, or
-/// three numbers for each sphere.
+/// Vector `k` of an array that has one number for each disc, component 2, or three for each sphere.
 Vector turn_of(const std::vector<double>& values, std::size_t k, int dimension) {
   if (dimension == 3) return {values[3 * k], values[3 * k + 1], values[3 * k + 2]};
   return {0, 0, values[k]};
 }
 
-/// Sets vector `k` of an array as in turn_of() to `to`.
 void set_turn(std::vector<double>& values, std::size_t k, int dimension, const Vector& to) {
   if (dimension != 3) {
     values[k] = to[2];
@@ -45,15 +36,14 @@ void set_turn(std::vector<double>& values, std::size_t k, int dimension, const V
 
 /// Which images of its members make a body, along one axis of a periodic cell.
 struct Cut {
-  std::vector<double> periods;  ///< number of periods from each member's image in the body to it
+  std::vector<double> periods;  ///< from each member's image in the body to it
   double widest = 0;  ///< largest distance of two neighbours, which is outside the body [L]
-  int count = 0;  ///< number of distances equal to `widest`; if it is 1, the images are determined
+  int count = 0;      ///< of distances equal to `widest`; if it is 1, the images are determined
 };
 
-/// Chooses the images of the members (numbers of particles) along axis `axis` (0 to 2), which must
-/// have a period. The members and their images lie on a circle along it. The circle is cut at the
-/// largest distance between neighbours. This makes the body as short as it can be, and depends
-/// neither on the order of the members nor on where the cell begins.
+/// Along an axis with a period the members and their images lie on a circle, which is cut at the
+/// largest distance between neighbours. The body is then as short as it can be, whatever the order
+/// of the members and the place of the cell.
 Cut cut_of(const Particles& p, const std::vector<std::int32_t>& members, std::size_t axis) {
   const double period = p.cell.lengths[axis];
   const auto first = p.position(index_of(members[0]));
@@ -66,16 +56,15 @@ Cut cut_of(const Particles& p, const std::vector<std::int32_t>& members, std::si
   }
   auto sorted = places;
   std::ranges::sort(sorted);
-  // The distance from each member to the next one, and from the last one to an image of the first.
+  // From each member to the next one, and from the last one to an image of the first.
   std::vector<double> distances;
   for (std::size_t m = 0; m < sorted.size(); ++m)
     distances.push_back(m + 1 < sorted.size() ? sorted[m + 1] - sorted[m]
                                               : sorted[0] + period - sorted[m]);
   const auto widest = std::ranges::max_element(distances);
   cut.widest = *widest;
-  // Distances that differ by less than a billionth of the period count as equal. A billionth, a
-  // free choice, is far more than the rounding errors of positions, and far less than a user would
-  // distinguish.
+  // Distances that differ by less than this share of the period count as equal. It is far more than
+  // the rounding errors of positions, and far less than a user would distinguish.
   constexpr double kEqual = 1e-9;
   cut.count = static_cast<int>(std::ranges::count_if(
       distances, [&](double distance) { return distance >= cut.widest - kEqual * period; }));
@@ -83,19 +72,17 @@ Cut cut_of(const Particles& p, const std::vector<std::int32_t>& members, std::si
   const double from = begin < sorted.size() ? sorted[begin] : 0;
   for (std::size_t m = 0; m < places.size(); ++m)
     if (places[m] < from) cut.periods[m] -= 1;
-  // The periods are counted such that the image of the first member is the member itself. If a body
-  // crosses no side of the cell, all are then 0 and its positions keep their bits.
+  // The image of the first member shall be the member itself. If a body crosses no side of the
+  // cell, all periods are then 0 and its positions keep their bits.
   const double shift = cut.periods[0];
   for (auto& periods : cut.periods) periods -= shift;
   return cut;
 }
 
-/// Position [L] and velocity [L/T] of the image of a member that belongs to the body.
 struct MemberImage {
   Vector position{}, velocity{};
 };
 
-/// The image of each member that belongs to the body, in the order of `members`.
 std::vector<MemberImage> images_of(const Particles& p, const std::vector<std::int32_t>& members) {
   std::vector<Periods> periods(members.size());
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -112,7 +99,6 @@ std::vector<MemberImage> images_of(const Particles& p, const std::vector<std::in
   return images;
 }
 
-/// Sets mass, inertia, offsets and motion of `body` from its members and `request`.
 void sum_members(const Particles& p, const RigidBodyRequest& request, RigidBody& body) {
   for (const auto member : body.members) body.mass += p.masses[index_of(member)];
   if (request.mass >= 0) body.mass = request.mass;
@@ -140,8 +126,7 @@ void sum_members(const Particles& p, const RigidBodyRequest& request, RigidBody&
               own * turn_of(p.angular_velocities, k, p.dimension);
   }
   if (request.moment_of_inertia >= 0) {
-    // The angular momentum is scaled by the same factor as the inertia, so that the angular
-    // velocity stays.
+    // The angular momentum is scaled with the inertia, so that the angular velocity stays.
     const double before = body.inertia[8];
     body.inertia[8] = request.moment_of_inertia;
     if (before > 0) turning = (body.inertia[8] / before) * turning;
@@ -150,7 +135,6 @@ void sum_members(const Particles& p, const RigidBodyRequest& request, RigidBody&
   update_angular_velocity(body, p.dimension);
 }
 
-/// Replaces centre and velocity of a body by those of its image with the centre in the cell.
 void wrap_centre(RigidBody& body, const PeriodicCell& cell) {
   Periods beyond{};
   for (std::size_t d = 0; d < 3; ++d) beyond[d] = periods_beyond(cell, d, body.centre[d]);
@@ -160,7 +144,6 @@ void wrap_centre(RigidBody& body, const PeriodicCell& cell) {
 
 }  // namespace
 
-/// The inverse of a symmetric matrix. If the matrix is singular, the result is infinite or NaN.
 Matrix3 inverse_of(const Matrix3& a) {
   const auto minor = [&](std::size_t i, std::size_t j) {
     const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
@@ -173,10 +156,9 @@ Matrix3 inverse_of(const Matrix3& a) {
   return inverse;
 }
 
-/// The first periodic axis along which the largest distance between neighbouring members occurs
-/// more than once, with this distance [L]; nothing if there is none.
 std::optional<AmbiguousImages> ambiguous_images(const Particles& particles,
                                                 const std::vector<std::int32_t>& members) {
+  assert(!members.empty());
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!(particles.cell.lengths[axis] > 0)) continue;
     const auto cut = cut_of(particles, members, axis);
@@ -185,10 +167,11 @@ std::optional<AmbiguousImages> ambiguous_images(const Particles& particles,
   return std::nullopt;
 }
 
-/// Adds a body of the members that `request` names, and places them. The members must turn
-/// (add_rotation()) and belong to no other body, and the body must be smaller than the periods. If
-/// the mass or the moment of inertia in `request` is < 0, that of the members is taken.
 void add_rigid_body(Particles& particles, const RigidBodyRequest& request) {
+  assert(!request.members.empty() && (particles.dimension == 2 || particles.dimension == 3));
+  assert(!particles.angular_velocities.empty());
+  assert(std::ranges::all_of(request.members,
+                             [&](std::int32_t k) { return particles.bodies.body_of(k) < 0; }));
   RigidBody body;
   body.members = request.members;
   std::ranges::sort(body.members);
@@ -202,8 +185,6 @@ void add_rigid_body(Particles& particles, const RigidBodyRequest& request) {
   place_members(particles);
 }
 
-/// Diameter [L] of the smallest circle or sphere about the centre of the body that contains all
-/// members.
 double diameter(const RigidBody& body, const Particles& particles) {
   double radius = 0;
   for (std::size_t m = 0; m < body.members.size(); ++m)
@@ -211,8 +192,6 @@ double diameter(const RigidBody& body, const Particles& particles) {
   return 2 * radius;
 }
 
-/// The present value of a vector of any unit that turns with the body and was `at_start` at the
-/// start.
 Vector turned_with(const RigidBody& body, const Vector& at_start, int dimension) {
   if (dimension == 3) return rotated(body.orientation, at_start);
   if (body.angle[2] == 0) return at_start;
@@ -220,12 +199,11 @@ Vector turned_with(const RigidBody& body, const Vector& at_start, int dimension)
   return {c * at_start[0] - s * at_start[1], s * at_start[0] + c * at_start[1], 0};
 }
 
-/// The present vector [L] from the centre of the body to its member `m`, counted from 0.
 Vector present_offset(const RigidBody& body, std::size_t m, int dimension) {
+  assert(m < body.offsets.size());
   return turned_with(body, body.offsets[m], dimension);
 }
 
-/// The present inertia about the centre [M L^2]; for discs only the last entry counts.
 Matrix3 present_inertia(const RigidBody& body, int dimension) {
   if (dimension != 3) return body.inertia;
   // R I R^T, where column j of R is the present direction of axis j of the body.
@@ -244,8 +222,6 @@ Matrix3 present_inertia(const RigidBody& body, int dimension) {
   return inertia;
 }
 
-/// Computes the angular velocity [1/T] from the angular momentum. It stays as it is if the last
-/// entry of the inertia is 0.
 void update_angular_velocity(RigidBody& body, int dimension) {
   if (!(body.inertia[8] > 0)) return;
   if (dimension == 3)
@@ -254,8 +230,6 @@ void update_angular_velocity(RigidBody& body, int dimension) {
     body.angular_velocity[2] = body.angular_momentum[2] / body.inertia[8];
 }
 
-/// The masses [M] of the members, scaled so that their sum is the mass of the body. They are equal
-/// if no member has a mass.
 std::vector<double> member_masses(const RigidBody& body, const Particles& particles) {
   double sum = 0;
   for (const auto member : body.members) sum += particles.masses[index_of(member)];
@@ -266,15 +240,12 @@ std::vector<double> member_masses(const RigidBody& body, const Particles& partic
   return masses;
 }
 
-/// The number of periods along each axis from the position of member `m` to its image in the body.
 Periods periods_of_member(const RigidBody& body, std::size_t m, const Particles& p) {
+  assert(m < body.members.size());
   return periods_towards(p.cell, body.centre + present_offset(body, m, p.dimension) -
                                      p.position(index_of(body.members[m])));
 }
 
-/// Sets positions [L], velocities [L/T], angular velocities [1/T] and angles or orientations of all
-/// members to those of their bodies. If the cell is not sheared, moves the centres of bodies into
-/// the cell first.
 void place_members(Particles& p) {
   for (auto& body : p.bodies.bodies) {
     if (!p.cell.is_sheared()) wrap_centre(body, p.cell);
@@ -282,8 +253,8 @@ void place_members(Particles& p) {
     for (std::size_t m = 0; m < body.members.size(); ++m) {
       const auto k = index_of(body.members[m]);
       const Vector offset = present_offset(body, m, p.dimension);
-      // Of all images of the new place, the member gets the one nearest to its last position. If it
-      // jumped by a period, the numbers of images in the neighbour list would be wrong.
+      // Of all images of the new place, the member gets the one nearest to its last position. A
+      // jump by a period would make the numbers of images in the neighbour list wrong.
       const auto periods = periods_of_member(body, m, p);
       const Vector x = body.centre + offset - shift_of(p.cell, periods);
       const Vector v = body.velocity + cross(w, offset) - velocity_of_image(p.cell, periods);
@@ -301,14 +272,10 @@ void place_members(Particles& p) {
   }
 }
 
-/// The place, from 0, of a particle among the members of the body. If the particle is no member,
-/// the result is the number of members.
 std::size_t member_number(const RigidBody& body, std::int32_t particle) {
   return static_cast<std::size_t>(std::ranges::find(body.members, particle) - body.members.begin());
 }
 
-/// The present vector [L] from the centre of its body to a particle; 0 for a particle without a
-/// body.
 Vector offset_in_body(const Particles& particles, std::int32_t particle) {
   const auto number = particles.bodies.body_of(particle);
   if (number < 0) return {};
@@ -328,14 +295,14 @@ Matrix3 operator+(Matrix3 a, const Matrix3& b) {
   return a;
 }
 
-/// Turn [rad] of a body of spheres in a step of length h by the implicit midpoint rule: the fixed
-/// point of turn = h (I + added)^-1 L, with the inertia I after half of the turn.
+/// Turn [rad] in a step of length h by the implicit midpoint rule: the fixed point of turn = h (I +
+/// added)^-1 L, with the inertia I after half of the turn.
 Vector midpoint_turn(const RigidBody& body, const Vector& angular_momentum, const Matrix3& added,
                      double h) {
   Vector turn = h * (inverse_of(present_inertia(body, 3) + added) * angular_momentum);
-  // Each iteration multiplies the error by about the turn in radians, so that 50 iterations, a free
-  // choice, are enough for turns up to 0.5. A step in which a body turns by a radian does not
-  // resolve the motion, so that its iteration need not converge.
+  // Each iteration multiplies the error by about the turn in radians, so that 50 iterations are
+  // enough for turns up to 0.5. A step in which a body turns by a radian does not resolve the
+  // motion, so that its iteration need not converge.
   constexpr int kMost = 50;
   constexpr double kExact = 4 * std::numeric_limits<double>::epsilon();  // some rounding errors
   for (int n = 0; n < kMost; ++n) {
@@ -353,6 +320,7 @@ Vector midpoint_turn(const RigidBody& body, const Vector& angular_momentum, cons
 
 BodyStep free_step(const RigidBody& body, const BodyLoad& load, double h, double kick,
                    bool is_first, int dimension) {
+  assert(h > 0 && body.mass > 0);
   BodyStep step;
   step.mobility = h / body.mass;
   step.displacement = h * (body.velocity + (kick / body.mass) * load.force);
@@ -384,8 +352,6 @@ void constrain(BodyStep& step, const Vector& displacement, const Vector& turn, i
   step.turn = turn;
 }
 
-/// Displacement [L] of the point at `arm` [L] from the centre of a body that moves by
-/// `displacement` [L] and turns by `turn` [rad].
 Vector displacement_at(const Vector& displacement, const Vector& turn, const Vector& arm,
                        int dimension) {
   if (dimension == 3) return displacement + rotated(turned({1, 0, 0, 0}, turn), arm) - arm;
@@ -395,8 +361,8 @@ Vector displacement_at(const Vector& displacement, const Vector& turn, const Vec
           0};
 }
 
-/// Moves the body by `step`, whose length is h > 0 [T], and sets its velocities.
 void move_body(RigidBody& body, const BodyStep& step, double h, int dimension) {
+  assert(h > 0);
   body.centre = body.centre + step.displacement;
   body.velocity = (1 / h) * step.displacement + step.late_velocity;
   body.angular_momentum = step.angular_momentum;

@@ -1,10 +1,4 @@
-// Reads the section [arrangement] of a case of many particles, which places particles at random,
-// and the species (kinds) of particles that arrangements and sources have. In the units of the
-// case, radii [L], masses [M], densities and shares are from 1e-100 to 1e100 (mass and density in a
-// fluid also 0), sigma is from 1e-6 to 1, a fraction in (0, 1), the gap [L] >= 0, a count 1 to 1e6.
-// A wrong value, and particles that do not fit, are an Error(kBadInput) with the line. This file is
-// used by particle_tables.cpp and source_section.cpp. A change must keep keys and defaults, which
-// users' cases rely on.
+// Reads [arrangement] and the species of arrangements and sources.
 #include <algorithm>
 #include <limits>
 #include <string_view>
@@ -15,25 +9,19 @@
 namespace viscontact::particles {
 namespace {
 
-// Each function whose name ends in _keys declares the keys of a table: name, range, meaning and
-// default. When a case is read (keys.reads() is true), such a function stores the values in its
-// second argument, and Error(kBadInput) with the line is thrown for a key that is missing, unknown
-// or out of range. The same functions make the tables of docs/case-file.md; then nothing is thrown.
 constexpr std::string_view kRadiusWords =
     "a number, a list of numbers, `{ uniform = [a, b] }` or `{ lognormal = { median, sigma } }`";
 
-/// Keys of a distribution of radii whose logarithm is normally distributed: the median radius [L]
-/// and the standard deviation sigma of the logarithm [1].
+/// Keys of a lognormal distribution of radii.
 void lognormal_keys(case_file::Keys& keys, RadiusDistribution& radius) {
-  // A free choice: with sigma = 1, all but 6 in 1e5 radii are within a factor of 55 of the median.
+  // With sigma = 1, all but 6 in 1e5 radii are within a factor of 55 of the median.
   constexpr Allowed kSigma = {[](double v) { return v >= 1e-6 && v <= 1; }, "from 1e-6 to 1"};
   keys.required("median", case_file::number(radius.median, kModeratelyPositive), {"median radius"});
   keys.required("sigma", case_file::number(radius.sigma, kSigma),
                 {"standard deviation of the logarithm of the radius"});
 }
 
-/// Reads the two ends of a uniform distribution, the smallest and the largest radius [L]. Throws
-/// Error(kBadInput) unless 0 < smallest < largest.
+/// Throws Error(kBadInput) unless 0 < smallest < largest radius.
 void read_uniform(const case_file::TomlSection& section, std::string_view key,
                   RadiusDistribution& radius) {
   const auto ends = section.numbers(key, kModeratelyPositive);
@@ -43,7 +31,6 @@ void read_uniform(const case_file::TomlSection& section, std::string_view key,
   radius.to = ends[1];
 }
 
-/// Keys of a table of radii, of which exactly one must be given: `uniform` or `lognormal`.
 void distribution_keys(case_file::Keys& keys, RadiusDistribution& radius) {
   using Kind = RadiusDistribution::Kind;
   const bool is_uniform =
@@ -60,7 +47,7 @@ void distribution_keys(case_file::Keys& keys, RadiusDistribution& radius) {
   radius.kind = is_uniform ? Kind::kUniform : Kind::kLognormal;
 }
 
-/// Reads the key `radius`: a number [L], a list of numbers [L], or a table of radii.
+/// Reads a number [L], a list of numbers [L], or a table of radii.
 void read_radius(const case_file::TomlSection& section, std::string_view key,
                  RadiusDistribution& radius) {
   if (section.is_table(key))
@@ -71,8 +58,8 @@ void read_radius(const case_file::TomlSection& section, std::string_view key,
     radius.list = {section.number(key, kModeratelyPositive)};
 }
 
-/// Keys of a species. If `is_listed`, they are in a table of the list `species`, otherwise in the
-/// section itself. `has_fluid` says that the case has a fluid, in which masses may be 0.
+/// If `is_listed`, the keys are in a table of the list `species`, otherwise in the section itself.
+/// In a fluid masses may be 0.
 void species_keys(case_file::Keys& keys, Species& species, bool has_fluid, bool is_listed) {
   keys.required_if(true, "radius", case_file::custom(kRadiusWords, read_radius, species.radius),
                    {"radius of each particle. The radii of a list are taken in turn",
@@ -97,14 +84,12 @@ void species_keys(case_file::Keys& keys, Species& species, bool has_fluid, bool 
        has_fluid ? "from 1e-100 to 1e100, in a fluid also 0" : "from 1e-100 to 1e100"});
 }
 
-/// Reads the list `species`, one table for each species.
 void read_species(const case_file::TomlSection& section, std::string_view key,
                   std::vector<Species>& all, bool has_fluid) {
   for (const auto& table : section.sections(key))
     case_file::read_keys(table, species_keys, all.emplace_back(), has_fluid, true);
 }
 
-/// The values of the keys of [arrangement].
 struct ArrangementKeys {
   std::vector<Species> species;
   std::size_t count = 0;     // number of particles; 0: not given
@@ -113,8 +98,8 @@ struct ArrangementKeys {
   std::uint64_t seed = 1;    // of the random numbers, from 0 to 2^31 - 1
 };
 
-/// Keys of [arrangement]. `dimension` is 2 (discs) or 3 (spheres). The number of particles is given
-/// either by `count` or by the fraction of the domain that they cover.
+/// `dimension` is 2 (discs) or 3 (spheres). The number of particles is given either by `count` or
+/// by the fraction of the domain that they cover.
 void arrangement_keys(case_file::Keys& keys, ArrangementKeys& asked, int dimension,
                       bool has_fluid) {
   all_species_keys(keys, asked.species, has_fluid);
@@ -145,8 +130,6 @@ void arrangement_keys(case_file::Keys& keys, ArrangementKeys& asked, int dimensi
 
 }  // namespace
 
-/// Keys of all species: either a list `species`, or the keys of one species in the section itself.
-/// Appends the species to `all`.
 void all_species_keys(case_file::Keys& keys, std::vector<Species>& all, bool has_fluid) {
   const bool is_list = keys.optional(
       "species", case_file::custom("a list of tables", read_species, all, has_fluid),
@@ -160,11 +143,6 @@ void all_species_keys(case_file::Keys& keys, std::vector<Species>& all, bool has
   }
 }
 
-/// Reads [arrangement], draws its particles and places them at rest. Appends them to c.particles,
-/// in a fluid also angles, angular velocities and moments of inertia, and keeps in c.arrangement
-/// what was asked for. c.setting must have the domain and the fluid. Throws Error(kBadInput) if the
-/// domain is neither a disc nor a box, for more than kLargestCount (1 000 000) particles, for too
-/// few free ids, and if the particles do not fit.
 void read_arrangement(const case_file::TomlSection& section, ParticlesCase& c) {
   auto& p = c.particles;
   const auto& domain = c.setting.domain;
@@ -189,7 +167,7 @@ void read_arrangement(const case_file::TomlSection& section, ParticlesCase& c) {
                   kLargestCount, kLargestCount);
   Arrangement asked{.radii = {}, .smallest_gap = keys.smallest_gap, .seed = keys.seed};
   for (const auto& particle : particles) asked.radii.push_back(particle.radius);
-  constexpr double kGapOfRadius = 0.05;  // free; a change alters the arrangements of seeds
+  constexpr double kGapOfRadius = 0.05;  // a change alters the arrangements of seeds
   if (asked.smallest_gap < 0) asked.smallest_gap = kGapOfRadius * std::ranges::min(asked.radii);
   require_ids(section, key, p, particles.size());
   const auto centres =
@@ -209,7 +187,6 @@ void read_arrangement(const case_file::TomlSection& section, ParticlesCase& c) {
   c.arrangement = std::move(asked);
 }
 
-/// The tables of docs/case-file.md for these keys.
 std::vector<case_file::KeyTable> arrangement_tables() {
   return {case_file::describe_keys("[arrangement]", arrangement_keys, 2, true),
           case_file::describe_keys("a table of species", species_keys, true, true),

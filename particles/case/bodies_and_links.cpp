@@ -1,12 +1,7 @@
-// Reads and checks the tables [[body]], [[hinge]], [[spring]] and [[arm]] of a case of many
-// particles: rigid bodies, and links that hold particles and bodies. In the units of the case,
-// masses [M] and moments of inertia [M L^2] are from 1e-100 to 1e100 (in a fluid also 0), angles
-// [rad] at most 1e100 in magnitude, stiffnesses of hinges [M L^2/T^2] at least 0, those of springs
-// [M/T^2] and lengths of arms [L] positive. The times [T] at which the length of an arm is given
-// increase from 0. A wrong value is an Error(kBadInput) with its line. particles_case.cpp uses this
-// file. A change must keep keys and defaults, which users' cases rely on.
+// Reads [[body]], [[hinge]], [[spring]] and [[arm]].
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <span>
@@ -21,9 +16,9 @@
 namespace viscontact::particles {
 namespace {
 
-/// Throws Error(kBadInput) if one of `members` (numbers of particles) cannot belong to the body,
-/// because it is named twice, belongs to another body or membrane, or has a given motion. Also
-/// throws if it is not determined which periodic images of the members make the body.
+/// Throws Error(kBadInput) if one of `members` is named twice, belongs to another body or membrane,
+/// or has a given motion. Also throws if it is not determined which periodic images of the members
+/// make the body.
 void check_members(const case_file::TomlSection& section, const std::vector<std::int32_t>& members,
                    const ParticlesCase& c) {
   for (auto member = members.begin(); member != members.end(); ++member) {
@@ -53,8 +48,6 @@ void check_members(const case_file::TomlSection& section, const std::vector<std:
                  kAxes[ambiguous->axis], ambiguous->distance);
 }
 
-/// Throws Error(kBadInput) if the last body of the case is so large that it could touch its own
-/// periodic image. Its diameter [L] must be smaller than each period.
 void check_fits(const case_file::TomlSection& section, const ParticlesCase& c) {
   const double diameter = particles::diameter(c.particles.bodies.bodies.back(), c.particles);
   for (const double period : c.particles.cell.lengths)
@@ -64,13 +57,7 @@ void check_fits(const case_file::TomlSection& section, const ParticlesCase& c) {
         diameter, period);
 }
 
-/// Each function whose name ends in _keys declares the keys of a table: name, range, meaning and
-/// default. When a case is read (keys.reads() is true), such a function stores the values in its
-/// second argument, and Error(kBadInput) with the line is thrown for a key that is missing, unknown
-/// or out of range. The same functions make the tables of docs/case-file.md; then nothing is
-/// thrown.
-///
-/// Keys of a table [[body]]. The particles of the case must have been read.
+/// The particles of the case must have been read.
 void body_keys(case_file::Keys& keys, RigidBodyRequest& body, const ParticlesCase& c,
                const ParticleIds& ids) {
   const auto& positive = c.setting.fluid ? kModeratelyPositiveOr0 : kModeratelyPositive;
@@ -93,7 +80,7 @@ void body_keys(case_file::Keys& keys, RigidBodyRequest& body, const ParticlesCas
        "that of the particles at their places, scaled with `mass` if that is given", words});
 }
 
-/// The values of a table [[hinge]]. If a key is not in the table, its optional member has no value.
+/// Without a value: the key is not in the table.
 struct HingeTable {
   int body = -1;                                // number of the body; -1: a particle is named
   std::vector<std::int32_t> held;               // the particle, or the members of the body
@@ -102,7 +89,6 @@ struct HingeTable {
   std::optional<double> lowest, highest;        // angles of the stops [rad]
 };
 
-/// Reads the number of a body. Throws Error(kBadInput) if there is no such body.
 void read_body_of_hinge(const case_file::TomlSection& section, std::string_view key,
                         HingeTable& hinge, const ParticlesCase& c) {
   const auto& bodies = c.particles.bodies;
@@ -111,8 +97,6 @@ void read_body_of_hinge(const case_file::TomlSection& section, std::string_view 
   hinge.held = bodies.bodies[index_of(hinge.body)].members;
 }
 
-/// Reads the id of a particle. Throws Error(kBadInput) if there is no such particle, or if it
-/// belongs to a body.
 void read_particle_of_hinge(const case_file::TomlSection& section, std::string_view key,
                             HingeTable& hinge, const ParticlesCase& c, const ParticleIds& ids) {
   const auto particle = ids.number(section, key, section.number(key, kNotNegative), "is");
@@ -122,8 +106,8 @@ void read_particle_of_hinge(const case_file::TomlSection& section, std::string_v
   hinge.held = {particle};
 }
 
-/// Keys of a table [[hinge]]. A hinge holds a point of a body or of a particle at its place; in two
-/// dimensions it may have a torsion spring, and stops for the angle.
+/// A hinge holds a point of a body or of a particle at its place; in two dimensions it may have a
+/// torsion spring, and stops for the angle.
 void hinge_keys(case_file::Keys& keys, HingeTable& hinge, const ParticlesCase& c,
                 const ParticleIds& ids) {
   keys.require(keys.has("body") != keys.has("particle"), "body",
@@ -158,9 +142,9 @@ void hinge_keys(case_file::Keys& keys, HingeTable& hinge, const ParticlesCase& c
                hinge.highest.value_or(0));
 }
 
-/// Reads a table [[hinge]]. Throws Error(kBadInput) for a wrong key, and if the place of the hinge
-/// is outside the particle or body that it holds, if the motion of this particle is given, or if
-/// the angle at the start is beyond a stop.
+/// Throws Error(kBadInput) for a wrong key, and if the place of the hinge is outside the particle
+/// or body that it holds, if the motion of this particle is given, or if the angle at the start is
+/// beyond a stop.
 Hinge read_hinge(const case_file::TomlSection& section, const ParticlesCase& c,
                  const ParticleIds& ids) {
   const auto& p = c.particles;
@@ -204,9 +188,8 @@ Hinge read_hinge(const case_file::TomlSection& section, const ParticlesCase& c,
   return hinge;
 }
 
-/// Reads the key `between` of a spring or arm, which has the ids of its two particles, and stores
-/// their numbers in `place`. Throws Error(kBadInput) unless they are two different particles that
-/// do not belong to one body and do not both have a given motion.
+/// Reads the ids of the two particles of a spring or arm. Throws Error(kBadInput) unless they are
+/// two different particles that do not belong to one body and do not both have a given motion.
 void read_ends(const case_file::TomlSection& section, std::string_view key,
                std::array<std::int32_t, 2>& place, const ParticlesCase& c, const ParticleIds& ids) {
   std::vector<std::int32_t> ends;
@@ -230,8 +213,6 @@ double distance_at_start(const ParticlesCase& c, std::int32_t first, std::int32_
                                                            c.particles.position(index_of(first))));
 }
 
-/// Keys of a table [[spring]]: stiffness [M/T^2] and length without force [L], whose default is the
-/// distance of the centres at the start.
 void spring_keys(case_file::Keys& keys, Spring& spring, const ParticlesCase& c,
                  const ParticleIds& ids) {
   std::array<std::int32_t, 2> ends{};
@@ -246,8 +227,7 @@ void spring_keys(case_file::Keys& keys, Spring& spring, const ParticlesCase& c,
                 {"length without force", "the distance at the start"});
 }
 
-/// Reads the points (time [T], length [L]) between which the length of an arm is linear. Throws
-/// Error(kBadInput) unless the first time is 0, times increase and lengths are > 0.
+/// Throws Error(kBadInput) unless the first time is 0, times increase and lengths are > 0.
 void read_points_of_length(const case_file::TomlSection& length, std::string_view key,
                            PiecewiseLinearLength& pieces) {
   for (const auto& row : length.rows(key, 2, kModeratelyPositiveOr0)) {
@@ -260,8 +240,6 @@ void read_points_of_length(const case_file::TomlSection& length, std::string_vie
   }
 }
 
-/// Keys of a length [L] of an arm that is linear between given times [T]; with a period [T] it
-/// repeats.
 void pieces_of_length_keys(case_file::Keys& keys, PiecewiseLinearLength& pieces) {
   keys.required("pieces",
                 case_file::custom("`[ [time, length], ... ]`", read_points_of_length, pieces),
@@ -285,8 +263,6 @@ void pieces_of_length_keys(case_file::Keys& keys, PiecewiseLinearLength& pieces)
   pieces.points.pop_back();
 }
 
-/// Keys of a length of an arm that is a mean [L] and a sine with an amplitude [L], an angular
-/// frequency [1/T] and a phase [rad].
 void wave_of_length_keys(case_file::Keys& keys, SinusoidalLength& wave) {
   keys.required("mean", case_file::number(wave.mean, kModeratelyPositive),
                 {"the length is `mean` + `amplitude` sin(`angular_frequency` t + `phase`)"});
@@ -299,7 +275,7 @@ void wave_of_length_keys(case_file::Keys& keys, SinusoidalLength& wave) {
                "is {}; it must be smaller than the mean length, {}", wave.amplitude, wave.mean);
 }
 
-/// Reads the length of an arm: a number [L], or a table of one of these two kinds.
+/// Reads a number [L], or a table of one of these two kinds.
 void read_length_of_arm(const case_file::TomlSection& section, std::string_view key,
                         ArmLength& length) {
   if (!section.is_table(key)) {
@@ -329,15 +305,14 @@ void arm_of_particles_keys(case_file::Keys& keys, Arm& arm, const ParticlesCase&
       {"the distance, which at time 0 is that of the particles"});
 }
 
-/// Names the two particles of an arm by their ids, for messages.
 std::string arm_in_words(const ParticlesCase& c, const Arm& arm) {
   return fmt::format("between particles {} and {}", c.particles.id(index_of(arm.first)),
                      c.particles.id(index_of(arm.second)));
 }
 
 /// The times [T], in increasing order up to `end`, at which conditions between several arms are
-/// checked. They are the decisive_times() of all arms (links.hpp), between which each length is
-/// nearly linear.
+/// checked: the decisive_times() of all arms (links.hpp), between which each length is nearly
+/// linear.
 std::vector<double> times_of(std::span<const Arm* const> arms, double end) {
   std::vector<double> times;
   for (const auto* arm : arms) {
@@ -348,11 +323,8 @@ std::vector<double> times_of(std::span<const Arm* const> arms, double end) {
   return times;
 }
 
-/// Throws Error(kBadInput) unless the arm begins with the distance of its particles, and is never
-/// shorter than the sum of their radii.
 void check_arm(const case_file::TomlSection& section, const Arm& arm, const ParticlesCase& c) {
-  // The relative error that is allowed, because users may give places with six digits only. It is a
-  // free choice; the first step corrects the distance.
+  // Users may give places with six digits only; the first step corrects the distance.
   constexpr double kRounded = 1e-6;
   const double length = length_at(arm.length, 0);
   const double distance = distance_at_start(c, arm.first, arm.second);
@@ -374,14 +346,12 @@ void check_arm(const case_file::TomlSection& section, const Arm& arm, const Part
 }
 
 /// Throws Error(kBadInput) if arm `sides[0]` is at any time longer than the arms `sides[1]` and
-/// `sides[2]` together. `sides` are numbers of arms, from 0, that join three particles; `sections`
-/// are the tables of all arms.
+/// `sides[2]` together. `sections` are the tables of all arms.
 void check_triangle(std::span<const case_file::TomlSection> sections, const ParticlesCase& c,
                     std::array<std::size_t, 3> sides) {
   const auto& arms = c.setting.links.arms;
   const std::array of = {&arms[sides[0]], &arms[sides[1]], &arms[sides[2]]};
   // If all three particles are on a line, rounding errors of about 1e-16 could exceed the bound.
-  // The larger value here is a free choice.
   constexpr double kRounding = 1e-9;
   for (const double time : times_of(of, c.end_time)) {
     const auto length = [&](std::size_t side) { return length_at(of[side]->length, time); };
@@ -394,8 +364,9 @@ void check_triangle(std::span<const case_file::TomlSection> sections, const Part
 }
 
 /// Throws Error(kBadInput) if two arms join the same particles, for the faults of check_arm(), and
-/// if three arms cannot meet in a triangle. `sections` are the tables of the arms, in their order.
+/// if three arms cannot meet in a triangle.
 void check_arms(std::span<const case_file::TomlSection> sections, const ParticlesCase& c) {
+  assert(sections.size() == c.setting.links.arms.size());
   const auto& arms = c.setting.links.arms;
   std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> between;
   for (std::size_t k = 0; k < arms.size(); ++k) {
@@ -422,8 +393,6 @@ void check_arms(std::span<const case_file::TomlSection> sections, const Particle
 
 }  // namespace
 
-/// Reads the tables [[body]] into c.particles.bodies, and replaces the velocities of their members
-/// by those of the rigid motions. Throws Error(kBadInput) in a case of spheres on an axis, too.
 void read_bodies(const case_file::TomlSection& root, ParticlesCase& c) {
   if (!root.has("body")) return;
   if (c.particles.dimension == 1)
@@ -441,8 +410,6 @@ void read_bodies(const case_file::TomlSection& root, ParticlesCase& c) {
   }
 }
 
-/// Reads the tables [[hinge]], [[spring]] and [[arm]] into c.setting.links. Particles and bodies
-/// must have been read.
 void read_links(const case_file::TomlSection& root, ParticlesCase& c) {
   const ParticleIds ids(c);
   auto& links = c.setting.links;
@@ -466,7 +433,6 @@ void read_links(const case_file::TomlSection& root, ParticlesCase& c) {
   if (!links.empty() && !c.setting.fluid) add_rotation(c.particles);
 }
 
-/// The tables of docs/case-file.md for these keys.
 std::vector<case_file::KeyTable> body_and_link_tables() {
   const ParticlesCase c;
   const ParticleIds ids(c);

@@ -1,12 +1,7 @@
-// Reads the sections [domain], [fluid] and [[probe]] of a case of many particles. In the units of
-// the case, lengths [L] and the viscosity [M/(L T)] are from 1e-100 to 1e100; the density [M/L^3]
-// and the threshold gap may also be 0; coordinates [L], velocities [L/T] and rates [1/T] are at
-// most 1e100 in magnitude; the penalty [1] is from 1e-12 to 1, and there are 6 to 400 edges. A
-// wrong value is an Error(kBadInput) with its line. particles_case.cpp uses this file. A change
-// must keep keys and defaults, which users' cases rely on, and the order of kSides, which is that
-// of SideVelocities.
+// Reads [domain], [fluid] and [[probe]].
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <limits>
 #include <system_error>
 
@@ -16,21 +11,13 @@ namespace viscontact::particles {
 
 namespace {
 
-/// Each function whose name ends in _keys declares the keys of a table: name, range, meaning and
-/// default. When a case is read (keys.reads() is true), such a function stores the values in its
-/// second argument, and Error(kBadInput) with the line is thrown for a key that is missing, unknown
-/// or out of range. The same functions make the tables of docs/case-file.md; then nothing is
-/// thrown.
-///
-/// Keys of a domain that is the inside of a circle: centre and radius [L].
 void disc_keys(case_file::Keys& keys, DiscDomain& disc) {
   keys.optional("centre", vector(disc.centre, 2), {"centre of the circle", "`[0.0, 0.0]`"});
   keys.required("radius", case_file::number(disc.radius, kModeratelyPositive),
                 {"radius of the circle"});
 }
 
-/// Keys of a box: two corners [L] and, for each axis, whether it is periodic. `dimension` is 2 or
-/// 3.
+/// `dimension` is 2 or 3.
 void box_keys(case_file::Keys& keys, BoxDomain& box, int dimension) {
   Vector from{}, to{};
   const auto axes = static_cast<std::size_t>(dimension);
@@ -52,7 +39,6 @@ void box_keys(case_file::Keys& keys, BoxDomain& box, int dimension) {
                  "false along each axis"});
 }
 
-/// Keys of a cylinder: radius and height [L].
 void cylinder_keys(case_file::Keys& keys, CylinderDomain& cylinder) {
   keys.required("radius", case_file::number(cylinder.radius, kModeratelyPositive),
                 {"radius of the cylinder"});
@@ -60,22 +46,18 @@ void cylinder_keys(case_file::Keys& keys, CylinderDomain& cylinder) {
                 {"height of the lid; the floor is at z = 0"});
 }
 
-/// Reads the table of a shape into `domain`. The function `declaration` declares the keys of the
-/// shape.
 template <class Shape, void (*declaration)(case_file::Keys&, Shape&)>
 void read_shape(const case_file::TomlSection& section, std::string_view key, Domain& domain) {
   case_file::read_keys(section.section(key), declaration, domain.emplace<Shape>());
 }
 
-/// Reads a box of a case with this dimension. Its corners have 3 coordinates if the dimension is 3,
-/// otherwise 2.
+/// The corners of a box have 3 coordinates if the dimension is 3, otherwise 2.
 void read_box(const case_file::TomlSection& section, std::string_view key, Domain& domain,
               int dimension) {
   case_file::read_keys(section.section(key), box_keys, domain.emplace<BoxDomain>(),
                        dimension == 3 ? 3 : 2);
 }
 
-/// Keys of [domain], one for each shape.
 void domain_keys(case_file::Keys& keys, Domain& domain, int dimension) {
   keys.optional(
       "disc", case_file::custom("`{ centre, radius }`", read_shape<DiscDomain, disc_keys>, domain),
@@ -92,8 +74,8 @@ void domain_keys(case_file::Keys& keys, Domain& domain, int dimension) {
        "(floor) and -3 (lid)"});
 }
 
-/// Throws Error(kBadInput) unless [domain] has exactly one shape, and unless this shape belongs to
-/// the dimension of the case (1: spheres on an axis, 2 or 3).
+/// Throws Error(kBadInput) unless [domain] has exactly one shape, which belongs to the dimension of
+/// the case (1: spheres on an axis, 2 or 3).
 void check_shape(const case_file::TomlSection& section, int dimension) {
   // The shapes with the dimensions of their cases; a box may have 2 or 3.
   const std::array kShapes = {std::pair("disc", 2),
@@ -126,14 +108,12 @@ constexpr Allowed kPenalty = {[](double v) { return v >= 1e-12 && v <= 1; }, "fr
 constexpr Allowed kGap = {[](double v) { return v >= 0 && v <= kLargestNumber; },
                           "from 0 to 1e100"};
 
-// Keys of the sides of a box, in the order of SideVelocities.
+// In the order of SideVelocities.
 constexpr std::array kSides = {"left", "right", "bottom", "top"};
 
 /// Axis of the normal of a side: 0 for left and right, 1 for bottom and top.
 std::size_t axis_of(std::size_t side) { return side / 2; }
 
-/// Keys of a table for one side of a box, whose velocity [L/T] is constant along the side or a
-/// parabola, and may depend on time [T].
 void side_keys(case_file::Keys& keys, WallVelocity& wall) {
   // pieces() keeps references to these numbers, so that they are static. kNoEnd: the pieces of time
   // need not cover the run, because the last one is extended below.
@@ -164,8 +144,7 @@ void side_keys(case_file::Keys& keys, WallVelocity& wall) {
   pieces.clear();
 }
 
-/// Reads what a side of a box does: a velocity [L/T], "open", or a table. Throws Error(kBadInput)
-/// for anything else.
+/// Reads a velocity [L/T], "open", or a table.
 void read_side(const case_file::TomlSection& section, std::string_view side, WallVelocity& wall) {
   if (section.is_text(side) && section.text(side) == "open") {
     wall.kind = WallVelocity::Kind::kOpen;
@@ -186,6 +165,7 @@ void read_side(const case_file::TomlSection& section, std::string_view side, Wal
 /// The flux into the box through a side at time 0 [L^2/T], < 0 if fluid leaves the box. It is 0 for
 /// an open side, whose flux is not given. `side` counts in the order of kSides from 0.
 double influx(const BoxDomain& box, std::size_t side, const WallVelocity& of_side) {
+  assert(side < kSides.size());
   WallVelocity wall = of_side;
   wall.value = of_side.at(0);
   const auto axis = axis_of(side);
@@ -205,7 +185,6 @@ bool brings_fluid(const WallVelocity& wall, std::size_t axis) {
          });
 }
 
-/// Values of the table fluid.velocity: a shear rate, a strain rate, or velocities of single sides.
 struct VelocityKeys {
   std::optional<double> shear_rate, strain_rate;  // [1/T]
   SideVelocities sides;
@@ -254,7 +233,7 @@ void check_sides(const case_file::TomlSection& fluid, const case_file::TomlSecti
   fluid.require(any_open || !any_changes, "velocity",
                 "has a flux into the domain that depends on time; a side must be \"open\", because "
                 "the fluid is incompressible");
-  // Relative error of a net flux that users balance with rounded numbers; a free choice.
+  // Relative error of a net flux that users balance with rounded numbers.
   constexpr double kRounding = 1e-9;
   fluid.require(any_open || std::abs(net) <= kRounding * sum, "velocity",
                 "gives a net flux of {:.6g} into the domain; it must be 0, because the fluid is "
@@ -279,9 +258,6 @@ void check_periods(const case_file::TomlSection& section, const char* key, bool 
                         : "the box may be periodic both ways or not at all");
 }
 
-/// Reads the velocities of the walls into result.boundary: a linear flow, whose gradient is in
-/// [1/T], or velocities of single sides. Throws Error(kBadInput) for a cylinder, and for keys that
-/// exclude each other.
 void read_velocity(const case_file::TomlSection& fluid, std::string_view key, const Domain& domain,
                    Fluid& result) {
   fluid.require(!std::holds_alternative<CylinderDomain>(domain), key,
@@ -308,8 +284,6 @@ void read_velocity(const case_file::TomlSection& fluid, std::string_view key, co
   result.boundary = flow;
 }
 
-/// Keys of a pressure gradient that pulsates: its mean [M/(L^2 T^2)], the period [T] and the
-/// amplitude relative to the mean [1].
 void gradient_keys(case_file::Keys& keys, Fluid& fluid) {
   Vector value{};
   keys.required("value", vector(value, 2), {"the mean of the pressure gradient"});
@@ -320,7 +294,6 @@ void gradient_keys(case_file::Keys& keys, Fluid& fluid) {
                 {"see `period`"});
 }
 
-/// Reads a pressure gradient [M/(L^2 T^2)]: two numbers, or a table.
 void read_pressure_gradient(const case_file::TomlSection& section, std::string_view key,
                             Fluid& fluid) {
   if (section.is_table(key)) {
@@ -332,8 +305,6 @@ void read_pressure_gradient(const case_file::TomlSection& section, std::string_v
   fluid.pressure_gradient = {vector[0], vector[1]};
 }
 
-/// Keys of a fluid with inertia, the density and two keys that need a density > 0, and the pressure
-/// gradient.
 void inertia_keys(case_file::Keys& keys, Fluid& fluid) {
   keys.optional("density", case_file::number(fluid.density, kModeratelyPositiveOr0),
                 {"rho_f of a fluid [with inertia](fluid.md#inertia-of-the-fluid); 0: Stokes flow"});
@@ -464,7 +435,6 @@ void fluid_keys(case_file::Keys& keys, Fluid& fluid, const Domain& domain) {
 
 }  // namespace
 
-/// Reads [domain]. `dimension` is 1 (spheres on an axis), 2 or 3.
 Domain read_domain(const case_file::TomlSection& section, int dimension) {
   Domain domain;
   check_shape(section, dimension);
@@ -472,8 +442,6 @@ Domain read_domain(const case_file::TomlSection& section, int dimension) {
   return domain;
 }
 
-/// Reads [fluid] of a case with this domain. Without the key the threshold gap stays 0, and the
-/// caller sets its default.
 Fluid read_fluid(const case_file::TomlSection& section, const Domain& domain) {
   Fluid fluid;
   case_file::read_keys(section, fluid_keys, fluid, domain);
@@ -482,8 +450,7 @@ Fluid read_fluid(const case_file::TomlSection& section, const Domain& domain) {
 
 namespace {
 
-/// Keys of a table [[probe]], a line from one wall of a box to another one, across which flow and
-/// pressure are measured. When keys are read, `domain` must be a box.
+/// When keys are read, `domain` must be a box.
 void probe_keys(case_file::Keys& keys, Probe& probe, const Domain& domain) {
   keys.required("name", case_file::text(probe.name),
                 {"in `probes.csv`: letters, digits, `_` and `-`; no two are equal"});
@@ -503,13 +470,14 @@ void probe_keys(case_file::Keys& keys, Probe& probe, const Domain& domain) {
   probe.to = {to[0], to[1]};
   if (!keys.reads()) return;
   const auto* box = std::get_if<BoxDomain>(&domain);
-  // The walls of the box that a point is on, as bits 0 to 3 in the order of SideVelocities; a corner
-  // is on two of them. Periodic sides do not count.
+  assert(box != nullptr);
+  // The walls of the box that a point is on, as bits 0 to 3 in the order of SideVelocities; a
+  // corner is on two of them. Periodic sides do not count.
   const auto sides_of = [&](const std::array<double, 2>& x) {
     unsigned sides = 0;
     for (std::size_t d = 0; d < 2; ++d) {
       const double length = box->to[d] - box->from[d], other = box->to[1 - d] - box->from[1 - d];
-      constexpr double kRounding = 1e-9;  // far above rounding errors; a free choice
+      constexpr double kRounding = 1e-9;  // far above rounding errors
       const bool is_beside = x[1 - d] < box->from[1 - d] - kRounding * other ||
                              x[1 - d] > box->to[1 - d] + kRounding * other;
       if (box->periodic[d] || is_beside) continue;
@@ -532,9 +500,6 @@ void probe_keys(case_file::Keys& keys, Probe& probe, const Domain& domain) {
 
 }  // namespace
 
-/// Reads the tables [[probe]] into fluid->probes. Throws Error(kBadInput) without a fluid, in
-/// another domain than a box, beside a solver of the user's own or membranes, and for two probes of
-/// the same name.
 void read_probes(const case_file::TomlSection& root, const Domain& domain,
                  std::optional<Fluid>& fluid) {
   if (!root.has("probe")) return;
@@ -557,7 +522,6 @@ void read_probes(const case_file::TomlSection& root, const Domain& domain,
   }
 }
 
-/// The tables of docs/case-file.md for these keys.
 std::vector<case_file::KeyTable> domain_and_fluid_tables() {
   return {case_file::describe_keys("[domain]", domain_keys, 2),
           case_file::describe_keys("domain.disc", disc_keys),
@@ -570,9 +534,6 @@ std::vector<case_file::KeyTable> domain_and_fluid_tables() {
           case_file::describe_keys("[[probe]]", probe_keys, Domain{})};
 }
 
-/// The words of a command, in which each name of a file in `folder` becomes an absolute path. Other
-/// words stay as they are, and so does a first word without a slash, which is the name of a
-/// program. A working folder that the system cannot look up is a std::filesystem::filesystem_error.
 std::vector<std::string> with_absolute_files(std::vector<std::string> command,
                                              const std::filesystem::path& folder) {
   for (auto& word : command) {

@@ -1,12 +1,7 @@
-// Checks whether the flow around the particles at the start of a case can be computed, and chooses
-// the default of fluid.threshold_gap, the gap [L] at which contact is made. In the units of the
-// case, a gap [L] must be at least a thousandth of the smaller radius [L] on a fitted mesh, which
-// follows the particles. It may be smaller than the threshold gap by at most solver.tolerance times
-// the mean radius. The case must have a fluid, and check_start() must have accepted it (not
-// checked). Each fault is an Error(kBadInput) with the line of the particle or of the key.
-// particles_case.cpp uses this file. A change must keep accepting users' cases, and the limits that
-// docs/fluid.md repeats.
+// Checks whether the flow around the particles at the start can be computed, and the default of
+// fluid.threshold_gap.
 #include <algorithm>
+#include <cassert>
 #include <numbers>
 #include <numeric>
 #include <variant>
@@ -20,8 +15,7 @@ namespace viscontact::particles {
 namespace {
 
 /// Smallest gap that the fitted mesh (FluidMesh::kFitted) resolves, divided by the radius of the
-/// smaller particle. The narrower a gap, the more edges the mesh needs. docs/fluid.md repeats the
-/// value.
+/// smaller particle; docs/fluid.md repeats it. The narrower a gap, the more edges the mesh needs.
 constexpr double kLeastGapOfMesh = 1e-3;
 
 /// The gap [L] at which the solids of rough particles touch, which is twice their roughness; 0 for
@@ -44,21 +38,18 @@ bool has_only_open_sides(const ParticlesCase& c) {
   return any_open;
 }
 
-/// True if no impulse changes the motion of `body`. `body` is the number of a particle, or < 0 for
-/// an obstacle. The result is true for an obstacle and for a particle whose motion is given.
+/// True for an obstacle (`body` < 0) and for a particle whose motion is given.
 bool is_driven(const ParticlesCase& c, std::int32_t body) {
   return body < 0 || c.setting.given_motions.contains(body);
 }
 
-/// True if the members k and `other` of a body may overlap. They may if both are discs and the
-/// constraint is kRigid, and not with a penalty or a fixed mesh.
 bool may_overlap(const ParticlesCase& c, std::size_t k, std::size_t other) {
   const auto& fluid = *c.setting.fluid;
   return fluid.constraint == RigidConstraint::kRigid && fluid.is_disc(k) && fluid.is_disc(other);
 }
 
 /// Throws Error(kBadInput) if the mesh cannot follow disc k of a body where disc `other` of the
-/// body overlaps disc k. Returns true if the circles of both discs meet on the outline of the body.
+/// body overlaps it. Returns true if the circles of both discs meet on the outline of the body.
 bool check_overlap(const ParticlesCase& c, const ParticleNames& names, std::size_t k,
                    std::size_t other) {
   const auto fail = [&](std::string_view why) {
@@ -98,9 +89,8 @@ bool check_overlap(const ParticlesCase& c, const ParticleNames& names, std::size
 }
 
 /// Throws Error(kBadInput) if members of a rigid body have too narrow a gap or overlap in a way
-/// that the mesh cannot follow, if a moment of inertia [M L^2] is smaller than that of the masses
-/// at the centres of the members, or if an arm becomes too short to leave a gap between its
-/// particles.
+/// that the mesh cannot follow, if a moment of inertia is smaller than that of the masses at the
+/// centres of the members, or if an arm becomes too short to leave a gap between its particles.
 void check_bodies(const case_file::TomlSection& root, const ParticlesCase& c,
                   const ParticleNames& names) {
   const auto& p = c.particles;
@@ -168,7 +158,7 @@ void check_bodies(const case_file::TomlSection& root, const ParticlesCase& c,
   }
 }
 
-/// Throws Error(kBadInput) if a particle has no mass although restitution or splitting needs one.
+/// Restitution and splitting need masses.
 void check_masses(const case_file::TomlSection& root, const ParticlesCase& c,
                   const ParticleNames& names) {
   for (std::size_t k = 0; k < c.particles.count(); ++k)
@@ -198,8 +188,6 @@ void check_masses(const case_file::TomlSection& root, const ParticlesCase& c,
           names(k));
 }
 
-/// Throws Error(kBadInput) if ellipses, plates or overlapping discs are in a case with a fluid
-/// solver of the user's own, or ellipses in a case with bodies or links.
 void check_ellipses(const case_file::TomlSection& root, const ParticlesCase& c,
                     const ParticleNames& names) {
   const auto& fluid = *c.setting.fluid;
@@ -232,7 +220,7 @@ void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c,
   const auto& fluid = *c.setting.fluid;
   if (!fluid.has_inertia()) return;
   const auto& p = c.particles;
-  constexpr double kRounding = 1e-9;  // far above rounding errors; a free choice
+  constexpr double kRounding = 1e-9;  // far above rounding errors
   for (std::size_t k = 0; k < p.count(); ++k) {
     if (is_driven(c, static_cast<std::int32_t>(k))) continue;
     if (!(p.masses[k] > 0))
@@ -274,8 +262,6 @@ void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c,
   }
 }
 
-/// Throws Error(kBadInput) if the fitted mesh cannot resolve the gap between a sphere on the axis
-/// and the side of its cylinder.
 void check_side_of_cylinder(const ParticlesCase& c, const ParticleNames& names) {
   const auto* cylinder = std::get_if<CylinderDomain>(&c.setting.domain);
   if (cylinder == nullptr || c.setting.fluid->mesh != FluidMesh::kFitted) return;
@@ -289,9 +275,9 @@ void check_side_of_cylinder(const ParticlesCase& c, const ParticleNames& names) 
   }
 }
 
-/// Throws Error(kBadInput) for a mean velocity gradient in a box that is periodic along x and y, if
-/// the run has more than one step or the mesh is fixed. The gradient would deform the lattice of
-/// periodic images, but the mesh is that of a box that keeps its shape.
+/// A mean velocity gradient in a box that is periodic along x and y would deform the lattice of
+/// periodic images, but the mesh is that of a box that keeps its shape. Therefore the run must have
+/// one step only, on a fitted mesh.
 void check_mean_flow(const case_file::TomlSection& root, const ParticlesCase& c) {
   const auto* box = std::get_if<BoxDomain>(&c.setting.domain);
   const auto* flow = std::get_if<LinearFlow>(&c.setting.fluid->boundary);
@@ -303,7 +289,7 @@ void check_mean_flow(const case_file::TomlSection& root, const ParticlesCase& c)
                                "is 'fixed'; it must be \"fitted\" in a box that is periodic both "
                                "ways and sheared or strained, because a particle that the fixed "
                                "mesh cuts has a different velocity on the other side");
-  constexpr double kRounding = 1e-9;  // far above rounding errors; a free choice
+  constexpr double kRounding = 1e-9;  // far above rounding errors
   root.section("viscous_contact")
       .require(c.end_time <= (1 + kRounding) * c.setting.time_step, "end_time",
                "is {}; it must be at most time_step, {}, in a box that is periodic both ways and "
@@ -312,9 +298,8 @@ void check_mean_flow(const case_file::TomlSection& root, const ParticlesCase& c)
                c.end_time, c.setting.time_step);
 }
 
-/// Throws Error(kBadInput) if the smallest gap [L] that [arrangement] demands is too narrow. The
-/// actual gaps of its discs are not used, so that an arrangement is accepted or refused whatever
-/// its seed is.
+/// The actual gaps of the discs of [arrangement] are not used, so that an arrangement is accepted
+/// or refused whatever its seed is.
 void check_arrangement(const case_file::TomlSection& root, const ParticlesCase& c) {
   if (!c.arrangement) return;
   const auto& fluid = *c.setting.fluid;
@@ -335,8 +320,6 @@ void check_arrangement(const case_file::TomlSection& root, const ParticlesCase& 
       least);
 }
 
-/// Throws Error(kBadInput) if the gap `at` is too narrow at the start: less than a thousandth of
-/// the smaller radius on a fitted mesh, or less than the threshold gap by more than the tolerance.
 void check_gap(const ParticlesCase& c, const ParticleNames& names, const StartGap& at) {
   const auto& fluid = *c.setting.fluid;
   const auto& p = c.particles;
@@ -362,21 +345,20 @@ void check_gap(const ParticlesCase& c, const ParticleNames& names, const StartGa
                                                            : "viscous_contact.roughness");
 }
 
-/// The largest limit [L] of gaps that gaps_at_start() accepts, but at most `asked` [L].
+/// The largest limit of gaps that gaps_at_start() accepts, but at most `asked` [L].
 double limit_within_periods(const ParticlesCase& c, double asked) {
   const double diameter = 2 * std::ranges::max(c.particles.radii);
-  // The limit must be less than the period minus the diameter; any factor slightly below 1 works.
+  // The limit must be less than the period minus the diameter.
   constexpr double kLess = 0.999;
   for (const double period : periods_of(c.setting.domain))
     if (period > 0) asked = std::min(asked, kLess * (period - diameter));
   return asked;
 }
 
-/// Throws Error(kBadInput) if the penalty [1] is too small for a case with bodies or links. The
-/// forces that hold them are computed from velocities of the fluid, which have rounding errors of
-/// about 1e-15/penalty (particles/fluid/fluid_motion.hpp). The limit is measured: a body of seven
-/// touching discs was held with penalties down to 3e-11; with 1e-11 the step failed with
-/// constraints that seemed to contradict each other.
+/// The forces that hold bodies and links are computed from velocities of the fluid, which have
+/// rounding errors of about 1e-15/penalty. The limit is measured: a body of seven touching discs
+/// was held with penalties down to 3e-11; with 1e-11 the step failed with constraints that seemed
+/// to contradict each other.
 void check_penalty(const case_file::TomlSection& root, const ParticlesCase& c) {
   constexpr double kLeast = 1e-10;
   const auto& fluid = *c.setting.fluid;
@@ -394,11 +376,9 @@ void check_penalty(const case_file::TomlSection& root, const ParticlesCase& c) {
 
 }  // namespace
 
-/// Sets fluid.threshold_gap [L] to its default. It is 0.05 times the smallest radius or semi-axis,
-/// or half of the smallest gap at the start if this half is smaller, but at least the gap at which
-/// the solids touch. Gaps of particles to their own periodic images count, too. Throws nothing.
 void set_default_threshold_gap(ParticlesCase& c) {
-  constexpr double kOfRadius = 0.05;  // free; a change alters results of cases without the key
+  assert(c.setting.fluid && c.particles.count() > 0);
+  constexpr double kOfRadius = 0.05;  // a change alters results of cases without the key
   double smallest = std::ranges::min(c.particles.radii);
   for (const auto& axes : c.setting.fluid->semi_axes)
     smallest = std::min(smallest, std::ranges::min(axes));
@@ -412,10 +392,9 @@ void set_default_threshold_gap(ParticlesCase& c) {
   c.setting.fluid->threshold_gap = std::max(threshold, gap_of_solids(c));
 }
 
-/// Calls all checks of this file. `root` is the root table of the case file, and `lines` are the
-/// lines in which the particles are given.
 void check_fluid_start(const case_file::TomlSection& root, const ParticlesCase& c,
                        const ParticleLines& lines) {
+  assert(c.setting.fluid);
   const ParticleNames names(c, lines);
   if (has_only_open_sides(c) && c.setting.given_motions.empty())
     root.section("fluid").fail(

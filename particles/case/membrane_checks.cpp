@@ -1,12 +1,7 @@
-// Checks the membranes of a case file, which are closed lines through particles called beads;
-// membrane_keys.cpp calls these functions. Lengths [L], areas [L^2] and the other numbers are in
-// the units of the case file. A membrane has at least 4 beads, or 12 in a fluid. Its reduced area,
-// 4 pi area/perimeter^2, is at least 1e-3, or from 0.3 to 0.999 in a fluid. In a fluid the
-// viscosity inside over that outside is from 1e-4 to 1e3. Every fault throws Error(kBadInput) with
-// its line. case/particles_sections.hpp declares the functions. A change must not refuse what
-// users' cases may contain now.
+// Checks of the membranes of a case.
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <string_view>
@@ -19,8 +14,6 @@
 namespace viscontact::particles {
 namespace {
 
-/// Throws Error(kBadInput) if a case without a fluid has restitution, which cannot be combined with
-/// membranes.
 void check_case_without_fluid(const case_file::TomlSection& root, const ParticlesCase& c) {
   root.section("viscous_contact")
       .require(!c.setting.laws.restitution.is_on(), "restitution",
@@ -28,7 +21,7 @@ void check_case_without_fluid(const case_file::TomlSection& root, const Particle
 }
 
 /// Throws Error(kBadInput) if a case with a fluid has something that cannot be combined with
-/// membranes. `first` is the section of the first membrane.
+/// membranes.
 void check_case_in_fluid(const case_file::TomlSection& root, const case_file::TomlSection& first,
                          const ParticlesCase& c) {
   const FilePosition at{c.path.string(), first.line()};
@@ -84,10 +77,8 @@ double rate_of_deformation(const ParticlesCase& c) {
 
 }  // namespace
 
-/// Throws Error(kBadInput) if the viscosity inside the last membrane of the case over that outside
-/// is not from 1e-4 to 1e3, or if the membrane is too stiff for its number of beads. The case must
-/// have a fluid (not checked).
 void check_in_fluid(const case_file::TomlSection& section, const ParticlesCase& c) {
+  assert(c.setting.fluid && !c.setting.fluid->membranes.empty());
   const auto& membrane = c.setting.fluid->membranes.back();
   // At smaller viscosity ratios the solution is lost in rounding errors (1e-6 ends in errors of
   // FreeFEM). At larger ones the error of the elements grows: the inclination of a membrane of
@@ -116,8 +107,6 @@ void check_in_fluid(const case_file::TomlSection& section, const ParticlesCase& 
                   membrane.count(), membrane.bending_rigidity / scale, kBeadsOfStiff);
 }
 
-/// Throws Error(kBadInput) if the dimension is not 2, or if the case has something that cannot be
-/// combined with membranes. `first` is the section of the first membrane.
 void check_case_of_membranes(const case_file::TomlSection& root,
                              const case_file::TomlSection& first, const ParticlesCase& c) {
   if (c.particles.dimension != 2)
@@ -129,9 +118,6 @@ void check_case_of_membranes(const case_file::TomlSection& root,
     check_case_without_fluid(root, c);
 }
 
-/// Throws Error(kBadInput) if the beads that the user gives for a new membrane are fewer than 4, in
-/// a fluid fewer than 12; if a bead is named twice, belongs to another membrane or has a given
-/// motion; or if, in a fluid, a bead has a mass or is no disc.
 void check_given_beads(const case_file::TomlSection& section, const ParticlesCase& c,
                        const Membrane& membrane) {
   const bool in_fluid = c.setting.fluid.has_value();
@@ -161,9 +147,6 @@ void check_given_beads(const case_file::TomlSection& section, const ParticlesCas
   }
 }
 
-/// Throws Error(kBadInput) if the last membrane of the case crosses itself or another membrane, is
-/// too flat or too round, or is as wide as a period; if two of its beads that are no neighbours
-/// overlap; or if, in a fluid, one of two membranes contains the other. Positions are in [L].
 void check_place(const case_file::TomlSection& section, const ParticlesCase& c) {
   const auto& p = c.particles;
   const auto& membranes = membranes_of(c.setting);
@@ -173,7 +156,7 @@ void check_place(const case_file::TomlSection& section, const ParticlesCase& c) 
   const auto count = membrane.beads.size();
   section.require(!crosses_itself(own), shape, "makes a membrane that crosses itself");
   // If the membrane is flat, its sides lie on each other, and no motion changes its area, so that
-  // the equation of the area is singular. 1e-3 is a free choice near 0.
+  // the equation of the area is singular.
   constexpr double kLeastReducedArea = 1e-3;
   const double reduced_area =
       4 * std::numbers::pi * membrane.area / (membrane.perimeter * membrane.perimeter);
@@ -240,8 +223,6 @@ void check_place(const case_file::TomlSection& section, const ParticlesCase& c) 
   }
 }
 
-/// Throws Error(kBadInput) if, in a fluid, a particle that is no bead has a mass or a torque, is no
-/// disc, or crosses a membrane. `first` is the section of the first membrane.
 void check_others(const case_file::TomlSection& first, const ParticlesCase& c) {
   if (!c.setting.fluid) return;
   const auto& p = c.particles;

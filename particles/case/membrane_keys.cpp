@@ -1,11 +1,4 @@
-// Reads the sections [[membrane]] of a case file, and makes the particles (beads) of membranes that
-// are not given by particles. case/particles_sections.hpp declares read_membranes() and
-// membrane_tables(), which particle_tables.cpp and particles_case.cpp call. Lengths [L], masses [M]
-// and velocities [L/T] are in the units of the case file, angles in radians; numbers are at most
-// 1e100 in magnitude, and radii, masses and perimeters at least 1e-100. The reduced area, 4 pi
-// area/perimeter^2, is from 0.3 to 0.999, and a membrane that is made has 12 to 400 beads. A wrong
-// value throws Error(kBadInput) with its line. A change must keep the keys and their defaults,
-// because users have written cases with them.
+// Reads [[membrane]], and makes the beads of membranes that are not given by particles.
 #include <algorithm>
 #include <numbers>
 #include <utility>
@@ -17,12 +10,12 @@
 namespace viscontact::particles {
 namespace {
 
-/// Allowed range of the reduced area of a membrane that is made [1]. Above 0.999 a membrane is
-/// nearly a circle, which hardly anything deforms; below 0.3 its two long sides touch.
+/// Range of the reduced area of a membrane that is made [1]. Above 0.999 a membrane is nearly a
+/// circle, which hardly anything deforms; below 0.3 its two long sides touch.
 constexpr Allowed kReducedArea = {[](double v) { return v >= 0.3 && v <= 0.999; },
                                   "from 0.3 to 0.999"};
 
-/// The values of a section [[membrane]]. The texts of the keys below say what each member means.
+/// The texts of the keys below say what each member means.
 struct MembraneTable {
   Membrane membrane;
   Vector centre{}, velocity{};  // at the start [L], [L/T]
@@ -33,13 +26,7 @@ struct MembraneTable {
 };
 
 /// Keys of a membrane whose beads are made. A section with the key `particles`, which gives the
-/// beads, must have none of these keys. `in_fluid` says that the case has a fluid.
-///
-/// Each function whose name ends in _keys declares the keys of a table: name, range, meaning and
-/// default. When a case is read (keys.reads() is true), such a function stores the values in its
-/// second argument, and Error(kBadInput) with the line is thrown for a key that is missing, unknown
-/// or out of range. The same functions make the tables of docs/case-file.md; then nothing is
-/// thrown.
+/// beads, must have none of these keys.
 void shape_keys(case_file::Keys& keys, MembraneTable& table, bool in_fluid) {
   auto& membrane = table.membrane;
   const bool is_made = !keys.has("particles");
@@ -80,9 +67,8 @@ void shape_keys(case_file::Keys& keys, MembraneTable& table, bool in_fluid) {
                 {"of all beads at the start, without a fluid only", "0"});
 }
 
-/// All keys of a section [[membrane]]. The bending rigidity is in [M L^3/T^2], or in a fluid, where
-/// it is that of a unit length of the third dimension, in [M L^2/T^2]. The bending viscosity is in
-/// [M L^3/T], viscosities of fluids in [M/(L T)].
+/// The bending rigidity is in [M L^3/T^2], or in a fluid, where it is that of a unit length of the
+/// third dimension, in [M L^2/T^2]. The bending viscosity is in [M L^3/T].
 void membrane_keys(case_file::Keys& keys, MembraneTable& table, const ParticlesCase& c,
                    const ParticleIds& ids) {
   const bool in_fluid = c.setting.fluid.has_value();
@@ -121,9 +107,9 @@ void membrane_keys(case_file::Keys& keys, MembraneTable& table, const ParticlesC
   membrane.viscosity_ratio = table.inner_viscosity / outside;
 }
 
-/// Sets perimeter [L], area [L^2] and distances [L] of a membrane to those of its given particles.
-/// In a fluid the beads are moved to equal distances along the curve through them; Error(kBadInput)
-/// is thrown if one would move by more than 0.02 of this distance.
+/// Sets perimeter, area and distances of a membrane to those of its given particles. In a fluid the
+/// beads are moved to equal distances along the curve through them; Error(kBadInput) is thrown if
+/// one would move by more than 0.02 of this distance.
 void take_shape(const case_file::TomlSection& section, ParticlesCase& c, Membrane& membrane) {
   c.particles.cell = cell_of(c.setting.domain);
   check_given_beads(section, c, membrane);
@@ -132,7 +118,7 @@ void take_shape(const case_file::TomlSection& section, ParticlesCase& c, Membran
     return;
   }
   // Positions in a file may be rounded. Therefore beads may be moved by this fraction of their
-  // distance, which is a free choice.
+  // distance.
   constexpr double kRounded = 0.02;
   const double moved = shape_curve(membrane, c.particles);
   const double allowed = kRounded * membrane.perimeter / membrane.count();
@@ -142,9 +128,8 @@ void take_shape(const case_file::TomlSection& section, ParticlesCase& c, Membran
                   moved, allowed);
 }
 
-/// Makes the beads of a membrane, on an ellipse, and adds them to the particles of the case and
-/// their lines to `lines`. Throws Error(kBadInput) if so few beads cannot have the reduced area, or
-/// if too few ids are left.
+/// Makes the beads of a membrane, on an ellipse, and adds them to the particles of the case. Throws
+/// Error(kBadInput) if so few beads cannot have the reduced area, or if too few ids are left.
 void make_beads(const case_file::TomlSection& section, ParticlesCase& c, MembraneTable& table,
                 ParticleLines& lines) {
   auto& p = c.particles;
@@ -179,8 +164,6 @@ void make_beads(const case_file::TomlSection& section, ParticlesCase& c, Membran
 
 }  // namespace
 
-/// Reads all sections [[membrane]]. The membranes are added to c.setting.fluid or, without a fluid,
-/// to c.setting.links, and beads that are made are added to c.particles.
 void read_membranes(const case_file::TomlSection& root, ParticlesCase& c, ParticleLines& lines) {
   if (!root.has("membrane")) return;
   const auto sections = root.sections("membrane");
@@ -202,7 +185,6 @@ void read_membranes(const case_file::TomlSection& root, ParticlesCase& c, Partic
   if (!c.setting.fluid) join_neighbours(membranes, c.particles);
 }
 
-/// The table of docs/case-file.md for these keys.
 std::vector<case_file::KeyTable> membrane_tables() {
   const ParticlesCase c;
   const ParticleIds ids(c);

@@ -1,11 +1,4 @@
-// Reads the particles of a case of many particles: the sections [particles] (a CSV file),
-// [[particle]] and [[force]]. In the units of the case, radii, semi-axes and lengths of plates [L]
-// and masses [M] are from 1e-100 to 1e100 (a mass in a fluid also 0); coordinates [L], velocities
-// [L/T, 1/T], forces [M L/T^2] and torques [M L^2/T^2] are at most 1e100 in magnitude; ids are
-// whole numbers from 0 to 2^31 - 1. A wrong value, and a file that cannot be read, are an
-// Error(kBadInput), with the line if there is one. particles_case.cpp uses this file; other files
-// of case/ use ParticleIds, read_ids() and require_ids(). A change must keep keys and defaults,
-// which users' cases rely on.
+// Reads [particles] (a CSV file), [[particle]] and [[force]].
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,7 +18,7 @@ constexpr Allowed kMassWithoutFluid = {
 constexpr std::array kKeysOfRotation = {"torque", "angle", "angular_velocity", "moment_of_inertia"};
 
 /// Throws Error(kBadInput) for keys of a table [[particle]] that are not allowed in this dimension
-/// (1, 2 or 3), in a case with or without a fluid (`in_fluid`), or beside each other.
+/// (1, 2 or 3), with or without a fluid, or beside each other.
 void check_keys(const case_file::TomlSection& section, int dimension, bool in_fluid) {
   section.require(
       !section.has("semi_axes") || (in_fluid && dimension == 2), "semi_axes",
@@ -44,14 +37,7 @@ void check_keys(const case_file::TomlSection& section, int dimension, bool in_fl
                   "must be left out, because the orientation of a sphere changes nothing");
 }
 
-/// Each function whose name ends in _keys declares the keys of a table: name, range, meaning and
-/// default. When a case is read (keys.reads() is true), such a function stores the values in its
-/// second argument, and Error(kBadInput) with the line is thrown for a key that is missing, unknown
-/// or out of range. The same functions make the tables of docs/case-file.md; then nothing is
-/// thrown.
-///
-/// Keys of the motion of a driven particle: velocity [L/T] and angular velocity [1/T] as functions
-/// of time, which must be given up to `end_time` [T].
+/// Keys of the motion of a driven particle, which must be given up to `end_time` [T].
 void given_motion_keys(case_file::Keys& keys, GivenMotion& motion, int dimension, double end_time) {
   keys.required("value", pieces(motion.velocity, dimension, end_time),
                 {"velocity of a particle that is driven"});
@@ -61,7 +47,7 @@ void given_motion_keys(case_file::Keys& keys, GivenMotion& motion, int dimension
                 {"counter-clockwise", "0"});
 }
 
-/// The values of a table [[particle]], in the units of the case; angles in radians.
+/// Angles are in radians.
 struct ParticleTable {
   // At time 0: [L], [L/T], [1/T].
   Vector centre{}, velocity{}, angular_velocity{};
@@ -75,8 +61,8 @@ struct ParticleTable {
     if (length) return size_of_plate(semi_axes);
     return semi_axes[0] > 0 ? size_of_ellipse(semi_axes) : size_of_particle(dimension, radius);
   }
-  /// Moment of inertia about the centre [M L^2] of a particle in the plane: the one that is given,
-  /// or else that of a homogeneous particle.
+  /// Moment of inertia about the centre [M L^2]: the one that is given, or else that of a
+  /// homogeneous particle.
   double inertia_in_plane() const {
     if (moment_of_inertia) return *moment_of_inertia;
     if (length) return homogeneous_inertia_of_plate(mass, semi_axes);
@@ -88,7 +74,6 @@ struct ParticleTable {
   std::optional<GivenMotion> given;  // how it is driven; a fixed particle has velocities 0
 };
 
-/// Reads a prescribed motion. Throws Error(kBadInput) if the particle is fixed already.
 void read_given_motion(const case_file::TomlSection& section, std::string_view key,
                        ParticleTable& p, const ParticlesCase& c) {
   section.require(!p.is_fixed, key,
@@ -97,7 +82,7 @@ void read_given_motion(const case_file::TomlSection& section, std::string_view k
                        c.particles.dimension, c.end_time);
 }
 
-/// Keys of the mass [M], or of the density (mass over area or volume) in its place.
+/// Keys of the mass, or of the density (mass over area or volume) in its place.
 void read_mass(case_file::Keys& keys, ParticleTable& p, int dimension, bool in_fluid) {
   double density = 0;
   const bool has_density = keys.optional(
@@ -117,8 +102,6 @@ void read_mass(case_file::Keys& keys, ParticleTable& p, int dimension, bool in_f
                     "from 1e-100 to 1e100, in a fluid or with a given motion also 0"});
 }
 
-/// Reads the two semi-axes [L], > 0, of an ellipse. Throws Error(kBadInput) if one of them is more
-/// than 100 times the other one.
 void read_semi_axes(const case_file::TomlSection& section, std::string_view key,
                     std::array<double, 2>& axes) {
   const auto numbers = section.numbers(key, kModeratelyPositive);
@@ -133,7 +116,6 @@ void read_semi_axes(const case_file::TomlSection& section, std::string_view key,
                   ratio, kMostSlender);
 }
 
-/// Keys of a table [[particle]].
 void particle_keys(case_file::Keys& keys, ParticleTable& p, const ParticlesCase& c) {
   const int dimension = c.particles.dimension;
   const bool in_fluid = c.setting.fluid.has_value();
@@ -173,8 +155,7 @@ void particle_keys(case_file::Keys& keys, ParticleTable& p, const ParticlesCase&
                  "this length along `angle`, with round ends of the `radius`",
                  "none"});
   if (p.length) {
-    // Meshes were tested up to the first ratio. Plates below the second one are nearly discs; it is
-    // a free choice.
+    // Meshes were tested up to the first ratio. Plates below the second one are nearly discs.
     constexpr double kMostSlender = 100, kLeast = 1.01;
     const double ratio = *p.length / (2 * p.radius);
     keys.require(ratio >= kLeast && ratio <= kMostSlender, "length",
@@ -212,18 +193,16 @@ void add_rotation_of_last(const case_file::TomlSection& section, const ParticleT
   if (table.moment_of_inertia) p.inertias[k] = *table.moment_of_inertia;
 }
 
-/// The value of a function at time 0. It is 0 if the function has no pieces.
+/// The value at time 0; 0 without pieces.
 Vector at_start(const PiecewiseConstant& function) {
   return function.pieces.empty() ? Vector{} : function.pieces.front().value;
 }
 
-/// Appends semi-axes to `axes` until it has `end` entries. Both semi-axes [L] of a new entry are
-/// the radius of its particle, as those of a disc.
+/// Appends the semi-axes of discs to `axes` until it has `end` entries.
 void add_discs(std::vector<std::array<double, 2>>& axes, const Particles& p, std::size_t end) {
   for (auto k = axes.size(); k < end; ++k) axes.push_back({p.radii[k], p.radii[k]});
 }
 
-/// Reads a table [[particle]], and appends the particle to the arrays of the case.
 void read_particle(const case_file::TomlSection& section, ParticlesCase& c) {
   auto& p = c.particles;
   const bool in_fluid = c.setting.fluid.has_value();
@@ -264,13 +243,11 @@ void read_particle(const case_file::TomlSection& section, ParticlesCase& c) {
   add_missing_ids(p);
 }
 
-/// Keys of [particles].
 void file_keys(case_file::Keys& keys, std::string& file) {
   keys.required("file", case_file::file_name(file), {"a CSV file, see below"});
 }
 
-/// Reads the CSV file that [particles] names into c.particles, and the lines of the particles into
-/// `lines`. The name is relative to the folder of the case file.
+/// Reads the CSV file that [particles] names, relative to the folder of the case file.
 void read_file_of_particles(const case_file::TomlSection& section, ParticlesCase& c,
                             ParticleLines& lines) {
   std::string name;
@@ -287,13 +264,11 @@ void read_file_of_particles(const case_file::TomlSection& section, ParticlesCase
   if (!in_fluid && p.turn()) add_rotation(p);
 }
 
-/// The values of a table [[force]].
 struct ForceTable {
   std::vector<std::int32_t> particles;  // their numbers, from 0
   PiecewiseConstant value;              // the force on each of them [M L/T^2]
 };
 
-/// Keys of a table [[force]].
 void force_by_id_keys(case_file::Keys& keys, ForceTable& force, const ParticlesCase& c,
                       const ParticleIds& ids) {
   keys.required("value", pieces(force.value, c.particles.dimension, c.end_time),
@@ -304,9 +279,6 @@ void force_by_id_keys(case_file::Keys& keys, ForceTable& force, const ParticlesC
 
 }  // namespace
 
-/// Reads all particles in the order: CSV file, [[particle]], [arrangement], [[membrane]]; then the
-/// sources. Returns the lines in which the particles are given. Throws Error(kBadInput) if there is
-/// neither a particle nor a source, too.
 ParticleLines read_particles_of_case(const case_file::TomlSection& root, ParticlesCase& c) {
   ParticleLines lines;
   if (root.has("particles")) read_file_of_particles(root.section("particles"), c, lines);
@@ -333,8 +305,6 @@ ParticleLines read_particles_of_case(const case_file::TomlSection& root, Particl
                   "[[membrane]], an [arrangement], or a [[source]]");
 }
 
-/// Throws Error(kBadInput) at `key` if there are not `count` ids left above the largest id of `p`,
-/// for new particles.
 void require_ids(const case_file::TomlSection& section, std::string_view key, const Particles& p,
                  std::size_t count) {
   section.require(count <= ids_left(p), key,
@@ -342,8 +312,6 @@ void require_ids(const case_file::TomlSection& section, std::string_view key, co
                   largest_id(p), std::numeric_limits<std::int32_t>::max());
 }
 
-/// Reads the tables [[force]] into c.setting.forces. Throws Error(kBadInput) if a particle has a
-/// given motion, or a force already.
 void read_forces_by_id(const case_file::TomlSection& root, ParticlesCase& c) {
   if (!root.has("force")) return;
   const ParticleIds ids(c);
@@ -362,7 +330,6 @@ void read_forces_by_id(const case_file::TomlSection& root, ParticlesCase& c) {
   }
 }
 
-/// The tables of docs/case-file.md for these keys.
 std::vector<case_file::KeyTable> particle_tables() {
   const ParticlesCase c;
   const ParticleIds ids(c);
@@ -377,8 +344,6 @@ ParticleIds::ParticleIds(const ParticlesCase& c) : case_(c) {
     places_.emplace(c.particles.id(k), static_cast<std::int32_t>(k));
 }
 
-/// The number, from 0, of the particle with the id `id`, a value of `key`. Throws Error(kBadInput)
-/// if no particle has this id; `verb` joins key and id in the message.
 std::int32_t ParticleIds::number(const case_file::TomlSection& section, std::string_view key,
                                  double id, std::string_view verb) const {
   const bool whole = id == std::floor(id) && id <= std::numeric_limits<std::int32_t>::max();
@@ -396,7 +361,6 @@ std::int32_t ParticleIds::number(const case_file::TomlSection& section, std::str
   return found->second;
 }
 
-/// Reads a list of ids, and appends the numbers of their particles to `place`.
 void read_ids(const case_file::TomlSection& section, std::string_view key,
               std::vector<std::int32_t>& place, const ParticleIds& ids) {
   for (const double id : section.numbers(key, kNotNegative))

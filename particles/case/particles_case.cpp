@@ -1,11 +1,4 @@
-// Reads the case file of many particles, and its sections [space], [viscous_contact], [friction],
-// [solver], [output], [[plane]] and [sweep]; other files of case/ read the other sections. In the
-// units of the case, times [T], viscosity [M/(L T)] and roughness [L] are from 1e-100 to 1e100,
-// gamma_min [M L/T] is <= 0, the coefficient of restitution 0 to 1 and that of friction >= 0;
-// tolerances [1] are from 1e-12 to 0.1, and vectors at most 1e100 in magnitude. A wrong value, and
-// a file that cannot be read, are an Error(kBadInput), with the line if there is one. This file is
-// used by particles_study.cpp, run/, sweep/, app/ and python/. A change must keep keys and
-// defaults, which users' cases rely on.
+// Reads [space], [viscous_contact], [friction], [solver], [output], [[plane]] and [sweep].
 #include "viscontact/particles/case/particles_case.hpp"
 
 #include <algorithm>
@@ -24,16 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Each function whose name ends in _keys declares the keys of a table: name, range, meaning and
-// default. When a case is read (keys.reads() is true), such a function stores the values in its
-// second argument, and Error(kBadInput) with the line is thrown for a key that is missing, unknown
-// or out of range. The same functions make the tables of docs/case-file.md; then nothing is thrown.
 constexpr Allowed kNotPositive = {[](double v) { return v <= 0; }, "<= 0"};
 constexpr Allowed kTolerance = {[](double v) { return v >= 1e-12 && v <= 0.1; },
                                 "from 1e-12 to 0.1"};
 constexpr Allowed kShare = {[](double v) { return v >= 0 && v <= 1; }, "from 0 to 1"};
 
-/// Reads the dimension: 2, 3, or "axisymmetric", which becomes 1.
+/// Reads 2, 3, or "axisymmetric", which becomes 1.
 void read_dimension(const case_file::TomlSection& space, std::string_view key, int& dimension) {
   if (!space.is_text(key)) {
     dimension = space.count(key, 2, 3);
@@ -44,7 +33,6 @@ void read_dimension(const case_file::TomlSection& space, std::string_view key, i
   dimension = 1;
 }
 
-/// Keys of [space]: the dimension, and gravity [L/T^2].
 void space_keys(case_file::Keys& keys, ParticlesCase& c) {
   keys.required(
       "dimension",
@@ -55,10 +43,9 @@ void space_keys(case_file::Keys& keys, ParticlesCase& c) {
                 {"acceleration of all particles", "0"});
 }
 
-/// Keys of the fluid film between particles: either gamma_min [M L/T], <= 0, the lowest value of
-/// gamma, which is minus the impulse that the film has absorbed, or viscosity [M/(L T)] and
-/// roughness [L], from which gamma_min follows. In a fluid the film has the viscosity of the fluid,
-/// unless the key `viscosity` is given.
+/// Keys of the fluid film between particles: either gamma_min, or viscosity and roughness, from
+/// which gamma_min follows. In a fluid the film has the viscosity of the fluid, unless the key
+/// `viscosity` is given.
 void film_keys(case_file::Keys& keys, FilmLaw& law, const std::optional<Fluid>& fluid) {
   keys.optional("gamma_min", case_file::number(law.gamma_min, kNotPositive),
                 {"for every pair, an impulse (of discs in a fluid an impulse per length); 0: no "
@@ -84,7 +71,6 @@ constexpr const char* kNoSolidContact =
     "has no effect, because smooth particles never touch; viscous_contact must have gamma_min (0: "
     "no film), or viscosity and roughness";
 
-/// Keys of [viscous_contact]: times [T], film, restitution and scheme.
 void contact_keys(case_file::Keys& keys, ParticlesCase& c) {
   auto& laws = c.setting.laws;
   auto& film = laws.film;
@@ -95,7 +81,7 @@ void contact_keys(case_file::Keys& keys, ParticlesCase& c) {
   keys.required("time_step", case_file::number(step, kModeratelyPositive), {"at most `end_time`"});
   keys.require(step <= c.end_time, "time_step", "is {}; it must be at most end_time, {}", step,
                c.end_time);
-  constexpr double kMostSteps = 1e9;  // a free choice: more steps probably come from a wrong unit
+  constexpr double kMostSteps = 1e9;  // more steps probably come from a wrong unit of time
                                       // of time
   keys.require(c.end_time / step <= kMostSteps, "time_step",
                "is {}, which makes {:.3g} steps to end_time; at most {:.0e} are allowed", step,
@@ -129,7 +115,6 @@ void contact_keys(case_file::Keys& keys, ParticlesCase& c) {
                "second order without it, and the key must be left out");
 }
 
-/// Keys of [friction]: the coefficient [1], >= 0, and the method.
 void friction_keys(case_file::Keys& keys, FrictionLaw& law) {
   keys.required("coefficient", case_file::number(law.coefficient, kModeratelyPositiveOr0),
                 {"mu_s of [solid contact](particles.md#friction)"});
@@ -140,8 +125,8 @@ void friction_keys(case_file::Keys& keys, FrictionLaw& law) {
                  "slide open by h mu_s abs(v_t)"});
 }
 
-/// Reads the section [friction]. Throws Error(kBadInput) for spheres on an axis in a fluid, if no
-/// solids can touch in this case, or if the case has a fluid and the method is "convex".
+/// Throws Error(kBadInput) for spheres on an axis in a fluid, if no solids can touch in this case,
+/// or if the case has a fluid and the method is "convex".
 void read_friction(const case_file::TomlSection& section, int dimension, Setting& setting) {
   section.require(!setting.fluid || dimension == 2, "coefficient",
                   "belongs to particles that turn; spheres on the axis of a fluid do not slide on "
@@ -167,8 +152,8 @@ void check_friction_in_fluid(const case_file::TomlSection& section, const Settin
                   "have no friction; the section [friction] must be left out");
 }
 
-/// Reads the key `method`. Earlier versions offered three methods that solve the same problem. A
-/// case that names one of the other two is still accepted, and the present method is used.
+/// Earlier versions offered three methods that solve the same problem. A case that names one of the
+/// other two is still accepted, and the present method is used.
 void read_method(const case_file::TomlSection& solver, std::string_view key) {
   const auto text = solver.text(key);
   solver.require(
@@ -176,7 +161,6 @@ void read_method(const case_file::TomlSection& solver, std::string_view key) {
       key, "is '{}'; it must be \"conjugate_gradients\", the only method", text);
 }
 
-/// Keys of [solver]: two tolerances [1] and the largest number of iterations.
 void solver_keys(case_file::Keys& keys, SolverSettings& settings) {
   keys.optional("tolerance", case_file::number(settings.tolerance, kTolerance),
                 {"tolerance of the gaps, divided by the mean radius"});
@@ -195,7 +179,6 @@ void solver_keys(case_file::Keys& keys, SolverSettings& settings) {
                  "`\"conjugate_gradients\"`"});
 }
 
-/// Keys of [output]: times [T], and the names of the tables that are written.
 void output_keys(case_file::Keys& keys, ParticlesCase& c) {
   keys.optional("every", case_file::number(c.frame_interval, kModeratelyPositive),
                 {"time between frames", "a hundredth of `end_time`"});
@@ -218,8 +201,8 @@ void output_keys(case_file::Keys& keys, ParticlesCase& c) {
 
 constexpr int kInPlane = 2;  // with it pieces_of_turn() reads one number
 
-/// Reads a number along the normal of a plane, or a list of pieces of time with such numbers, as
-/// component 0 of vectors.
+/// Reads a number along the normal of a plane, or pieces of time with such numbers, as component 0
+/// of vectors.
 void read_load(const case_file::TomlSection& section, std::string_view key,
                PiecewiseConstant& place, const double& end_time) {
   section.require(
@@ -230,9 +213,9 @@ void read_load(const case_file::TomlSection& section, std::string_view key,
   for (auto& piece : place.pieces) piece.value = {piece.value[2], 0, 0};
 }
 
-/// Length [L] or area [L^2] of the part of a plane in the domain. Throws Error(kBadInput) unless the
-/// domain is a box and the plane parallel to sides of it, so that the size does not change while the
-/// plane moves.
+/// Length [L] or area [L^2] of the part of a plane in the domain. Throws Error(kBadInput) unless
+/// the domain is a box and the plane parallel to sides of it, so that the size does not change
+/// while the plane moves.
 double size_in_domain(const case_file::TomlSection& section, const Plane& plane,
                       const Domain& domain) {
   const auto* box = std::get_if<BoxDomain>(&domain);
@@ -252,8 +235,8 @@ double size_in_domain(const case_file::TomlSection& section, const Plane& plane,
   return size;
 }
 
-/// Keys of the load of a plane: a pressure [M/(L T^2)] (with discs [M/T^2]) or a force [M L/T^2],
-/// and the mass [M].
+/// Keys of the load of a plane: a pressure [M/(L T^2)] (with discs [M/T^2]) or a force, and the
+/// mass.
 void load_keys(case_file::Keys& keys, Plane& plane, const ParticlesCase& c) {
   PlaneLoad load;
   const bool has_pressure = keys.optional(
@@ -299,8 +282,7 @@ void load_keys(case_file::Keys& keys, Plane& plane, const ParticlesCase& c) {
   plane.load = std::move(load);
 }
 
-/// Keys of a table [[plane]]: a point [L] and a normal, which becomes a unit vector; velocity [L/T]
-/// and angular velocity [1/T], and the point [L] about which the plane turns.
+/// The normal becomes a unit vector.
 void plane_keys(case_file::Keys& keys, Plane& plane, const ParticlesCase& c) {
   const int dimension = c.particles.dimension;
   Vector normal{};
@@ -308,7 +290,7 @@ void plane_keys(case_file::Keys& keys, Plane& plane, const ParticlesCase& c) {
   keys.required("normal", vector(normal, dimension),
                 {"points to the side of the particles; its length is arbitrary, but not 0"});
   const double length = norm(normal);
-  keys.require(length > 1e-100, "normal",  // 1/length must be finite; a free choice
+  keys.require(length > 1e-100, "normal",  // 1/length must be finite
                "is 0; it must be a vector that points into the free side of the plane");
   plane.start.normal = (1 / length) * normal;
   keys.optional("velocity", pieces(plane.velocity, dimension, c.end_time), {"of the plane", "0"});
@@ -326,8 +308,8 @@ void plane_keys(case_file::Keys& keys, Plane& plane, const ParticlesCase& c) {
   load_keys(keys, plane, c);
 }
 
-/// Throws Error(kBadInput) for a plane that is not parallel to the periods of the domain, because
-/// such a plane would bound the particles but not their periodic images.
+/// A plane that is not parallel to the periods of the domain would bound the particles but not
+/// their periodic images.
 void check_periods_of_plane(const case_file::TomlSection& section, const Plane& plane,
                             const Domain& domain) {
   const auto periods = periods_of(domain);
@@ -340,7 +322,6 @@ void check_periods_of_plane(const case_file::TomlSection& section, const Plane& 
         kAxes[d]);
 }
 
-/// Keys of [sweep].
 void particles_sweep_keys(case_file::Keys& keys, case_file::SweepRequest& sweep) {
   keys.optional("vary", case_file::texts(sweep.vary), {"`KEY=RANGE` each, as on the command line"});
   keys.optional("draws", case_file::number(sweep.draws, case_file::kWholeNumber),
@@ -348,8 +329,8 @@ void particles_sweep_keys(case_file::Keys& keys, case_file::SweepRequest& sweep)
   case_file::points_and_plot_keys(keys, sweep);
 }
 
-/// Reads [domain] and [fluid]. c.path and the dimension of the case must be set before. Throws
-/// Error(kBadInput) if the dimension does not fit, or if there is a fluid without a domain.
+/// c.path and the dimension of the case must be set before. Throws Error(kBadInput) if the
+/// dimension does not fit, or if there is a fluid without a domain.
 void read_domain_and_fluid(const case_file::TomlSection& root, ParticlesCase& c) {
   const int dimension = c.particles.dimension;
   if (root.has("domain")) c.setting.domain = read_domain(root.section("domain"), dimension);
@@ -375,9 +356,8 @@ void read_domain_and_fluid(const case_file::TomlSection& root, ParticlesCase& c)
 
 }  // namespace
 
-/// Reads all sections of a case from its root table, in an order in which each section finds what
-/// it needs, and checks the start. c.path must have been set.
 void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
+  // Each section finds what it needs of the sections before it.
   case_file::read_title_and_units(root, c, true);
   case_file::read_keys(root.section("space"), space_keys, c);
   read_domain_and_fluid(root, c);
@@ -387,7 +367,7 @@ void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
     read_friction(root.section("friction"), c.particles.dimension, c.setting);
   if (root.has("solver"))
     case_file::read_keys(root.section("solver"), solver_keys, c.setting.solver);
-  c.frame_interval = c.end_time / 100;  // the default, a free choice
+  c.frame_interval = c.end_time / 100;
   if (root.has("output")) case_file::read_keys(root.section("output"), output_keys, c);
   if (root.has("plane"))
     for (const auto& section : root.sections("plane")) {
@@ -444,7 +424,6 @@ ParticlesCase read_particles_case(const fs::path& path) {
   return case_file::read_case_file<ParticlesCase>(path);
 }
 
-/// The tables of docs/case-file.md for all sections of such a case.
 std::vector<case_file::KeyTable> tables_of_particles_case() {
   const ParticlesCase c;
   std::vector<case_file::KeyTable> tables = {
@@ -461,9 +440,6 @@ std::vector<case_file::KeyTable> tables_of_particles_case() {
   return tables;
 }
 
-/// The text of the case as TOML, with absolute paths in place of the names of files in the case
-/// file at `path`, so that it may be in any folder. Throws Error(kBadInput) if fluid.solver is no
-/// list of texts.
 std::string text_for_any_folder(const case_file::TomlSection& root, const fs::path& path) {
   std::vector<std::pair<std::string, std::string>> paths;
   const auto folder = fs::absolute(path).parent_path();

@@ -1,9 +1,4 @@
-// Reads and checks the case file of many particles, a TOML file in which a user describes a
-// simulation (docs/case-file.md, "Many particles", lists keys, ranges and defaults). Lengths,
-// masses and times are in any one consistent system of units. particles/run/, particles/sweep/,
-// python/ and the sweep of particles_study.hpp use it. Every fault of a case throws
-// Error(kBadInput), with the line and the key if the fault is in one of them. A change must keep
-// accepting the cases that users have written, with the same defaults.
+// The case file of many particles, a TOML file of the user (docs/case-file.md, "Many particles").
 #pragma once
 
 #include <filesystem>
@@ -18,14 +13,14 @@
 
 namespace viscontact::particles {
 
-/// Content of a case file of many particles. read_particles_case() checks the ranges below.
+/// Content of a case file, in any one consistent system of units.
 struct ParticlesCase {
-  std::filesystem::path path;  ///< the case file
-  std::string text;            ///< content of the file
-  std::string title;           ///< a title for pages and pictures; may be empty
-  Units units{};               ///< words for the units, for pages and pictures; may be empty
-  /// What the simulation needs besides the particles: domain, fluid, laws of contact, planes,
-  /// links, given motions, sources, gravity, step and solver.
+  std::filesystem::path path;
+  std::string text;   ///< content of the file
+  std::string title;  ///< for pages and pictures; may be empty
+  Units units{};      ///< for pages and pictures; may be empty
+  /// Domain, fluid, laws of contact, planes, links, given motions, sources, gravity, step and
+  /// solver.
   Setting setting;
   /// The particles at time 0: those of the CSV file, of the tables [[particle]], of [arrangement]
   /// and of [[membrane]], in this order. Their dimension is 1 (spheres on an axis), 2 or 3.
@@ -39,30 +34,28 @@ struct ParticlesCase {
                                     ///< (io/contact_file.hpp)
   /// rho_f [M/L^3] of a fluid without inertia, for the Reynolds number only; 0: not known.
   double fluid_density = 0;
-  /// What [arrangement] asks for; nothing if the case has no such section.
+  /// Without a value if the case has no such section.
   std::optional<Arrangement> arrangement;
-  /// What the section [sweep] asks for; nothing if the case has no such section.
+  /// Without a value if the case has no such section.
   std::optional<case_file::SweepRequest> sweep;
 };
 
-/// Reads and checks a case file. Throws Error(kBadInput) if the file cannot be read or is not TOML.
-/// For a wrong key it throws Error(kBadInput) with the file, the line, the key, its value and what
-/// is allowed. It also throws Error(kBadInput) if there is neither a particle nor a source, or if
-/// the particles cannot be there at the start: with the tolerance of gaps, `solver.tolerance` times
-/// the mean radius, two particles must not overlap, and no particle may reach behind a plane or a
-/// wall, by more than this tolerance; each radius must be at least a hundred times the tolerance;
-/// each coordinate must be at most largest_resolved_distance() (setting.hpp) in magnitude; and each
-/// centre must be in the domain, with no particle touching its own periodic image. A case with a
-/// fluid has further conditions (check_fluid_start() in particles_sections.hpp).
+/// Reads and checks a case file. Throws Error(kBadInput), with the file, the line, the key, its
+/// value and what is allowed, if the file cannot be read, is not TOML or has a wrong key. It also
+/// throws if there is neither a particle nor a source, or if the particles cannot be there at the
+/// start: with the tolerance of gaps, `solver.tolerance` times the mean radius, two particles must
+/// not overlap, and no particle may reach behind a plane or a wall, by more than this tolerance;
+/// each radius must be at least a hundred times the tolerance; each coordinate must be at most
+/// largest_resolved_distance() (setting.hpp) in magnitude; and each centre must be in the domain,
+/// with no particle touching its own periodic image. A case with a fluid has further conditions
+/// (check_fluid_start() in particles_sections.hpp).
 ParticlesCase read_particles_case(const std::filesystem::path& path);
 
-/// Reads a case into `c` from the root table of its file (case_file/case_template.hpp); c.path must
-/// have been set, and other members of `c` must be as they are after construction. Throws
-/// Error(kBadInput) for the faults of the case that read_particles_case() lists.
+/// Reads a case into `c` from the root table of its file; c.path must have been set. Throws the
+/// errors of read_particles_case().
 void read_root(const case_file::TomlSection& root, ParticlesCase& c);
 
-/// The tables of docs/case-file.md, which describe the keys of each section: name, allowed values,
-/// default and meaning. Throws nothing.
+/// The tables of docs/case-file.md, which describe the keys of each section.
 std::vector<case_file::KeyTable> tables_of_particles_case();
 
 /// The text of a case file with the contents of the root table `root`, which was read from the case

@@ -1,17 +1,9 @@
-// Makes the cases, rows and means of a sweep over a case of particles. A point of the sweep is a
-// set of values of the varied keys. A draw is one run at a point with its own random arrangement of
-// the particles; each draw has a row of results. Results are in the units of the case
-// (docs/file-formats.md has the columns). Rows have numbers from 0 (not checked), and there are at
-// most 1e12 rows. A wrong case, and a file that cannot be read or has other rows, are an
-// Error(kBadInput); a key that cannot be varied, or draws that are not possible, are an
-// Error(kWrongUsage). This file is used by sweep/ and app/. A change must keep in identity()
-// everything that determines the results of a row, because results with the same identity are not
-// computed again. The draws of a point must follow each other in the file, because means are
-// computed point by point.
+// Cases, rows and means of a sweep over a case of particles.
 #include "viscontact/particles/case/particles_study.hpp"
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -40,8 +32,6 @@ void check_varied_keys(const sweep::Points& points) {
   });
 }
 
-/// The names of the columns with results of a case, in their order. docs/file-formats.md says their
-/// units.
 std::vector<std::string> columns_of(const ParticlesCase& c) {
   std::vector<std::string> columns = {"particles"};
   if (c.arrangement) columns.emplace_back(fraction_column(c));
@@ -57,8 +47,7 @@ std::vector<std::string> columns_of(const ParticlesCase& c) {
   return columns;
 }
 
-/// The text "MEAN,STANDARD_ERROR" of `values`. The standard error is the standard deviation of n
-/// values, with n - 1, over the root of n. Both fields are empty if there are no values or if a
+/// The text "MEAN,STANDARD_ERROR" of `values`. Both fields are empty if there are no values or if a
 /// value is not finite; the second field is empty if there is one value.
 std::string mean_fields(const std::vector<double>& values) {
   if (values.empty()) return ",";
@@ -73,15 +62,12 @@ std::string mean_fields(const std::vector<double>& values) {
          (values.size() < 2 ? "" : format_number(std::sqrt(squares / (n - 1) / n)));
 }
 
-/// The results of the draws of one point.
 struct Draws {
-  std::string keys;                         ///< the varied keys, each followed by a comma
-  std::uint64_t succeeded = 0, failed = 0;  ///< numbers of draws
-  std::vector<std::vector<double>> values;  ///< for each column those of the draws
+  std::string keys;  ///< the varied keys, each followed by a comma
+  std::uint64_t succeeded = 0, failed = 0;
+  std::vector<std::vector<double>> values;  ///< those of the draws, for each column
 };
 
-/// A row of the table of means: varied keys, numbers of draws that succeeded and that failed, and
-/// for each column its mean and standard error over the draws that succeeded.
 std::string row_of(const Draws& draws) {
   std::string text = fmt::format("{}{},{}", draws.keys, draws.succeeded, draws.failed);
   for (const auto& values : draws.values) text += "," + mean_fields(values);
@@ -90,8 +76,6 @@ std::string row_of(const Draws& draws) {
 
 }  // namespace
 
-/// The points that the section [sweep] of the case asks for; without this section nothing is
-/// varied.
 sweep::Points planned_particles(const std::filesystem::path& case_path) {
   const auto c = read_particles_case(case_path);
   const auto request = c.sweep.value_or(case_file::SweepRequest{});
@@ -101,8 +85,6 @@ sweep::Points planned_particles(const std::filesystem::path& case_path) {
   return points;
 }
 
-/// Reads the case, and checks that its keys can be varied as `points` says and that the first and
-/// the last row give valid cases.
 ParticlesSweep::ParticlesSweep(const std::filesystem::path& case_path, sweep::Points points)
     : cases_(case_path), points_(std::move(points)) {
   if (points_.variations.empty() && points_.draws == 0)
@@ -111,8 +93,8 @@ ParticlesSweep::ParticlesSweep(const std::filesystem::path& case_path, sweep::Po
     throw Error(ErrorKind::kWrongUsage,
                 "random samples need a varied key, which gives their range");
   check_varied_keys(points_);
-  // A free choice, the same as for the points of a grid in sweep/variation.cpp. Without a limit the
-  // product of points and draws could exceed 64 bits.
+  // The same as for the points of a grid in sweep/variation.cpp. Without a limit the product of
+  // points and draws could exceed 64 bits.
   constexpr std::uint64_t kMostRows = 1000000000000;
   if (points_.draws > kMostRows / points_.count())
     throw Error(ErrorKind::kWrongUsage, "{} points with {} draws are more than {} rows",
@@ -134,23 +116,21 @@ ParticlesSweep::ParticlesSweep(const std::filesystem::path& case_path, sweep::Po
   sweep::check_ends(points_, [&](const auto& numbers) { (void)cases_.with(numbers); });
 }
 
-/// The text of a case file for row `index`, in which paths are absolute.
 std::string ParticlesSweep::case_text(std::uint64_t index) const {
+  assert(index < points_.rows());
   return text_for_any_folder(cases_.root_with(points_.numbers(index)), case_path());
 }
 
-/// The text of a case file without varied keys, in which paths are absolute.
 std::string ParticlesSweep::base_text() const {
   return text_for_any_folder(cases_.root_with({}), case_path());
 }
 
-/// Hash of the version of Viscontact, the case of row `index` and the CSV file of particles.
 std::string ParticlesSweep::identity(std::uint64_t index, const std::string& version) const {
+  assert(index < points_.rows());
   return sha256(fmt::format("{}\n{}\n{}", version, case_text(index),
                             particles_file_.empty() ? "" : sha256(read_file(particles_file_))));
 }
 
-/// The sweep with its points, columns, head of the file and `run`, which computes a row.
 sweep::Study ParticlesSweep::study(const std::string& version, ParticlesRunner run) const {
   // The identities of the first and the last row are enough, because other rows differ from them
   // only in the varied numbers, which are in the file.
@@ -161,8 +141,6 @@ sweep::Study ParticlesSweep::study(const std::string& version, ParticlesRunner r
           std::move(run)};
 }
 
-/// The table of means, as CSV with a row for each point, of the file of rows at `path`. Throws
-/// Error(kBadInput) if this file has other rows than the sweep or cannot be read.
 std::string table_of_means(const ParticlesSweep& sweep, const std::filesystem::path& path) {
   const auto& columns = sweep.result_columns();
   const auto& points = sweep.points();
@@ -207,7 +185,6 @@ std::string table_of_means(const ParticlesSweep& sweep, const std::filesystem::p
   return text;
 }
 
-/// The path of the table of means: "rows.csv" gives "rows_means.csv".
 std::filesystem::path path_of_means(const std::filesystem::path& rows) {
   auto name = rows.stem();
   name += "_means";

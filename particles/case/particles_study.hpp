@@ -1,11 +1,5 @@
-// Plans a sweep over a case of many particles: its runs and the tables of their results. A point of
-// the sweep is a set of values of the varied keys of the case. At each point the case is run once,
-// or with several random arrangements of its particles (draws), and each run gives a row of results
-// (docs/file-formats.md lists the columns and their units). Lengths, masses and times are in the
-// units of the case. particles/sweep/ and app/commands/sweep/ use it. A wrong case throws
-// Error(kBadInput) and a wrong choice of what varies Error(kWrongUsage), or Error(kBadInput) if the
-// case makes the choice, both before a row is computed. A run that fails throws nothing: its row
-// says why. A change must keep the names of the columns, because scripts of users read them.
+// A sweep over a case of many particles: its runs, one for each point or draw, and the tables of
+// their results.
 #pragma once
 
 #include <cstdint>
@@ -20,66 +14,63 @@
 
 namespace viscontact::particles {
 
-/// Name of the column with the fraction [1] of the domain that the particles of [arrangement]
-/// cover.
+/// Column with the fraction [1] of the domain that the particles of [arrangement] cover.
 inline const char* fraction_column(const ParticlesCase& c) {
   return c.particles.dimension == 3 ? "volume_fraction" : "area_fraction";
 }
 
-/// The points of the section [sweep] of a case of particles. If the case has no such section, the
-/// result varies nothing. Throws Error(kBadInput) if the case is wrong or a range in [sweep] is not
-/// valid.
+/// The points of the section [sweep] of a case; without it nothing is varied. Throws
+/// Error(kBadInput) if the case is wrong or a range in [sweep] is not valid.
 sweep::Points planned_particles(const std::filesystem::path& case_path);
 
 /// Runs the case of row `index`, from 0, and returns its results. Several threads call it at once.
 /// If only this run fails, the results have a text `failure`. An Error that it throws ends the
-/// whole sweep; it throws Error(kInterrupted) if `stop` requests a stop.
+/// whole sweep, such as Error(kInterrupted) if `stop` requests a stop.
 using ParticlesRunner =
     std::function<sweep::RowResults(std::uint64_t index, const StopToken& stop)>;
 
-/// The points of a sweep of particles, and the cases of its rows. The argument `index` is the
-/// number of a row, from 0 to points().rows() - 1, which is not checked.
+/// The points of a sweep of particles, and the cases of its rows. A point is a set of values of the
+/// varied keys. At each point the case is run once, or with several random arrangements of its
+/// particles (draws), which follow each other in the table of rows. `index` is the number of a row,
+/// from 0.
 class ParticlesSweep {
  public:
   /// Reads the case. Points::first_draw becomes arrangement.seed of the case. Throws
   /// Error(kBadInput) if the case cannot be read or is wrong, or if the first or the last row gives
   /// no valid case. Throws Error(kWrongUsage) if nothing is varied and there are no draws; if a key
-  /// is varied twice, or is in a section, [sweep] or [output], that changes no motion; if a grid
-  /// leaves out the end of a range; if there are random samples but no varied key; if draws make
-  /// more than 1e12 rows; if there are draws but the case has no [arrangement], or arrangement.seed
-  /// is varied; or if the seed of the last draw exceeds 2^31 - 1.
+  /// is varied twice, or is in [sweep] or [output]; if a grid leaves out the end of a range; if
+  /// there are random samples but no varied key; if draws make more than 1e12 rows; if there are
+  /// draws but the case has no [arrangement], or arrangement.seed is varied; or if the seed of the
+  /// last draw exceeds 2^31 - 1.
   ParticlesSweep(const std::filesystem::path& case_path, sweep::Points points);
 
-  /// The points, with the number of draws at each and the seed of the first draw.
   const sweep::Points& points() const { return points_; }
-  /// The case file, as the constructor was given it.
   const std::filesystem::path& case_path() const { return cases_.path(); }
 
-  /// Names of the columns with results. Columns of the fluid are missing if the case has no fluid.
+  /// Columns of the fluid are missing if the case has no fluid.
   const std::vector<std::string>& result_columns() const { return result_columns_; }
 
-  /// The case of row `index`. Throws Error(kBadInput) if it is not valid.
+  /// Throws Error(kBadInput) if the case is not valid.
   ParticlesCase case_of(std::uint64_t index) const { return cases_.with(points_.numbers(index)); }
 
-  /// The text of a case file for row `index`. The file may be in any folder, because paths in it
-  /// are absolute. Rows with equal cases have equal texts.
+  /// The text of a case file for row `index`. Paths in it are absolute, so that the file may be in
+  /// any folder. Rows with equal cases have equal texts.
   std::string case_text(std::uint64_t index) const;
 
-  /// The text of a case file in which no key has been varied. The file may be in any folder.
+  /// The text of a case file in which no key has been varied, in any folder.
   std::string base_text() const;
 
   /// The CSV file of particles that the case names; empty if there is none.
   const std::filesystem::path& particles_file() const { return particles_file_; }
-  const Units& units() const { return units_; }  ///< those of the case, which may be empty
+  const Units& units() const { return units_; }  ///< may be empty
 
   /// Hash (SHA-256) of everything that determines the results of row `index`: the version of
-  /// Viscontact, which is `version`, the case, and the CSV file of particles. Throws
-  /// Error(kBadInput) if this file cannot be read.
+  /// Viscontact, the case, and the CSV file of particles. Results with the same identity are not
+  /// computed again. Throws Error(kBadInput) if the CSV file cannot be read.
   std::string identity(std::uint64_t index, const std::string& version) const;
 
   /// The sweep in the form that sweep/study.hpp computes and writes; `run` computes its rows.
-  /// `version` is the version of Viscontact. Throws Error(kBadInput) if the case or its CSV file of
-  /// particles cannot be read.
+  /// Throws Error(kBadInput) if the case or its CSV file of particles cannot be read.
   sweep::Study study(const std::string& version, ParticlesRunner run) const;
 
  private:
@@ -91,15 +82,14 @@ class ParticlesSweep {
 };
 
 /// The table of means, as CSV, of the finished file of rows at `path`. For each point of the sweep
-/// it has the varied keys, the number of draws that succeeded (`draws`), the number of draws that
-/// failed (`failed`), and, for each column of results, COLUMN.mean and COLUMN.standard_error over
-/// the draws that succeeded. The standard error is the standard deviation (with n - 1) of n draws
-/// over the root of n; it is empty if n < 2. Both are empty if no draw has a finite value. Units
-/// are those of the columns. Throws Error(kBadInput) if the file cannot be read or has other rows
-/// than the sweep.
+/// it has the varied keys, the numbers of draws that succeeded (`draws`) and failed (`failed`),
+/// and, for each column of results, COLUMN.mean and COLUMN.standard_error over the draws that
+/// succeeded. The standard error is the standard deviation (with n - 1) of n draws over the root of
+/// n; it is empty if n < 2. Both are empty if no draw has a finite value. Throws Error(kBadInput)
+/// if the file cannot be read or has other rows than the sweep.
 std::string table_of_means(const ParticlesSweep& sweep, const std::filesystem::path& path);
 
-/// The path of the table of means beside a file of rows: "rows.csv" gives "rows_means.csv".
+/// "rows.csv" gives "rows_means.csv".
 std::filesystem::path path_of_means(const std::filesystem::path& rows);
 
 }  // namespace viscontact::particles

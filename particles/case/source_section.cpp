@@ -1,10 +1,4 @@
-// Reads the tables [[source]] of a case of many particles. A source adds particles with random
-// radii at random places during the run. In the units of the case, a rate [1/T] and an end [T] are
-// from 1e-100 to 1e100, a begin [T] is >= 0 and earlier than the end, and coordinates [L] and
-// velocities [L/T] are at most 1e100 in magnitude. A source adds at most kLargestCount = 1 000 000
-// particles, a free choice. A wrong value, radii for which there is no place, and a case with a
-// fluid are an Error(kBadInput) with the line. A change must keep keys and defaults, because users'
-// cases rely on them. particle_tables.cpp calls read_sources().
+// Reads [[source]].
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,16 +12,15 @@
 namespace viscontact::particles {
 namespace {
 
-/// The values of a table [[source]]. An empty member means that the table does not have its key.
+/// An empty member means that the table does not have its key.
 struct SourceKeys {
   Source source;
   std::optional<std::size_t> number;  // particles in all, 1 to kLargestCount
   std::optional<double> rate;         // particles per time [1/T]
 };
 
-/// Declares the keys of source.region, and reads the corners of the box [L] into `source`.
-/// `dimension` is the number of coordinates of a corner, 1 to 3. Throws if a coordinate of `to` is
-/// less than that of `from`.
+/// Reads the corners of the box into `source`. Throws if a coordinate of `to` is less than that of
+/// `from`.
 void region_keys(case_file::Keys& keys, Source& source, int dimension) {
   keys.required("from", vector(source.from, dimension), {"corner with the smallest coordinates"});
   keys.required("to", vector(source.to, dimension), {"corner with the largest coordinates"});
@@ -37,10 +30,9 @@ void region_keys(case_file::Keys& keys, Source& source, int dimension) {
                  source.from[d]);
 }
 
-/// Declares the keys of a table [[source]], and reads their values into `asked`. Before the call,
-/// asked.source.end must hold the default of `end` [T]. Throws if `rate` and `number` are both
-/// missing, and if `end` is not later than `begin`. The members largest_count, rate and seed of
-/// asked.source are completed by read_source().
+/// Before the call, asked.source.end must hold the default of `end` [T]. Throws if `rate` and
+/// `number` are both missing, and if `end` is not later than `begin`. read_source() completes the
+/// members largest_count, rate and seed of asked.source.
 void source_keys(case_file::Keys& keys, SourceKeys& asked, int dimension) {
   auto& source = asked.source;
   all_species_keys(keys, source.species, false);
@@ -72,8 +64,7 @@ void source_keys(case_file::Keys& keys, SourceKeys& asked, int dimension) {
                 {"of radii and places: the same seed gives the same particles on every machine"});
 }
 
-/// Throws if a corner of the region is outside the domain or, at time 0, behind an obstacle (a wall
-/// of the domain, or a plane).
+/// Throws if a corner of the region is outside the domain or, at time 0, behind an obstacle.
 void check_region(const case_file::TomlSection& section, const Source& source,
                   const ParticlesCase& c) {
   const auto* box = std::get_if<BoxDomain>(&c.setting.domain);
@@ -93,8 +84,8 @@ void check_region(const case_file::TomlSection& section, const Source& source,
   }
 }
 
-/// Reads a table [[source]]. Throws Error(kBadInput) if the case has a fluid, if the region does
-/// not fit (check_region()), and for more than kLargestCount particles.
+/// Throws Error(kBadInput) if the case has a fluid, if the region does not fit (check_region()),
+/// and for more than kLargestCount particles.
 Source read_source(const case_file::TomlSection& section, const ParticlesCase& c) {
   section.require(!c.setting.fluid, "region",
                   "belongs to a source of particles; the case must not have a section [fluid]");
@@ -114,13 +105,12 @@ Source read_source(const case_file::TomlSection& section, const ParticlesCase& c
   return source;
 }
 
-/// The radii of all particles that a source adds until it ends. `count` is their number.
+/// The radii of all particles that a source adds until it ends.
 struct RadiiOfSource {
   double smallest = std::numeric_limits<double>::infinity(), largest = 0, sum = 0;  // [L]
   std::size_t count = 0;
 };
 
-/// Draws the radii of all particles of a source, and returns their extremes, sum and number.
 RadiiOfSource radii_of(const Source& source, int dimension) {
   RadiiOfSource radii;
   const auto widen = [&](double radius) {
@@ -166,9 +156,8 @@ double largest_radius_between_walls(const Source& source, const Setting& setting
 
 /// Throws if the largest particle of a source has no place in the region, or would touch its own
 /// image in the next period. Also throws if a radius is too small, or the region too far from the
-/// origin, for solver.tolerance. `radii` belong to `source`, and `mean_radii` are the least and the
-/// largest mean radius of all particles during the run [L]. A change must not make these limits
-/// stricter, because users' cases would be refused.
+/// origin, for solver.tolerance. `mean_radii` are the least and the largest mean radius of all
+/// particles during the run.
 void check_radii(const case_file::TomlSection& section, const Source& source,
                  const RadiiOfSource& radii, const std::array<double, 2>& mean_radii,
                  const ParticlesCase& c) {
@@ -205,9 +194,6 @@ void check_radii(const case_file::TomlSection& section, const Source& source,
 
 }  // namespace
 
-/// Reads all tables [[source]] of the case into c.setting.sources, in their order in the file. The
-/// other particles, the domain, the planes and the solver must have been read. Does nothing if
-/// there is no source.
 void read_sources(const case_file::TomlSection& root, ParticlesCase& c) {
   if (!root.has("source")) return;
   const auto& p = c.particles;
@@ -231,8 +217,6 @@ void read_sources(const case_file::TomlSection& root, ParticlesCase& c) {
                 {std::min(at_start, at_end), std::max(at_start, at_end)}, c);
 }
 
-/// The tables of docs/case-file.md for the keys of [[source]] and of its region. particles_case.cpp
-/// calls it.
 std::vector<case_file::KeyTable> source_tables() {
   return {case_file::describe_keys("[[source]]", source_keys, 2),
           case_file::describe_keys("source.region", region_keys, 2)};

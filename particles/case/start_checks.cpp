@@ -1,12 +1,6 @@
-// Checks the places and radii of the particles at the start of a case of many particles. Lengths
-// [L] are in the unit of the case. With `solver.tolerance` times the mean radius as the tolerance
-// of gaps, an overlap may be at most this tolerance, and the tolerance at most a hundredth of each
-// radius; a diameter plus a hundredth of the radius (in a fluid at least the threshold gap) must
-// not exceed a period. Each fault is an Error(kBadInput) with the line of the particle, if the
-// particle has one. A change must not make these limits stricter, because users' cases would be
-// refused. Messages must name the line of the CSV file, because the file can be long.
-// particles_case.cpp and fluid_start_checks.cpp use this file.
+// Checks of the places and radii of the particles at the start.
 #include <algorithm>
+#include <cassert>
 #include <variant>
 
 #include "viscontact/common/error.hpp"
@@ -17,9 +11,8 @@
 
 namespace viscontact::particles {
 
-/// Describes particle `k` for a message. `k` is from 0 to the number of particles - 1, which is not
-/// checked.
 std::string ParticleNames::operator()(std::size_t k) const {
+  assert(k < case_.particles.count());
   const auto x = case_.particles.position(k);
   std::string place = fmt::format("{}", x[0]);
   for (std::size_t d = 1; d < static_cast<std::size_t>(case_.particles.dimension); ++d)
@@ -31,17 +24,14 @@ std::string ParticleNames::operator()(std::size_t k) const {
                      body < 0 ? "" : fmt::format(", of body {}", body));
 }
 
-/// The file and line of particle `k`. Particles of the CSV file have the first numbers, those of
-/// tables of the case file the next ones. All others have the case file and line 0.
 FilePosition ParticleNames::at(std::size_t k) const {
   if (k < lines_.in_file.size()) return {case_.particles_file.string(), lines_.in_file[k]};
   const auto table = k - lines_.in_file.size();
   return {case_.path.string(), table < lines_.in_case.size() ? lines_.in_case[table] : 0};
 }
 
-/// The name of obstacle `k` in a message. Obstacles are counted from 0, first the walls of the
-/// domain, then the planes. The walls must have the order in which obstacles_of() returns them.
 std::string obstacle_name(const ParticlesCase& c, std::size_t k) {
+  // The walls have the order in which obstacles_of() returns them.
   std::vector<std::string> walls;
   if (std::holds_alternative<DiscDomain>(c.setting.domain)) walls = {"the wall of the disc"};
   if (std::holds_alternative<CylinderDomain>(c.setting.domain))
@@ -56,12 +46,8 @@ std::string obstacle_name(const ParticlesCase& c, std::size_t k) {
   return k < walls.size() ? walls[k] : fmt::format("plane {}", k - walls.size() + 1);
 }
 
-/// Returns all gaps [L] at the start that are below `limit` >= 0 [L]. A gap is < 0 where there is
-/// an overlap. Gaps of ellipses and plates above `limit` may also be returned. Gaps are left out
-/// between particles of one body, between neighbours on a membrane (in a fluid between all beads of
-/// one membrane), and between a particle and the side of a cylinder. The largest diameter plus
-/// `limit` must be less than each period, which is not checked. Throws nothing.
 std::vector<StartGap> gaps_at_start(const ParticlesCase& c, double limit) {
+  assert(limit >= 0);
   const auto& p = c.particles;
   const auto cell = cell_of(c.setting.domain);
   const bool has_ellipses = c.setting.fluid && !c.setting.fluid->semi_axes.empty();
@@ -122,8 +108,8 @@ void check_radii_and_distances(const ParticlesCase& c, const ParticleNames& name
                         names(k), farthest);
 }
 
-/// Says what is wrong with the place of a particle in a domain. The particle has the centre `x` and
-/// the radius `radius` [L]. The text is a part of a sentence, and empty if the place is allowed.
+/// Says, as a part of a sentence, what is wrong with the place of a particle in a domain; empty if
+/// the place is allowed.
 struct PlaceInDomain {
   Vector x;
   double radius;
@@ -174,7 +160,6 @@ void check_domain(const ParticlesCase& c, const ParticleNames& names) {
 
 }  // namespace
 
-/// Makes all checks of this file, and throws Error(kBadInput) for the first fault.
 void check_start(const ParticlesCase& c, const ParticleLines& lines) {
   if (c.particles.count() == 0) return;  // all particles come from sources
   const ParticleNames names(c, lines);

@@ -1,12 +1,4 @@
-// Sparse LU or Cholesky factorisation of a matrix of dense blocks of K x K numbers in any units,
-// K = 3 (discs) or 6 (spheres), and the assembly of such matrices for contacts and links. The
-// factorisation is left-looking: it computes one column of L and row of U after the other, and
-// subtracts from each the products of all earlier ones. Bodies are numbered from 0, and an edge
-// joins two different ones. A matrix that is declared symmetric must be positive definite.
-// factorise() returns false, with unusable factors, if a block on the diagonal becomes singular,
-// infinite or NaN; nothing else is checked or thrown. constraint_solver.cpp, coulomb_path.cpp,
-// interior_points.cpp and proximal_step.cpp use this file. A change of the order of sums changes
-// results by rounding errors.
+// Left-looking LU or Cholesky factorisation: each column of L is computed from all earlier ones.
 #include "viscontact/particles/constraints/block_factor.hpp"
 
 #include <metis.h>
@@ -15,6 +7,7 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <type_traits>
 #include <utility>
@@ -24,11 +17,11 @@ namespace {
 
 constexpr std::size_t index(std::int32_t number) { return static_cast<std::size_t>(number); }
 
-// Products of blocks take most of the time of large packings of spheres. With vectors of four or
-// eight numbers and fused multiply-adds they are up to 1.7 times as fast, but the program must run
-// on processors that have neither. These functions therefore make GCC compile `work`, with all that
-// it calls, once more. Clang compiles only the first call anew, so that nothing is gained. Discs,
-// whose blocks are small, gain nothing either, and do not use these functions.
+// Products of blocks take most of the time of large packings of spheres. With wide vectors and
+// fused multiply-adds they are up to 1.7 times as fast, but the program must run on processors that
+// have neither. These functions therefore make GCC compile `work`, with all that it calls, once
+// more. Clang compiles only the first call anew. Discs, whose blocks are small, gain nothing
+// either.
 #ifdef __x86_64__
 template <class Work>
 [[gnu::target("avx512f,fma"), gnu::flatten]] bool with_avx512(const Work& work) {
@@ -40,8 +33,8 @@ template <class Work>
 }
 #endif
 
-/// Returns work(), which computes with blocks of K x K numbers, by the fastest instructions of this
-/// processor. The results of two kinds of processor differ by rounding errors.
+/// Returns work() by the fastest instructions of this processor for blocks of K x K numbers. The
+/// results of two kinds of processor differ by rounding errors.
 template <int K, class Work>
 bool by_fastest_instructions(const Work& work) {
 #ifdef __x86_64__
@@ -54,13 +47,12 @@ bool by_fastest_instructions(const Work& work) {
   return work();
 }
 
-/// c -= a b for three different blocks of K x K numbers.
+/// c -= a b for three different blocks.
 template <int K, class Block>
 inline void subtract_product(const Block& a, const Block& b, Block& c) {
   constexpr auto k = static_cast<std::size_t>(K);
   for (std::size_t i = 0; i < k; ++i) {
-    // `row` stays in registers. `c` would not stay there, because the compiler must assume that `c`
-    // may be the same block as `a` or `b`.
+    // `row` stays in registers. `c` would not, because it may be the same block as `a` or `b`.
     std::array<double, k> row;
     for (std::size_t j = 0; j < k; ++j) row[j] = c[i * k + j];
     for (std::size_t l = 0; l < k; ++l)
@@ -81,8 +73,7 @@ inline Block transposed(const Block& a) {
 // A block on the diagonal can have eigenvalues that differ by a factor of 1e9. Products with its
 // inverse would lose the digits of the small ones; substitutions with its factors keep them.
 
-/// Replaces the lower triangle of a symmetric block by its Cholesky factor L. The diagonal receives
-/// the inverses of the diagonal entries of L. Returns false if the block is not positive definite.
+/// With the inverses of the diagonal entries of L. Returns false if `a` is not positive definite.
 template <int K, class Block>
 inline bool cholesky(Block& a) {
   constexpr auto k = static_cast<std::size_t>(K);
@@ -101,7 +92,7 @@ inline bool cholesky(Block& a) {
   return true;
 }
 
-/// Replaces the K numbers x by L^-1 x, for the factor L of cholesky().
+/// Replaces x by L^-1 x, for the factor L of cholesky().
 template <int K>
 inline void substitute(const std::array<double, static_cast<std::size_t>(K* K)>& factor,
                        double* x) {
@@ -112,7 +103,7 @@ inline void substitute(const std::array<double, static_cast<std::size_t>(K* K)>&
   }
 }
 
-/// Replaces the K numbers x by L^-T x, for the factor L of cholesky().
+/// Replaces x by L^-T x, for the factor L of cholesky().
 template <int K>
 inline void substitute_back(const std::array<double, static_cast<std::size_t>(K* K)>& factor,
                             double* x) {
@@ -123,9 +114,7 @@ inline void substitute_back(const std::array<double, static_cast<std::size_t>(K*
   }
 }
 
-/// Returns for each row of a block 1 divided by the square root of the magnitude of its diagonal
-/// entry, or 1 if this entry is 0. The rows of a block have different units, and their entries can
-/// be compared after a multiplication with these scales.
+/// 1 over the root of each diagonal entry, or 1 if it is 0: scales for rows of different units.
 template <int K, class Block>
 std::array<double, static_cast<std::size_t>(K)> scales_of_rows(const Block& a) {
   std::array<double, static_cast<std::size_t>(K)> scales;
@@ -136,11 +125,9 @@ std::array<double, static_cast<std::size_t>(K)> scales_of_rows(const Block& a) {
   return scales;
 }
 
-/// Replaces a block by its factors L and U. The diagonal receives the inverses of the diagonal
-/// entries of U, because the diagonal of L is 1 and not stored. In each column the row whose entry
-/// times its scale has the largest magnitude is exchanged with the row of the diagonal; `pivots`
-/// receives the number of that row. Changes the sign of `sign` if the determinant is negative.
-/// Returns false if the block is singular, infinite or NaN.
+/// Replaces a block by its factors L, with the diagonal 1, and U, with the inverses of its diagonal
+/// entries. The row whose scaled entry is largest is exchanged with that of the diagonal. `sign`
+/// changes if the determinant is negative. Returns false if the block is singular, infinite or NaN.
 template <int K, class Block, class Pivots>
 bool factorise_block(std::array<double, static_cast<std::size_t>(K)> scales, Block& a,
                      Pivots& pivots, int& sign) {
@@ -167,8 +154,7 @@ bool factorise_block(std::array<double, static_cast<std::size_t>(K)> scales, Blo
   return true;
 }
 
-/// Replaces `x`, K rows of kColumns numbers, by the solution X of D X = x. `factors` and `pivots`
-/// are the results of factorise_block() for the block D.
+/// Replaces `x`, K rows of kColumns numbers, by the solution X of D X = x for a factorised block D.
 template <int K, std::size_t kColumns, class Block, class Pivots>
 inline void solve_block(const Block& factors, const Pivots& pivots, double* x) {
   constexpr auto k = static_cast<std::size_t>(K);
@@ -190,9 +176,8 @@ inline void solve_block(const Block& factors, const Pivots& pivots, double* x) {
   }
 }
 
-/// Returns the numbers of all bodies in the order of their elimination. `edges` holds the numbers
-/// of the two bodies of each edge. METIS orders many bodies and AMD few ones; AMD also orders the
-/// bodies if METIS fails.
+/// The bodies in the order of their elimination. METIS orders many bodies and AMD few ones, or all
+/// if METIS fails.
 template <int K>
 std::vector<std::int32_t> order_of_elimination(std::size_t bodies,
                                                std::span<const std::array<std::int32_t, 2>> edges) {
@@ -205,9 +190,8 @@ std::vector<std::int32_t> order_of_elimination(std::size_t bodies,
   }
   std::vector<std::int32_t> order(bodies);
   Eigen::SparseMatrix<double> pattern(count, count);
-  // With this number of bodies or more, METIS saves more time than it takes. With the order of
-  // METIS, a factorisation takes 0.58 of the time that it takes with the order of AMD for 2000
-  // spheres, and 0.86 of it for 10 000 discs.
+  // With this number of bodies or more, METIS saves more time than it takes: a factorisation takes
+  // 0.58 of the time with the order of AMD for 2000 spheres, and 0.86 of it for 10 000 discs.
   constexpr std::size_t kManyBodies = K == 6 ? 500 : 5000;
   static_assert(std::is_same_v<idx_t, std::int32_t>);
   if (bodies >= kManyBodies && !edges.empty()) {
@@ -230,10 +214,10 @@ std::vector<std::int32_t> order_of_elimination(std::size_t bodies,
 
 }  // namespace
 
-/// Prepares the factorisation of matrices of `bodies` x `bodies` blocks that have blocks beside the
-/// diagonal for the pairs `edges` only. If `is_symmetric`, these matrices must be symmetric.
 template <int K>
 void BlockFactor<K>::analyse(std::size_t bodies, std::span<const Edge> edges, bool is_symmetric) {
+  assert(std::ranges::all_of(
+      edges, [&](const Edge& edge) { return index(edge[0]) < bodies && index(edge[1]) < bodies; }));
   is_symmetric_ = is_symmetric;
   order_ = order_of_elimination<K>(bodies, edges);
   place_.resize(bodies);
@@ -250,11 +234,10 @@ void BlockFactor<K>::analyse(std::size_t bodies, std::span<const Edge> edges, bo
   permuted_.resize(bodies);
 }
 
-/// Finds the rows in which each column of L has blocks. These are the rows of the blocks of A in
-/// the column, and the rows of each child of the column. A child in the elimination tree is an
-/// earlier column whose first block is in the row with the number of this column.
 template <int K>
 void BlockFactor<K>::find_pattern(std::span<const Edge> edges) {
+  // The rows of L in a column are those of A in the column and those of each child of the column:
+  // an earlier column whose first block is in the row with the number of this column.
   const std::size_t bodies = order_.size();
   std::vector<std::vector<std::int32_t>> columns(bodies), children(bodies);
   for (const auto& edge : edges) {
@@ -295,8 +278,6 @@ void BlockFactor<K>::clear() {
   std::ranges::fill(above_, Block{});
 }
 
-/// Replaces the blocks of the matrix by its factors. Returns false if a block on the diagonal is
-/// singular, infinite or NaN, or, for a symmetric matrix, not positive definite.
 template <int K>
 bool BlockFactor<K>::factorise() {
   std::ranges::fill(first_in_row_, -1);
@@ -308,11 +289,9 @@ bool BlockFactor<K>::factorise() {
   });
 }
 
-/// Computes column j of L, block j on the diagonal, and row j of U if the matrix is not symmetric.
-/// Columns must be computed in their order. Returns false if block j is singular, infinite or NaN,
-/// or, for a symmetric matrix, not positive definite.
 template <int K>
 bool BlockFactor<K>::factorise_column(std::size_t j) {
+  // The columns before j must have been computed.
   constexpr auto kSize = static_cast<std::size_t>(K);
   // The scales are those of the block of A, before products of other columns are subtracted.
   const auto scales = scales_of_rows<K>(diagonal_[j]);
@@ -344,7 +323,6 @@ bool BlockFactor<K>::factorise_column(std::size_t j) {
   return true;
 }
 
-/// Makes `entry` the next entry of column k, and puts k into the list of its row, if it has one.
 template <int K>
 void BlockFactor<K>::enlist(std::size_t k, std::size_t entry) {
   next_entry_[k] = entry;
@@ -354,10 +332,9 @@ void BlockFactor<K>::enlist(std::size_t k, std::size_t entry) {
   first = static_cast<std::int32_t>(k);
 }
 
-/// Replaces `values`, K numbers for each body in the order of the bodies, by the inverse of the
-/// matrix times these values. The last factorise() must have returned true, which is not checked.
 template <int K>
 void BlockFactor<K>::solve(std::span<Vec> values) const {
+  assert(values.size() == order_.size());
   constexpr auto kSize = static_cast<std::size_t>(K);
   for (std::size_t j = 0; j < order_.size(); ++j) permuted_[j] = values[index(order_[j])];
   for (std::size_t j = 0; j < order_.size(); ++j) {
@@ -391,8 +368,6 @@ void BlockFactor<K>::solve(std::span<Vec> values) const {
 template class BlockFactor<3>;
 template class BlockFactor<6>;
 
-/// A body of the factor is a unit of `problem`, and an edge joins two units of one constraint
-/// block.
 template <int D>
 UnitMatrix<D>::UnitMatrix(const ConstraintProblem<D>& problem, bool is_symmetric)
     : problem_(problem), is_symmetric_(is_symmetric) {
@@ -407,8 +382,6 @@ UnitMatrix<D>::UnitMatrix(const ConstraintProblem<D>& problem, bool is_symmetric
   factor_.analyse(problem.units.size(), edges, is_symmetric);
 }
 
-/// Sets the matrix to the masses [M/T] and moments of inertia [M L^2/T] of the units, divided by
-/// the length of the step.
 template <int D>
 void UnitMatrix<D>::set_to_masses() {
   constexpr auto k = static_cast<std::size_t>(kMotion), d = static_cast<std::size_t>(D);
@@ -423,10 +396,6 @@ void UnitMatrix<D>::set_to_masses() {
   }
 }
 
-/// Adds `weight` times the product of the coefficients of two rows of constraint block `b`. `row`
-/// and `other` are places in ConstraintProblem::rows; `weight` has any sign and the unit [M/T], or
-/// [M L^2/T] for rows of angles. In a symmetric matrix only blocks below the diagonal are stored;
-/// if the two rows differ, the caller must also add the product with both rows exchanged.
 template <int D>
 void UnitMatrix<D>::add_product(std::size_t b, std::size_t row, std::size_t other, double weight) {
   constexpr auto k = static_cast<std::size_t>(kMotion);
@@ -435,10 +404,12 @@ void UnitMatrix<D>::add_product(std::size_t b, std::size_t row, std::size_t othe
       for (std::size_t j = 0; j < k; ++j) into[i * k + j] += weight * left[i] * right[j];
   };
   const auto left = problem_.parts_of(row), right = problem_.parts_of(other);
+  assert(b < first_edge_.size() && left.size() == right.size());
   auto edge = first_edge_[b];
   for (std::size_t i = 0; i < left.size(); ++i) {
     add(factor_.diagonal(static_cast<std::size_t>(left[i].unit)), left[i].coefficients,
         right[i].coefficients);
+    // In a symmetric matrix only blocks below the diagonal are stored.
     for (std::size_t j = i + 1; j < left.size(); ++j, ++edge) {
       if (!is_symmetric_ || factor_.is_below(edge, 0))
         add(factor_.off_diagonal(edge, 0), left[i].coefficients, right[j].coefficients);

@@ -1,15 +1,5 @@
-// Computes with points of the second-order cone, the set of points x = (x_0, x_1, x_2) with (x_1^2
-// + x_2^2)^(1/2) <= x_0; in two dimensions x_2 is 0 and the cone is |x_1| <= x_0. The operations
-// are those that the method of interior points needs: products, the distance to the boundary, and
-// the scaling of Nesterov & Todd between a point of the cone and a dual point (Alizadeh & Goldfarb
-// 2003, "Second-order cone programming"; Vandenberghe 2010, "The CVXOPT linear and quadratic cone
-// program solvers").
-//
-// All components of a point have the same unit, which the caller chooses: the root of [M L^2/T] in
-// interior_points.hpp, [M L/T] in constraint_solver.cpp. Only these two use this header. Nothing is
-// checked or thrown: operations that need a point inside the cone give NaN, infinity or numbers
-// without meaning for other points. A change must keep the accuracy near the boundary, where
-// solutions are.
+// The second-order cone x_0 >= (x_1^2 + x_2^2)^(1/2) (Alizadeh & Goldfarb 2003; Vandenberghe 2010,
+// "The CVXOPT linear and quadratic cone program solvers").
 #pragma once
 
 #include <algorithm>
@@ -22,26 +12,26 @@
 
 namespace viscontact::particles {
 
-/// A point or direction in two or three dimensions; a component beyond the dimension is 0.
+/// A point or direction in two or three dimensions; a component beyond the dimension is 0. All
+/// components have the same unit. Operations that need a point inside the cone give NaN, infinity
+/// or numbers without meaning for other points.
 using ConePoint = std::array<double, 3>;
 
-/// The inner product of two points, in the product of their units.
 inline double inner(const ConePoint& x, const ConePoint& y) {
   return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
 }
 
-/// The distance of a point from the axis of the cone, (x_1^2 + x_2^2)^(1/2).
+/// The distance of a point from the axis of the cone.
 inline double beside_axis(const ConePoint& x) { return std::hypot(x[1], x[2]); }
 
-/// The determinant x_0^2 - x_1^2 - x_2^2 of a point. If x_0 > 0, it is positive inside the cone and
-/// 0 on its boundary. It is computed as the product of two factors, which has fewer rounding errors
-/// than the difference of squares.
+/// The determinant x_0^2 - x_1^2 - x_2^2, as a product, which has fewer rounding errors than the
+/// difference of squares. For x_0 > 0 it is positive inside the cone and 0 on its boundary.
 inline double determinant(const ConePoint& x) {
   const double beside = beside_axis(x);
   return (x[0] - beside) * (x[0] + beside);
 }
 
-/// The product of the cone's Jordan algebra: (inner(x, y), x_0 y_1 + y_0 x_1, x_0 y_2 + y_0 x_2).
+/// The product of the cone's Jordan algebra.
 inline ConePoint jordan_product(const ConePoint& x, const ConePoint& y) {
   return {inner(x, y), x[0] * y[1] + y[0] * x[1], x[0] * y[2] + y[0] * x[2]};
 }
@@ -54,15 +44,13 @@ inline ConePoint jordan_quotient(const ConePoint& z, const ConePoint& x) {
 
 /// A point inside a cone.
 struct InnerPoint {
-  ConePoint x{};  ///< the point, in the coordinates of SecondOrderCone or LinearCones
-  /// In a SecondOrderCone this is x_0 - (x_1^2 + x_2^2)^(1/2), > 0, with a small relative error,
-  /// which the difference computed from `x` does not have near the boundary. LinearCones does not
-  /// use it.
+  ConePoint x{};  ///< in the coordinates of SecondOrderCone or LinearCones
+  /// In a SecondOrderCone x_0 - (x_1^2 + x_2^2)^(1/2) > 0, with a small relative error also near
+  /// the boundary.
   double inside = 0;
 };
 
-/// The largest t > 0 [1] for which u + t d is in the second-order cone, with a point `u` inside it
-/// and any direction `d`; infinity if u + t d is in the cone for all t > 0.
+/// The largest t > 0 [1] for which u + t d is in the cone; infinite if all are.
 inline double length_to_boundary(const InnerPoint& u, const ConePoint& d) {
   const auto& x = u.x;
   double length = std::numeric_limits<double>::infinity();
@@ -79,18 +67,15 @@ inline double length_to_boundary(const InnerPoint& u, const ConePoint& d) {
   return length;
 }
 
-/// The scaling of Nesterov & Todd between a point u and a dual point r, both inside a cone. It is
-/// the symmetric matrix W with W^-1 u = W r that maps the cone onto itself. `Frame` describes a
-/// point by three numbers, in which W is diagonal, in place of its coordinates. In the first two
-/// numbers W differs most from a multiple of the identity: near a solution one of these numbers is
-/// small in u and the other one in r, with a small relative error. A `Frame` is made from u and r.
-/// Its function numbers() gives the numbers of a point or of an InnerPoint, and point() is the
-/// inverse of numbers(). Both keep inner products.
+/// The scaling of Nesterov & Todd between a point u and a dual point r inside a cone: the symmetric
+/// matrix W with W^-1 u = W r that maps the cone onto itself. A `Frame` of u and r describes a
+/// point by three numbers, in which W is diagonal: numbers() and, its inverse, point() keep inner
+/// products. Near a solution one of the first two numbers is small in u and the other one in r,
+/// with a small relative error.
 template <class Frame>
 class NesterovToddScaling {
  public:
   NesterovToddScaling() = default;  ///< W is the identity
-  /// W of a point `u` and a dual point `r`, both inside the cone.
   NesterovToddScaling(const InnerPoint& u, const InnerPoint& r) : frame_(u, r) {
     const auto of_u = frame_.numbers(u), of_r = frame_.numbers(r);
     for (std::size_t k = 0; k < 2; ++k) square_[k] = of_u[k] / of_r[k];
@@ -98,15 +83,12 @@ class NesterovToddScaling {
     for (std::size_t k = 0; k < 3; ++k) scaled_[k] = std::sqrt(square_[k]) * of_r[k];
   }
 
-  /// The numbers of the point with the coordinates `x`.
   ConePoint numbers(const ConePoint& x) const { return frame_.numbers(x); }
-  /// The coordinates of the point with the numbers `y`.
   ConePoint point(const ConePoint& y) const { return frame_.point(y); }
-  /// The numbers of u.
   ConePoint numbers_of_u() const { return multiplied(scaled_); }
   /// The coordinates of W r = W^-1 u.
   ConePoint scaled() const { return point(scaled_); }
-  /// The inner product u.r of the two points of the constructor.
+  /// The inner product u.r.
   double product_of_points() const { return inner(scaled_, scaled_); }
   /// The numbers of W x, for the coordinates `x`.
   ConePoint times(const ConePoint& x) const { return multiplied(numbers(x)); }
@@ -116,22 +98,19 @@ class NesterovToddScaling {
     for (std::size_t k = 0; k < 3; ++k) y[k] /= std::sqrt(square_[k]);
     return point(y);
   }
-  /// The coordinates of (W^2 + shift I)^-1 times the point with the numbers `y`, with the identity
-  /// I and `shift` >= 0.
+  /// The coordinates of (W^2 + shift I)^-1 times the point with the numbers `y`; `shift` >= 0.
   ConePoint solve(double shift, const ConePoint& y) const {
     return point(
         {y[0] / (square_[0] + shift), y[1] / (square_[1] + shift), y[2] / (square_[2] + shift)});
   }
-  /// The coordinates of the point z whose component z_0 is 0 and which solves the equation (W^2 +
-  /// shift I) z = (the point with the numbers `y`), without its row of component 0; `shift` >= 0.
+  /// The coordinates of the point z with z_0 = 0 that solves the equation (W^2 + shift I) z = (the
+  /// point with the numbers `y`) without its row of component 0; `shift` >= 0.
   ConePoint solve_beside(double shift, const ConePoint& y) const {
     const double along = (y[0] - y[1]) / (square_[0] + square_[1] + 2 * shift);
     return point({along, -along, y[2] / (square_[2] + shift)});
   }
-  /// Completes a change of u whose other components are known: returns the component 0 with which
-  /// the second number of W^2 dr + du is goal[1]. `goal` has numbers of a point, `dr` has
-  /// coordinates, and `du` has the coordinates of the change of u with 0 in place of the unknown
-  /// component.
+  /// Component 0 of the change of u with which the second number of W^2 dr + du is goal[1]. `goal`
+  /// has numbers of a point, `dr` and `du` have coordinates, with 0 as component 0 of du.
   double first_change(const ConePoint& goal, const ConePoint& dr, const ConePoint& du) const {
     return std::numbers::sqrt2 * (goal[1] - square_[1] * numbers(dr)[1] - numbers(du)[1]);
   }
@@ -147,13 +126,13 @@ class NesterovToddScaling {
   ConePoint scaled_{};         // numbers of W r
 };
 
-/// The Frame of NesterovToddScaling for a second-order cone. It has a unit vector d in the plane of
-/// x_1 and x_2, and the unit vector d' at right angles to d in this plane. The numbers of a point x
-/// are (x_0 + d.x)/2^0.5, (x_0 - d.x)/2^0.5 and d'.x.
+/// The Frame for a second-order cone. With a unit vector d in the plane of x_1 and x_2 and the unit
+/// vector d' at right angles to d, the numbers of a point x are (x_0 + d.x)/2^0.5, (x_0 -
+/// d.x)/2^0.5 and d'.x.
 class DirectionOfScaling {
  public:
   DirectionOfScaling() = default;  ///< d = (1, 0)
-  /// The direction d for which W of the points `u` and `r`, both inside the cone, is diagonal.
+  /// The direction d in which W of `u` and `r` is diagonal.
   DirectionOfScaling(const InnerPoint& u, const InnerPoint& r) {
     const double of_u = std::sqrt(u.inside * (u.x[0] + beside_axis(u.x)));
     const double of_r = std::sqrt(r.inside * (r.x[0] + beside_axis(r.x)));
@@ -161,15 +140,13 @@ class DirectionOfScaling {
     const double length = beside_axis(along);
     if (length > 0) direction_ = {along[1] / length, along[2] / length};
   }
-  /// The numbers of a point.
   ConePoint numbers(const ConePoint& x) const {
     const double along = along_direction(x);
     return {(x[0] + along) * kHalfRoot, (x[0] - along) * kHalfRoot,
             direction_[0] * x[2] - direction_[1] * x[1]};
   }
-  /// The numbers of a point inside the cone. With the distance b of the point from the axis, the
-  /// smaller one of x_0 + d.x and x_0 - d.x is InnerPoint::inside plus b - |d.x|, and this
-  /// difference is computed as (d'.x)^2/(b + |d.x|), without loss of digits.
+  /// The smaller one of x_0 + d.x and x_0 - d.x is InnerPoint::inside plus b - |d.x|, with the
+  /// distance b from the axis, and is computed as (d'.x)^2/(b + |d.x|), without loss of digits.
   ConePoint numbers(const InnerPoint& of) const {
     auto y = numbers(of.x);
     const double beside = beside_axis(of.x), along = along_direction(of.x);
@@ -177,7 +154,6 @@ class DirectionOfScaling {
     y[along < 0 ? 0 : 1] = (of.inside + left) * kHalfRoot;
     return y;
   }
-  /// The point with the numbers `y`.
   ConePoint point(const ConePoint& y) const {
     const double along = (y[0] - y[1]) * kHalfRoot;
     return {(y[0] + y[1]) * kHalfRoot, along * direction_[0] - y[2] * direction_[1],
@@ -194,19 +170,16 @@ class DirectionOfScaling {
 
 /// The operations of interior_points.hpp on a cone of three dimensions (contacts of spheres).
 struct SecondOrderCone {
-  using Scaling = NesterovToddScaling<DirectionOfScaling>;  ///< the scaling of two points
-  /// The product of the cone, jordan_product().
+  using Scaling = NesterovToddScaling<DirectionOfScaling>;
   static ConePoint product(const ConePoint& x, const ConePoint& y) { return jordan_product(x, y); }
-  /// The point y for which product(x, y) = z, with x inside the cone; jordan_quotient().
   static ConePoint quotient(const ConePoint& z, const ConePoint& x) {
     return jordan_quotient(z, x);
   }
-  /// The largest t > 0 [1] for which u + t d is in the cone; infinity if it is so for all t > 0.
   static double length_to_boundary(const InnerPoint& u, const ConePoint& d) {
     return particles::length_to_boundary(u, d);
   }
-  /// Adds t d to the point `u`, without loss of digits of InnerPoint::inside. The point must stay
-  /// inside the cone, which is not checked.
+  /// Adds t d to `u`, which must stay inside the cone, without loss of digits of
+  /// InnerPoint::inside.
   static void move(InnerPoint& u, double t, const ConePoint& d) {
     const double before = beside_axis(u.x);
     const double twice = 2 * (u.x[1] * d[1] + u.x[2] * d[2]) + t * (d[1] * d[1] + d[2] * d[2]);
@@ -216,67 +189,50 @@ struct SecondOrderCone {
   }
   /// The neutral element of the product: product(kUnit, x) = x.
   static constexpr ConePoint kUnit{1, 0, 0};
-  /// An estimate of the dual point at the solution, where the inner product of point and dual point
-  /// is 0, from a point u and a dual point r near the solution. It is 0 if the distance of u from
-  /// the boundary, u_0 - (u_1^2 + u_2^2)^(1/2), is larger than r_0 + (r_1^2 + r_2^2)^(1/2);
-  /// otherwise it is r.
+  /// An estimate of the dual point at the solution from points u and r near it: 0 if the distance
+  /// of u from the boundary is larger than r_0 + (r_1^2 + r_2^2)^(1/2), otherwise r.
   static ConePoint without_open_part(const ConePoint& u, const ConePoint& r) {
     return u[0] - beside_axis(u) > r[0] + beside_axis(r) ? ConePoint{} : r;
   }
-  /// The coordinates in which the other functions of this struct take points. Here they are the
-  /// components `x` themselves.
+  /// The coordinates in which the other functions take points: the components themselves.
   static ConePoint coordinates(const ConePoint& x) { return x; }
 };
 
-/// The operations of SecondOrderCone for the cone of two dimensions |x_1| <= x_0 (contacts of
-/// discs), which is two linear conditions. Points have the coordinates (x_0 + x_1)/2^0.5, (x_0 -
-/// x_1)/2^0.5 and 0. The first two are > 0 inside the cone, and have small relative errors also
-/// near the boundary.
+/// The cone |x_1| <= x_0 of discs. Points have the coordinates (x_0 + x_1)/2^0.5, (x_0 - x_1)/2^0.5
+/// and 0, which are > 0 inside the cone, with small relative errors also near the boundary.
 struct LinearCones {
   /// The Frame of NesterovToddScaling: the numbers of a point are its coordinates.
   struct Coordinates {
     Coordinates() = default;
-    /// The Frame does not depend on the points.
     Coordinates(const InnerPoint&, const InnerPoint&) {}
-    /// The numbers of a point.
     static ConePoint numbers(const ConePoint& x) { return x; }
-    /// The numbers of a point inside the cone.
     static ConePoint numbers(const InnerPoint& of) { return of.x; }
-    /// The point with the numbers `y`.
     static ConePoint point(const ConePoint& y) { return y; }
   };
-  using Scaling = NesterovToddScaling<Coordinates>;  ///< the scaling of two points
-  /// The products of the coordinates, one by one.
+  using Scaling = NesterovToddScaling<Coordinates>;
   static ConePoint product(const ConePoint& x, const ConePoint& y) {
     return {x[0] * y[0], x[1] * y[1], x[2] * y[2]};
   }
-  /// The point y for which product(x, y) = z, with x inside the cone.
   static ConePoint quotient(const ConePoint& z, const ConePoint& x) {
     return {z[0] / x[0], z[1] / x[1], 0};
   }
-  /// The largest t > 0 [1] for which u + t d is in the cone; infinity if it is so for all t > 0.
   static double length_to_boundary(const InnerPoint& u, const ConePoint& d) {
     double length = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 2; ++k)
       if (d[k] < 0) length = std::min(length, -u.x[k] / d[k]);
     return length;
   }
-  /// Adds t d to the point `u`, which must stay inside the cone (not checked).
   static void move(InnerPoint& u, double t, const ConePoint& d) {
     for (std::size_t k = 0; k < 3; ++k) u.x[k] += t * d[k];
   }
-  /// The neutral element of the product: both coordinates are 1.
   static constexpr ConePoint kUnit{1, 1, 0};
-  /// An estimate of the dual point at the solution, where in each coordinate the point or the dual
-  /// point is 0, from a point u and a dual point r near the solution: each coordinate of r that is
-  /// smaller than that of u is replaced by 0.
+  /// In each coordinate the point or the dual point is 0 at the solution.
   static ConePoint without_open_part(const ConePoint& u, const ConePoint& r) {
     ConePoint left{};
     for (std::size_t k = 0; k < 3; ++k) left[k] = u[k] > r[k] ? 0 : r[k];
     return left;
   }
-  /// The coordinates of a point with the components `x`. The same function computes components from
-  /// coordinates, because it is its own inverse.
+  /// The coordinates of a point with the components `x`, and the reverse.
   static ConePoint coordinates(const ConePoint& x) {
     const double half = std::numbers::sqrt2 / 2;
     return {half * (x[0] + x[1]), half * (x[0] - x[1]), 0};

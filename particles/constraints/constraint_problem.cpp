@@ -1,16 +1,9 @@
-// The problem for the impulses of the contacts and links of a time step: motions for given
-// impulses, mobilities, residuals, and the tangents and rows of contacts. A row is a gap, a slip or
-// a link's equation [L], with an impulse [M L/T] and a mobility [T/M], which is > 0 in rows of
-// contacts. A row of angles has [rad], [M L^2/T] and [T/(M L^2)] instead. Motions are displacements
-// [L] and turns [rad]; masses, radii and mobilities of particles are positive. The rows of one
-// contact or link form a block. Units are any consistent ones. Nothing is checked or thrown; a NaN
-// makes a residual NaN. constraints/, impacts/ and fluid/fluid_friction.cpp use this file. A change
-// of residual_of() alters which steps count as converged. Both arms of a contact must end at one
-// point, because otherwise its impulses would change the angular momentum of the pair.
+// Motions, mobilities, residuals and rows of contacts of (5.6) to (5.9), docs/physics.md.
 #include "viscontact/particles/constraints/constraint_problem.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -18,13 +11,10 @@
 
 namespace viscontact::particles {
 
-/// Makes the unit of a particle without a rigid body. `mobility` is the length of the step divided
-/// by the mass [T/M], `turn_mobility` that length divided by the moment of inertia [T/(M L^2)].
-/// Without contacts and links the particle moves by D numbers `displacement` [L] and turns by 1
-/// (discs) or 3 (spheres) numbers `turn` [rad].
 template <int D>
 RigidUnit<D> unit_of_particle(double mobility, double turn_mobility, const double* displacement,
                               const double* turn) {
+  assert(mobility > 0 && turn_mobility > 0);
   constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);
   RigidUnit<D> unit;
   unit.mobility = mobility;
@@ -38,10 +28,9 @@ RigidUnit<D> unit_of_particle(double mobility, double turn_mobility, const doubl
   return unit;
 }
 
-/// Makes the unit of a rigid body, whose mobilities and motion without contacts and links are those
-/// of `free`.
 template <int D>
 RigidUnit<D> unit_of_body(const BodyStep& free) {
+  assert(free.mobility > 0);
   constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);
   RigidUnit<D> unit;
   unit.mobility = free.mobility;
@@ -59,10 +48,10 @@ RigidUnit<D> unit_of_body(const BodyStep& free) {
   return unit;
 }
 
-/// The motions [L, rad] of all units with the impulses `impulses` [M L/T], one for each row.
 template <int D>
 std::vector<Motion<D>> motions(const ConstraintProblem<D>& problem,
                                std::span<const double> impulses) {
+  assert(impulses.size() == problem.rows.size());
   std::vector<Motion<D>> sums(problem.units.size(), Motion<D>{});
   for (std::size_t r = 0; r < problem.rows.size(); ++r)
     if (impulses[r] != 0) problem.add_impulse(r, impulses[r], sums);
@@ -74,8 +63,6 @@ std::vector<Motion<D>> motions(const ConstraintProblem<D>& problem,
   return sums;
 }
 
-/// Makes the problem convex: the friction of each contact is bounded by the load that its solids
-/// carry at the present impulses, and no longer by the load in the solution.
 template <int D>
 void give_loads(ConstraintProblem<D>& problem) {
   problem.is_convex = problem.keeps_loads = true;
@@ -91,6 +78,7 @@ void give_loads(ConstraintProblem<D>& problem) {
 template <int D>
 double mobility_between(const ConstraintProblem<D>& problem, std::size_t r, std::size_t s) {
   const auto of_r = problem.parts_of(r), of_s = problem.parts_of(s);
+  assert(of_r.size() == of_s.size());
   double sum = 0;
   for (std::size_t part = 0; part < of_r.size(); ++part) {
     const auto& unit = problem.units[static_cast<std::size_t>(of_s[part].unit)];
@@ -102,13 +90,10 @@ double mobility_between(const ConstraintProblem<D>& problem, std::size_t r, std:
   return sum;
 }
 
-/// The change of the value of each row of `block` by a unit impulse on the same row [T/M]. The two
-/// tangential rows of a contact of spheres both get the larger eigenvalue of their 2 x 2 matrix of
-/// such changes, because it does not depend on the choice of the tangents. Numbers beyond the rows
-/// of the block are 0.
 template <int D>
 std::array<double, kMostRows> block_mobilities(const ConstraintProblem<D>& problem,
                                                const ConstraintBlock& block) {
+  assert(block.rows >= 1 && block.rows <= kMostRows);
   std::array<double, kMostRows> w{};
   for (std::size_t k = 0; k < block.rows; ++k)
     w[k] = mobility_between(problem, block.row + k, block.row + k);
@@ -119,7 +104,6 @@ std::array<double, kMostRows> block_mobilities(const ConstraintProblem<D>& probl
   return w;
 }
 
-/// The block_mobilities() of all blocks, in the order of the rows.
 template <int D>
 std::vector<double> row_mobilities(const ConstraintProblem<D>& problem) {
   std::vector<double> w(problem.rows.size());
@@ -129,12 +113,9 @@ std::vector<double> row_mobilities(const ConstraintProblem<D>& problem) {
   return w;
 }
 
-/// The residual of `block` [L], >= 0, by which it violates its conditions. `v`, `p` and `w` point
-/// to the values [L], impulses [M L/T] and mobilities > 0 [T/M] of the rows of the block. The
-/// residual is at least the rounding error of each w p, because errors of this size cannot be
-/// avoided.
 BlockResidual residual_of(const ConstraintBlock& block, const double* v, const double* p,
                           const double* w, double rounding) {
+  assert(block.rows >= 1 && block.rows <= kMostRows);
   BlockResidual residual;
   const auto least = [&](std::size_t k) { return rounding * w[k] * std::abs(p[k]); };
   if (!block.is_contact) {
@@ -171,10 +152,10 @@ BlockResidual residual_of(const ConstraintBlock& block, const double* v, const d
   return residual;
 }
 
-/// The residual of `block` after the `motions` of all units, with the impulses of the problem.
 template <int D>
 BlockResidual residual_after(const ConstraintProblem<D>& problem, const ConstraintBlock& block,
                              std::span<const Motion<D>> motions) {
+  assert(block.row + block.rows <= problem.impulses.size());
   std::array<double, kMostRows> v{};
   for (std::size_t k = 0; k < block.rows; ++k)
     v[k] = problem.rows[block.row + k].offset + problem.product(block.row + k, motions);
@@ -204,7 +185,7 @@ template BlockResidual residual_after<3>(const ConstraintProblem<3>&, const Cons
 namespace {
 
 /// Unit vectors that complete `normal` to a right-handed basis. They depend continuously on the
-/// normal, except for normals in space at which another component becomes the smallest one.
+/// normal, except where another component of a normal in space becomes the smallest one.
 template <int D>
 std::array<Vector, static_cast<std::size_t>(D - 1)> tangent_basis(const Vector& normal) {
   if constexpr (D == 2) {
@@ -221,7 +202,6 @@ std::array<Vector, static_cast<std::size_t>(D - 1)> tangent_basis(const Vector& 
   }
 }
 
-/// The unit normal of a contact, whose third component is 0 for discs.
 template <int D>
 Vector normal_of(const Contact<D>& contact) {
   Vector normal{};
@@ -231,12 +211,10 @@ Vector normal_of(const Contact<D>& contact) {
 
 }  // namespace
 
-/// The tangents of a contact, the arms [L] from the centres of its particles to the point of
-/// contact, and the displacement [L] of an obstacle at this point from the time `begin` to the time
-/// `end` [T]. The caller must set the capacity of the result.
 template <int D>
 ContactTangents<D> tangents_of(const Contact<D>& contact, const Particles& particles,
                                std::span<const Plane> obstacles, double begin, double end) {
+  assert(contact.first >= 0 || static_cast<std::size_t>(contact.obstacle) < obstacles.size());
   ContactTangents<D> tangents;
   const auto j = index_of(contact.second);
   const Vector normal = normal_of(contact);
@@ -258,13 +236,11 @@ ContactTangents<D> tangents_of(const Contact<D>& contact, const Particles& parti
   return tangents;
 }
 
-/// Adds row `k` of a contact to `problem`: its gap for k = 0, otherwise (k < D) the displacement of
-/// the second surface relative to the first one along tangent k - 1. `impulse` is a guess of the
-/// impulse of the row [M L/T].
 template <int D>
 void add_contact_row(const Contact<D>& contact, const ContactTangents<D>& tangents,
                      const ContactSide& first, const ContactSide& second, std::size_t k,
                      double impulse, ConstraintProblem<D>& problem) {
+  assert(k < static_cast<std::size_t>(D));
   const Vector normal = normal_of(contact);
   const Vector direction = k == 0 ? normal : tangents.directions[k - 1];
   double offset = k == 0 ? contact.gap : 0 - dot(direction, tangents.surface);

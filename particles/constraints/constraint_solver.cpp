@@ -1,22 +1,9 @@
-// Decides which methods solve the problem of contacts with friction and links of a time step, in
-// which order and with which parameters: Gauss-Seidel sweeps, proximal steps, paths of smoothed
-// problems and interior points. Values of rows (gaps, slips, equations of links) are in [L],
-// impulses in [M L/T], mobilities > 0 in [T/M], motions in [L, rad], in any consistent units. A
-// block is a contact or link with its rows. A residual [L] is allowed if it is at most
-// ConstraintBlock::allowed or allowed_slip, both > 0. Nothing is thrown; an unsolved problem has a
-// SolverResult::residual that is > 1 or NaN. constraint_system.cpp, impacts/ and
-// fluid/fluid_friction.cpp use this file. A change must keep that one thread computes the
-// solution, so that results do not depend on the number of threads. Constants without another
-// reason are free choices.
-//
-// `epsilon` [1], > 0, is the parameter of a proximal step. If a row has the value v, the mobility w
-// and, before the step, the impulse `center`, its new impulse is center - v/(epsilon w), projected
-// on the allowed impulses. A smaller epsilon brings the step nearer to the solution, but makes the
-// step harder to compute.
+// Which of the methods for (5.6) to (5.9), docs/physics.md, solves a problem, and when.
 #include "viscontact/particles/constraints/constraint_solver.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -32,8 +19,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// The row_mobilities() [T/M]. With kLeastImpulses all gaps get the largest mobility, so that all
-/// are equally stiff.
+/// The row_mobilities() [T/M], with equally stiff gaps if `start` is kLeastImpulses.
 template <int D>
 std::vector<double> scales_of_rows(const ConstraintProblem<D>& problem, ConstraintStart start) {
   auto w = row_mobilities(problem);
@@ -45,8 +31,7 @@ std::vector<double> scales_of_rows(const ConstraintProblem<D>& problem, Constrai
   return w;
 }
 
-/// Solves one problem. The object has the present impulses (problem.impulses), all that follows
-/// from them, and the best impulses so far.
+/// One solution: the present impulses, what follows from them, and the best impulses so far.
 template <int D>
 class Iteration {
  public:
@@ -63,8 +48,6 @@ class Iteration {
     update();
   }
 
-  /// Returns the solution, or the best iterate after about `max_iterations` iterations, and leaves
-  /// its impulses in the problem.
   ConstraintSolution<D> solve(int max_iterations) {
     if (problem_.is_convex) {
       solve_with_own_loads(max_iterations);
@@ -79,7 +62,7 @@ class Iteration {
   }
 
  private:
-  /// Makes kSweeps sweeps, each of which counts as an iteration.
+  /// Each sweep counts as an iteration.
   void sweep() {
     constexpr int kSweeps = 30;
     sweeps_.sweep(kSweeps, w_);
@@ -87,9 +70,7 @@ class Iteration {
     update();
   }
 
-  /// Repeats sweep() as long as each call reduces the residual to less than kGain times its value
-  /// before the call. A sweep takes a small part of the time of a factorisation, so that slow
-  /// progress is enough.
+  /// A sweep takes a small part of the time of a factorisation, so that slow progress is enough.
   void sweep_while_it_gains(int max_iterations) {
     constexpr double kGain = 0.7;
     double before = std::numeric_limits<double>::infinity();
@@ -107,23 +88,20 @@ class Iteration {
     gained_residual_ = best_.result.residual;
     gained_at_ = best_.result.iterations;
   }
-  /// True if the best residual was not halved in the last kPatience iterations (kPatienceOfCones,
-  /// if a contact has FrictionBound::kCone). Iterations of paths do not count. With 2000 in place
-  /// of 3000 and Coulomb's law, three more of the 200 steps of bench/box2d.cpp ended without a
-  /// solution when there were no paths. Convex problems whose loads are not given take 20 to 70
-  /// iterations, unless they have no solution.
+  /// True if the best residual was not halved in the last kPatience iterations, without those of
+  /// paths. With 2000 in place of 3000 and Coulomb's law, three more of the 200 steps of
+  /// bench/box2d.cpp ended without a solution when there were no paths. Convex problems whose loads
+  /// are not given take 20 to 70 iterations, unless they have no solution.
   bool is_stagnant() const {
     constexpr int kPatience = 3000, kPatienceOfCones = 300;
     return best_.result.iterations - gained_at_ > (has_cones_ ? kPatienceOfCones : kPatience);
   }
 
-  /// Takes proximal steps of a problem with Coulomb's law. Where they need many iterations, follows
-  /// paths of smoothed problems to points near a solution, and takes proximal steps from there.
+  /// Takes proximal steps with Coulomb's law and, where these are many, steps from ends of paths.
   void solve_with_paths(int max_iterations) {
     // Proximal steps solve easy problems in less time than a path takes, and with loads that are
-    // nearer to the guess. Their share of the time is about the same for all numbers of contacts.
-    // From the end of a path, most solutions take 0 to 20 iterations. With kLeastImpulses paths are
-    // the last resort, because their ends do not depend on the guess.
+    // nearer to the guess. From the end of a path, most solutions take 0 to 20 iterations. With
+    // kLeastImpulses paths are the last resort, because their ends do not depend on the guess.
     constexpr double kBeforePath = 1e5;  // iterations times contacts
     constexpr int kMostAfterPath = 200, kLeastBeforePath = 50, kMostBeforePath = 2000;
     const double contacts = static_cast<double>(problem_.blocks.size());
@@ -174,16 +152,14 @@ class Iteration {
     }
   }
 
-  /// Follows path number `number` of smoothed problems. Returns the impulses at its end, or nothing
-  /// if it ends far from a solution.
+  /// Returns the impulses at the end of a path, or nothing if it ends far from a solution.
   std::optional<std::vector<double>> end_of_path(int number, int max_iterations) {
     // These are accuracies relative to the violations without impulses. Most of the factorisations
     // are made at errors of 1e-3 to 1e-5, and about ten at errors from 1e-5 to 1e-7.
     constexpr double kRough = 1e-4, kAccurate = 1e-7, kFar = 1e-3;
     // A long path is left for another one, which seldom is as long.
     const int longest = number + 1 < CoulombPath<D>::kPaths ? 400 : 2000;
-    // Each point of the path takes a factorisation and three solutions with factors, which count
-    // as this number of iterations.
+    // Each point of the path takes a factorisation and three solutions with factors.
     constexpr int kForPoint = 4;
     const int left = max_iterations - best_.result.iterations;
     CoulombPath<D> path(problem_, w_, matrix());
@@ -196,10 +172,9 @@ class Iteration {
     return path.impulses();
   }
 
-  /// A bound of the impulses that a solution can need [M L/T]: the sum of the magnitudes of the
-  /// impulses that stop the free motion of each unit, of those that remove the violation of each
-  /// contact with friction and each rigid link by the free motion, and of the lowest impulses of
-  /// such contacts.
+  /// A bound of the impulses that a solution can need [M L/T]: the sum of those that stop the free
+  /// motion of each unit, of those that remove its violations of contacts with friction and rigid
+  /// links, and of the lowest impulses of such contacts.
   double sum_of_impulses_at_work() const {
     double sum = 0;
     std::vector<Motion<D>> free;
@@ -222,10 +197,10 @@ class Iteration {
     return sum;
   }
 
-  /// Takes a proximal step of a problem with Coulomb's law. Between jammed particles that stick,
-  /// impulses that balance each other must grow until a contact slips or opens. Small epsilons
-  /// reach this state fast, but steps fail more often. Therefore epsilon falls after a success and
-  /// grows after a failure. If steps with the largest one fail, sweeps are made.
+  /// Between jammed particles that stick, impulses that balance each other must grow until a
+  /// contact slips or opens. Small epsilons reach this state fast, but steps fail more often.
+  /// Therefore epsilon falls after a success and grows after a failure, and sweeps follow on
+  /// failures with the largest one.
   void take_proximal_step(int max_iterations) {
     constexpr int kMostIterations = 200, kFewIterations = 2;
     constexpr double kLeastEpsilon = 1e-12, kLargestEpsilon = 1, kFactor = 3, kLargeFactor = 10;
@@ -258,7 +233,7 @@ class Iteration {
     proximal_->set_epsilon(epsilon_);
   }
 
-  /// The largest residual of tangential rows, divided by their allowed residual [1].
+  /// The largest tangential residual over its allowed one [1].
   double largest_slip() const {
     double largest = 0;
     for (std::size_t b = 0; b < residuals_.size(); ++b)
@@ -266,13 +241,12 @@ class Iteration {
     return largest;
   }
 
-  /// Makes the residuals of gaps and links allowed. Before the call, a step from the impulses
-  /// `center` has made the residuals of the slips allowed. Between jammed particles that stick,
-  /// slips are never 0, so that further steps would increase impulses without end and change gaps
-  /// by more than their small tolerance. The steps of this function therefore start from the last
-  /// impulses in the rows of gaps and links only. The tangential rows keep a center with which the
-  /// present motions give the present friction. Their epsilon is so large that small motions hardly
-  /// change the friction. Returns true if the problem is solved; otherwise restores the impulses.
+  /// Makes the residuals of gaps and links allowed, after a step from the impulses `center` has
+  /// made those of the slips allowed. Between jammed particles that stick, slips are never 0, so
+  /// that further steps would increase impulses without end. Therefore the steps start from the
+  /// last impulses in the rows of gaps and links only. The tangential rows keep a center with which
+  /// the present motions give the present friction, and a large epsilon. Returns true if the
+  /// problem is solved; otherwise restores the impulses.
   bool close_gaps(std::vector<double> center, int max_iterations) {
     constexpr int kMostSteps = 12, kMostIterations = 200;
     constexpr double kEpsilonOfSlips = 1e-3, kLeastEpsilon = 1e-6, kFactor = 3;
@@ -302,8 +276,8 @@ class Iteration {
     return false;
   }
 
-  /// Solves a convex problem. If given loads bound its friction, a first solution replaces them by
-  /// its own loads, unless given loads are kept or the solution is rough.
+  /// A first solution replaces given loads by its own, unless they are kept or the solution is
+  /// rough.
   void solve_with_own_loads(int max_iterations) {
     if (has_given_loads_ && !problem_.keeps_loads && !problem_.is_rough) {
       find_interior_solution(max_iterations);
@@ -322,13 +296,12 @@ class Iteration {
         block.given_load = FrictionLaw::carried(problem_.impulses[block.row], block.capacity);
   }
 
-  /// Solves a convex problem by interior points alone.
   void find_interior_solution(int max_iterations) {
-    // These are accuracies relative to the violations without impulses. With 1e-6 in place of
-    // kAccurate spheres take 3 to 7 % less time, because proximal steps reach the rest. But
-    // proximal steps fail where several contacts are near the tips of their cones. A solution with
-    // kRough is used only to find the pairs that take part, and first loads. In bench/box2d.cpp it
-    // misses no more pairs with 1e-2 than with 1e-3, but some more with 3e-2.
+    // Accuracies relative to the violations without impulses. With 1e-6 in place of kAccurate
+    // spheres take 3 to 7 % less time, but proximal steps fail where several contacts are near the
+    // tips of their cones. A solution with kRough only finds the pairs that take part, and first
+    // loads. In bench/box2d.cpp it misses no more pairs with 1e-2 than with 1e-3, but some more
+    // with 3e-2.
     constexpr double kRough = 1e-2, kAccurate = 1e-9, kExact = 1e-13;
     constexpr int kMostIterations = 60;
     if (!interior_) interior_.emplace(problem_, w_, matrix());
@@ -341,27 +314,23 @@ class Iteration {
     update();
   }
 
-  /// Solves a convex problem with its present loads by interior points. If these do not suffice,
-  /// proximal steps follow. Few of them are needed, because the interior points have found which
-  /// contacts stick and which ones slide.
+  /// Few proximal steps follow, because the interior points have found which contacts stick.
   void solve_convex(int max_iterations) {
     if (residual_ <= 1 || best_.result.iterations >= max_iterations) return;
-    // Proximal steps from a near solution change its slips little. Each solution by interior points
-    // has errors of its own in the slips. Bodies that turn would pass these errors on to gaps, and
-    // corrections for finite turns would not vanish. Most such solutions take two to eight
-    // iterations.
+    // Proximal steps from a near solution change its slips little. Interior points would have
+    // errors in the slips, which bodies that turn pass on to gaps, so that corrections for finite
+    // turns would not vanish. Most such solutions take two to eight iterations.
     constexpr int kMostNear = 20;
     if (problem_.is_near &&
         take_convex_steps(std::min(max_iterations, best_.result.iterations + kMostNear)))
       return;
-    // No sweeps are made first. They seldom solve a problem, and the time of interior points does
-    // not depend on their start. If rows are redundant, impulses found by sweeps depend on the
-    // order of the rows, and those found by interior points do not.
+    // Sweeps seldom solve a problem, and the time of interior points does not depend on their
+    // start. If rows are redundant, impulses found by sweeps would depend on the order of the rows.
     find_interior_solution(max_iterations);
     if (!problem_.is_rough) take_convex_steps(max_iterations);
   }
 
-  /// Takes proximal steps of a convex problem. Returns true if it is solved.
+  /// Returns true if the problem is solved.
   bool take_convex_steps(int max_iterations) {
     // The errors of the impulses are the rounding errors of the gaps divided by epsilon. With a
     // smaller epsilon than this one they are too large.
@@ -377,10 +346,9 @@ class Iteration {
     return residual_ <= 1;
   }
 
-  /// Takes a proximal step of a convex problem, and changes epsilon for the next one. Without
-  /// rounding errors each step would lead nearer to the solution. The errors of the impulses are
-  /// the rounding errors of the gaps divided by epsilon. Therefore epsilon rises to kFirstEpsilon,
-  /// then falls so that impulses between jammed particles grow fast, and rises again.
+  /// Without rounding errors each step would lead nearer to the solution. The errors of the
+  /// impulses are those of the gaps over epsilon. Therefore epsilon rises to kFirstEpsilon, then
+  /// falls so that impulses between jammed particles grow fast, and rises again.
   void take_convex_step(int max_iterations) {
     constexpr int kMostIterations = 50;
     constexpr double kLeastEpsilon = 1e-8, kFactor = 10, kLittle = 0.9;
@@ -393,9 +361,9 @@ class Iteration {
     update();
     const bool is_solved = !proximal_->failed() && taken < most && std::isfinite(residual_);
     const bool is_largest = epsilon_ >= kFirstEpsilon, is_least = epsilon_ <= kLeastEpsilon;
-    // If the residual hardly falls although contacts hardly slip, particles are jammed, and
-    // close_gaps() is tried. It cannot be used for contacts of FrictionBound::kCone, because their
-    // projection changes normal and tangential impulses together.
+    // If the residual hardly falls although contacts hardly slip, particles are jammed. The
+    // projection of FrictionBound::kCone changes normal and tangential impulses together, and
+    // forbids close_gaps().
     constexpr double kLittleSlip = 0.01, kSlow = 0.1;
     if (is_solved && !has_cones_ && residual_ > 1 && residual_ > kSlow * before &&
         largest_slip() <= kLittleSlip && close_gaps(center, max_iterations))
@@ -445,15 +413,12 @@ class Iteration {
     update();
   }
 
-  /// The matrix of proximal steps and interior points, which the first call makes.
   UnitMatrix<D>& matrix() {
     if (!matrix_) matrix_.emplace(problem_, problem_.is_convex);
     return *matrix_;
   }
 
-  /// Computes motions, values of rows and residuals for problem_.impulses, and stores this iterate
-  /// as the best one if its residual is the smallest so far. The first iterate is stored in any
-  /// case, also with a residual that is not a number, because finish() must return an iterate.
+  /// The first iterate is stored also if its residual is NaN, because finish() must return one.
   void update() {
     motions_ = motions<D>(problem_, problem_.impulses);
     values_.resize(problem_.rows.size());
@@ -477,14 +442,13 @@ class Iteration {
     best_impulses_ = problem_.impulses;
   }
 
-  /// Puts the best impulses into the problem, and returns the best iterate.
   ConstraintSolution<D> finish() {
     problem_.impulses = best_impulses_;
     return std::move(best_);
   }
 
-  // Epsilon of the first proximal step with Coulomb's law [1]. bench/README.md lists the results of
-  // other values.
+  // Epsilon [1] of the first proximal step with Coulomb's law, as of ProximalStep; bench/README.md
+  // lists the results of other values.
   static constexpr double kFirstEpsilon = 0.1;
 
   ConstraintProblem<D>& problem_;
@@ -510,19 +474,13 @@ class Iteration {
 
 }  // namespace
 
-/// Improves problem.impulses until the residual of each block is allowed, or until about
-/// `max_iterations` > 0 iterations are made. If the problem is unsolved, SolverResult::residual is
-/// > 1 or NaN, and the result is the iterate with the smallest residual.
 template <int D>
 ConstraintSolution<D> solve_constraints(ConstraintProblem<D>& problem, int max_iterations,
                                         ConstraintStart start) {
+  assert(problem.impulses.size() == problem.rows.size());
   return Iteration<D>(problem, start).solve(max_iterations);
 }
 
-/// Bounds the friction of `problem` by given loads, and solves the problem in about
-/// kMostOfGivenLoads iterations at most. The loads are those of the present impulses, or, if
-/// `without_friction` is true, those of a solution without friction, which is computed first. The
-/// loads stay in the problem. If it is unsolved, SolverResult::residual is > 1 or NaN.
 template <int D>
 ConstraintSolution<D> solve_with_given_loads(ConstraintProblem<D>& problem, bool without_friction) {
   give_loads(problem);
@@ -536,15 +494,12 @@ ConstraintSolution<D> solve_with_given_loads(ConstraintProblem<D>& problem, bool
   return solution;
 }
 
-/// Returns for each block its violation [L], or [rad] if its rows are angles, >= 0, after the
-/// motion that violates all gaps and rigid links least. Links with a compliance have 0.
 template <int D>
 std::vector<double> least_violations(const ConstraintProblem<D>& problem) {
-  // Each proximal step minimises the sum of v^2/(kEpsilon w) over the violated rows, with the value
-  // v and the mobility w of a row, plus the square of the change of the motions in the norm of the
-  // masses divided by the length of the step. The second term keeps the matrix regular. A step
-  // multiplies errors by about kEpsilon if the rows determine the motions well. kEpsilon and the
-  // number of steps are free choices.
+  // Each proximal step minimises the sum of v^2/(kEpsilon w) over the violated rows plus the square
+  // of the change of the motions in the norm of the masses over the length of the step, which keeps
+  // the matrix regular. A step multiplies errors by about kEpsilon if the rows determine the
+  // motions well.
   constexpr double kEpsilon = 1e-6;
   constexpr int kSteps = 30;
   const auto w = row_mobilities(problem);

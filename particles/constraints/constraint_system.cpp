@@ -1,16 +1,9 @@
-// Solves the problem for the impulses of the contacts, rigid bodies and links of a time step, which
-// island_problem.cpp makes, and finds constraints that contradict each other. A unit is a particle,
-// or a rigid body of several particles. Displacements, gaps and residuals are in [L], turns in
-// [rad], impulses in [M L/T], forces of links in [M L/T^2] or [M L^2/T^2], in any consistent units;
-// allowed residuals, masses and the length of the step are > 0. For each particle arrays have 2
-// displacements and 1 turn (discs), or 3 of both (spheres). Nothing is checked or thrown: a step
-// that is not solved has SolverResult::residual > 1 or NaN. projection/ uses this file. A change
-// must keep that hinges and arms hold after finite turns, and the order of the link forces, which
-// restart files store.
+// Steps of (5.6) to (5.9), (5.17) and (5.21), docs/physics.md, island by island.
 #include "viscontact/particles/constraints/constraint_system.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -19,7 +12,7 @@ namespace viscontact::particles {
 
 namespace {
 
-/// Twice the kinetic energy of the `motions` of all units, times the length of the step [M L^2/T].
+/// Twice the kinetic energy of the `motions`, times the length of the step [M L^2/T].
 template <int D>
 double energy_of(const ConstraintProblem<D>& problem, std::span<const Motion<D>> motions) {
   double energy = 0;
@@ -30,7 +23,7 @@ double energy_of(const ConstraintProblem<D>& problem, std::span<const Motion<D>>
   return energy;
 }
 
-/// The sum of the normal impulses of all contacts, without regard to their signs [M L/T].
+/// The sum of the magnitudes of the normal impulses of all contacts [M L/T].
 template <int D>
 double sum_of_loads(const ConstraintProblem<D>& problem) {
   double sum = 0;
@@ -41,7 +34,6 @@ double sum_of_loads(const ConstraintProblem<D>& problem) {
 
 }  // namespace
 
-/// `displacements` [L] and `mobilities` (step over mass) [T/M] are those of all particles.
 template <int D>
 ConstraintSystem<D>::ConstraintSystem(const ConstraintStep& step, const Particles& particles,
                                       std::span<double> displacements,
@@ -62,6 +54,10 @@ ConstraintSystem<D>::ConstraintSystem(const ConstraintStep& step, const Particle
       unit_of_particle_(mobilities.size(), -1),
       unit_of_body_(particles.bodies.count(), -1),
       offsets_(particles.bodies.empty() ? 0 : particles.count()) {
+  assert(step.end > step.begin && step.kick > 0);
+  assert(displacements.size() == mobilities.size() * static_cast<std::size_t>(D));
+  assert(step.turn_mobilities.size() == mobilities.size());
+  assert(step.turns.size() == mobilities.size() * static_cast<std::size_t>(kTurns<D>));
   for (auto& stop : stop_equations(*step.links, particles)) {
     links_.push_back(std::move(stop));
     link_residuals_.push_back(0);
@@ -72,7 +68,6 @@ ConstraintSystem<D>::ConstraintSystem(const ConstraintStep& step, const Particle
       offsets_[index_of(body.members[m])] = present_offset(body, m, D);
 }
 
-/// Makes the particles of all links take part in `system`, and connects those of each link.
 template <int D>
 void ConstraintSystem<D>::join_linked(ContactSystem<D>& system) const {
   for (const auto& link : links_)
@@ -82,7 +77,6 @@ void ConstraintSystem<D>::join_linked(ContactSystem<D>& system) const {
     }
 }
 
-/// True if an arm keeps the particles of `pair` so far apart that they do not overlap.
 template <int D>
 bool ConstraintSystem<D>::is_held_apart(const Pair& pair) const {
   for (const auto& arm : step_.links->arms) {
@@ -104,7 +98,6 @@ bool ConstraintSystem<D>::is_held_apart(const Pair& pair) const {
   return false;
 }
 
-/// Appends the contact of `pair`. `memory` has its friction and load in the step before.
 template <int D>
 void ConstraintSystem<D>::add(const Contact<D>& contact, const Pair& pair,
                               const PairMemory& memory) {
@@ -118,8 +111,6 @@ void ConstraintSystem<D>::add(const Contact<D>& contact, const Pair& pair,
   contact_states_.push_back(state);
 }
 
-/// Finds the islands of `system`, ordered by their first bodies, with their contacts and links. An
-/// island is a set of particles that contacts and links connect.
 template <int D>
 void ConstraintSystem<D>::find_islands(ContactSystem<D>& system) {
   islands_.clear();
@@ -144,8 +135,6 @@ void ConstraintSystem<D>::find_islands(ContactSystem<D>& system) {
     island_of(links_[l].parts().front().particle).links.push_back(l);
 }
 
-/// True if the island was solved before, accurately unless `is_rough`, no contact was added since,
-/// and its residuals are allowed. Residuals of Coulomb's law do not count if it has given up.
 template <int D>
 bool ConstraintSystem<D>::is_solved(const ContactSystem<D>& system, const Island& island,
                                     bool is_rough) const {
@@ -164,7 +153,6 @@ bool ConstraintSystem<D>::is_solved(const ContactSystem<D>& system, const Island
               island.links, [&](std::size_t l) { return link_residuals_[l] <= links_allowed[l]; }));
 }
 
-/// The displacement [L] and turn [rad] of a unit; zeros if `unit` is -1.
 template <int D>
 UnitMotion ConstraintSystem<D>::motion_of(std::int32_t unit,
                                           std::span<const Motion<D>> motions) const {
@@ -177,7 +165,6 @@ UnitMotion ConstraintSystem<D>::motion_of(std::int32_t unit,
   return result;
 }
 
-/// Moves the particles of the island with their units, with finite turns of rigid bodies.
 template <int D>
 void ConstraintSystem<D>::move_particles(const ContactSystem<D>& system, const Island& island,
                                          std::span<const Motion<D>> motions) {
@@ -195,10 +182,6 @@ void ConstraintSystem<D>::move_particles(const ContactSystem<D>& system, const I
   }
 }
 
-/// Moves the particles, and changes the offsets of the rows so that their linear values after these
-/// motions of the units become those after finite turns: gaps as ContactSystem::gap() gives them,
-/// and lengths of links. Stores the changes as shifts, but not those of contacts that stay open.
-/// Returns the largest shift divided by its allowed residual [1].
 template <int D>
 double ConstraintSystem<D>::correct(ContactSystem<D>& system, Island& island,
                                     std::span<const Motion<D>> motions) {
@@ -241,8 +224,6 @@ double ConstraintSystem<D>::correct(ContactSystem<D>& system, Island& island,
   return std::max(largest, change_tensions(system, island, motions, false));
 }
 
-/// Linearises the equations about the motion without contacts. If this motion leaves all contacts
-/// open, it is the solution: its impulses become the guess, and the function returns true.
 template <int D>
 bool ConstraintSystem<D>::begin_without_contacts(ContactSystem<D>& system, Island& island) {
   auto& problem = island.problem;
@@ -265,10 +246,9 @@ bool ConstraintSystem<D>::begin_without_contacts(ContactSystem<D>& system, Islan
   return true;
 }
 
-/// True if one of the last corrections is larger than rounding errors and errors of solutions.
 template <int D>
 bool ConstraintSystem<D>::has_large_shifts(const Island& island) const {
-  constexpr double kPart = 1e-6;  // of the mean radius, a free choice
+  constexpr double kPart = 1e-6;  // of the mean radius
   const std::size_t contacts = island.contacts.size();
   for (std::size_t b = 0; b < island.shifts.size(); ++b) {
     const bool is_angle = b >= contacts && links_[island.links[b - contacts]].is_angle();
@@ -279,7 +259,6 @@ bool ConstraintSystem<D>::has_large_shifts(const Island& island) const {
   return false;
 }
 
-/// True if ContactSystem::use_distances() would change a gap of the island.
 template <int D>
 bool ConstraintSystem<D>::can_use_distances(ContactSystem<D>& system, const Island& island) const {
   return system.may_use_distances() && std::ranges::any_of(island.contacts, [&](std::size_t c) {
@@ -288,8 +267,6 @@ bool ConstraintSystem<D>::can_use_distances(ContactSystem<D>& system, const Isla
          });
 }
 
-/// Copies the solution of an island to the contacts of `system`, to the forces of links and the
-/// motions of bodies of the step, and to the residuals of this object.
 template <int D>
 void ConstraintSystem<D>::take_over(ContactSystem<D>& system, const Island& island,
                                     const ConstraintSolution<D>& solution) {
@@ -356,7 +333,6 @@ double ConstraintSystem<D>::change_of_impulses(const Island& island,
   return largest;
 }
 
-/// Sets the errors of the impulses of the island.
 template <int D>
 void ConstraintSystem<D>::take_errors(const Island& island, const Refinement<D>* refinement) {
   std::vector<double> of_shifts, unavoidable;
@@ -376,8 +352,6 @@ void ConstraintSystem<D>::take_errors(const Island& island, const Refinement<D>*
     take(link_errors_[l], links_[l].is_angle() ? 1 / mean_radius_ : 1);
 }
 
-/// For each block of the island the error of its impulse that is asked for and the rounding errors
-/// of its values.
 template <int D>
 std::pair<std::vector<double>, std::vector<double>> ConstraintSystem<D>::errors_of_values(
     const Island& island) const {
@@ -395,8 +369,6 @@ std::pair<std::vector<double>, std::vector<double>> ConstraintSystem<D>::errors_
   return {allowed, of_values};
 }
 
-/// The residual of the contact with block `b` of the island [L]. If Coulomb's law was asked for, it
-/// is the residual of this law, also if the solution has given loads.
 template <int D>
 BlockResidual ConstraintSystem<D>::residual_of_contact(
     const Island& island, std::size_t b, const ConstraintSolution<D>& solution) const {
@@ -407,8 +379,6 @@ BlockResidual ConstraintSystem<D>::residual_of_contact(
   return residual_after(problem, block, solution.motions);
 }
 
-/// True if give_up() may be tried: the island has not given up yet, and a contact has a load of its
-/// own that could be given.
 template <int D>
 bool ConstraintSystem<D>::may_give_up(const Island& island) const {
   const auto has_own_load = [](const ConstraintBlock& block) {
@@ -418,12 +388,6 @@ bool ConstraintSystem<D>::may_give_up(const Island& island) const {
          std::ranges::any_of(island.problem.blocks, has_own_load);
 }
 
-/// Solves the problem of an island, which made no progress, with friction that given loads bound.
-/// They are the loads of the present impulses. If `have_diverged`, these have no meaning, and the
-/// loads are those of a solution without friction; the same loads are tried if the present ones do
-/// not lead to a solution. Returns true if the problem is solved. Returns false, and leaves the
-/// problem and `solution` unchanged, if it is not (links contradict each other), if it is rough, or
-/// if all loads are given already. Adds the iterations to `result` in any case.
 template <int D>
 bool ConstraintSystem<D>::give_up(Island& island, bool have_diverged,
                                   ConstraintSolution<D>& solution, SolverResult& result) {
@@ -452,13 +416,14 @@ bool ConstraintSystem<D>::give_up(Island& island, bool have_diverged,
   return true;
 }
 
-/// Solves all islands that earlier calls have not solved, in about `max_iterations` > 0 iterations
-/// for each island. If `is_rough`, residuals up to `roughly_allowed` > 0 [L] are allowed. The
-/// result has SolverResult::residual <= 1 if all of them are solved.
 template <int D>
 SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
                                         double roughly_allowed, int max_iterations) {
   using Solved = typename Progress::Solved;
+  assert(contact_states_.size() == system.contacts.size());
+  assert(slips_allowed.size() == contact_states_.size() && links_allowed.size() == links_.size());
+  assert(allowed_errors.size() == contact_states_.size() + links_.size());
+  assert(rounding.size() == allowed_errors.size());
   find_islands(system);
   progress_.resize(system.bodies().size());
   SolverResult result;
@@ -488,19 +453,17 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
   return result;
 }
 
-/// Solves the problem of one island, as the comment on solve() in the header describes it.
 template <int D>
 SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island& island,
                                                bool is_rough, double roughly_allowed,
                                                int max_iterations) {
   auto& problem = island.problem;
-  // Each correction multiplies the error by about the turn of the bodies in the step [rad]. With
-  // turns of 1 rad it gains little. Corrections count as divergent if they grow kPatience times in
-  // succession, or if kMostWithoutGain of them do not halve the largest one. (Five factors of 0.87
-  // would halve it.) Then the constraints contradict each other, or the step is too long.
+  // Each correction multiplies the error by about the turn of the bodies in the step [rad].
+  // Corrections count as divergent if they grow kPatience times in succession, or if
+  // kMostWithoutGain of them do not halve the largest one. (Five factors of 0.87 would halve it.)
+  // Then the constraints contradict each other, or the step is too long.
   constexpr int kPatience = 3, kMostWithoutGain = 5;
-  // A correction is fast if it is below kFast times the one before. All these numbers are free
-  // choices.
+  // A correction is fast if it is below kFast times the one before.
   constexpr double kFast = 0.1;
   // An unsolved problem is still corrected if its residual is this small part of the correction.
   constexpr double kSmallPart = 1e-3;
@@ -521,8 +484,8 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
     last_change = gained_change = kInfinity;
     growing = gained_at = 0;
   };
-  // Begins anew with friction that the loads of `impulses` bound, or, if `impulses` is empty, those
-  // of a solution without friction. If this fails, restores the problem and returns false.
+  // Begins anew with friction that the loads of `impulses` bound, or, if it is empty, those of a
+  // solution without friction. If this fails, restores the problem and returns false.
   const auto give_up_anew = [&](const std::vector<double>& impulses) {
     if (!may_give_up(island)) return false;
     auto corrected = problem;
@@ -564,9 +527,9 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
       return result.iterations >= max_iterations + (island.has_given_up ? kMostOfGivenLoads : 0);
     };
     // A body that friction locks between two contacts still turns about the line through them. The
-    // correction for this turn demands a motion that the locks prevent. Coulomb's law then has no
-    // solution. The convex relaxation has one, with loads that are larger by orders of magnitude
-    // and add energy. Planes and arms that move may add energy, too, but without such loads.
+    // correction for this turn demands a motion that the locks prevent. The convex relaxation then
+    // has a solution, whose loads are larger by orders of magnitude and add energy. Planes and arms
+    // that move may add energy, too, but without such loads.
     constexpr double kMostEnergy = 1.01, kMostLoads = 10;  // times first_energy and first_loads
     if (n == 0) {
       const std::vector<double> none(problem.rows.size());
@@ -626,9 +589,9 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
       continue;
     }
     // The loads of a solution bound the friction of the next one. With large friction this may
-    // repeat without end, while corrections would follow the loads instead of vanishing. The first
-    // correction contains most of what turns change. The solution after it therefore begins with
-    // the same loads as the one before, and all later solutions keep the loads that it finds.
+    // repeat without end, while corrections would follow the loads. The first correction contains
+    // most of what turns change. The solution after it therefore begins with the same loads, and
+    // all later solutions keep the loads that it finds.
     if (n == 0 && !problem.keeps_loads)
       for (std::size_t b = 0; b < island.contacts.size(); ++b)
         problem.blocks[b].given_load = contact_states_[island.contacts[b]].first_load;
@@ -653,8 +616,6 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
   return result;
 }
 
-/// The violations [L], >= 0, of all contacts and then all links by the motion that violates them
-/// least. Those of angles are multiplied by the mean radius.
 template <int D>
 std::vector<double> ConstraintSystem<D>::least_violations() const {
   const std::size_t contacts = contact_states_.size();

@@ -1,22 +1,15 @@
-// Gauss-Seidel sweeps over the contacts and links of a time step. A contact or link has 1 to 3
-// rows (gaps, slips or equations) with impulses [M L/T], values v [L] and mobilities w > 0 [T/M]. A
-// sweep computes the impulses of one contact or link after the other from these values and
-// mobilities. Rows of angles have [M L^2/T], [rad] and [T/(M L^2)] instead; motions are in
-// [L, rad]. Units are any consistent ones. Nothing is checked or thrown: the caller must measure
-// the residuals. constraint_solver.cpp uses this file. A change of the order of sums changes
-// results by rounding errors.
+// One block after the other, for (5.6) to (5.9), docs/physics.md.
 #include "viscontact/particles/constraints/contact_sweeps.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 #include "viscontact/particles/contact/friction_law.hpp"
 
 namespace viscontact::particles {
 
-/// Computes the motion that a unit impulse on each row causes. `problem` must outlive the object,
-/// and only its impulses may change.
 template <int D>
 ContactSweeps<D>::ContactSweeps(ConstraintProblem<D>& problem) : problem_(problem) {
   pushes_.reserve(problem.parts.size());
@@ -24,14 +17,11 @@ ContactSweeps<D>::ContactSweeps(ConstraintProblem<D>& problem) : problem_(proble
     pushes_.push_back(problem.units[static_cast<std::size_t>(unit)].moved_by(coefficients));
 }
 
-/// The impulse [M L/T] that would make the value of a row with the mobility `w` 0.
 template <int D>
 double ContactSweeps<D>::wanted(std::size_t row, double w) const {
   return problem_.impulses[row] - (problem_.rows[row].offset + problem_.product(row, y_)) / w;
 }
 
-/// Sets the impulse of a row, in place `row` of problem.rows, to `impulse` [M L/T], and adds the
-/// motions that the change of the impulse causes.
 template <int D>
 void ContactSweeps<D>::change(std::size_t row, double impulse) {
   const double by = impulse - problem_.impulses[row];
@@ -44,9 +34,6 @@ void ContactSweeps<D>::change(std::size_t row, double impulse) {
   }
 }
 
-/// Sets the impulses of one contact or link to those that satisfy its conditions while all other
-/// impulses stay as they are. `w` points to the mobilities of its rows. FrictionBound::kCone is
-/// solved approximately (solve_in_cone()).
 template <int D>
 void ContactSweeps<D>::solve_block(const ConstraintBlock& block, const double* w) {
   if (!block.is_contact) {
@@ -76,13 +63,11 @@ void ContactSweeps<D>::solve_block(const ConstraintBlock& block, const double* w
   for (std::size_t k = 1; k < block.rows; ++k) change(block.row + k, factor * to[k - 1]);
 }
 
-/// Improves the impulses of a contact with FrictionBound::kCone, docs/physics.md (5.9). They solve
-/// its conditions unless an impulse on one of its rows changes another row, as in rigid bodies.
 template <int D>
 void ContactSweeps<D>::solve_in_cone(const ConstraintBlock& block, const double* w) {
-  // The change of row k by a unit impulse on row l, divided by w[k], is a matrix whose eigenvalues
-  // are at most the largest sum of magnitudes in one of its rows (`largest`). If a step is shorter
-  // by this factor, it reduces the convex function that the solution minimises.
+  // The changes of row k by unit impulses on rows l, over w[k], are a matrix whose eigenvalues are
+  // at most the largest sum of magnitudes in one of its rows. A step that is shorter by this factor
+  // reduces the convex function that the solution minimises.
   double largest = 1;
   for (std::size_t k = 0; k < block.rows; ++k) {
     double sum = 0;
@@ -108,10 +93,9 @@ void ContactSweeps<D>::solve_in_cone(const ConstraintBlock& block, const double*
   for (std::size_t k = 1; k < block.rows; ++k) change(block.row + k, cone.tangential * to[k]);
 }
 
-/// Improves problem.impulses by `count` >= 0 sweeps over all contacts and links, in their order and
-/// in the reverse order by turns. `w` has one mobility for each row of the problem.
 template <int D>
 void ContactSweeps<D>::sweep(int count, const std::vector<double>& w) {
+  assert(w.size() == problem_.rows.size());
   y_ = motions<D>(problem_, problem_.impulses);
   const auto& blocks = problem_.blocks;
   for (int n = 0; n < count; ++n)

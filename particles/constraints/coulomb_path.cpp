@@ -1,15 +1,8 @@
-// The steps along the path of smoothed problems with Coulomb's law, docs/physics.md (5.20). Motions
-// are in [L, rad], mobilities of rows, > 0, in [T/M], impulses in [M L/T], in any consistent units;
-// inside, gaps and impulses are scaled to the unit L (M/T)^(1/2). Paths have the numbers 0, 1, 2;
-// the accuracy [1] is in (0, 1). `tau` [M L^2/T] is the common value of the products that must
-// become 0. Nothing is checked or thrown. A path that is lost ends early: reached() [1] is the
-// error at the best point of the path divided by the error at its start, and the caller must
-// measure the residuals. constraint_solver.cpp uses this file. The constants change how long a
-// solution takes, which of several solutions is found, and results within the tolerances; a change
-// of the order of sums changes results by rounding errors.
+// Steps along the path of (5.20), docs/physics.md.
 #include "viscontact/particles/constraints/coulomb_path.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <deque>
 #include <utility>
@@ -17,19 +10,17 @@
 namespace viscontact::particles {
 namespace {
 
-/// This part [1] of the change of a scaled impulse is added to the change of its gap or slip. It
-/// bounds the entries of the matrix at 1e10 times the masses, as in interior_points.cpp.
+/// This part [1] of the change of a scaled impulse is added to that of its gap or slip. It bounds
+/// the entries of the matrix at 1e10 times the masses.
 constexpr double kRegularisation = 1e-10;
 
-/// For each path the product of the unknowns `bound` (the bound of the friction) and `spare` (mu_s
-/// times the impulse that the film can still absorb), divided by tau. A larger number smooths the
-/// bound of the friction more. The second path is for problems on which the first one fails or is
-/// long, the third one for those on which the second one does. The numbers are free choices: on 88
-/// problems of 300 to 1900 contacts the first path took 10900, 9300 and 9900 factorisations with 3,
-/// 9 and 20, and each of these numbers was the best one for some of the problems.
+/// The product of `bound` and `spare` over tau on each path: a larger one smooths the bound of the
+/// friction more. The second path is for problems on which the first one fails or is long, the
+/// third one for those on which the second one does. On 88 problems of 300 to 1900 contacts the
+/// first path took 10900, 9300 and 9900 factorisations with 3, 9 and 20.
 constexpr std::array<double, CoulombPath<2>::kPaths> kSmoothing = {10, 100, 30};
-/// The product (bound, p) o (z, v) on each path, divided by tau; p is the friction, v the slip and
-/// z a bound of the slip. With 1 and 0.6 runs of bench/box2d.cpp took longer.
+/// The product (bound, p) o (z, v) on each path over tau. With 1 and 0.6 runs of bench/box2d.cpp
+/// took longer.
 constexpr double kOfFriction = 2;
 
 /// The products stay between kNear and 1/kNear times their values on the path. On the problems
@@ -43,7 +34,7 @@ double inner(const std::array<double, N>& a, const std::array<double, N>& b) {
   return sum;
 }
 
-/// The matrix a I + b x y^T of one or two dimensions, row by row.
+/// a I + b x y^T, row by row.
 template <std::size_t N>
 std::array<double, N * N> matrix_of(double a, double b, const std::array<double, N>& x,
                                     const std::array<double, N>& y) {
@@ -53,7 +44,6 @@ std::array<double, N * N> matrix_of(double a, double b, const std::array<double,
   return matrix;
 }
 
-/// The product of a matrix, row by row, and a vector.
 template <std::size_t N>
 std::array<double, N> times(const std::array<double, N * N>& matrix,
                             const std::array<double, N>& x) {
@@ -63,16 +53,15 @@ std::array<double, N> times(const std::array<double, N * N>& matrix,
   return result;
 }
 
-/// The inverse of a matrix of one or two rows, row by row; infinite or NaN if it is singular.
+/// The inverse of a matrix, row by row; infinite or NaN if it is singular.
 std::array<double, 1> inverse_of(const std::array<double, 1>& a) { return {1 / a[0]}; }
 std::array<double, 4> inverse_of(const std::array<double, 4>& a) {
   const double determinant = a[0] * a[3] - a[1] * a[2];
   return {a[3] / determinant, -a[1] / determinant, -a[2] / determinant, a[0] / determinant};
 }
 
-/// The inner product [1] of two changes, (a_0, a) and (b_0, b), of a point (x_0, x) inside the
-/// second-order cone |x| < x_0. Its matrix is the Hessian of -ln(x_0^2 - |x|^2), so that the
-/// product measures relative changes.
+/// The inner product [1] of changes (a_0, a) and (b_0, b) of a point (x_0, x) with |x| < x_0 by the
+/// Hessian of -ln(x_0^2 - |x|^2): a measure of relative changes.
 template <std::size_t N>
 double relative_product(double x_0, const std::array<double, N>& x, double a_0,
                         const std::array<double, N>& a, double b_0,
@@ -95,7 +84,6 @@ CoulombPath<D>::CoulombPath(const ConstraintProblem<D>& problem, const std::vect
                             UnitMatrix<D>& matrix)
     : problem_(problem), w_(w), matrix_(matrix), impulses_(problem.impulses) {}
 
-/// Makes a part of each contact and of each row of a link, with its scales and constants.
 template <int D>
 void CoulombPath<D>::set_parts() {
   parts_.clear();
@@ -115,18 +103,17 @@ void CoulombPath<D>::set_parts() {
         part.of_slip = 1 / std::sqrt(w_[block.row + 1]);
         part.bound_per_impulse = block.friction * part.scale / part.of_slip;
       }
+      assert(!part.rubs || block.friction_bound == FrictionBound::kCoulomb);
       parts_.push_back(part);
     }
   }
 }
 
-/// The scaled value of the row of a part for the motions `y`, without the offset of the row.
 template <int D>
 double CoulombPath<D>::value(const Part& part, std::span<const Motion<D>> y) const {
   return part.scale * problem_.product(part.row, y);
 }
 
-/// The scaled values of the tangential rows of a contact for the motions `y`, without offsets.
 template <int D>
 typename CoulombPath<D>::Tangent CoulombPath<D>::slip(const Part& part,
                                                       std::span<const Motion<D>> y) const {
@@ -136,7 +123,6 @@ typename CoulombPath<D>::Tangent CoulombPath<D>::slip(const Part& part,
   return slip;
 }
 
-/// Computes the errors of all linear equations at state_.
 template <int D>
 void CoulombPath<D>::measure() {
   for (std::size_t u = 0; u < error_.size(); ++u) {
@@ -159,9 +145,6 @@ void CoulombPath<D>::measure() {
   }
 }
 
-/// Sets state_ to the start of the path. There all scaled gaps, and all scaled impulses minus their
-/// lowest values, are equal to the largest scaled violation that occurs with the lowest impulses,
-/// and no contact has friction.
 template <int D>
 void CoulombPath<D>::start() {
   std::ranges::fill(impulses_, 0.0);
@@ -202,11 +185,6 @@ void CoulombPath<D>::start() {
   }
 }
 
-/// Assembles and factorises the matrix at state_. Returns false if it is singular.
-///
-/// If the change of z is eliminated, the changes dp, dv and dbound of the friction p, the slip v
-/// and the bound of the friction obey, with terms "..." that do not depend on them,
-///     (z I - p v^T/bound) dp = - (bound I - p p^T/bound) dv - (v - z p/bound) dbound + ...
 template <int D>
 bool CoulombPath<D>::factorise() {
   matrix_.set_to_masses();
@@ -216,6 +194,8 @@ bool CoulombPath<D>::factorise() {
     part.weight = 1 / ((part.is_equation ? part.compliance : point.u / point.r) + kRegularisation);
     matrix_.add_product(part.block, part.row, part.row, part.weight * part.scale * part.scale);
     if (!part.rubs) continue;
+    // Without the change of z the changes of friction, slip and bound obey, but for constant terms,
+    // (z I - p v^T/bound) dp = - (bound I - p p^T/bound) dv - (v - z p/bound) dbound + ...
     const auto cone = matrix_of(point.bound, -1 / point.bound, point.p, point.p);
     auto left = matrix_of(point.z, -1 / point.bound, point.p, point.v);
     for (std::size_t k = 0; k < left.size(); ++k) left[k] += kRegularisation * cone[k];
@@ -239,10 +219,6 @@ bool CoulombPath<D>::factorise() {
   return matrix_.factorise();
 }
 
-/// Sets `changes` so that the following holds to first order. Each error of a linear equation and
-/// each product of (5.20) decreases by `of_errors` [1] times its value at state_, and increases by
-/// `of_tau` [M L^2/T] times the constant to which its ratio to tau is equal on the path. If
-/// `tangent` is not null, each product also decreases by the product of the changes in `tangent`.
 template <int D>
 void CoulombPath<D>::find_changes(double of_errors, double of_tau, const State* tangent,
                                   State& changes) {
@@ -252,9 +228,8 @@ void CoulombPath<D>::find_changes(double of_errors, double of_tau, const State* 
   for (std::size_t u = 0; u < error_.size(); ++u)
     for (std::size_t k = 0; k < kMotion; ++k)
       changes.y[u][k] = of_errors * error_[u][k] - of_tau * error_per_tau_[u][k];
-  // The first pass computes the changes of r and p if nothing moves; the changes of u and v then
-  // contain only the errors of their equations. The second pass adds the motions, and computes all
-  // changes.
+  // The first pass computes the changes of r and p if nothing moves, with the errors of the
+  // equations in u and v. The second pass adds the motions.
   const auto find = [&](std::size_t i, bool is_moved) {
     const auto& part = parts_[i];
     const auto& at = state_.points[i];
@@ -307,9 +282,6 @@ void CoulombPath<D>::find_changes(double of_errors, double of_tau, const State* 
   for (std::size_t i = 0; i < parts_.size(); ++i) changes.points[i] = find(i, true);
 }
 
-/// The inner product [1] of two changes, each taken relative to state_. The change of a positive
-/// number is divided by the number, and relative_product() takes changes of points of a cone.
-/// Motions and links do not count. The product of a change of tau and itself is > 0.
 template <int D>
 double CoulombPath<D>::product(const State& a, const State& b) const {
   double sum = degree_ * a.tau * b.tau / (state_.tau * state_.tau);
@@ -326,8 +298,6 @@ double CoulombPath<D>::product(const State& a, const State& b) const {
   return sum;
 }
 
-/// True if all points are inside their cones at the length `length` [1] of a step, and the products
-/// are near their values on the path.
 template <int D>
 bool CoulombPath<D>::is_inside(const Step& step, double length) const {
   const double square = length * length;
@@ -367,7 +337,6 @@ bool CoulombPath<D>::is_inside(const Step& step, double length) const {
   return true;
 }
 
-/// Adds `factor` times changes to a state or to other changes.
 template <int D>
 void CoulombPath<D>::add(double factor, const State& changes, State& to) {
   to.tau += factor * changes.tau;
@@ -385,7 +354,6 @@ void CoulombPath<D>::add(double factor, const State& changes, State& to) {
   }
 }
 
-/// The point at the length `length` [1] of a step.
 template <int D>
 typename CoulombPath<D>::State CoulombPath<D>::end_of(const Step& step, double length) {
   State end = step.at;
@@ -395,10 +363,6 @@ typename CoulombPath<D>::State CoulombPath<D>::end_of(const Step& step, double l
   return end;
 }
 
-/// Sets the tangent of the path at state_, and the correction at right angles to the tangent. The
-/// tangent is the derivative of the unknowns by ln(tau) or by -ln(tau). Returns false if the matrix
-/// is singular, or if the correction does not lead to a point near the path. (With a bound on the
-/// angle between the tangents of successive steps, paths would take 2 to 9 % more factorisations.)
 template <int D>
 bool CoulombPath<D>::find_direction(Step& step) {
   measure();
@@ -416,7 +380,6 @@ bool CoulombPath<D>::find_direction(Step& step) {
   return is_inside(step, 0);
 }
 
-/// Sets half of the second derivative of the path by the length, at right angles to the tangent.
 template <int D>
 void CoulombPath<D>::find_second(Step& step) {
   find_changes(0, 0, &step.tangent, step.second);
@@ -424,14 +387,9 @@ void CoulombPath<D>::find_second(Step& step) {
       step.second);
 }
 
-/// Follows path `number` (0, 1 or 2) until the square root of tau is at most `accuracy` times its
-/// value at the start. Returns the number of factorisations, at most `max_iterations`, also if the
-/// path is lost. The impulses of the best point are then in impulses_.
 template <int D>
 int CoulombPath<D>::follow(int number, double accuracy, int max_iterations) {
-  // Lengths of steps are changes of ln(tau) at their start. A step may be kGrowth times as long as
-  // the one before, and is shortened by kLess until it ends near the path. All numbers are free
-  // choices.
+  // Lengths are changes of ln(tau). A step may be kGrowth times as long as the one before.
   constexpr double kLongest = 0.9, kGrowth = 4, kLess = 0.7;
   // If the end of a step cannot be corrected, the step is taken again with kShorter times its
   // length. After kMostTries the same is done with the step before. The last kKept steps are kept.
@@ -445,6 +403,8 @@ int CoulombPath<D>::follow(int number, double accuracy, int max_iterations) {
   // and kPatience factorisations do not halve tau.
   constexpr double kSmall = 1e-6;
   constexpr int kPatience = 30;
+  assert(number >= 0 && number < kPaths && accuracy > 0 && accuracy < 1);
+  assert(w_.size() == problem_.rows.size());
   smoothing_ = kSmoothing[static_cast<std::size_t>(number)];
   set_parts();
   start();
@@ -491,18 +451,16 @@ int CoulombPath<D>::follow(int number, double accuracy, int max_iterations) {
   return iterations;
 }
 
-/// Sets impulses_ from best_. Contacts that seem to open, because u > r, get their lowest impulse
-/// exactly, so that no film absorbs a small remainder.
 template <int D>
 void CoulombPath<D>::take_impulses() {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const auto& part = parts_[i];
     const auto& point = best_.points[i];
+    // Contacts that open get their lowest impulse exactly: no film absorbs a small rest.
     const bool is_open = !part.is_equation && point.u > point.r;
     impulses_[part.row] = part.base + (is_open ? 0 : part.scale * point.r);
     if (!part.rubs) continue;
-    // In a collision (impacts/) solids may carry a part of the lowest impulse. A contact with its
-    // lowest impulse then has friction, too.
+    // In a collision solids may carry a part of the lowest impulse.
     const double friction = part.of_slip * std::sqrt(inner(point.p, point.p));
     const double bound = problem_.blocks[part.block].bound(impulses_[part.row]);
     const double share = friction > bound ? bound / friction : 1;

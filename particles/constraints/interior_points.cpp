@@ -1,16 +1,8 @@
-// Iterations of the interior-point method for convex problems of contacts with friction and links.
-// An iteration first computes a predictor: changes whose goal is u.r = 0 for all pairs of a
-// displacement u and an impulse r. The predictor gives the goal of a corrector, whose changes of u,
-// r and the motions y [L, rad] of all units are made. u and r are scaled to the unit L (M/T)^(1/2)
-// by mobilities of rows > 0 [T/M]; z is the additional unknown of a contact with a given bound of
-// its friction. The accuracy [1] is in (0, 1), impulses are in [M L/T], units any consistent ones.
-// Nothing is checked or thrown. solve() does not tell whether it reached the accuracy: the caller,
-// constraint_solver.cpp, must measure the residuals. The constants change how long a solution
-// takes, and results within the tolerances; a change of the order of sums changes results by
-// rounding errors.
+// Mehrotra's predictor, whose goal is u.r = 0, and corrector for (5.9) and (5.17), docs/physics.md.
 #include "viscontact/particles/constraints/interior_points.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -21,12 +13,11 @@ namespace {
 /// matrix at 1e10 times the masses, so that its factorisation keeps six digits of the masses.
 constexpr double kRegularisation = 1e-10;
 
-/// A step ends after this part [1] of the way to the boundary of the nearest cone. The number is a
-/// free choice below 1.
+/// A step ends after this part [1] of the way to the boundary of the nearest cone.
 constexpr double kInside = 0.995;
 
-/// The larger of |x_0| and the distance from the axis, which does not depend on the choice of the
-/// tangents of a contact in space; NaN if one is NaN.
+/// The larger of |x_0| and the distance from the axis, which does not depend on the choice of
+/// tangents in space; NaN if one is NaN.
 double magnitude(const ConePoint& x) { return largest_or_nan(std::abs(x[0]), beside_axis(x)); }
 
 }  // namespace
@@ -43,9 +34,6 @@ InteriorPoints<D>::InteriorPoints(const ConstraintProblem<D>& problem, const std
       right_(problem.units.size()),
       impulses_(problem.impulses) {}
 
-/// Sets the rows and scales of all parts. A part with a cone consists of the rows of a contact with
-/// FrictionBound::kCone, or of the tangential rows of a contact with a given bound. Each other row
-/// of a gap or a link is a part of its own.
 template <int D>
 void InteriorPoints<D>::set_parts() {
   singles_.clear();
@@ -75,6 +63,7 @@ void InteriorPoints<D>::set_parts() {
     }
     // Friction is left out if it moves nothing by more than half of what is allowed.
     if (!block.is_contact || block.rows == 1) continue;
+    assert(block.friction_bound == FrictionBound::kGiven);
     const double bound = block.bound(0);
     if (!(bound * w_[block.row + 1] > block.allowed_slip / 2)) continue;
     cone.is_bound_given = true;
@@ -87,14 +76,11 @@ void InteriorPoints<D>::set_parts() {
   }
 }
 
-/// The scaled value of the row of a part for the motions `y`, without its offset.
 template <int D>
 double InteriorPoints<D>::value(const Single& part, const std::vector<Motion<D>>& y) const {
   return part.scale * problem_.product(part.row, y);
 }
 
-/// The scaled values of the rows of a part for the motions `y`, in the coordinates of its cone.
-/// `with_offset`: the offsets of the rows are added.
 template <int D>
 ConePoint InteriorPoints<D>::values(const Cones& part, bool with_offset,
                                     const std::vector<Motion<D>>& y) const {
@@ -106,7 +92,6 @@ ConePoint InteriorPoints<D>::values(const Cones& part, bool with_offset,
   return Cone::coordinates(v);
 }
 
-/// The impulses [M L/T] of the components of a part, from its dual point `r` in coordinates.
 template <int D>
 ConePoint InteriorPoints<D>::impulse_of(const Cones& part, const ConePoint& r) const {
   ConePoint impulse = Cone::coordinates(r);
@@ -114,7 +99,6 @@ ConePoint InteriorPoints<D>::impulse_of(const Cones& part, const ConePoint& r) c
   return impulse;
 }
 
-/// Adds the impulses on the units that the dual point `r` of a part exerts, to `to` [M L/T].
 template <int D>
 void InteriorPoints<D>::add_impulse(const Cones& part, const ConePoint& r,
                                     std::vector<Motion<D>>& to) const {
@@ -123,8 +107,6 @@ void InteriorPoints<D>::add_impulse(const Cones& part, const ConePoint& r,
     problem_.add_impulse(part.row + k, impulse[part.first + k], to);
 }
 
-/// The largest magnitude of the scaled values of a part, with the offsets of its rows, for the
-/// motions y_; NaN if one is NaN.
 template <int D>
 double InteriorPoints<D>::largest_value() const {
   double largest = 0;
@@ -136,10 +118,6 @@ double InteriorPoints<D>::largest_value() const {
   return largest;
 }
 
-/// Computes the errors of all conditions at the present point, and gap_, the mean of all u.r.
-/// Returns the largest of the following errors, in the unit of u and r: those of the values of
-/// rows; the square root of each u.r, which is 0 at the solution; and those of the impulses on the
-/// units, in the norm of the mobilities. The result is NaN if one of them is NaN.
 template <int D>
 double InteriorPoints<D>::measure() {
   double largest = 0, largest_product = 0;
@@ -187,31 +165,24 @@ double InteriorPoints<D>::measure() {
   return largest_or_nan(largest, std::sqrt(std::max(largest_product, 0.0)));
 }
 
-/// Sets the weight of a part in the matrix from its present point, and the goal of the predictor.
 template <int D>
 void InteriorPoints<D>::begin_predictor(Single& part) {
   part.goal = -part.u;
   part.weight = 1 / ((part.is_equation ? part.compliance : part.u / part.r) + kRegularisation);
 }
 
-/// Sets the goal of the predictor of a part with a cone, -u in the numbers of cone.hpp.
 template <int D>
 void InteriorPoints<D>::begin_predictor(Cones& part) {
   part.goal = part.scaling.numbers_of_u();
   for (double& number : part.goal) number = -number;
 }
 
-/// The change dr of r for which (W^2 + kRegularisation I) dr has the given `numbers`, with the
-/// scaling W and the numbers of cone.hpp. If a bound is given, component 0 of dr is 0 instead, and
-/// component 0 of the product can have any value.
 template <int D>
 ConePoint InteriorPoints<D>::change_of_r(const Cones& part, const ConePoint& numbers) {
   return part.is_bound_given ? part.scaling.solve_beside(kRegularisation, numbers)
                              : part.scaling.solve(kRegularisation, numbers);
 }
 
-/// Assembles and factorises the matrix at the present point, and sets the goals of the predictor.
-/// Returns false if the matrix is singular.
 template <int D>
 bool InteriorPoints<D>::factorise() {
   matrix_.set_to_masses();
@@ -235,12 +206,9 @@ bool InteriorPoints<D>::factorise() {
   return matrix_.factorise();
 }
 
-/// Sets the changes of y, u and r with which, to first order, all errors become 0 and the goals are
-/// reached. `solutions`, 1 or 2, is the number of solutions with the factors of the matrix. The
-/// second one removes the rounding errors of the motions, which large entries of the matrix
-/// multiply.
 template <int D>
 void InteriorPoints<D>::find_direction(int solutions) {
+  assert(solutions == 1 || solutions == 2);
   right_ = error_;
   for (auto& part : singles_) {
     part.change_of_r = part.weight * (part.goal - part.error);
@@ -298,7 +266,6 @@ void InteriorPoints<D>::find_direction(int solutions) {
   }
 }
 
-/// The largest multiple of the changes, at most 1/kInside, that leaves all points in their cones.
 template <int D>
 double InteriorPoints<D>::length_to_boundary() const {
   double length = 1 / kInside;
@@ -313,11 +280,6 @@ double InteriorPoints<D>::length_to_boundary() const {
   return length;
 }
 
-/// Sets the goals of the corrector from the changes of the predictor. `length` [1] is the length
-/// that a step of the predictor can have, and `gap_before` [M L^2/T] is gap_ before this step. The
-/// corrector aims at equal products of all u and r. These products are small if the step would
-/// reduce gap_ much. The goals also contain the products of the changes of u and r, which the
-/// predictor neglects.
 template <int D>
 void InteriorPoints<D>::set_corrector(double gap_before, double length) {
   double after = 0;
@@ -328,6 +290,8 @@ void InteriorPoints<D>::set_corrector(double gap_before, double length) {
     after += part.scaling.product_of_points() +
              length * (inner(part.u.x, part.change_of_r) + inner(part.change_of_u, part.r.x) +
                        length * inner(part.change_of_u, part.change_of_r));
+  // The corrector aims at equal products of all u and r, with the products of the changes that the
+  // predictor neglects.
   const double ratio = std::clamp(after / (degree_ * gap_before), 0.0, 1.0);
   const double centre = ratio * ratio * ratio * gap_before;
   for (auto& part : singles_)
@@ -344,7 +308,6 @@ void InteriorPoints<D>::set_corrector(double gap_before, double length) {
   }
 }
 
-/// Adds `length` [1] times the changes to y, u and r.
 template <int D>
 void InteriorPoints<D>::move(double length) {
   for (std::size_t u = 0; u < y_.size(); ++u)
@@ -360,12 +323,12 @@ void InteriorPoints<D>::move(double length) {
   }
 }
 
-/// Sets impulses_ from the present point. Contacts that seem to open, because u > r, get their
-/// lowest impulse exactly, so that no film absorbs a small remainder.
 template <int D>
 void InteriorPoints<D>::take_impulses() {
   std::ranges::fill(impulses_, 0.0);
   for (const auto& part : singles_) {
+    // Contacts that seem to open get their lowest impulse exactly, so that no film absorbs a small
+    // rest.
     const bool is_open = !part.is_equation && part.u > part.r;
     impulses_[part.row] = part.base + (is_open ? 0 : part.scale * part.r);
   }
@@ -376,10 +339,6 @@ void InteriorPoints<D>::take_impulses() {
   }
 }
 
-/// Sets all u and r to points inside their cones: `size` [L (M/T)^(1/2)], > 0, times the unit of
-/// the cone. If a given bound fixes component 0 of r, r is multiplied by the factor with which this
-/// component has its value, and u is divided by the same factor. Sets degree_, the value of the sum
-/// of all u.r if each u and r is the unit of its cone.
 template <int D>
 void InteriorPoints<D>::start(double size) {
   degree_ = 0;
@@ -403,19 +362,15 @@ void InteriorPoints<D>::start(double size) {
   }
 }
 
-/// Iterates until the error that measure() returns is at most `accuracy` times the largest scaled
-/// value of a row with the least impulses. Stops earlier if errors grow or only rounding errors are
-/// left. Returns the number of iterations, at most `max_iterations`. impulses_ then has the
-/// impulses with the least error.
 template <int D>
 int InteriorPoints<D>::solve(double accuracy, int max_iterations) {
   // If the error is below kNear times its size at the start, and an iteration does not reduce it to
-  // kSlow times the least error so far, only rounding errors are left. All constants of this
-  // function are free choices.
+  // kSlow times the least error so far, only rounding errors are left.
   constexpr double kNear = 1e-6, kSlow = 0.5;
   // The second solution of find_direction() saves iterations only near the end: when the error
   // divided by its size at the start is below kNearEnd and below kNearAccuracy * accuracy.
   constexpr double kNearAccuracy = 1e3, kNearEnd = 1e-3;
+  assert(accuracy > 0 && accuracy < 1 && w_.size() == problem_.rows.size());
   set_parts();
   // The impulses get their least allowed values, and y_ the motions with these impulses.
   std::ranges::fill(impulses_, 0.0);

@@ -1,10 +1,4 @@
-// Makes the problem of an island of a ConstraintSystem, a set of particles that contacts and links
-// connect: its units (particles and rigid bodies), the rows and bounds of its contacts, the
-// equations of its links, and the motions of its units without contacts. Rows and allowed
-// residuals > 0 are in [L] ([rad] for angles), impulses in [M L/T], turns in [rad], mobilities in
-// [T/M], in any consistent units. Contacts and links are given by their numbers from 0. Nothing is
-// checked or thrown. constraint_system.cpp uses this file. A change of the order of rows changes
-// results by rounding errors.
+// The ConstraintProblem of an island of a ConstraintSystem.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -13,7 +7,6 @@
 
 namespace viscontact::particles {
 
-/// Makes a unit of each rigid body, and of each particle without a body, of the island.
 template <int D>
 void ConstraintSystem<D>::number_units(const ContactSystem<D>& system, Island& island) {
   for (const auto b : island.bodies)
@@ -46,8 +39,6 @@ UnitMotion ConstraintSystem<D>::given_motion(std::int32_t particle) const {
   return motion;
 }
 
-/// The unit of a particle or of a plane under a load, and the place of the particle in it; no unit
-/// for an obstacle (-1).
 template <int D>
 ContactSide ConstraintSystem<D>::side_of(std::int32_t entry) const {
   if (entry < 0) return {};
@@ -59,8 +50,6 @@ ContactSide ConstraintSystem<D>::side_of(std::int32_t entry) const {
   return {unit_of_particle_[k], particles_.bodies.body_of(entry) < 0 ? Vector{} : offsets_[k]};
 }
 
-/// Adds the block and the rows of contact number `c` to `problem`, with its last impulses as the
-/// guess. `allowed_slip` [L] is the allowed residual of its tangential rows.
 template <int D>
 void ConstraintSystem<D>::add_contact(const Contact<D>& contact, std::size_t c, double allowed_slip,
                                       ConstraintProblem<D>& problem) {
@@ -88,9 +77,6 @@ void ConstraintSystem<D>::add_contact(const Contact<D>& contact, std::size_t c, 
   }
 }
 
-/// Adds the block and the rows of link number `l` to `problem`, with the last forces of the link as
-/// the guess. `allowed` is the allowed residual of its rows [L]; for angles it is divided by the
-/// mean radius.
 template <int D>
 void ConstraintSystem<D>::add_link(std::size_t l, double allowed, ConstraintProblem<D>& problem) {
   const auto& link = links_[l];
@@ -117,7 +103,6 @@ void ConstraintSystem<D>::add_link(std::size_t l, double allowed, ConstraintProb
   }
 }
 
-/// True if the island has contacts, and a part of it was solved without contacts before.
 template <int D>
 bool ConstraintSystem<D>::has_motions_without_contacts(const Island& island) const {
   return !island.contacts.empty() && std::ranges::any_of(island.bodies, [&](std::int32_t b) {
@@ -125,8 +110,6 @@ bool ConstraintSystem<D>::has_motions_without_contacts(const Island& island) con
   });
 }
 
-/// The motions [L, rad] of the units of the island with links but without contacts. A unit whose
-/// links were not solved without contacts has its motion without contacts and links.
 template <int D>
 std::vector<Motion<D>> ConstraintSystem<D>::motions_without_contacts(const ContactSystem<D>& system,
                                                                      const Island& island) const {
@@ -140,10 +123,6 @@ std::vector<Motion<D>> ConstraintSystem<D>::motions_without_contacts(const Conta
   return motions;
 }
 
-/// Bounds the friction of an island that has given up by given loads. A contact gets the load that
-/// it had when its island gave up. A contact that was added later gets its load in the step before.
-/// A contact of another island, which has joined this one since, gets its load in the last solution
-/// of that island. If that island could not give up, the load is the one before this solution.
 template <int D>
 void ConstraintSystem<D>::give_loads_of_step(Island& island) {
   give_loads(island.problem);
@@ -156,8 +135,6 @@ void ConstraintSystem<D>::give_loads_of_step(Island& island) {
   }
 }
 
-/// Makes the problem of an island: units, contacts and links. If `is_rough`, the allowed residual
-/// of all rows is `roughly_allowed` > 0 [L].
 template <int D>
 void ConstraintSystem<D>::make_problem(const ContactSystem<D>& system, Island& island,
                                        bool is_rough, double roughly_allowed) {

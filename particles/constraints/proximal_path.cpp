@@ -1,14 +1,8 @@
-// The path that a step of the proximal method for contacts with friction follows if no step of
-// Newton's method reduces its error. b + J y are the gaps and slips of contacts [L] after the
-// motions y [L, rad], with the coefficients J of their rows; P^k the impulses before the step
-// [M L/T], rho > 0 [M/T] stiffnesses of rows. On the path from the motions y_0 the error is
-// (1 - share) times that of y_0, and the solution is at share = 1. For discs only: the path
-// consists of straight pieces, on which no contact changes its branch (open, without friction,
-// sticking, slipping). Units are any consistent ones. Nothing is checked or thrown: follow_path()
-// returns the share that it reached, 0 to 1. proximal_step.cpp uses this file. A change of the
-// order of sums changes results by rounding errors.
+// The path for discs of which proximal_step.hpp speaks: on it the error is 1 - share times that at
+// the start. It consists of straight pieces, on which no contact changes its branch.
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -17,16 +11,14 @@
 namespace viscontact::particles {
 
 /// The change of the matrix of Newton's method when a block changes its branch: J^T column (row J),
-/// with the coefficients J of the two rows of the block, two numbers `column` [1] and two numbers
-/// `row` [M/T]. The change is a product of two vectors because the projection is continuous.
+/// with the coefficients J of the two rows of the block, `column` [1] and `row` [M/T]. It is a
+/// product of two vectors because the projection is continuous.
 template <int D>
 struct ProximalStep<D>::Crossing {
   std::size_t block = 0;
   std::array<double, 2> column{}, row{};
 };
 
-/// The matrix of the derivatives of the projected impulses (p_n, p_t) of contact `b` by the
-/// unprojected ones, P^k - rho (b + J y), in a branch [1], row by row.
 template <int D>
 std::array<double, 4> ProximalStep<D>::derivatives(std::size_t b, Branch branch) const {
   const double slope = problem_.blocks[b].friction;
@@ -44,8 +36,6 @@ std::array<double, 4> ProximalStep<D>::derivatives(std::size_t b, Branch branch)
   return {};
 }
 
-/// The change of the matrix when block `b` goes from its present branch to `branch`, which must be
-/// a different one.
 template <int D>
 typename ProximalStep<D>::Crossing ProximalStep<D>::crossing_to(std::size_t b,
                                                                 Branch branch) const {
@@ -63,7 +53,6 @@ typename ProximalStep<D>::Crossing ProximalStep<D>::crossing_to(std::size_t b,
   return crossing;
 }
 
-/// Product of the row of a crossing, row J, and motions of the units [M L/T].
 template <int D>
 double ProximalStep<D>::product(const Crossing& crossing,
                                 std::span<const Motion<D>> motions) const {
@@ -74,10 +63,9 @@ double ProximalStep<D>::product(const Crossing& crossing,
   return sum;
 }
 
-/// Returns the multiple [1] of `sign` times direction_, >= 0 or infinite, up to which block `b`
-/// stays in its branch, and the branch that follows. `sign` is 1 or -1.
 template <int D>
 typename ProximalStep<D>::Exit ProximalStep<D>::exit_of(std::size_t b, double sign) const {
+  assert(std::abs(sign) == 1);
   const auto& block = problem_.blocks[b];
   Exit exit;
   if (!block.is_contact) return exit;
@@ -126,8 +114,6 @@ typename ProximalStep<D>::Exit ProximalStep<D>::exit_of(std::size_t b, double si
   return exit;
 }
 
-/// Adds `length` [1] times `direction` [L, rad] to the motions y_, and `length` times changes_ to
-/// the values of the rows. changes_ must belong to `direction`.
 template <int D>
 void ProximalStep<D>::move(double length, std::span<const Motion<D>> direction) {
   for (std::size_t u = 0; u < y_.size(); ++u)
@@ -135,9 +121,6 @@ void ProximalStep<D>::move(double length, std::span<const Motion<D>> direction) 
   for (std::size_t r = 0; r < values_.size(); ++r) values_[r] += length * changes_[r];
 }
 
-/// Follows the path from y_ through at most kMostCrossings changes of branches, and adds their
-/// number to `iterations`. Moves y_ to the point of the path with the largest share, and returns
-/// this share: 1 at the solution, 0 if no point has a smaller error than the start.
 template <int D>
 double ProximalStep<D>::follow_path(int& iterations) {
   const auto count = static_cast<Eigen::Index>(kMostCrossings);

@@ -1,16 +1,8 @@
-// Newton's method for a step of the proximal method for contacts with friction and links. P^k and
-// P^{k+1} are the impulses before and after the step [M L/T], y the motions of particles and bodies
-// [L, rad], y* those without impulses, M/h masses over the length of a time step, b + J y the
-// values of the rows (gaps, slips and equations of links) [L] with the coefficients J, rho > 0
-// [M/T] stiffnesses of the rows. Rows of angles have [rad], [M L^2/T] and [M L^2/T] instead. A
-// block is a contact or link, and its branch says whether it is open, sticks or slips. Nothing is
-// checked or thrown; the step may be unsolved if failed() is true or solve() returns max_iterations
-// or more. constraint_solver.cpp uses this file. The constants are free choices, which change how
-// long a solution takes, and results within the tolerances; a change of the order of sums changes
-// results by rounding errors.
+// Newton's method for (5.8), docs/physics.md. The symbols are those of proximal_step.hpp.
 #include "viscontact/particles/constraints/proximal_step.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -30,11 +22,9 @@ ProximalStep<D>::ProximalStep(const ConstraintProblem<D>& problem, const std::ve
       error_(problem.units.size()),
       matrix_(matrix) {}
 
-/// Sets rho = 1/(epsilon w) of all rows, with their mobilities w. `of_slips` [1] is the epsilon of
-/// tangential rows, `of_gaps` [1] that of all other rows, both > 0. The matrix is then factorised
-/// again.
 template <int D>
 void ProximalStep<D>::set_epsilon(double of_gaps, double of_slips) {
+  assert(of_gaps > 0 && of_slips > 0 && w_.size() == problem_.rows.size());
   for (const auto& block : problem_.blocks)
     for (std::size_t k = 0; k < block.rows; ++k) {
       const std::size_t r = block.row + k;
@@ -43,8 +33,6 @@ void ProximalStep<D>::set_epsilon(double of_gaps, double of_slips) {
   has_factor_ = false;
 }
 
-/// Sets `q`, one number for each row of block `b`, to P^k - rho (b + J y) [M L/T] at the motions y
-/// = y_ + t direction_.
 template <int D>
 void ProximalStep<D>::unprojected(std::size_t b, double t, double* q) const {
   const auto& block = problem_.blocks[b];
@@ -54,8 +42,6 @@ void ProximalStep<D>::unprojected(std::size_t b, double t, double* q) const {
   }
 }
 
-/// Sets `p` to the impulses P^{k+1} of block `b` [M L/T], the projection of the numbers `q` of
-/// unprojected() on the allowed impulses. Returns the branch in which the block then is.
 template <int D>
 typename ProximalStep<D>::Branch ProximalStep<D>::project(std::size_t b, const double* q,
                                                           double* p) const {
@@ -82,8 +68,6 @@ typename ProximalStep<D>::Branch ProximalStep<D>::project(std::size_t b, const d
   return branch;
 }
 
-/// The same for a block with FrictionBound::kCone, whose impulses are in the cone of
-/// docs/physics.md (5.9).
 template <int D>
 typename ProximalStep<D>::Branch ProximalStep<D>::project_on_cone(std::size_t b, const double* q,
                                                                   double* p) const {
@@ -105,8 +89,6 @@ typename ProximalStep<D>::Branch ProximalStep<D>::project_on_cone(std::size_t b,
   return {};
 }
 
-/// Sets error_ to J^T P^{k+1} - M/h (y - y*) after a step of length `t` [1] along direction_, and
-/// returns its norm by the inverse of M/h. With `is_kept`, also sets projected_ and branches_.
 template <int D>
 double ProximalStep<D>::error_at(double t, bool is_kept) {
   for (std::size_t u = 0; u < y_.size(); ++u) {
@@ -136,8 +118,6 @@ double ProximalStep<D>::error_at(double t, bool is_kept) {
   return std::sqrt(sum);
 }
 
-/// Adds J^T (-dP^{k+1}/dy), the derivative of the impulses of block `b` on the units, to the
-/// matrix.
 template <int D>
 void ProximalStep<D>::add_block(std::size_t b) {
   const auto& block = problem_.blocks[b];
@@ -186,8 +166,6 @@ void ProximalStep<D>::add_block(std::size_t b) {
                           factor * ((k == l ? 1 : 0) - q[k] * q[l] / square));
 }
 
-/// Assembles and factorises the matrix of Newton's method for the present branches. Returns false
-/// if it is singular.
 template <int D>
 bool ProximalStep<D>::factorise() {
   matrix_.set_to_masses();
@@ -197,7 +175,6 @@ bool ProximalStep<D>::factorise() {
   return has_factor_;
 }
 
-/// Sets direction_ to the step of Newton's method for error_, and changes_ to J times it.
 template <int D>
 void ProximalStep<D>::find_direction() {
   direction_ = matrix_.solution_of(error_);
@@ -205,8 +182,6 @@ void ProximalStep<D>::find_direction() {
     changes_[r] = problem_.product(r, direction_);
 }
 
-/// Returns the length [1] of a step along direction_ after which the error is below `before`, or 0
-/// if no such length was found. In convex problems it is length_to_minimum(), which is > 0.
 template <int D>
 double ProximalStep<D>::length_of_step(double before) {
   if (problem_.is_convex) return length_to_minimum();
@@ -219,11 +194,9 @@ double ProximalStep<D>::length_of_step(double before) {
   return 0;
 }
 
-/// Returns the length [1] of a step along direction_, in (0, 1]. The step ends near the minimum of
-/// the convex function whose gradient is -error_: the derivative of this function along direction_
-/// is there at most kReached times its size at the beginning of the step.
 template <int D>
 double ProximalStep<D>::length_to_minimum() {
+  // The derivative along direction_ shall fall to kReached times its size at the beginning.
   constexpr double kReached = 0.1;
   constexpr int kMostTrials = 20;
   const auto derivative = [&](double t) {
@@ -248,8 +221,6 @@ double ProximalStep<D>::length_to_minimum() {
   return length;
 }
 
-/// Returns the size of the rounding errors in the result of error_at(). It is kRounding, a safe
-/// multiple of the machine epsilon, times the norm of the terms of which the error is a sum.
 template <int D>
 double ProximalStep<D>::rounding_error() const {
   double square = 0;
@@ -259,21 +230,20 @@ double ProximalStep<D>::rounding_error() const {
     const auto impulse = problem_.units[u].impulse_of(y_[u]);
     for (std::size_t k = 0; k < impulse.size(); ++k) square += impulse[k] * y_[u][k];
   }
+  // A safe multiple of the machine epsilon.
   constexpr double kRounding = 1e4 * std::numeric_limits<double>::epsilon();
   return kRounding * std::sqrt(square);
 }
 
-/// Computes the step from the impulses P^k = `center` [M L/T], one for each row, with the motions
-/// `start` [L, rad], one for each unit, as the first guess. Returns the number of factorisations
-/// plus the number of solutions with factors. P^{k+1} is then in projected_.
 template <int D>
 int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<Motion<D>>& start,
                            int max_iterations) {
   // kSlow and kExact are explained where they are used. At most kMostPaths paths are followed, and
-  // a path fails if it removes less than kLeastShare of the error. All numbers are free choices.
+  // a path fails if it removes less than kLeastShare of the error.
   constexpr double kSlow = 0.1, kExact = 1e-10;
   constexpr int kMostPaths = 3;
   constexpr double kLeastShare = 0.05;
+  assert(center.size() == problem_.rows.size() && start.size() == problem_.units.size());
   center_ = center;
   y_ = start;
   for (std::size_t r = 0; r < problem_.rows.size(); ++r)
@@ -309,18 +279,16 @@ int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<
     }
     move(length, direction_);
     const double here = error_at(0, true);
-    // For discs the equation is linear as long as no branch changes, so that a step of length 1
-    // without a change of a branch ends at the solution, but for rounding errors. For spheres the
-    // error must also be at most kExact times the first one, or the step must have failed to halve
-    // the error. In a convex problem such a failure counts only if the factors are new.
+    // For discs a step of length 1 without a change of a branch ends at the solution but for
+    // rounding errors, because the equation is then linear. For spheres the error must also be at
+    // most kExact times the first one, or the step must have failed to halve it. In a convex
+    // problem such a failure counts only if the factors are new.
     const bool is_linear = D == 2 || here <= kExact * first ||
                            ((is_fresh || !problem_.is_convex) && here > before / 2);
-    // For spheres the matrix also changes while contacts slip. In convex problems the matrix is
-    // factorised again if a step with earlier factors did not reduce the error to kSlow times its
-    // size before the step.
+    // For spheres the matrix also changes while contacts slip.
     if (D == 3 && problem_.is_convex && !is_fresh && here > kSlow * before) has_factor_ = false;
     if (here == 0 || (length == 1 && last == branches_ && is_linear)) break;
-    // In convex problems the error may grow on the way to the minimum. If the error has the size of
+    // In convex problems the error may grow on the way to the minimum. While it has the size of
     // rounding errors, iterations go on as long as they halve it, because impulses that must grow
     // between jammed particles need small errors.
     const bool is_rounding = here <= rounding_error();

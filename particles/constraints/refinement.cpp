@@ -1,5 +1,4 @@
-// Newton's steps for the conditions of all blocks, with the matrix E_p + E_v W of their derivatives
-// by the impulses p: E_p and E_v are the derivatives by p and by the values v = b + W p of the rows.
+// Newton's matrix is E_p + E_v W: derivatives by impulses p and by values v = b + W p.
 #include "viscontact/particles/constraints/refinement.hpp"
 
 #include <Eigen/Dense>
@@ -142,7 +141,6 @@ bool Refinement<D>::is_worth_it() const {
   return is_tree && rows <= kMany;
 }
 
-/// Finds the entries of W, unit by unit.
 template <int D>
 void Refinement<D>::find_products() {
   struct Share {
@@ -166,7 +164,6 @@ void Refinement<D>::find_products() {
       }
 }
 
-/// Adds the motions that impulses of all rows cause to motions_.
 template <int D>
 void Refinement<D>::move(const std::vector<Real>& impulses) {
   constexpr auto d = static_cast<std::size_t>(D), turns = static_cast<std::size_t>(kTurns<D>);
@@ -195,7 +192,6 @@ void Refinement<D>::find_values() {
   }
 }
 
-/// Computes the motions of all units and the values of all rows from impulses_.
 template <int D>
 void Refinement<D>::evaluate() {
   motions_.assign(problem_.units.size(), RealMotion{});
@@ -205,7 +201,6 @@ void Refinement<D>::evaluate() {
   find_values();
 }
 
-/// Moves the units by the rest of the error, which is too small to be added to the impulses.
 template <int D>
 void Refinement<D>::move_by_rest() {
   std::vector<double> right(impulses_.size());
@@ -224,8 +219,6 @@ void Refinement<D>::move_by_rest() {
   find_values();
 }
 
-/// Sets the laws of all blocks at the present impulses and values. Returns true if the factor of
-/// the last laws is that of these.
 template <int D>
 bool Refinement<D>::find_laws() {
   using Branch = typename Law::Branch;
@@ -328,7 +321,6 @@ bool Refinement<D>::find_laws() {
   return is_same;
 }
 
-/// Factorises the matrix of the laws. Returns false if it is singular.
 template <int D>
 bool Refinement<D>::factorise() {
   std::size_t equations = 0;
@@ -366,7 +358,6 @@ bool Refinement<D>::factorise() {
   return factor_->compute(std::ssize(law_of), entries);
 }
 
-/// The changes of the impulses of all rows that change the left sides of the laws by `right`.
 template <int D>
 std::vector<double> Refinement<D>::solved(std::vector<double> right) const {
   for (std::size_t b = 0; b < laws_.size(); ++b)
@@ -382,7 +373,6 @@ std::vector<double> Refinement<D>::solved(std::vector<double> right) const {
   return right;
 }
 
-/// Takes Newton's steps until only rounding errors are left. Returns true if this succeeds.
 template <int D>
 bool Refinement<D>::iterate() {
   // Steps end when one of them is not below kGain times the one before. Then the error must be
@@ -420,8 +410,6 @@ bool Refinement<D>::iterate() {
   return false;
 }
 
-/// Writes the refined impulses to the problem, and motions and residuals to `solution`. Returns
-/// false, and changes nothing, if a residual would become larger than before and than allowed.
 template <int D>
 bool Refinement<D>::take_over(ConstraintSolution<D>& solution) {
   evaluate();
@@ -500,6 +488,7 @@ std::vector<double> Refinement<D>::largest_of_blocks(const std::vector<double>& 
 template <int D>
 double Refinement<D>::error(std::size_t b) const {
   assert(is_done());
+  assert(b < problem_.blocks.size());
   const auto& block = problem_.blocks[b];
   return *std::max_element(&errors_[block.row], &errors_[block.row] + block.rows);
 }

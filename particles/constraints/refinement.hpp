@@ -13,45 +13,39 @@
 namespace viscontact::particles {
 
 /// Refines the impulses of a solved problem, and estimates their errors. A residual v of a row over
-/// the mobility of the row is the error of its impulse only if its neighbours bear nothing. In
-/// general the errors dp of all impulses obey W dp = v in the rows of closed contacts and links:
-/// the load of a light particle that carries a heavy one is wrong by the mass of the heavy one
-/// times v/h. Refinement takes Newton's steps on the conditions of all blocks, which are linear as
-/// long as each block stays in its branch (open, closed, sticking, sliding). Residuals are computed
-/// in extended precision, because the motion of a light particle is a small difference of large
-/// impulses. The last step is the error that is left.
-///
-/// If impulses are redundant, W is singular, and single impulses are not unique. Then nothing is
-/// refined.
+/// its mobility is the error of its impulse only if its neighbours bear nothing. In general the
+/// errors dp obey W dp = v in the rows of closed contacts and links: the load of a light particle
+/// that carries a heavy one is wrong by the mass of the heavy one times v/h. Newton's steps are
+/// taken on the conditions of all blocks, with residuals in extended precision, because the motion
+/// of a light particle is a small difference of large impulses. The last step is the error that is
+/// left. If impulses are redundant, W is singular, and nothing is refined.
 template <int D>
 class Refinement {
  public:
-  /// Refines `solution` and the impulses of `problem`, if this is worth its time: if the problem
-  /// has at most kFew rows, or is a tree of at most kMany rows, or has units of different masses
-  /// and is a tree or has at most kMost rows. Nothing changes if the impulses are not unique, or if
-  /// the residual of a block would rise above what is allowed. `problem` must outlive the object.
+  /// Refines `solution` and problem.impulses if the problem has at most kFew rows, is a tree of at
+  /// most kMany, or has different masses and is a tree or has at most kMost. Nothing changes if the
+  /// impulses are not unique, or a residual would rise above what is allowed. `problem` must
+  /// outlive the object.
   Refinement(ConstraintProblem<D>& problem, ConstraintSolution<D>& solution);
   ~Refinement();
 
   /// True if the problem was refined, and has had no new rows since.
   bool is_done() const { return is_done_ && impulses_.size() == problem_.rows.size(); }
-  /// Estimate of the largest error of the impulses of block `b` [M L/T], > 0, with the effect of
-  /// rounding errors of offsets and free motions. is_done() must be true.
+  /// Largest error of the impulses of block `b` [M L/T], with the rounding errors of offsets and
+  /// free motions. Needs is_done(), as changes_by() does.
   double error(std::size_t b) const;
-  /// The largest changes of the impulses of all blocks [M L/T], >= 0, if the gap of each contact
-  /// and all rows of each link change by `shifts` [L], one number for each of the first blocks.
-  /// is_done() must be true.
+  /// The largest changes of impulses of all blocks [M L/T] if gaps and rows of links change by
+  /// `shifts` [L].
   std::vector<double> changes_by(const std::vector<double>& shifts) const;
   /// Most rows of a problem that is always refined.
   static constexpr std::size_t kFew = 32;
-  /// Most rows of a problem of similar masses that is refined. A factorisation of a larger one
+  /// Most rows of a problem of similar masses that is refined: a factorisation of a larger one
   /// would take a large part of its step.
   static constexpr std::size_t kMany = 256;
-  /// Most rows of a problem with loops and different masses that is refined. Sweeps and conjugate
-  /// gradients need so many iterations for it that the factorisation takes less.
+  /// Most rows of a problem with loops and different masses. Sweeps and conjugate gradients need so
+  /// many iterations for it that the factorisation takes less.
   static constexpr std::size_t kMost = 4000;
-  /// Masses are called different if the largest mass that a row feels is this factor above the
-  /// smallest one.
+  /// Masses are different if the largest that a row feels is this factor above the smallest.
   static constexpr double kDifferent = 100;
 
  private:
@@ -63,14 +57,22 @@ class Refinement {
 
   bool is_worth_it() const;
   void find_products();
+  // Computes motions and values from impulses_.
   void evaluate();
   void move(const std::vector<Real>& impulses);
   void find_values();
+  // Moves the units by the rest of the error, which is too small to be added to the impulses.
   void move_by_rest();
+  // True if the factor of the last laws is that of the present ones.
   bool find_laws();
+  // Returns false if the matrix of the laws is singular.
   bool factorise();
+  // The changes of the impulses of all rows that change the left sides of the laws by `right`.
   std::vector<double> solved(std::vector<double> right) const;
+  // Takes Newton's steps until only rounding errors are left. Returns true if this succeeds.
   bool iterate();
+  // Returns false, and changes nothing, if a residual would become larger than before and than
+  // allowed.
   bool take_over(ConstraintSolution<D>& solution);
   std::vector<double> largest_of_blocks(const std::vector<double>& of_rows) const;
 

@@ -85,8 +85,8 @@ double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Isla
     Tension tension;
     double value, impulse;
   };
-  // What is allowed between particles that are held at rest is less than what the solver resolves in
-  // the rows across them, which move nothing there.
+  // What is allowed between particles that are held at rest is less than what the solver resolves
+  // in the rows across them, which move nothing there.
   double allowed = 0;
   const auto is_of_lengths = [&](std::size_t b) {
     if (b < island.contacts.size()) return true;

@@ -1,16 +1,10 @@
-// Contact of two particles, or of a particle and an obstacle (plane or circle): its gap and normal,
-// docs/physics.md (5.1), and whether given displacements close the gap. Lengths, masses and times
-// are in any consistent units; D is the number of dimensions, 1 (spheres on an axis), 2 (discs) or
-// 3 (spheres). The number of a particle or obstacle is its place in its array, from 0. An array
-// `displacements` has D numbers [L] for each particle, and then for each plane under a load: its
-// displacement in the step. Nothing is
-// checked or thrown. projection/, dual_problem/, constraints/, fluid/, impacts/ and
-// current_contacts.cpp use it. A change must keep that a gap as small as its rounding error counts
-// as 0.
+// Gap and normal of two particles, or of a particle and an obstacle, docs/physics.md (5.1). Arrays
+// `displacements` have D numbers [L] for each particle and then for each plane under a load.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -23,54 +17,50 @@
 
 namespace viscontact::particles {
 
-/// A contact in the problem that a time step solves for the impulses: two particles that may touch
-/// in this step, or a particle and an obstacle. A film in the gap keeps the two together while
-/// gamma < 0, where gamma [M L/T] is minus the impulse that the film has absorbed (film_law.hpp).
+/// A contact in the problem of a time step: two particles that may touch, or a particle and an
+/// obstacle. A film in the gap keeps them together while gamma < 0, minus the impulse that it has
+/// absorbed [M L/T].
 template <int D>
 struct Contact {
-  std::int32_t first = -1;       ///< number of a particle; -1 at an obstacle or the stop of a hinge
-  std::int32_t second = 0;       ///< number of a particle
-  std::array<double, D> normal;  ///< unit normal [1] from `first` (or the obstacle) to `second`
+  std::int32_t first = -1;  ///< a particle; -1 at an obstacle or the stop of a hinge
+  std::int32_t second = 0;
+  std::array<double, D> normal;  ///< unit normal from `first` (or the obstacle) to `second`
   /// Distance of the surfaces at the beginning of the step plus `tolerated` [L]. A plane is taken
   /// at its position at the end of the step.
   double gap = 0;
-  double lowest = 0;  ///< lower bound of the impulse [M L/T], <= 0: gamma before the step
-  /// Impulse of the contact in the step [M L/T], >= `lowest`, > 0 if it pushes. It is a guess
-  /// before the problem is solved, and then the solution.
+  double lowest = 0;  ///< lower bound of the impulse: gamma before the step [M L/T]
+  /// Impulse in the step [M L/T], > 0 if it pushes: a guess, then the solution.
   double impulse = 0;
-  /// Largest residual with which the contact counts as converged [L], > 0.
+  /// Largest residual with which the contact counts as converged [L].
   double allowed = 0;
-  double tolerated = 0;    ///< overlap that the step does not remove [L], >= 0; see resolved()
-  std::int32_t image = 0;  ///< periodic image of `second` that meets `first`, -13 to 13; 0: itself
-  /// If `first` is negative: number of the obstacle, or -1 for a stop, a bound of a hinge's angle.
+  double tolerated = 0;    ///< overlap that the step does not remove [L]; see resolved()
+  std::int32_t image = 0;  ///< periodic image of `second` that meets `first`, -13 to 13
+  /// If `first` is negative: number of the obstacle, or -1 for a stop of a hinge.
   std::int32_t obstacle = 0;
-  /// Change of the gap per impulse of this contact [T/M], > 0 in a problem to be solved. Without a
-  /// fluid it is h (1/m_i + 1/m_j), with the length h of the step and the masses m of both
-  /// particles; a particle whose motion is given adds nothing, and of obstacles only a plane under
-  /// a load adds something.
+  /// Change of the gap per impulse [T/M], > 0 in a problem to be solved. Without a fluid it is h
+  /// (1/m_i + 1/m_j) with the masses of both; a particle whose motion is given, and an obstacle
+  /// other than a plane under a load, adds nothing.
   double w = 0;
-  /// Change of the gap per counter-clockwise turn [rad] of the first and of the second particle
-  /// [L]. They are 0 except in a fluid, for particles that are not discs and at stops of hinges.
+  /// Change of the gap per counter-clockwise turn [rad] of both particles [L]. They are 0 except in
+  /// a fluid, for particles that are not discs and at stops of hinges.
   std::array<double, 2> levers{};
-  /// Entry of a plane under a load (PlaneLoad) in the arrays of displacements and mobilities, after
-  /// those of all particles; -1 for other obstacles and for particles.
+  /// Entry of a plane under a load (PlaneLoad) in the arrays of displacements and mobilities; -1
+  /// for others.
   std::int32_t loaded_plane = -1;
 
-  /// The entry of the first body in the arrays of displacements; -1 if its motion is given.
+  /// The entry of the first body in these arrays; -1 if its motion is given.
   std::int32_t first_entry() const { return loaded_plane >= 0 ? loaded_plane : first; }
-  /// True if this is the stop of a hinge. The gap of a stop changes only by turns (`levers`).
+  /// The gap of a stop, a bound of a hinge's angle, changes only by turns (`levers`).
   bool is_stop() const { return first < 0 && obstacle < 0; }
 };
 
-/// Residual [L] of the contact conditions, >= 0. The conditions are gap >= 0, impulse >= lowest,
-/// and equality in one of the two; the residual of a solution is 0. `gap_after` is the gap after
-/// the step [L], `slack` is Contact::w times (impulse - lowest) [L].
+/// Residual [L] of the conditions gap >= 0, impulse >= lowest, and equality in one of the two.
+/// `slack` is Contact::w times (impulse - lowest) [L].
 inline double contact_residual(double gap_after, double slack) {
   return std::abs(std::min(gap_after, slack));
 }
 
-/// Vector from the centre of particle `first` to that of image `image` (-13 to 13) of particle
-/// `second` [L].
+/// The vector from the centre of `first` to that of image `image` of `second` [L].
 template <int D>
 std::array<double, D> separation(const Particles& p, std::int32_t first, std::int32_t second,
                                  std::int32_t image) {
@@ -84,11 +74,11 @@ std::array<double, D> separation(const Particles& p, std::int32_t first, std::in
   return x;
 }
 
-/// Contact of particle `pair.second` with a plane or circle at `place`; `pair.first` is -1 - k for
-/// obstacle k. The gap is the distance of the surfaces, < 0 if the two overlap. The members `w`,
-/// `allowed`, `tolerated` and `levers` keep their defaults.
+/// Contact with a plane or circle at `place`. The gap is the distance of the surfaces, < 0 if they
+/// overlap. The members `w`, `allowed`, `tolerated` and `levers` keep their defaults.
 template <int D>
 Contact<D> contact_of(const Particles& p, const Pair& pair, const PlanePosition& place) {
+  assert(pair.first < 0);
   const auto j = index_of(pair.second);
   Contact<D> contact{-1, pair.second, {}, 0, pair.gamma, pair.impulse};
   const Vector normal = normal_at(place, p.position(j));
@@ -98,10 +88,8 @@ Contact<D> contact_of(const Particles& p, const Pair& pair, const PlanePosition&
   return contact;
 }
 
-/// Contact of two particles, or of a particle and an obstacle of `places`. The gap is the distance
-/// of the surfaces, < 0 if the two overlap. If two centres coincide, the normal is the first axis,
-/// because every direction separates the particles. The members `w`, `allowed`, `tolerated` and
-/// `levers` keep their defaults.
+/// The same for two particles, or an obstacle of `places`. If two centres coincide, the normal is
+/// the first axis, because every direction separates them.
 template <int D>
 Contact<D> contact_of(const Particles& p, const Pair& pair, std::span<const PlanePosition> places) {
   if (pair.first < 0) return contact_of<D>(p, pair, places[pair.plane()]);
@@ -119,8 +107,8 @@ Contact<D> contact_of(const Particles& p, const Pair& pair, std::span<const Plan
   return contact;
 }
 
-/// Linearised gap [L] after the step: Contact::gap plus the relative displacement of the two along
-/// the normal. An obstacle without a load is taken as fixed.
+/// Linearised gap [L] after the step: Contact::gap plus the relative displacement along the normal.
+/// An obstacle without a load is taken as fixed.
 template <int D>
 double gap_after(const Contact<D>& contact, std::span<const double> displacements) {
   const double* wj = &displacements[index_of(contact.second) * D];
@@ -134,11 +122,10 @@ double gap_after(const Contact<D>& contact, std::span<const double> displacement
   return sum;
 }
 
-/// Displacement of the second particle relative to the first [L]. The contact must be one of two
-/// particles.
 template <int D>
 std::array<double, D> relative_displacement(const Contact<D>& contact,
                                             std::span<const double> displacements) {
+  assert(contact.first >= 0);
   std::array<double, D> w{};
   for (std::size_t d = 0; d < D; ++d)
     w[d] = displacements[index_of(contact.second) * D + d] -
@@ -146,10 +133,9 @@ std::array<double, D> relative_displacement(const Contact<D>& contact,
   return w;
 }
 
-/// The gap [L] after the step, measured along the line through both centres after the step. It is
-/// at least the linearised gap, gap_after(). It is equal to the linearised gap at an obstacle, and
-/// if the particles have passed each other, so that the vector between their centres has no
-/// positive component along the normal.
+/// The gap [L] after the step along the line through both centres after it. It is at least the
+/// linearised gap, gap_after(), and equal to it at an obstacle, and if the particles have passed
+/// each other.
 template <int D>
 double distance_after(const Particles& p, const Contact<D>& contact,
                       std::span<const double> displacements) {
@@ -172,19 +158,19 @@ double distance_after(const Particles& p, const Contact<D>& contact,
   return linear + square / (along + std::sqrt(along * along + square));
 }
 
-/// The `contact` that contact_of() gave for `pair`, with the gap from which the step starts in
-/// place of the true gap.
+/// The `contact` that contact_of() gave for `pair`, with the gap from which the step starts.
 ///
-/// The gap is set to 0 if its magnitude is at most the rounding error of the positions and radii
-/// from which it is computed. In a step of length h a gap q causes an impulse m q/h on a mass m. If
-/// the step is short, the impulse that a rounding error causes would exceed any load. An overlap of
-/// up to `tolerated` [L], >= 0, counts as the gap 0. The step then keeps the overlap from growing
-/// but does not remove it, because a packing may have no space for that, and because particles
-/// would move without a force. Of a larger overlap the step removes the part beyond `tolerated`.
+/// A gap is set to 0 if the rounding errors of positions and radii explain it. In a step of length
+/// h a gap q causes an impulse m q/h on a mass m, so that in a short step such an error would
+/// exceed any load. An overlap of up to `tolerated` [L] counts as the gap 0. The step then keeps it
+/// from growing but does not remove it, because a packing may have no space for that, and because
+/// particles would move without a force. Of a larger overlap the step removes the part beyond
+/// `tolerated`.
 template <int D>
 Contact<D> resolved(Contact<D> contact, const Particles& p, const Pair& pair,
                     std::span<const PlanePosition> places, double tolerated) {
-  // The rounding error of the gap is taken as 4 units in the last place of the sum of the sizes.
+  assert(!(tolerated < 0));
+  // The rounding error is taken as 4 units in the last place of the sum of the sizes.
   constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
   const auto j = index_of(pair.second);
   double sizes = p.radii[j];
@@ -204,15 +190,14 @@ Contact<D> resolved(Contact<D> contact, const Particles& p, const Pair& pair,
   return contact;
 }
 
-/// True if the two particles of `pair` are so far from each other that the displacements cannot
-/// make their linearised gap smaller than `margin` [L], >= 0. The condition is
-/// |x_j - x_i| > r_i + r_j + |d|_1 + margin with centres x and radii r. d is the relative
-/// displacement, and |d|_1 is the sum of the magnitudes of its components, which is at least its
-/// length. This test needs no square root and no division, and is true for most pairs of a
-/// neighbour list.
+/// True if the displacements cannot make the linearised gap of two particles smaller than `margin`
+/// [L]: |x_j - x_i| > r_i + r_j + |d|_1 + margin with centres x, radii r and the sum |d|_1 of the
+/// magnitudes of the components of the relative displacement. This test needs no square root and no
+/// division, and is true for most pairs of a neighbour list.
 template <int D>
 bool cannot_close(const Particles& p, const Pair& pair, std::span<const double> displacements,
                   double margin = 0) {
+  assert(pair.first >= 0 && margin >= 0);
   const auto i = index_of(pair.first), j = index_of(pair.second);
   const auto apart = separation<D>(p, pair.first, pair.second, pair.image);
   double square = 0, moved = 0;
@@ -226,15 +211,14 @@ bool cannot_close(const Particles& p, const Pair& pair, std::span<const double> 
   return square > farthest * farthest;
 }
 
-/// Largest tangential displacement of a pair in a step, divided by the sum of its radii [1], for
-/// which the linearised gap is used in place of the gap. The two gaps differ by about half the
-/// square of this ratio times the sum of the radii. The value is a free choice: 0.5 limits the
-/// difference to about an eighth of this sum.
+/// Largest tangential displacement of a pair in a step over the sum of its radii [1] for which the
+/// linearised gap is used. The two gaps differ by about half the square of this ratio times the sum
+/// of the radii, with 0.5 by about an eighth of this sum.
 inline constexpr double kLargestTurn = 0.5;
 
-/// True if particle `contact.second` moves around particle `contact.first` by more than
-/// kLargestTurn in the step. Always false for a plane, whose linearised gap is exact, and for a
-/// circle, which the step replaces by its tangent (domain.hpp).
+/// True if the second particle moves around the first one by more than kLargestTurn. Always false
+/// for a plane, whose linearised gap is exact, and for a circle, which the step replaces by its
+/// tangent (domain.hpp).
 template <int D>
 bool turns_too_far(const Particles& p, const Contact<D>& contact,
                    std::span<const double> displacements) {
@@ -249,8 +233,8 @@ bool turns_too_far(const Particles& p, const Contact<D>& contact,
   return square - normal * normal > kLargestTurn * kLargestTurn * sum * sum;
 }
 
-/// True if the linearised gap of a contact may be used. This is so if turns_too_far() is false, or
-/// if the two particles overlap while they move along straight lines by `displacements`.
+/// True if the linearised gap may be used: if turns_too_far() is false, or if the particles overlap
+/// while they move along straight lines by `displacements`.
 template <int D>
 bool paths_meet(const Particles& p, const Contact<D>& contact,
                 std::span<const double> displacements) {

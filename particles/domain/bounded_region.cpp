@@ -22,6 +22,7 @@ BoxDomain box_about(const Vector& centre, double half, int dimension) {
 }  // namespace
 
 double size_of_region(const Domain& domain, std::span<const PlanePosition> planes, int dimension) {
+  assert(dimension >= 1 && dimension <= 3);
   if (!std::holds_alternative<std::monostate>(domain)) return measure(domain, planes);
   if (planes.empty() || dimension < 2) return 0;
   // In a box that is much larger than the distances of the planes, a bounded region has the same

@@ -1,5 +1,4 @@
-// The size of the region in which particles can be: a domain without what lies behind planes, or what
-// planes alone bound.
+// The size of the region that a domain and planes, or planes alone, leave to the particles.
 #pragma once
 
 #include <span>

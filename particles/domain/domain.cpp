@@ -1,9 +1,4 @@
-// Motion of planes, and areas, volumes and walls of domains. Lengths [L] and times [T], >= 0, are
-// in any consistent units, angular velocities in [rad/T]; a normal has length 1 and points to the
-// free side; radii and heights are > 0. The motion of a plane is a rotation about its pivot and
-// then a translation. Nothing is checked or thrown; case/ checks the values. All of particles/ and
-// freefem_flow/ use this file. A change must keep the position of a plane at rest bit for bit, and
-// the order of the walls, by which files number obstacles.
+// Motion of planes, and sizes and walls of domains.
 #include "viscontact/particles/domain/domain.hpp"
 
 #include <cmath>
@@ -20,7 +15,6 @@ Vector turned(const Vector& a, const Vector& axis, double angle) {
 
 }  // namespace
 
-/// The position of the plane at the time `t` >= 0.
 PlanePosition Plane::at(double t) const {
   PlanePosition place = start;
   if (const double speed = norm(angular_velocity); speed > 0 && t > 0) {
@@ -32,8 +26,6 @@ PlanePosition Plane::at(double t) const {
   return place;
 }
 
-/// The displacement [L], from the time `from` to the time `to`, of the material point of the plane
-/// that is at `point` [L] at the time `to`.
 Vector Plane::displacement(const Vector& point, double from, double to) const {
   const Vector shift = velocity.integral(to) - velocity.integral(from);
   const double speed = norm(angular_velocity);
@@ -43,12 +35,10 @@ Vector Plane::displacement(const Vector& point, double from, double to) const {
   return shift + arm - turned(arm, axis, speed * (from - to));
 }
 
-/// The velocity [L/T] of the material point of the plane that is at `point` [L] at the time `t`.
 Vector Plane::surface_velocity(const Vector& point, double t) const {
   return velocity.value(t) + cross(angular_velocity, point - pivot - velocity.integral(t));
 }
 
-/// The positions of all planes at the time `t` >= 0, in the order of `planes`.
 std::vector<PlanePosition> positions_of(const std::vector<Plane>& planes, double t) {
   std::vector<PlanePosition> places;
   for (const auto& plane : planes) places.push_back(plane.at(t));
@@ -93,8 +83,6 @@ std::vector<Plane> walls(const CylinderDomain& cylinder) {
 
 }  // namespace
 
-/// The area [L^2] of a disc or a rectangle, or the volume [L^3] of a cuboid or a cylinder. It is 0
-/// without a domain.
 double measure(const Domain& domain) {
   using std::numbers::pi;
   if (const auto* disc = std::get_if<DiscDomain>(&domain)) return pi * disc->radius * disc->radius;
@@ -106,7 +94,6 @@ double measure(const Domain& domain) {
   return box->dimension() == 2 ? area : area * (box->to[2] - box->from[2]);
 }
 
-/// The walls of the domain, at rest, in the order of their numbers in files.
 std::vector<Plane> obstacles_of(const Domain& domain) {
   return std::visit([](const auto& shape) { return walls(shape); }, domain);
 }

@@ -1,11 +1,5 @@
-// Describes the domain that holds the particles and, if there is one, the fluid: a disc, a box that
-// may be periodic, or a cylinder with the particles on its axis. Also describes the obstacles that
-// bound the space of the particles: planes, which may move (lines, if the particles are discs), and
-// circles.
-// Lengths [L] and times [T] are in any consistent units. Nothing is checked or thrown;
-// particles/case checks the values of a case. All of particles/ and freefem_flow/ use this file. A
-// change must keep the order of obstacles, by which output and restart files number them, and the
-// length 1 of normals.
+// The domain that holds the particles and the fluid, and the obstacles that bound it: planes
+// (lines, if the particles are discs), which may move, and circles.
 #pragma once
 
 #include <array>
@@ -27,8 +21,7 @@ struct PlanePosition {
   Vector normal;      ///< unit normal [1] into the free side
   double radius = 0;  ///< radius of the circle [L], > 0; 0: it is a plane
 
-  bool is_curved() const { return radius > 0; }  ///< whether it is a circle
-  /// True if all members are equal.
+  bool is_curved() const { return radius > 0; }
   bool operator==(const PlanePosition&) const = default;
 };
 
@@ -45,8 +38,7 @@ struct PlaneLoad {
 struct Plane {
   PlanePosition start;         ///< position at time 0
   PiecewiseConstant velocity;  ///< velocity [L/T], constant between given times; 0 after the last
-  /// Angular velocity [rad/T], constant in time; if the particles are discs, only its third
-  /// component may differ from 0.
+  /// [rad/T]; if the particles are discs, only its third component may differ from 0.
   Vector angular_velocity{};
   Vector pivot{};  ///< position at time 0 of the point about which the plane turns [L]
   /// If it is given, the plane moves along its normal as PlaneLoad says, from rest at time 0.
@@ -59,22 +51,21 @@ struct Plane {
   /// Displacement [L], between the times `from` and `to` [T], of the material point of the plane
   /// that is at `point` [L] at time `to`.
   Vector displacement(const Vector& point, double from, double to) const;
-  /// Velocity at time `t` [T] of the material point of the plane that is then at `point` [L/T].
+  /// Velocity [L/T] of the material point of the plane that is at `point` [L] at time `t` [T].
   Vector surface_velocity(const Vector& point, double t) const;
 };
 
-/// Positions of all planes at time t >= 0 [T], in the order of `planes`.
+/// Positions at time t >= 0 [T], in the order of `planes`.
 std::vector<PlanePosition> positions_of(const std::vector<Plane>& planes, double t);
 
-/// Gap [L] between a disc or sphere with the given centre [L] and radius [L], > 0, and a plane or a
-/// circle around it; < 0 if they overlap.
+/// Gap [L] between a disc or sphere and a plane or a circle around it; < 0 if they overlap.
 inline double gap(const PlanePosition& plane, const Vector& centre, double radius) {
   if (plane.is_curved()) return plane.radius - norm(centre - plane.point) - radius;
   return dot(plane.normal, centre - plane.point) - radius;
 }
 
-/// Unit normal [1], into the free side, at the point of the plane or circle that is nearest to
-/// `centre` [L]. If `centre` is the centre of the circle, the result is the first axis.
+/// Unit normal into the free side, at the point of the plane or circle that is nearest to `centre`.
+/// If `centre` is the centre of the circle, the result is the first axis.
 inline Vector normal_at(const PlanePosition& plane, const Vector& centre) {
   if (!plane.is_curved()) return plane.normal;
   const Vector inward = plane.point - centre;
@@ -82,8 +73,8 @@ inline Vector normal_at(const PlanePosition& plane, const Vector& centre) {
   return distance > 0 ? (1 / distance) * inward : Vector{1, 0, 0};
 }
 
-/// The tangent to the circle `plane` at its point nearest to `centre` [L]. The circle is on the
-/// free side of the tangent. If `plane` is a plane, the result is this plane.
+/// The tangent to a circle at its point nearest to `centre`. If `plane` is a plane, the result is
+/// this plane.
 inline PlanePosition tangent_at(const PlanePosition& plane, const Vector& centre) {
   if (!plane.is_curved()) return plane;
   const Vector normal = normal_at(plane, centre);
@@ -106,7 +97,6 @@ struct BoxDomain {
       to{};                        ///< the opposite corner [L], > `from` along each axis of space
   std::array<bool, 3> periodic{};  ///< whether the domain is periodic along x, y and z
 
-  /// Number of dimensions, 2 or 3.
   std::size_t dimension() const { return to[2] > from[2] ? 3 : 2; }
 };
 
@@ -124,7 +114,7 @@ using Domain = std::variant<std::monostate, DiscDomain, BoxDomain, CylinderDomai
 /// domain.
 double measure(const Domain& domain);
 
-/// Lengths [L] of the periods along x, y and z; 0 along an axis on which there is no period.
+/// Lengths of the periods [L]; 0 along an axis on which there is no period.
 inline std::array<double, 3> periods_of(const Domain& domain) {
   std::array<double, 3> periods{};
   if (const auto* box = std::get_if<BoxDomain>(&domain))
@@ -133,9 +123,8 @@ inline std::array<double, 3> periods_of(const Domain& domain) {
   return periods;
 }
 
-/// The walls of a domain, at rest, in the order of their numbers in files; empty without a domain.
-/// A plane that is parallel to the axis, at the distance of the radius, replaces the side of a
-/// cylinder.
+/// The walls, at rest, in the order of their numbers in files. A plane that is parallel to the
+/// axis, at the distance of the radius, replaces the side of a cylinder.
 std::vector<Plane> obstacles_of(const Domain& domain);
 
 }  // namespace viscontact::particles

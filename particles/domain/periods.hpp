@@ -1,12 +1,9 @@
-// Periodic domains: the cell, which holds one copy of each particle, and the images of the
-// particles in the neighbouring cells. The shift of an image is its position minus that of its
-// particle. Lengths [L] and times [T] are in any consistent units. Nothing is checked or thrown;
-// numbers of images outside -13 to 13 give wrong periods. particles.hpp, setting.hpp, bodies/,
-// membranes/, neighbours/, io/, case/ and freefem_flow/membranes/ use this file. Restart files
-// store numbers of images (image_number()), so that a change must keep their meaning.
+// Periodic domains: the cell, which holds one copy of each particle, and the images of particles in
+// the neighbouring cells. The shift of an image is its position minus that of its particle.
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -23,45 +20,44 @@ using Periods = Vector;
 struct PeriodicCell {
   Vector from{};     ///< lowest coordinates of the cell [L]
   Vector lengths{};  ///< periods along x, y and z [L], >= 0; 0: no period along this axis
-  /// Mean gradient du/dx, du/dy, dv/dx, dv/dy of the velocity (u, v) of a fluid in the cell [1/T],
-  /// only in two dimensions. The product of this gradient and the shift of an image at the start is
-  /// the velocity of the image relative to its particle. All four are 0 without a fluid.
+  /// Mean gradient du/dx, du/dy, dv/dx, dv/dy of the velocity of a fluid in the cell [1/T], only in
+  /// two dimensions. Times the shift of an image at the start, it is the velocity of the image
+  /// relative to its particle.
   std::array<double, 4> gradient{};
   /// Time since the start [T], >= 0. At the start all shifts were whole periods along the axes.
   double moved_for = 0;
 
-  /// True if there is a period.
   bool is_periodic() const { return lengths[0] > 0 || lengths[1] > 0 || lengths[2] > 0; }
   /// True if images move relative to their particles.
   bool is_sheared() const {
     return gradient[0] * lengths[0] != 0 || gradient[2] * lengths[0] != 0 ||
            gradient[1] * lengths[1] != 0 || gradient[3] * lengths[1] != 0;
   }
-  /// True if all members are equal.
   bool operator==(const PeriodicCell&) const = default;
 };
 
-/// The cell of a domain, without a mean velocity gradient. A domain that is no box has no periods.
+/// The cell of a domain, without a mean velocity gradient.
 inline PeriodicCell cell_of(const Domain& domain) {
   const auto* box = std::get_if<BoxDomain>(&domain);
   return box == nullptr ? PeriodicCell{} : PeriodicCell{box->from, periods_of(domain)};
 }
 
 /// Number of the image that is shifted by `x`, `y` and `z` periods along the axes, each of them -1,
-/// 0 or 1. The number is 0 without a shift, and opposite shifts have opposite numbers.
+/// 0 or 1; restart files store it. The number is 0 without a shift, and opposite shifts have
+/// opposite numbers.
 constexpr std::int32_t image_number(int x, int y, int z = 0) { return x + 3 * y + 9 * z; }
 
-/// Largest number of an image, image_number(1, 1, 1).
+/// image_number(1, 1, 1).
 inline constexpr std::int32_t kLargestImage = 13;
 
-/// Periods along x, y and z, each -1, 0 or 1, by which the image with number `image`, -13 to 13, is
-/// shifted.
+/// Periods along x, y and z, each -1, 0 or 1, by which the image with number `image` is shifted.
 constexpr std::array<int, 3> periods_of_image(std::int32_t image) {
+  assert(image >= -kLargestImage && image <= kLargestImage);
   const auto places = image + kLargestImage;
   return {places % 3 - 1, places / 3 % 3 - 1, places / 9 - 1};
 }
 
-/// True if the cell is periodic along each axis along which the image with this number is shifted.
+/// True if the cell is periodic along each axis along which the image is shifted.
 inline bool has_image(const PeriodicCell& cell, std::int32_t image) {
   const auto periods = periods_of_image(image);
   for (std::size_t d = 0; d < 3; ++d)
@@ -75,7 +71,7 @@ inline Vector velocity_at(const PeriodicCell& cell, const Vector& shift) {
   return {g[0] * shift[0] + g[1] * shift[1], g[2] * shift[0] + g[3] * shift[1], 0};
 }
 
-/// Shift [L] of an image at the start: `periods` times the lengths of the periods.
+/// Shift [L] of an image at the start.
 inline Vector shift_at_start(const PeriodicCell& cell, const Periods& periods) {
   return {periods[0] * cell.lengths[0], periods[1] * cell.lengths[1], periods[2] * cell.lengths[2]};
 }
@@ -91,21 +87,20 @@ inline Vector shift_of(const PeriodicCell& cell, const Periods& periods) {
   return shift_at_start(cell, periods) + cell.moved_for * velocity_of_image(cell, periods);
 }
 
-/// Velocity [L/T], relative to its particle, of the image with number `image`, -13 to 13.
+/// The same, of the image with number `image`, -13 to 13.
 inline Vector velocity_of_image(const PeriodicCell& cell, std::int32_t image) {
   const auto [x, y, z] = periods_of_image(image);
   return velocity_of_image(cell, Periods{double(x), double(y), double(z)});
 }
-/// The shift [L] of the image with number `image`, -13 to 13, at the time PeriodicCell::moved_for.
+/// The same, of the image with number `image`, -13 to 13.
 inline Vector shift_of(const PeriodicCell& cell, std::int32_t image) {
   const auto [x, y, z] = periods_of_image(image);
   return shift_of(cell, Periods{double(x), double(y), double(z)});
 }
 
-/// The inverse of the motion of the cell, applied to the vector `apart` [L] from one place to
-/// another. The motion has multiplied the shift of each image at the start by the matrix I +
-/// moved_for gradient, with the identity I. The result [L] is infinite or NaN if this matrix is
-/// singular.
+/// The inverse of the motion of the cell, applied to `apart` [L]. The motion has multiplied the
+/// shift of each image at the start by the matrix I + moved_for gradient. The result is infinite or
+/// NaN if this matrix is singular.
 inline Vector before_the_motion(const PeriodicCell& cell, const Vector& apart) {
   const double t = cell.is_sheared() ? cell.moved_for : 0;
   const auto& g = cell.gradient;
@@ -115,9 +110,8 @@ inline Vector before_the_motion(const PeriodicCell& cell, const Vector& apart) {
 }
 
 /// The whole numbers of periods whose shift is nearest to the vector `apart` [L] from one particle
-/// to another: of all images of the first particle, the one with this shift is nearest to the
-/// second particle. The number is 0 along an axis without a period. In a sheared cell the shift is
-/// found that would be the nearest one before the motion of the cell, before_the_motion().
+/// to another; in a sheared cell that which would be nearest before the motion of the cell,
+/// before_the_motion().
 inline Periods periods_towards(const PeriodicCell& cell, const Vector& apart) {
   const auto at_start = before_the_motion(cell, apart);
   Periods periods{};
@@ -126,16 +120,16 @@ inline Periods periods_towards(const PeriodicCell& cell, const Vector& apart) {
   return periods;
 }
 
-/// The vector [L] from the nearest image of one particle to another particle: `apart` [L], the
-/// vector from the first to the second particle, minus the shift of periods_towards().
+/// The vector [L] from the nearest image of one particle to another particle, where `apart` is that
+/// from the first to the second particle.
 inline Vector nearest_image(const PeriodicCell& cell, const Vector& apart) {
   return apart - shift_of(cell, periods_towards(cell, apart));
 }
 
 /// Number of periods along axis `axis`, 0 to 2, that must be subtracted from the coordinate `x` [L]
-/// to bring it into the cell, where from <= x < from + length. The number is 0 if there is no
-/// period along this axis.
+/// to bring it into the cell, where from <= x < from + length.
 inline double periods_beyond(const PeriodicCell& cell, std::size_t axis, double x) {
+  assert(axis < 3);
   const double from = cell.from[axis], length = cell.lengths[axis];
   if (!(length > 0)) return 0;
   const double periods = std::floor((x - from) / length);

@@ -1,12 +1,9 @@
-// Newton's method for the dual problem of a time step: it finds scaled impulses z >= bound of the
-// contacts with a gradient W z + linear_term >= 0, such that one of the two is an equality for each
-// contact. With the impulse p [M L/T] and the mobility w [T/M] of a contact, z is w^(1/2) p, and
-// the gradient is its gap [L] divided by w^(1/2); W is a matrix without dimension
-// (dual_problem.hpp). dual_solver.cpp and fluid/contact_problem.cpp use the method. Nothing is
-// checked or thrown. A change must keep that a call that finds no solution leaves z as it was.
+// Newton's method for the dual problem (5.4), docs/physics.md, in the scaled unknowns of
+// dual_problem.hpp.
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -17,23 +14,17 @@
 namespace viscontact::particles {
 
 /// The primal-dual active set method (Hintermueller, Ito & Kunisch 2003, "The primal-dual active
-/// set strategy as a semismooth Newton method"). With g the gradient, each iteration calls those
-/// contacts active for which z - g is smaller than the bound by more than the allowed residual. It
-/// sets z of the active contacts to their bounds. A factor of W then gives the z of all other
-/// contacts, the free ones, at which their g is 0. The method ends when no residual is larger than
-/// allowed. A chain of contacts of any length takes a few iterations.
+/// set strategy as a semismooth Newton method"). With g the gradient, contacts are active if z - g
+/// is smaller than the bound by more than the allowed residual. Their z are set to the bounds, and
+/// a factor of W gives the z of all others at which their g is 0. A chain of contacts of any length
+/// takes a few iterations. `factor` has the interface of FreeSetFactor (mass_dual_problem.hpp).
 ///
-/// `factor` has the interface of FreeSetFactor (mass_dual_problem.hpp): factorise(problem, free)
-/// makes a factor of W between the contacts c with free[c] != 0 and returns true, or returns false;
-/// solve(gradient, correction) applies the factor; and exists() says whether there is a factor. At
-/// the call of active_set_newton() there must be none.
-///
-/// The method converges fast near the solution and may cycle far from it. It stops after
-/// `max_iterations` solutions with the factor. If it has not converged then, or if factorise()
-/// returns false, problem.z is what it was before the call, and the returned residual is infinite.
-/// Otherwise the returned residual is at most 1.
+/// The method converges fast near the solution and may cycle far from it. If it has not converged
+/// after `max_iterations`, or factorise() returns false, problem.z is as before, and the returned
+/// residual is infinite. Otherwise it is at most 1.
 template <SolvableDualProblem Problem, class Factor>
 SolverResult active_set_newton(Problem& problem, Factor& factor, int max_iterations) {
+  assert(!factor.exists());
   const auto start = problem.z;
   std::vector<double> displacements(problem.displacement_count()), gradient(problem.count()),
       correction(problem.count());
@@ -46,9 +37,9 @@ SolverResult active_set_newton(Problem& problem, Factor& factor, int max_iterati
   compute_gradient();
   SolverResult solved;
   while (solved.iterations < max_iterations) {
-    // Decide which contacts are free. A contact at its bound whose gap stays open by no more than
-    // its allowed residual counts as free, too, because it may bear load once its neighbours do. In
-    // a column at rest without impulses, for example, at first only the lowest contact closes.
+    // A contact at its bound whose gap stays open by no more than its allowed residual counts as
+    // free, too, because it may bear load once its neighbours do. In a column at rest without
+    // impulses, for example, at first only the lowest contact closes.
     bool changed = false;
     for (std::size_t c = 0; c < problem.count(); ++c) {
       const double slack = 1 / problem.per_allowed[c];
@@ -58,7 +49,6 @@ SolverResult active_set_newton(Problem& problem, Factor& factor, int max_iterati
       if (is_free == 0) problem.z[c] = problem.bound[c];
     }
     if ((changed || !factor.exists()) && !factor.factorise(problem, free)) break;
-    // Solve for the impulses of the free contacts.
     compute_gradient();
     factor.solve(gradient, correction);
     for (std::size_t c = 0; c < problem.count(); ++c) {

@@ -1,21 +1,15 @@
-// Numbers the particles that take part in a step, which are then called bodies, finds the sets that
-// contacts connect (islands), and calls the solver for the impulses. Displacements and gaps are in
-// [L], D (2 or 3) numbers for each particle; mobilities (length of the step over mass) are > 0
-// [T/M], impulses in [M L/T], in any consistent units. Particles, bodies and contacts are numbered
-// from 0; -1 is an obstacle, or a particle that takes no part. projection/ and constraints/ use
-// this file. Nothing is checked or thrown; an unsolved problem has SolverResult::residual > 1. A
-// change must keep the order of bodies, on which rounding errors depend.
+// The bodies and islands of (5.4), docs/physics.md.
 #include "viscontact/particles/dual_problem/contact_system.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 
 namespace viscontact::particles {
 
-/// The number of the body that `particle` is. If the particle takes no part yet, it becomes the
-/// next body, and so do the other particles of its rigid body, which join its island.
 template <int D>
 std::int32_t ContactSystem<D>::number(std::int32_t particle) {
+  assert(particle >= 0 && index_of(particle) < body_of_.size());
   const auto k = index_of(particle);
   if (body_of_[k] >= 0) return body_of_[k];
   body_of_[k] = static_cast<std::int32_t>(bodies_.size());
@@ -33,8 +27,6 @@ std::int32_t ContactSystem<D>::number(std::int32_t particle) {
   return body_of_[k];
 }
 
-/// Makes the particles `first` and `second` take part, and joins their islands. If `first` is < 0,
-/// only `second` takes part.
 template <int D>
 void ContactSystem<D>::connect(std::int32_t first, std::int32_t second) {
   const auto b = number(second);
@@ -43,7 +35,6 @@ void ContactSystem<D>::connect(std::int32_t first, std::int32_t second) {
   join(island(a), island(b));
 }
 
-/// Appends a contact, and joins the islands of its particles.
 template <int D>
 void ContactSystem<D>::add(const Contact<D>& contact) {
   contacts.push_back(contact);
@@ -51,7 +42,6 @@ void ContactSystem<D>::add(const Contact<D>& contact) {
   connect(contact.first_entry(), contact.second);
 }
 
-/// The number of the body that represents the island of `body`. It is the root of a tree of bodies.
 template <int D>
 std::int32_t ContactSystem<D>::island(std::int32_t body) {
   for (;;) {
@@ -62,7 +52,6 @@ std::int32_t ContactSystem<D>::island(std::int32_t body) {
   }
 }
 
-/// Adds the island with the root `island` to the one with the root `other`, which stays a root.
 template <int D>
 void ContactSystem<D>::join(std::int32_t island, std::int32_t other) {
   if (island == other) return;
@@ -74,8 +63,6 @@ void ContactSystem<D>::join(std::int32_t island, std::int32_t other) {
   largest_island_ = std::max(largest_island_, size);
 }
 
-/// True if the island of one of the two particles of a contact has a mark: `marks` has one number
-/// for each body, and that of the root of an island is not 0 if the island has the mark.
 template <int D>
 bool ContactSystem<D>::has_mark(const Contact<D>& contact, const std::vector<char>& marks) {
   return std::ranges::any_of(std::array{contact.first, contact.second}, [&](std::int32_t particle) {
@@ -84,28 +71,22 @@ bool ContactSystem<D>::has_mark(const Contact<D>& contact, const std::vector<cha
   });
 }
 
-/// True if a particle of the contact is in an island with a rigid body or a rigid link.
 template <int D>
 bool ContactSystem<D>::is_held(const Contact<D>& contact) {
   return has_mark(contact, is_held_);
 }
 
-/// True if gap() is the distance of the two surfaces, and not the linearised gap.
 template <int D>
 bool ContactSystem<D>::uses_distance(const Contact<D>& contact) {
   return has_distances_ && has_mark(contact, uses_distances_);
 }
 
-/// The gap [L] of a contact after the present displacements; < 0 if the two overlap.
 template <int D>
 double ContactSystem<D>::gap(const Contact<D>& contact) {
   return uses_distance(contact) ? distance_after(particles_, contact, displacements_)
                                 : gap_after(contact, displacements_);
 }
 
-/// Finds the impulses of all contacts in at most about `max_iterations` > 0 iterations, and sets
-/// the displacements of the bodies with these impulses. `is_rough`: the solution serves only to
-/// find further contacts.
 template <int D>
 SolverResult ContactSystem<D>::solve(bool is_rough, int max_iterations, ThreadPool& pool) {
   MassDualProblem<D> problem(contacts, free_, body_mobilities_, pool, body_of_);

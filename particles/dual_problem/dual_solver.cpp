@@ -1,12 +1,4 @@
-// Solves the dual problem of a time step, docs/physics.md (5.4), for the scaled impulses z of
-// contacts: chooses between conjugate gradients, a sparse factor of the matrix W and Newton's
-// method. With the mobility w > 0 [T/M] and the impulse p [M L/T] of a contact, z is w^(1/2) p, and
-// a gradient is a gap [L] over w^(1/2), both in L (M/T)^(1/2) for any consistent units. W has no
-// dimension, and its diagonal is 1; the matrix B takes z to the displacements of bodies [L].
-// Nothing is checked or thrown: a problem that is not solved in max_iterations > 0 has
-// SolverResult::residual > 1, the largest residual over the allowed one. contact_system.cpp uses
-// this file. The constants are free choices, which change how long a solution takes, and results
-// within the tolerances. A change must keep results independent of the number of threads.
+// When to use conjugate gradients, a sparse factor or Newton's method for (5.4), docs/physics.md.
 #include <algorithm>
 #include <cstddef>
 #include <span>
@@ -23,31 +15,28 @@ namespace {
 /// Approximates the inverse of W between the free contacts (z above its bound): by a sparse factor
 /// if there is one, and otherwise by a sweep of symmetric Gauss-Seidel, (I + L^T)^-1 (I + L)^-1,
 /// where L is the strictly lower triangle of W between the free contacts of a block. A block is a
-/// part of the contacts, of fixed size, on which one thread works. It is swept by itself, so that
-/// threads can sweep several blocks at a time. The number of blocks does not depend on the number
-/// of threads.
+/// part of the contacts, of fixed size, so that the result does not depend on the number of
+/// threads.
 template <int D>
 class Preconditioner {
  public:
-  /// Tells Mprgp (mprgp.hpp) that sweeps() may be true.
+  /// Tells Mprgp that sweeps() may be true.
   static constexpr bool kMaySweep = true;
 
-  /// `problem` and `factor` must outlive the object.
   Preconditioner(const MassDualProblem<D>& problem, FreeSetFactor<D>& factor)
       : problem_(problem), factor_(factor), half_swept_(problem.count()) {}
 
-  /// True if there is no factor, so that the preconditioner is the sweep.
+  /// True if there is no factor.
   bool sweeps() const { return !factor_.exists(); }
 
-  /// Makes a factor of W between the contacts that are free now. Returns false, without a factor,
-  /// if the factor would have too many entries or cannot be computed.
+  /// For the contacts that are free now. Returns false, without a factor, if none pays or exists.
   bool factorise() {
     std::vector<char> free(problem_.count());
     for (std::size_t c = 0; c < problem_.count(); ++c) free[c] = problem_.is_free(c) ? 1 : 0;
     return factor_.factorise(problem_, free);
   }
 
-  /// The forward half of the sweep, half_swept_ = (I + L)^-1 gradient, which each apply() needs.
+  /// half_swept_ = (I + L)^-1 gradient, which each apply() needs.
   void sweep_forward(std::span<const double> gradient) {
     problem_.pool().for_blocks(problem_.count(), [&](std::size_t begin, std::size_t end) {
       auto y = problem_.block_bodies(begin);
@@ -56,17 +45,16 @@ class Preconditioner {
     });
   }
 
-  /// The forward half of the sweep for contact `c` alone, with its scaled gradient. `y` holds the
-  /// displacements of the bodies of its block [L] that the contacts before it have caused, and
-  /// receives those that it causes.
+  /// The same for contact `c`. `y` [L] has what contacts of its block before it cause, and gets its
+  /// own.
   void sweep_forward(std::size_t c, double gradient, bool is_free, double* y) {
     const double t = is_free ? gradient - problem_.to_contact_in_block(c, y) : 0.0;
     half_swept_[c] = t;
     problem_.add_in_block(c, t, y);
   }
 
-  /// Sets `swept`, one number for each contact, to the preconditioner times the gradient, and `y`
-  /// to B swept. Returns the inner product of `swept` and the gradient.
+  /// Sets `swept` to the preconditioned gradient and `y` to B swept, with the matrix B from z to
+  /// the displacements of bodies. Returns the inner product of `swept` and the gradient.
   double apply(std::span<const double> gradient, std::vector<double>& swept,
                std::vector<double>& y) const {
     const double product =
@@ -76,8 +64,7 @@ class Preconditioner {
   }
 
  private:
-  /// The backward half of the sweep: swept = (I + L^T)^-1 half_swept_. Returns the inner product of
-  /// `swept` and the gradient. With a single block it also sets `y` to B swept.
+  /// swept = (I + L^T)^-1 half_swept_; with a single block also `y` = B swept. Returns as apply().
   double sweep_back(std::span<const double> gradient, std::vector<double>& swept,
                     std::vector<double>& y) const {
     return problem_.pool().template sum_of_blocks<double>(
@@ -92,7 +79,6 @@ class Preconditioner {
             product += s * gradient[c];
             problem_.add_in_block(c, s, sums.data());
           }
-          // With a single block, `sums` is B swept.
           if (problem_.count() <= ThreadPool::kBlock) std::swap(y, sums);
           return product;
         });
@@ -105,18 +91,14 @@ class Preconditioner {
 
 }  // namespace
 
-/// Improves the guess problem.z until all residuals are allowed, or until about `max_iterations`
-/// are done. `factor` may come from an earlier call for the same step, and may be replaced.
 template <int D>
 SolverResult solve_dual_problem(MassDualProblem<D>& problem, int max_iterations,
                                 FreeSetFactor<D>& factor) {
   Mprgp mprgp(problem, Preconditioner<D>(problem, factor));
   SolverResult solved;
-  // After this number of iterations with the same free contacts, a new factor is made. If a factor
-  // exists but the iterations have not converged, it belongs to other free contacts. A rough
-  // solution (MassDualProblem::is_rough) changes the free contacts often, so that a factor would
-  // soon be too old. For an accurate one, 10 in place of 30 saves 7 % of the time on
-  // bench/box2d.cpp.
+  // After so many iterations with the same free contacts, a new factor is made. A rough solution
+  // changes them often, so that a factor would soon be too old. For an accurate one, 10 in place of
+  // 30 saves 7 % of the time on bench/box2d.cpp.
   constexpr int kPatienceWithFactor = 10;
   const int patience_without = problem.is_rough ? 40 : 10;
   // Where contacts form chains or columns, with almost no cycles, Newton's method comes first,
@@ -127,9 +109,9 @@ SolverResult solve_dual_problem(MassDualProblem<D>& problem, int max_iterations,
   constexpr std::size_t kLongChain = 6;
   const bool has_chains = problem.largest_island > kLongChain &&
                           problem.count() < problem.bodies() + problem.bodies() / 8;
-  // If the residual of the guess is at most this fraction of the allowed one, the guess counts as
-  // exact and Newton's method is not needed. The fraction is small, because in a long chain even
-  // small residuals mean large errors of the impulses.
+  // If the residual of the guess is at most this fraction of the allowed one, Newton's method is
+  // not needed. The fraction is small, because in a long chain even small residuals mean large
+  // errors of the impulses.
   constexpr double kNearlySolved = 1e-4;
   const auto newton = [&] {
     FreeSetFactor<D> of_newton(0);

@@ -1,13 +1,7 @@
-// FreeSetFactor: computes and applies a sparse Cholesky factor of the matrix W of the dual problem
-// between the free contacts, those whose impulse is above its bound, with Eigen. W is scaled and
-// has no dimension; its diagonal is 1. Arrays have one number for each contact: gradients (gaps)
-// and solutions (impulses), scaled to the unit L (M/T)^(1/2). If the factor would have too many
-// entries or cannot be computed, nothing is thrown: factorise() and exists() return false. For
-// solve() and precondition() exists() must be true, which is not checked. contact_system.hpp,
-// dual_solver.cpp and active_set_newton.hpp use this file. A change must keep that the order of
-// elimination depends on the pattern of W alone.
+// A sparse Cholesky factor of W between the free contacts, with Eigen.
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <cassert>
 #include <utility>
 #include <vector>
 
@@ -18,9 +12,8 @@ namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// The lower triangle of W + epsilon I, where I is the identity and `epsilon` >= 0. `free` has 1
-/// for the free contacts and 0 for all others, whose entries beside the diagonal are stored as 0.
-/// The pattern therefore does not depend on `free`.
+/// The lower triangle of W + epsilon I. The entries of contacts with free[c] = 0 are stored as 0,
+/// so that the pattern does not depend on `free`.
 template <int D>
 SparseMatrix lower_triangle(const MassDualProblem<D>& problem, const std::vector<char>& free,
                             double epsilon) {
@@ -54,36 +47,33 @@ SparseMatrix lower_triangle(const MassDualProblem<D>& problem, const std::vector
 
 template <int D>
 struct FreeSetFactor<D>::Factor {
-  /// Eigen's factorisation with access to the number of entries of the factor, which is known from
-  /// the pattern before the factor is computed.
+  /// Gives the number of entries of the factor, which is known from the pattern.
   class Cholesky : public Eigen::SimplicialLLT<SparseMatrix> {
    public:
     Eigen::Index symbolic_entries() const { return m_nonZerosPerCol.sum(); }
   };
 
-  std::vector<char> free;  // 1 for the contacts that were factorised
+  std::vector<char> free;
   Cholesky cholesky;
-  bool pays = false;      // the factor has few enough entries
-  bool complete = false;  // the factor itself has been computed, not only its pattern
+  bool pays = false;      // it has few enough entries
+  bool complete = false;  // not only the pattern has been analysed
 };
 
-/// `epsilon` [1], >= 0, is added to the diagonal of W, because W is singular if several impulses
-/// cause the same motion.
 template <int D>
-FreeSetFactor<D>::FreeSetFactor(double epsilon) : epsilon_(epsilon) {}
+FreeSetFactor<D>::FreeSetFactor(double epsilon) : epsilon_(epsilon) {
+  assert(epsilon >= 0);
+}
 template <int D>
 FreeSetFactor<D>::~FreeSetFactor() = default;
 
-/// True if the last factorise() returned true.
 template <int D>
 bool FreeSetFactor<D>::exists() const {
   return factor_ != nullptr && factor_->complete;
 }
 
-/// Makes a factor of W between the contacts with free[c] != 0. Returns false, and leaves no factor,
-/// if the factor would have too many entries or cannot be computed.
 template <int D>
 bool FreeSetFactor<D>::factorise(const MassDualProblem<D>& problem, const std::vector<char>& free) {
+  assert(free.size() == problem.count());
   const auto w = lower_triangle(problem, free, epsilon_);
   if (factor_ == nullptr || factor_->free.size() != problem.count()) {
     factor_ = std::make_unique<Factor>();
@@ -91,7 +81,7 @@ bool FreeSetFactor<D>::factorise(const MassDualProblem<D>& problem, const std::v
     // The factor has 2 entries per contact in a chain, and about 20 in a packing of discs (with
     // 20000 contacts). Packings of spheres have more, and are excluded: for 1000 spheres that come
     // to rest, a run with the factor took 1.2 times as long as with Gauss-Seidel sweeps. The limit
-    // is a free choice between these numbers.
+    // is between these numbers.
     constexpr Eigen::Index kMostEntries = 40;
     factor_->pays = factor_->cholesky.symbolic_entries() <= kMostEntries * (w.cols() + 1);
   }
@@ -103,10 +93,9 @@ bool FreeSetFactor<D>::factorise(const MassDualProblem<D>& problem, const std::v
   return factor_->complete;
 }
 
-/// Sets `solved` to (W + epsilon I)^-1 gradient for the contacts of the factor, and to 0 for all
-/// others.
 template <int D>
 void FreeSetFactor<D>::solve(std::span<const double> gradient, std::span<double> solved) const {
+  assert(exists() && gradient.size() == factor_->free.size() && solved.size() == gradient.size());
   const auto count = static_cast<Eigen::Index>(gradient.size());
   Eigen::Map<Eigen::VectorXd> values(solved.data(), count);
   for (std::size_t c = 0; c < gradient.size(); ++c)
@@ -114,14 +103,12 @@ void FreeSetFactor<D>::solve(std::span<const double> gradient, std::span<double>
   values = factor_->cholesky.solve(values);
 }
 
-/// Sets `solved` to the result of a preconditioner for `gradient`, and returns the inner product of
-/// both. Contacts that are free now get the solution with the factor, or their gradient if the
-/// factor does not contain them. All others get 0. `problem` is that of factorise(), to which
-/// contacts may have been added at the end.
 template <int D>
 double FreeSetFactor<D>::precondition(const MassDualProblem<D>& problem,
                                       std::span<const double> gradient,
                                       std::span<double> solved) const {
+  assert(exists() && factor_->free.size() <= problem.count());
+  assert(gradient.size() == problem.count() && solved.size() == problem.count());
   const std::size_t factored = factor_->free.size();
   Eigen::Map<Eigen::VectorXd> values(solved.data(), static_cast<Eigen::Index>(factored));
   for (std::size_t c = 0; c < problem.count(); ++c)

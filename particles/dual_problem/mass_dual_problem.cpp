@@ -1,22 +1,13 @@
-// Fills the arrays of a MassDualProblem, the problem for the impulses of contacts in a time step.
-// Gaps and displacements, D (2 or 3) numbers for each body, are in [L], mobilities (length of the
-// step over mass) in [T/M], > 0, in any consistent units. The mobility w of a contact, Contact::w,
-// must be the sum of the mobilities of its bodies. A scaled impulse is w^(1/2) times the impulse,
-// and a scaled gradient is a gap divided by w^(1/2), so that both are in L (M/T)^(1/2). A contact
-// with an obstacle has first < 0; all obstacles are one body, the last one, which does not move.
-// The sources of this folder use this file. Nothing is checked or thrown. A change must keep the
-// order of all sums, because bits of results depend on it.
+// The arrays of a MassDualProblem. All obstacles are one body, the last one, which does not move.
 #include "viscontact/particles/dual_problem/mass_dual_problem.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace viscontact::particles {
 
-/// `contacts` name particles, and `body_of` has the number of the body of each particle; if it is
-/// empty, both numbers are the same. `displacements` are those without contacts [L], D numbers for
-/// each body, `mobilities` has one number for each body.
 template <int D>
 MassDualProblem<D>::MassDualProblem(std::span<const Contact<D>> contacts,
                                     std::span<const double> displacements,
@@ -28,12 +19,14 @@ MassDualProblem<D>::MassDualProblem(std::span<const Contact<D>> contacts,
       offsets_(mobilities.size() + 2, 0),
       inverse_mobilities_((mobilities.size() + 1) * D, 0.0),
       pool_(&pool) {
+  assert(displacements.size() == mobilities.size() * D);
   const auto wall = static_cast<std::int32_t>(mobilities.size());
   for (std::size_t b = 0; b < mobilities.size(); ++b)
     for (std::size_t d = 0; d < D; ++d)
       inverse_mobilities_[b * D + d] = mobilities[b] > 0 ? 1 / mobilities[b] : 0;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto& contact = contacts[c];
+    assert(contact.w > 0);
     const bool particles = contact.first_entry() >= 0;
     const auto body = [&](std::int32_t k) { return body_of.empty() ? k : body_of[index_of(k)]; };
     const auto second = body(contact.second);
@@ -54,8 +47,6 @@ MassDualProblem<D>::MassDualProblem(std::span<const Contact<D>> contacts,
   number_bodies_of_blocks();
 }
 
-/// Fills shares_: what contacts add to the motion of each body. Before the call, offsets_[b + 1] is
-/// the number of contacts of body b; after it, offsets_[b] is where its shares begin.
 template <int D>
 void MassDualProblem<D>::list_shares() {
   const auto wall = static_cast<std::int32_t>(bodies() - 1);
@@ -73,9 +64,6 @@ void MassDualProblem<D>::list_shares() {
   }
 }
 
-/// Numbers the bodies of each block of contacts, which one thread works on at a time, from 0 in the
-/// order in which the contacts of the block name them. If there is only one block, bodies keep
-/// their numbers.
 template <int D>
 void MassDualProblem<D>::number_bodies_of_blocks() {
   const bool is_single = rows_.size() <= ThreadPool::kBlock;  // bodies then keep their numbers
@@ -99,12 +87,10 @@ void MassDualProblem<D>::number_bodies_of_blocks() {
   }
 }
 
-/// Replaces `into` by y + factor * into. Both arrays have D displacements [L] for each body, the
-/// obstacles' body included, and are the displacements that some scaled impulses cause; `factor`
-/// [1] is any number. Returns the sum of |into|^2/mobility over the bodies after it [M L^2/T].
 template <int D>
 double MassDualProblem<D>::combine(std::span<const double> y, double factor,
                                    std::span<double> into) const {
+  assert(y.size() == displacement_count() && into.size() == y.size());
   return pool_->sum_of_blocks<double>(bodies(), [&](std::size_t begin, std::size_t end) {
     const auto first = static_cast<Eigen::Index>(begin * D);
     const auto size = static_cast<Eigen::Index>((end - begin) * D);

@@ -1,11 +1,4 @@
-// Modified proportioning with reduced gradient projections, MPRGP (Dostal & Schoeberl 2005,
-// "Minimizing quadratic functions subject to bound constraints with the rate of convergence and
-// finite termination"). It minimises z^T W z/2 + b^T z over z >= bound, the scaled problem for the
-// impulses of contacts in a time step (dual_problem.hpp). With the impulse p [M L/T] and the
-// mobility w [T/M] of a contact, z is w^(1/2) p, and the gradient is its gap [L] over w^(1/2); W
-// has no dimension and about the diagonal 1. dual_solver.cpp and fluid/contact_problem.cpp use the
-// class. Nothing is checked or thrown. A change must keep that sums are taken in blocks of the
-// thread pool, so that the results do not depend on the number of threads.
+// Modified proportioning with reduced gradient projections (Dostal & Schoeberl 2005), MPRGP.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,23 +13,21 @@
 
 namespace viscontact::particles {
 
-/// The state of the iteration: z, the gradient g = W z + b, and the direction in which z moves.
-/// Contacts with z above the bound are called free. The free gradient is g on the free contacts.
-/// The chopped gradient is the negative part of g on the other contacts, which would move them off
-/// the bound. Each step is one of three:
+/// Minimises z^T W z/2 + b^T z over z >= bound. Contacts with z above the bound are free. The free
+/// gradient is the gradient g = W z + b on them, the chopped gradient the negative part of g on the
+/// others, which would move them off the bound. Sums are taken in blocks of the thread pool, so
+/// that results do not depend on the number of threads. Each step is one of three:
 ///
 /// - proportioning is a step along the chopped gradient, made if this is larger than the free one;
 /// - otherwise the step is one of preconditioned conjugate gradients;
 /// - expansion: if such a step leaves the bounds, its end is projected on them.
 ///
-/// `Preconditioner` has apply(gradient, swept, y). It sets `swept` to the preconditioned gradient
-/// and y to B swept (dual_problem.hpp), and returns the inner product of swept and gradient. If its
-/// constant kMaySweep is true, it must also have sweeps(), factorise() and both sweep_forward() of
-/// the class Preconditioner in dual_solver.cpp.
+/// `Preconditioner` has apply(gradient, swept, y), and, if its constant kMaySweep is true, also the
+/// other functions of the class Preconditioner in dual_solver.cpp.
 template <SolvableDualProblem Problem, class Preconditioner>
 class Mprgp {
  public:
-  /// Starts from problem.z, projected on its bounds. `problem` must outlive the object.
+  /// `problem` must outlive the object.
   Mprgp(Problem& problem, Preconditioner preconditioner)
       : problem_(problem),
         preconditioner_(std::move(preconditioner)),
@@ -69,45 +60,43 @@ class Mprgp {
     restart_ = true;
   }
 
-  /// Largest DualProblem::residual() of all contacts [1], >= 0. It is at most 1 if all contacts
-  /// have converged. It may be that of up to three steps before; after refresh() it is the present
-  /// one. NaN if a number of some contact is NaN.
+  /// Largest DualProblem::residual() [1]; at most 1 if all contacts have converged. It may be that
+  /// of up to three steps before; after refresh() it is the present one. NaN if a number is NaN.
   double residual() const {
     // The sums are NaN if a gradient is; the largest residual, without branches, is not.
     const double sums = statistics_.free_slope + statistics_.chopped_square;
     return std::isnan(sums) ? sums : statistics_.residual;
   }
 
-  /// From now on omits the regularisation, the 1e-14 that the object adds to the diagonal of W.
+  /// From now on omits the 1e-14 that the object adds to the diagonal of W.
   void drop_regularisation() {
     regularisation_ = 0;
     refresh();
   }
 
-  /// Makes a new factor for the preconditioner. Returns false if the factor cannot be made; the
-  /// caller may then go on without it.
+  /// Makes a new factor for the preconditioner. If it returns false, the caller may go on without
+  /// it.
   bool factorise() {
     restart_ = true;
     return preconditioner_.factorise();
   }
 
-  /// Number of conjugate gradient steps since a contact last became free or reached its bound.
+  /// Conjugate gradient steps since a contact last became free or reached its bound.
   int steps_between_same() const { return steps_between_same_; }
 
-  /// Makes one step. Returns the number of products with W that it took, >= 1.
+  /// Returns the number of products with W that the step took, >= 1.
   int step() {
     if (statistics_.chopped_square > statistics_.free_slope) return leave_bounds();
     if (restart_) start_directions();
     before_ = problem_.z;
     ++steps_between_same_;
-    // If contacts contradict each other, the objective has no minimum, and the length of the step
-    // is almost infinite. 1e12 is a free choice; other lengths are about 1.
+    // If contacts contradict each other, the objective has no minimum, and the length of the step,
+    // which is about 1 otherwise, is almost infinite.
     constexpr double kEndless = 1e12;
     const double length = slope_ / curvature_;
     if (!(length < kEndless)) return go_to_bound();
     move(length);
     if (statistics_.distance_to_bound < 0) return expand(length);
-    // The next direction is conjugate to this one.
     const double slope = preconditioner_.apply(gradient_, swept_, y_);
     const double beta = slope / slope_;
     slope_ = slope;
@@ -116,18 +105,16 @@ class Mprgp {
   }
 
  private:
-  /// Sums and extremes over all contacts, at z with gradient g.
   struct PassStatistics {
-    double residual = 0;  ///< largest DualProblem::residual()
-    /// Inner product of the free gradient and the reduced free gradient. The reduced one is at most
-    /// (z - bound)/(step length), so that a gradient step along it stays within the bounds.
+    double residual = 0;  ///< of DualProblem::residual()
+    /// Inner product of the free gradient and the reduced one, which is at most (z - bound)/(step
+    /// length), so that a gradient step along it stays within the bounds.
     double free_slope = 0;
-    double chopped_square = 0;  ///< sum of the squares of the chopped gradient
+    double chopped_square = 0;
     double distance_to_bound = std::numeric_limits<double>::infinity();  ///< smallest z - bound
 
-    /// Adds a contact with the gradient `g` and z - bound = `distance`. `per_step` is 1 divided by
-    /// the length of a projected gradient step. The function has no branches, because a processor
-    /// could not predict which contacts of a packing are free.
+    /// Adds a contact with the gradient `g` and z - bound = `distance`; `per_step` is 1 over step_.
+    /// There are no branches, because a processor could not predict which contacts are free.
     void add(double g, double distance, double per_allowed, double per_step) {
       const bool is_free = distance > 0;
       const double phi = is_free ? g : 0.0, beta = is_free ? 0.0 : std::min(g, 0.0);
@@ -143,13 +130,12 @@ class Mprgp {
     }
   };
 
-  /// Entries `begin` to `end` - 1 as an array of Eigen, which sums faster than a simple loop.
+  /// As an array of Eigen, which sums faster than a simple loop.
   static Eigen::Map<Eigen::ArrayXd> part(std::vector<double>& numbers, std::size_t begin,
                                          std::size_t end) {
     return {numbers.data() + begin, static_cast<Eigen::Index>(end - begin)};
   }
 
-  /// Returns the objective z^T W z/2 + b^T z, where W contains the regularisation.
   double objective() {
     return problem_.pool().template sum_of_blocks<double>(
         problem_.count(), [&](std::size_t begin, std::size_t end) {
@@ -160,7 +146,6 @@ class Mprgp {
         });
   }
 
-  /// Begins conjugate gradients anew: the direction is the preconditioned gradient.
   void start_directions() {
     std::fill(direction_.begin(), direction_.end(), 0.0);
     std::fill(y_direction_.begin(), y_direction_.end(), 0.0);
@@ -172,7 +157,6 @@ class Mprgp {
     combine_directions(0);
   }
 
-  /// Sets direction = swept + beta * direction, and computes B direction and curvature_.
   void combine_directions(double beta) {
     const auto square = problem_.pool().template sum_of_blocks<double>(
         problem_.count(), [&](std::size_t begin, std::size_t end) {
@@ -183,10 +167,9 @@ class Mprgp {
     curvature_ = problem_.combine(y_, beta, y_direction_) + regularisation_ * square;
   }
 
-  /// Subtracts length * direction from z and updates the gradient and the statistics. If the
-  /// preconditioner sweeps, the forward half of its sweep is part of the same loop, because it
-  /// reads the same rows. Then only every fourth call computes all statistics, to save time; the
-  /// others compute the smallest distance to a bound.
+  /// Moves z by -length * direction. If the preconditioner sweeps, the forward half of its sweep is
+  /// in the same loop, which reads the same rows, and only every fourth call computes all
+  /// statistics.
   void move(double length) {
     constexpr int kPassesBetweenMeasurements = 4;
     [[maybe_unused]] const bool measure =
@@ -203,8 +186,7 @@ class Mprgp {
     statistics_ = pass<true, false>(length);
   }
 
-  /// The loop of move(). It computes all statistics if kMeasure is true, and makes the forward
-  /// sweep if kSweep is true.
+  /// The loop of move(), with all statistics if kMeasure and the forward sweep if kSweep.
   template <bool kMeasure, bool kSweep>
   PassStatistics pass(double length) {
     return problem_.pool().template sum_of_blocks<PassStatistics>(
@@ -237,9 +219,8 @@ class Mprgp {
         });
   }
 
-  /// Expansion, after a step of this length that left the bounds: projects the new z on the bounds.
-  /// If the objective has not fallen, goes to the first bound instead. Returns the number of
-  /// products with W.
+  /// Projects z on the bounds after a step. If the objective has not fallen, goes to the first
+  /// bound instead. Returns the number of products with W, as the next functions.
   int expand(double length) {
     // The objective is a quadratic function of the length, which gives its value before the step.
     const double before = objective() + length * (slope_ - length * curvature_ / 2);
@@ -247,8 +228,7 @@ class Mprgp {
     return objective() < before ? 1 : 2 + go_to_bound();
   }
 
-  /// Goes from the point before the step along the direction to the first bound, if there is one,
-  /// and makes a projected gradient step from there. Returns the number of products with W.
+  /// Goes from the point before the step to the first bound, and makes a projected gradient step.
   int go_to_bound() {
     double feasible = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < problem_.count(); ++c)
@@ -260,8 +240,7 @@ class Mprgp {
     return 1 + project_gradient();
   }
 
-  /// Makes a projected gradient step, after halving its length step_ until the objective does not
-  /// rise. Returns the number of products with W.
+  /// Halves the length step_ of a projected gradient step until the objective does not rise.
   int project_gradient() {
     const auto here = problem_.z;
     const double before = objective();
@@ -270,8 +249,7 @@ class Mprgp {
         if (problem_.is_free(c))
           problem_.z[c] = std::max(problem_.bound[c], problem_.z[c] - step_ * gradient_[c]);
       refresh();
-      // With a step shorter than this, a rise of the objective is a rounding error, and the step is
-      // accepted. The value is a free choice.
+      // With a step shorter than this, a rise of the objective is a rounding error.
       constexpr double kShortest = 1e-6;
       if (objective() <= before || step_ < kShortest) return products;
       // An eigenvalue of W exceeds 4, as a particle with many contacts can cause.
@@ -281,14 +259,12 @@ class Mprgp {
     }
   }
 
-  /// Proportioning: makes the step along the chopped gradient that minimises the objective, which
-  /// moves contacts off their bounds. Returns the number of products with W.
   int leave_bounds() {
     for (std::size_t c = 0; c < problem_.count(); ++c)
       direction_[c] = !problem_.is_free(c) && gradient_[c] < 0 ? gradient_[c] : 0.0;
     const double curvature = problem_.to_bodies(direction_, y_direction_);
-    // The largest step length is a free choice far above 1, the length for a single contact (W =
-    // 1). Contacts that contradict each other would make the length infinite.
+    // The length is 1 for a single contact. Contacts that contradict each other would make it
+    // infinite.
     constexpr double kLongest = 1e6;
     restart_ = true;
     move(std::min(statistics_.chopped_square / curvature, kLongest));
@@ -297,11 +273,11 @@ class Mprgp {
 
   Problem& problem_;
   Preconditioner preconditioner_;
-  /// Length of a projected gradient step: 2 divided by the largest eigenvalue of W, which is at
-  /// most 4 in packings of similar particles, because W has the diagonal 1.
+  /// Length of a projected gradient step: 2 over the largest eigenvalue of W, which is at most 4 in
+  /// packings of similar particles, because W has the diagonal 1.
   double step_ = 0.5;
-  std::vector<double> before_;           // z before the step
-  std::vector<double> y_, y_direction_;  // B z and B direction (dual_problem.hpp)
+  std::vector<double> before_;
+  std::vector<double> y_, y_direction_;  // B z and B direction
   std::vector<double> gradient_, direction_, swept_;
   PassStatistics statistics_;
   /// Added to the diagonal of W, which is 1. Redundant contacts make W singular: along some
@@ -310,8 +286,8 @@ class Mprgp {
   /// contacts (1e-8), and below any tolerance. Where particles are jammed in a wedge, impulses may
   /// be so large that this term leaves a gap; drop_regularisation() is for such impulses.
   double regularisation_ = 1e-14;
-  double slope_ = 0;      // inner product of gradient and direction
-  double curvature_ = 0;  // direction^T W direction, with the regularisation
+  double slope_ = 0;  // inner product of gradient and direction
+  double curvature_ = 0;
   bool restart_ = true;
   int steps_between_same_ = 0;
   unsigned passes_since_measurement_ = 0;

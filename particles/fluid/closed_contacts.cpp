@@ -2,6 +2,7 @@
 #include "viscontact/particles/fluid/closed_contacts.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -20,6 +21,7 @@ constexpr double kRoundingOfDoubles = std::numeric_limits<double>::epsilon();
 /// equal mobilities of all motions, masses cannot hide what is redundant.
 Index rank_of(const std::vector<std::vector<double>>& rows,
               const std::vector<const std::vector<double>*>& responses) {
+  assert(!rows.empty());
   std::vector<std::size_t> moved;
   for (std::size_t i = 0; i < rows.front().size(); ++i)
     if (std::ranges::any_of(responses, [&](const auto* v) { return (*v)[i] != 0; }) &&
@@ -29,8 +31,7 @@ Index rank_of(const std::vector<std::vector<double>>& rows,
   for (std::size_t r = 0; r < rows.size(); ++r)
     for (std::size_t m = 0; m < moved.size(); ++m)
       directions(static_cast<Index>(r), static_cast<Index>(m)) = rows[r][moved[m]];
-  // Directions of contacts that are this near to each other count as one; a free choice far above
-  // rounding errors of places.
+  // Directions that are this near to each other count as one, far above rounding errors of places.
   constexpr double kParallel = 1e-9;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factor;
   factor.setThreshold(kParallel);
@@ -44,6 +45,7 @@ ClosedContacts::ClosedContacts(const StepContacts& step, double mu_s,
                                std::span<const double> velocities,
                                const ContactConditions& conditions)
     : step_(step), conditions_(conditions) {
+  assert(mu_s >= 0 && velocities.size() == conditions.free_velocities.size());
   add_rows(mu_s, velocities);
   if (!is_known_) return;
   find_values(velocities);
@@ -157,6 +159,7 @@ ClosedContacts::Impulses ClosedContacts::in_order(const Eigen::VectorXd& scaled)
 }
 
 ClosedContacts::Impulses ClosedContacts::corrections() const {
+  assert(is_known_);
   if (rows_.empty()) return in_order({});
   const Eigen::VectorXd right = -values_.cwiseQuotient(scales_);
   auto impulses = in_order(factor_.solve(right));
@@ -167,6 +170,7 @@ ClosedContacts::Impulses ClosedContacts::corrections() const {
 }
 
 ClosedContacts::Impulses ClosedContacts::changes_by(double error) const {
+  assert(is_known_ && !(error < 0));
   if (rows_.empty()) return in_order({});
   auto impulses = in_order(factor_.pseudoInverse().cwiseAbs() * (error * scales_.cwiseInverse()));
   for (const auto& sliding : sliding_)
@@ -177,7 +181,7 @@ ClosedContacts::Impulses ClosedContacts::changes_by(double error) const {
 
 void correct_impulses(StepContacts& step, double mu_s, const Mobility& mobility,
                       const ContactConditions& conditions) {
-  // Each correction leaves about the relative error of W of the error; a free choice.
+  // Each correction leaves about the relative error of W of the error.
   constexpr int kMostCorrections = 4;
   // Below this part of the tolerance nothing is corrected: the rest is left for errors of the
   // velocities that the fluid solver computes from the final forces.

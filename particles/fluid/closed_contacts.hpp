@@ -18,15 +18,14 @@ namespace viscontact::particles {
 /// mobilities. If contacts are redundant, dp is the smallest of all solutions.
 class ClosedContacts {
  public:
-  /// Numbers of impulses [M L/T] in the order of StepContacts::contacts and frictions; 0 for those
-  /// that are not closed.
+  /// Impulses [M L/T] in the order of StepContacts; 0 for contacts that are not closed.
   struct Impulses {
-    std::vector<double> of_contacts;   ///< one for each of StepContacts::contacts
-    std::vector<double> of_frictions;  ///< one for each of StepContacts::frictions
+    std::vector<double> of_contacts;
+    std::vector<double> of_frictions;
   };
 
-  /// `velocities` [L/T, 1/T] are those with the impulses of `step`. `mu_s` is the coefficient of
-  /// friction [1], >= 0. `step` and `conditions` must outlive the object.
+  /// `velocities` are those with the impulses of `step`; `mu_s` [1] is the coefficient of friction.
+  /// `step` and `conditions` must outlive the object.
   ClosedContacts(const StepContacts& step, double mu_s, std::span<const double> velocities,
                  const ContactConditions& conditions);
 
@@ -35,8 +34,7 @@ class ClosedContacts {
   bool is_known() const { return is_known_; }
   /// What must be added to the impulses.
   Impulses corrections() const;
-  /// The largest changes of the impulses by changes of gaps and slips of up to `error` [L] each,
-  /// >= 0.
+  /// The largest changes of the impulses by changes of gaps and slips of up to `error` [L] each.
   Impulses changes_by(double error) const;
 
  private:
@@ -66,8 +64,7 @@ class ClosedContacts {
 };
 
 /// Corrects the impulses of a solved step if their errors are larger than allowed, with one call of
-/// the mobility for each correction, and updates loads and velocities. Throws what the mobility
-/// throws.
+/// the mobility for each correction, and updates loads and velocities.
 void correct_impulses(StepContacts& step, double mu_s, const Mobility& mobility,
                       const ContactConditions& conditions);
 

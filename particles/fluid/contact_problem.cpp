@@ -1,13 +1,7 @@
-// Solves the contact problem of a step in a fluid, ContactProblem. W [T/M] is the matrix of the
-// changes of gaps [L] per impulse [M L/T] of each contact, w its diagonal, and the scaled W is
-// W/(w_i w_j)^(1/2) [1]. The mobility gives the velocities [L/T, 1/T] by forces
-// [M L/T^2, M L^2/T^2], 3 numbers for each particle, or 1 on an axis. The length of the step
-// is > 0; units are any consistent ones. A contact is free if its impulse is above the lowest value
-// that is allowed. If contacts are few, W is computed, otherwise only products with W. Only errors
-// of the mobility are thrown; solve() returns false if it misses the tolerances. fluid_contacts.cpp
-// uses this file. A change must keep that results depend on nothing but the arguments, because a
-// run that is continued must give the same bits.
+// Newton's method and MPRGP for ContactProblem. The scaled W is W/(w_i w_j)^(1/2) [1] with its
+// diagonal w; a contact is free if its impulse is above its lower bound.
 #include <Eigen/Core>
+#include <cassert>
 #include <limits>
 #include <set>
 #include <utility>
@@ -23,13 +17,11 @@ namespace {
 
 using Eigen::Index;
 
-/// The gap at the end of the step [L] for the velocities without contact.
 double gap_without_contact(const Contact<2>& contact, const ContactConditions& conditions) {
   return gap_after(contact, conditions.free_velocities.data(), conditions.h, conditions.layout);
 }
 
-/// Returns for each contact the number of its group, from 0. Contacts of one group have no common
-/// particle.
+/// The group of each contact, from 0; contacts of one group have no common particle.
 std::vector<std::size_t> disjoint_groups(std::span<const Contact<2>> contacts) {
   std::set<std::pair<std::int32_t, std::size_t>> used;  // particles and their groups
   std::vector<std::size_t> groups;
@@ -44,12 +36,12 @@ std::vector<std::size_t> disjoint_groups(std::span<const Contact<2>> contacts) {
 }
 
 /// Sets w of each contact [T/M] to an estimate, by one call of the mobility for each group of
-/// contacts without a common particle. The other contacts of the group also change the gap of a
-/// contact, but much less. Returns the number of groups. `motions` is the number of components of
-/// all velocities; `contacts` must not be empty. Sets `ratio` to the ratio of the largest to the
-/// smallest velocity of a single particle by the unit force of a contact [1].
+/// contacts without a common particle; the other contacts of the group change a gap much less.
+/// Returns the number of groups. `motions` is the length of arrays of velocities. `ratio` is the
+/// largest over the smallest velocity of a single particle by the unit force of a contact [1].
 int estimate_w(std::span<Contact<2>> contacts, std::size_t motions, const Mobility& mobility,
                const MotionLayout& layout, double& ratio) {
+  assert(!contacts.empty());
   double least = std::numeric_limits<double>::infinity(), largest = 0;
   const auto count_share = [&](double velocity) {
     // A driven particle, which nothing moves, has no share.
@@ -77,8 +69,8 @@ int estimate_w(std::span<Contact<2>> contacts, std::size_t motions, const Mobili
   }
   ratio = largest > 0 ? largest / least : 1;
   // The other contacts of the group may cancel the change by the contact itself. An estimate is
-  // therefore at least the median divided by kLargestRatio. This number is a free choice, because w
-  // scales unknowns and allowed residuals only.
+  // therefore at least the median divided by kLargestRatio; w scales unknowns and allowed residuals
+  // only.
   std::vector<double> sorted;
   for (const auto& contact : contacts) sorted.push_back(contact.w);
   std::ranges::sort(sorted);
@@ -89,9 +81,9 @@ int estimate_w(std::span<Contact<2>> contacts, std::size_t motions, const Mobili
   return static_cast<int>(groups);
 }
 
-/// The problem in the unknowns z = sqrt(w) p, with the impulses p (dual_problem.hpp), and with one
-/// call of the mobility for each product with W. A vector y = B z holds the displacements that the
-/// impulses cause, and then the impulses on the particles. Their inner product is p^T W p.
+/// The problem in the unknowns z = sqrt(w) p with the impulses p (dual_problem.hpp). A vector y =
+/// B z holds the displacements that the impulses cause, and then the impulses on the particles.
+/// Their inner product is p^T W p.
 class FluidDualProblem : public DualProblem {
  public:
   /// `contacts` have w > 0 and `allowed` > 0.
@@ -106,13 +98,10 @@ class FluidDualProblem : public DualProblem {
       set(c, contacts[c], gap_without_contact(contacts[c], conditions));
   }
 
-  /// Length of a vector y = B z.
   std::size_t displacement_count() const { return 2 * motions_; }
-  /// A pool of one thread, which is enough because the solver of the fluid does most of the work.
+  /// One thread is enough because the solver of the fluid does most of the work.
   ThreadPool& pool() const { return pool_; }
 
-  /// Sets `y` to B z for z = `values`, one number for each contact, and returns z^T W z with the
-  /// scaled W.
   double to_bodies(std::span<const double> values, std::span<double> y) {
     const auto impulses = y.subspan(motions_);
     std::ranges::fill(impulses, 0.0);
@@ -125,7 +114,6 @@ class FluidDualProblem : public DualProblem {
     for (std::size_t i = 0; i < motions_; ++i) form += displacements[i] * impulses[i];
     return form;
   }
-  /// Replaces `into` by y + factor * into, which is B z for some z, and returns z^T W z.
   double combine(std::span<const double> y, double factor, std::span<double> into) const {
     for (std::size_t i = 0; i < into.size(); ++i) into[i] = y[i] + factor * into[i];
     double form = 0;
@@ -145,12 +133,12 @@ class FluidDualProblem : public DualProblem {
   mutable ThreadPool pool_{1};
 };
 
-/// Returns the matrix W of the contacts [T/M]. Its column c has the changes of all gaps by a unit
-/// impulse of contact c, and follows from responses[c], the velocities that a unit force of this
-/// contact causes.
+/// The matrix W of the contacts [T/M]. Its column c has the changes of all gaps by a unit impulse
+/// of contact c, and follows from responses[c], the velocities by a unit force of this contact.
 Eigen::MatrixXd dense_w(std::span<const Contact<2>> contacts,
                         std::span<const std::vector<double>> responses,
                         const MotionLayout& layout) {
+  assert(responses.size() >= contacts.size());
   const auto n = std::ssize(contacts);
   Eigen::MatrixXd matrix(n, n);
   for (std::size_t c = 0; c < contacts.size(); ++c)
@@ -160,17 +148,16 @@ Eigen::MatrixXd dense_w(std::span<const Contact<2>> contacts,
   return matrix;
 }
 
-/// The same problem as FluidDualProblem, for few contacts, with a computed matrix. A vector y = B z
-/// holds the product of scaled_matrix and z, and then z. The member functions are those of
-/// FluidDualProblem.
+/// The same problem for few contacts. A vector y = B z holds the product of scaled_matrix and z,
+/// and then z.
 class DenseDualProblem : public DualProblem {
  public:
-  /// The matrix of the problem is the symmetric part of `full_w`, dense_w() of the contacts. If W
-  /// is not symmetric (in `conditions`), the product of its skew part and the present impulses is
-  /// added to the gaps.
+  /// `full_w` is dense_w() of the contacts; the matrix of the problem is its symmetric part. If W
+  /// is not symmetric, the product of its skew part and the present impulses is added to the gaps.
   DenseDualProblem(std::span<const Contact<2>> contacts, const ContactConditions& conditions,
                    const Eigen::MatrixXd& full_w)
       : DualProblem(contacts.size()) {
+    assert(full_w.rows() == std::ssize(contacts) && full_w.cols() == full_w.rows());
     Eigen::VectorXd further = Eigen::VectorXd::Zero(full_w.rows());
     if (!conditions.is_symmetric)
       for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -204,20 +191,19 @@ class DenseDualProblem : public DualProblem {
   }
   double to_contact(std::size_t c, const double* y) const { return y[c]; }
 
-  Eigen::MatrixXd scaled_matrix;  ///< [1], symmetric, positive semidefinite, with the diagonal 1
+  Eigen::MatrixXd scaled_matrix;  ///< [1], symmetric, with the diagonal 1
 
  private:
   mutable ThreadPool pool_{1};
 };
 
-/// Solves with the scaled W of chosen contacts, for active_set_newton().
+/// For active_set_newton().
 class DenseFactor {
  public:
-  /// `error_of_w` >= 0 is the relative error of W.
-  explicit DenseFactor(double error_of_w) : error_of_w_(error_of_w) {}
+  explicit DenseFactor(double error_of_w) : error_of_w_(error_of_w) { assert(error_of_w >= 0); }
 
   bool exists() const { return !free_.empty(); }  ///< true after the first factorise()
-  /// Factorises the scaled W between the contacts c with free[c] != 0. Returns true in any case.
+  /// Of the contacts c with free[c] != 0. Returns true in any case.
   bool factorise(const DenseDualProblem& problem, const std::vector<char>& free) {
     free_ = free;
     chosen_.clear();
@@ -232,13 +218,12 @@ class DenseFactor {
     factor_.compute(regular);
     return true;
   }
-  /// Sets `solved` to the inverse of the scaled W between the chosen contacts times `gradient`, and
-  /// to 0 for all other contacts. Both arrays have one number for each contact.
+  /// Sets `solved` to the inverse of the scaled W between the chosen contacts times `gradient`.
   void solve(std::span<const double> gradient, std::span<double> solved) const {
     const Eigen::VectorXd right =
         Eigen::Map<const Eigen::VectorXd>(gradient.data(), std::ssize(gradient))(chosen_);
     Eigen::VectorXd values = factor_.solve(right);
-    constexpr int kRefinements = 2;  // a free choice
+    constexpr int kRefinements = 2;
     for (int i = 0; i < kRefinements; ++i) values += factor_.solve(right - matrix_ * values);
     std::ranges::fill(solved, 0.0);
     for (std::size_t i = 0; i < chosen_.size(); ++i)
@@ -249,22 +234,20 @@ class DenseFactor {
   double error_of_w_;
   std::vector<char> free_;
   std::vector<Index> chosen_;
-  Eigen::MatrixXd matrix_;  // scaled W of the contacts of chosen_
+  Eigen::MatrixXd matrix_;
   Eigen::LDLT<Eigen::MatrixXd> factor_;
 };
 
-/// The identity, as the preconditioner of the conjugate gradients of Mprgp. The scaled W needs no
-/// other one, because its diagonal is about 1.
+/// The identity, as the preconditioner of Mprgp: the diagonal of the scaled W is about 1.
 template <SolvableDualProblem Problem>
 class IdentityPreconditioner {
  public:
   /// Tells Mprgp to use apply() alone.
   static constexpr bool kMaySweep = false;
-  /// `problem` must outlive the object.
   explicit IdentityPreconditioner(Problem& problem) : problem_(&problem) {}
 
-  /// Sets `swept` to the gradient for free contacts and to 0 for all others, and `y` to B swept.
-  /// Returns the inner product of `swept` and `gradient`.
+  /// Sets `swept` to the gradient of free contacts, 0 for all others, and `y` to B swept. Returns
+  /// the inner product of both.
   double apply(std::span<const double> gradient, std::vector<double>& swept,
                std::vector<double>& y) const {
     double product = 0;
@@ -280,8 +263,8 @@ class IdentityPreconditioner {
   Problem* problem_;
 };
 
-/// Improves problem.z by MPRGP (mprgp.hpp: conjugate gradients with gradient projection) until all
-/// residuals are allowed, or until `most` products with W are done. Returns their number.
+/// Improves problem.z by MPRGP until all residuals are allowed, or until `most` products with W are
+/// done. Returns their number.
 template <SolvableDualProblem Problem>
 int solve_by_gradients(Problem& problem, int most) {
   Mprgp mprgp(problem, IdentityPreconditioner<Problem>(problem));
@@ -309,7 +292,7 @@ struct Correction {
 template <SolvableDualProblem Problem>
 Correction correct_by_gradients(Problem& problem, int most) {
   // A tenth of the residual is enough for the size of the change. Where more products are needed,
-  // the change would have gone on growing: the factor is a free choice.
+  // the change would have gone on growing.
   constexpr double kReduction = 0.1, kUnfinished = 10;
   Correction correction;
   const std::size_t n = problem.count();
@@ -359,8 +342,6 @@ Correction correct_by_gradients(Problem& problem, int most) {
 
 }  // namespace
 
-/// The forces of the contacts, and their torques, on all particles: impulses divided by the length
-/// of the step [M L/T^2, M L^2/T^2].
 std::vector<double> ContactProblem::loads() const {
   std::vector<double> loads(velocities_.size());
   for (const auto& contact : contacts_)
@@ -368,14 +349,10 @@ std::vector<double> ContactProblem::loads() const {
   return loads;
 }
 
-/// Finds the impulses [M L/T] and w [T/M] of all contacts. Returns true if all residuals are
-/// allowed. If `is_rough`, the tolerances are wider when contacts are many, because the caller only
-/// wants to find contacts that it must add.
 bool ContactProblem::solve(bool is_rough) {
   is_rough_ = false;
   if (contacts_.empty()) return true;
   const auto& layout = conditions_.layout;
-  // Conjugate gradients need a symmetric W.
   const auto has_unknown_w = [&] {
     return std::ranges::any_of(contacts_, [](const auto& c) { return !(c.w > 0); });
   };
@@ -400,7 +377,7 @@ bool ContactProblem::solve(bool is_rough) {
   is_rough_ = is_rough && !is_dense;  // with a dense W an accurate solution is as fast
   auto conditions = conditions_;
   if (is_rough_) {
-    constexpr double kRoughLength = 1e-3, kRoughImpulse = 1e-2;  // free choices
+    constexpr double kRoughLength = 1e-3, kRoughImpulse = 1e-2;
     auto& settings = conditions.solver;
     settings.tolerance = std::max(settings.tolerance, kRoughLength);
     settings.impulse_tolerance = std::max(settings.impulse_tolerance, kRoughImpulse);
@@ -418,7 +395,7 @@ bool ContactProblem::solve(bool is_rough) {
   conditions.velocity_error = kErrorOfSums;
   // The allowed residuals depend on the impulses, which are known only after the first round. If W
   // is not symmetric, each round multiplies the error by about the ratio of the skew part of W to
-  // the symmetric part. Both numbers of rounds are free choices.
+  // the symmetric part.
   constexpr int kRounds = 4, kRoundsOfSkewPart = 40;
   const int rounds = is_dense && !conditions.is_symmetric ? kRoundsOfSkewPart : kRounds;
   for (int round = 0; round < rounds; ++round) {
@@ -439,10 +416,8 @@ bool ContactProblem::solve(bool is_rough) {
   return is_solved();
 }
 
-/// Improves the impulses with the computed W, first by Newton's method on the set of free contacts,
-/// and then, if this method cycles by conjugate gradients. Sets the velocities.
 void ContactProblem::solve_dense() {
-  constexpr int kNewtonSteps = 50;  // a free choice: Newton's method takes few steps, or it cycles
+  constexpr int kNewtonSteps = 50;  // Newton's method takes few steps, or it cycles
   const auto w = dense_w(contacts_, responses_, conditions_.layout);
   int iterations = 0;
   const auto most = [&] { return conditions_.solver.max_iterations - iterations_ - iterations; };
@@ -480,8 +455,6 @@ void ContactProblem::solve_dense() {
   take_velocities();
 }
 
-/// Corrects the impulses of a dense problem that is solved. The caller then adds the contacts that
-/// the corrections close.
 void ContactProblem::correct() {
   StepContacts step;
   step.contacts = contacts_;
@@ -494,7 +467,6 @@ void ContactProblem::correct() {
   velocities_ = std::move(step.velocities);
 }
 
-/// Sets the velocities to those without contact plus the responses to the impulses of all contacts.
 void ContactProblem::take_velocities() {
   std::ranges::copy(conditions_.free_velocities, velocities_.begin());
   for (std::size_t c = 0; c < contacts_.size(); ++c)
@@ -502,13 +474,11 @@ void ContactProblem::take_velocities() {
       velocities_[i] += responses_[c][i] * (contacts_[c].impulse / conditions_.h);
 }
 
-/// Improves the impulses by conjugate gradients, with one call of the mobility for each product
-/// with W. Sets the velocities.
 void ContactProblem::solve_by_products() {
   FluidDualProblem problem(contacts_, conditions_, mobility_);
   iterations_ += 1 + solve_by_gradients(problem, conditions_.solver.max_iterations - iterations_);
   if (!is_rough_) {
-    // A free choice: a correction by a tenth takes less than a solution.
+    // A correction by a tenth takes less than a solution.
     constexpr int kMostProducts = 40;
     const auto correction = correct_by_gradients(problem, kMostProducts);
     iterations_ += correction.products;

@@ -1,10 +1,7 @@
-// Computes a flow up to three times and compares the results: on its mesh, with another penalty,
-// and on another mesh. Velocities [L/T, 1/T] and forces [M L/T^2, M L^2/T^2] have 3 numbers for
-// each particle (x, y, rotation), or 1 on an axis; radii [L] are > 0, relative errors [1] >= 0.
-// Units are any consistent ones. Errors of FluidSolver are thrown; sizes are not checked.
-// fluid_simulation.cpp uses estimate_flow(). A change must keep the order of the calls, because
+// Compares a flow with that with another penalty and that on another mesh, in this order, because
 // vary_penalty() and vary_mesh() replace the problem that the solver had before.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <variant>
 
@@ -13,24 +10,22 @@
 namespace viscontact::particles {
 namespace {
 
-/// The results of one flow. `further` holds the numbers that the argument `further` of
-/// estimate_flow() returned, in any units.
+/// The results of one flow; `further` is the argument of estimate_flow().
 struct Results {
   std::vector<double> velocities;
   FlowQuantities quantities;
   std::vector<double> further;
 };
 
-/// Returns the numbers `of` minus the numbers `from`, of which there are as many.
 std::vector<double> difference(std::span<const double> of, std::span<const double> from) {
+  assert(of.size() == from.size());
   std::vector<double> result(of.begin(), of.end());
   for (std::size_t i = 0; i < result.size(); ++i) result[i] -= from[i];
   return result;
 }
 
-/// Returns for each number in `of` the length of the vector (velocity or force) to which it
-/// belongs, and for an angular velocity or torque its absolute value. `components` is the number of
-/// components of a particle, 3 or 1.
+/// For each number the length of the vector (velocity or force) to which it belongs, and for an
+/// angular velocity or torque its absolute value.
 std::vector<double> lengths(std::span<const double> of, std::size_t components) {
   std::vector<double> result;
   for (const double x : of) result.push_back(std::abs(x));
@@ -39,10 +34,10 @@ std::vector<double> lengths(std::span<const double> of, std::size_t components) 
   return result;
 }
 
-/// Returns the largest of the lengths(), in [L/T] or [M L/T^2]. `power` is 1 if `of` are
-/// velocities, so that angular velocities are multiplied by the radius of the particle. It is -1 if
-/// `of` are forces, so that torques are divided by the radius.
+/// The largest of the lengths(). `power` is 1 for velocities, so that angular velocities are
+/// multiplied by the radius of the particle, and -1 for forces, so that torques are divided by it.
 double largest(std::span<const double> of, const Particles& particles, int power) {
+  assert(of.size() == particles.count() * motion_components(particles.dimension));
   const auto components = motion_components(particles.dimension);
   const auto all = lengths(of, components);
   double result = 0;
@@ -54,10 +49,10 @@ double largest(std::span<const double> of, const Particles& particles, int power
   return result;
 }
 
-/// Returns the magnitudes of `changes` of forces and torques. In the plane the two components of
-/// the force on a particle get one value: the larger one of the change of this force and the change
-/// of the torque divided by the radius. The torque gets this value times the radius. A force whose
-/// change is small by chance then gets no error that is too small.
+/// Magnitudes of `changes` of forces and torques. In the plane the two components of a force get
+/// the larger one of its change and the change of the torque divided by the radius, and the torque
+/// gets this times the radius. A force whose change is small by chance then gets no error that is
+/// too small.
 std::vector<double> of_loads(std::span<const double> changes, const Particles& particles) {
   auto result = lengths(changes, motion_components(particles.dimension));
   if (particles.dimension == 1) return result;
@@ -70,8 +65,8 @@ std::vector<double> of_loads(std::span<const double> changes, const Particles& p
   return result;
 }
 
-/// Returns the largest entry of the gradient of a linear flow (a shear or a strain) times the
-/// largest radius [L/T]; 0 without a linear flow or without particles.
+/// The largest entry of the gradient of a linear flow times the largest radius [L/T]; 0 without
+/// either.
 double speed_of_flow(const Fluid& fluid, const Particles& particles) {
   const auto* flow = std::get_if<LinearFlow>(&fluid.boundary);
   if (flow == nullptr || particles.radii.empty()) return 0;
@@ -80,9 +75,8 @@ double speed_of_flow(const Fluid& fluid, const Particles& particles) {
   return rate * std::ranges::max(particles.radii);
 }
 
-/// Returns the estimates of errors divided by `scale`; all are 0 if `scale` is 0. `by_mesh` is the
-/// largest change of a result by the other mesh, `by_penalty` the largest change by the other
-/// penalty times the factor that vary_penalty() returns, both in the unit of `scale`.
+/// Errors relative to `scale`; 0 if it is 0. `by_mesh` is the largest change of a result by the
+/// other mesh, `by_penalty` that by the other penalty times the factor of vary_penalty().
 RelativeErrors relative(double by_mesh, double by_penalty, const SecondMesh& mesh, double scale) {
   if (!(scale > 0)) return {0, 0, 0};
   return {(mesh.error * by_mesh + by_penalty) / scale,
@@ -91,12 +85,10 @@ RelativeErrors relative(double by_mesh, double by_penalty, const SecondMesh& mes
 
 }  // namespace
 
-/// Returns the flow under the `forces`, extrapolated from two meshes, and estimates of its errors.
-/// solver.place() must have been called with `particles`. `further` may be empty; otherwise it is
-/// called after each flow, and the errors of the numbers that it returns are estimated, too.
 FlowEstimate estimate_flow(FluidSolver& solver, std::span<const double> forces,
                            const Particles& particles, const Fluid& fluid,
                            const std::function<std::vector<double>()>& further) {
+  assert(forces.size() == particles.count() * motion_components(particles.dimension));
   const auto ask = [&] {
     Results results;
     results.velocities = solver.velocities(forces, true);

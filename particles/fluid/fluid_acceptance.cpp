@@ -1,11 +1,4 @@
-// Examines a step in a fluid and changes the state by it: functions of FluidSimulation that its
-// step() calls. Velocities of all particles are in [L/T, 1/T], 3 numbers for each (x, y, rotation),
-// or 1 on an axis; impulses are in [M L/T], of discs per length, the length h of the step is > 0
-// [T]. Units are any consistent ones. A blow is the collision of solids in a step, after which they
-// rebound. A step that is refused is an Error(kNotConverged), which must leave the state as it was.
-// In a fluid with inertia accept() also throws the errors of FluidSolver::keep_flow(), before it
-// changes the state. Sizes of arrays are not checked. A change must also keep that a continued run
-// gives the same bits as one without a break.
+// Examines a step in a fluid and changes the state by it.
 
 #include <algorithm>
 #include <limits>
@@ -19,8 +12,6 @@
 
 namespace viscontact::particles {
 
-/// The residuals of the contacts and their friction [L], for the `velocities` with which the
-/// particles move.
 StepResiduals FluidSimulation::residuals_of(StepContacts& contact,
                                             std::span<const double> velocities,
                                             const ContactConditions& conditions) const {
@@ -33,10 +24,6 @@ StepResiduals FluidSimulation::residuals_of(StepContacts& contact,
   return residuals;
 }
 
-/// Examines a step of length `h` before it changes the state. Throws Error(kNotConverged) if a
-/// particle moves too far for the precision of a double, or if the step has not converged and
-/// leaves an overlap of more than the mean radius. Otherwise sets Motion::impulse_errors and, in
-/// the report, the residuals and whether the step has converged.
 void FluidSimulation::examine(Motion& motion, double h, StepReport& report) const {
   const double largest = largest_resolved_distance(setting_.solver.tolerance, mean_radius_);
   const double longest = h * fastest(motion.moved, layout_);
@@ -74,10 +61,9 @@ void FluidSimulation::examine(Motion& motion, double h, StepReport& report) cons
   motion.impulse_errors = std::move(residuals.impulse_errors);
 }
 
-/// Stores the friction of each contact and the load of its solids [M L/T] in the memories of the
-/// pairs. Both are `share` [1] times the impulses of `step`. The friction of a contact that slides
-/// is set to its bound, from which the solution differs by its residual.
 void FluidSimulation::remember_friction(const StepContacts& step, double share) {
+  // The friction of a contact that slides is set to its bound, from which the solution differs by
+  // its residual.
   const auto pairs = state_.pairs.size();
   for (auto* list : {&state_.pairs, &state_.walls})
     for (auto& pair : *list) {
@@ -102,9 +88,6 @@ void FluidSimulation::remember_friction(const StepContacts& step, double share) 
   }
 }
 
-/// Changes the state by the step `motion` of length `h`, which ends at the time `next` [T]. Adds
-/// the numbers of contacts, and of those with gamma < 0, to the report. gamma is minus the impulse
-/// that the film of a contact has absorbed.
 void FluidSimulation::accept(Motion motion, double h, double next, StepReport& report) {
   // The flow of the first step is not kept, because the next step computes it again.
   const bool keeps_flow = setting_.fluid->has_inertia() && state_.earlier_step > 0;
@@ -168,8 +151,6 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
   reported_ = std::move(motion.reported);
 }
 
-/// Moves the rigid bodies by a step of length `h` that ends at the time `next` [T], but not the
-/// particles of the bodies.
 void FluidSimulation::move_bodies(const Motion& motion, double h, double next) {
   auto& p = state_.particles;
   if (p.bodies.empty()) return;
@@ -186,8 +167,6 @@ void FluidSimulation::move_bodies(const Motion& motion, double h, double next) {
   }
 }
 
-/// The particles of the state. If the last step estimated errors, their velocities are those that
-/// are extrapolated from two meshes.
 Particles FluidSimulation::reported_particles() const {
   auto p = state_.particles;
   if (reported_.empty()) return p;

@@ -1,13 +1,7 @@
-// Solves the blow of a step in a fluid, docs/physics.md (6.11): all contacts that are hit in the
-// step, in two phases. In the compression the solids come to rest, in the restitution they give
-// back the share e_d of the impulse that they took up. gamma <= 0 is minus the impulse that the
-// film of a contact has absorbed; the load of a contact is the impulse that it bears if particles
-// are at rest under the forces of the step. Gaps are in [L], rates at which they grow in [L/T],
-// impulses in [M L/T], velocities of all particles in [L/T, 1/T] with 3 numbers for each, or 1 on
-// an axis. Errors of the mobility and of BlowStep::loaded are thrown. If iterations do not
-// converge, the last impulses count and FluidBlow::is_solved is false. fluid_simulation.cpp uses
-// this file. A change must keep that the work of a blow is not positive.
+// The blow of a step in a fluid, docs/physics.md (6.11): in the compression the solids come to
+// rest, in the restitution they give back the share e_d of the impulse that they took up.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -18,8 +12,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// The rate [L/T] at which a gap grows while the particles rest, in a step of length h [T]: by the
-/// motion of an obstacle, or of a periodic image relative to its particle in a sheared cell.
+/// The rate [L/T] at which a gap grows while the particles rest.
 double drift_of(const Contact<2>& contact, const BlowStep& step, double h) {
   const auto& p = step.state.particles;
   if (contact.is_stop()) return 0;
@@ -34,11 +27,10 @@ double drift_of(const Contact<2>& contact, const BlowStep& step, double h) {
   return (gap_at(step.end) - gap_at(step.state.time)) / h;
 }
 
-/// One blow. solve() may be called once. It calls the other functions in an order that must not be
-/// changed, because each one uses members of `parts_` that those before it have set.
+/// One blow, whose work is not positive. solve() may be called once. It calls the other functions
+/// in an order in which each one uses members of `parts_` that those before it have set.
 class Blow {
  public:
-  /// All arguments must outlive the object.
   Blow(const StepContacts& contacts, const BlowStep& step, const Mobility& mobility,
        const ContactConditions& conditions)
       : ordinary_(contacts),
@@ -51,7 +43,6 @@ class Blow {
   std::optional<FluidBlow> solve();
 
  private:
-  // What is known of a contact in the blow.
   struct Part {
     double drift = 0;        // drift_of() [L/T]
     double start = 0;        // gap at the beginning of the step, >= 0 [L]
@@ -67,22 +58,37 @@ class Blow {
     double restored = 0;    // least impulse of the whole blow: compressed + left + e_d solid
   };
 
+  /// Sets the members of each part from `drift` to `late`. Returns true if a contact is hit.
   bool find_hits();
+  /// The contact problem of a blow. Its impulses act on the velocities as forces would do in the
+  /// time BlowStep::kick [T]. The gaps of hit contacts are 0; those of all others are multiplied by
+  /// kick/h, so that they close at the same velocity as in the step.
   StepContacts problem() const;
+  /// Sets Part::load of the contacts that are closed or hit: the impulses that would keep these
+  /// gaps from closing if the forces of the step acted on particles at rest. Returns true if
+  /// solved.
   bool take_load();
+  /// Divides the impulses at the end of the compression between films and solids. Returns true if
+  /// the solids of a contact give back more than its load; otherwise the particles would be apart
+  /// for less than two steps, and there is no blow.
   bool share_impulses(const std::vector<Contact<2>>& compressed);
+  /// Keeps a blow from adding energy, which it can do if several contacts have films: moves the
+  /// impulses `restored` towards those of the compression until their work is not positive.
   void restrain(const StepContacts& compressed, StepContacts& restored) const;
+  /// Sets FluidBlow::moved. A hit contact exerts no force until its hit, and then the force of the
+  /// blow. A contact that is not hit exerts its load until the first hit, and then that force.
   void move(FluidBlow& blow);
+  /// Sets FluidBlow::absorbed and FluidBlow::rebounds.
   void book(FluidBlow& blow) const;
 
-  // The pair of contact `c`. The stop of a hinge has no film and is in no list: its pair is empty.
+  // The stop of a hinge has no film and is in no list: its pair is empty.
   const Pair& pair(std::size_t c) const {
     static const Pair kOfStop{};
     const auto n = ordinary_.pairs.size();
     if (ordinary_.contacts[c].is_stop()) return kOfStop;
     return c < n ? ordinary_.pairs[c] : ordinary_.walls[c - n];
   }
-  // gamma_min of contact `c`, the gamma at which the solids touch [M L/T].
+  // gamma_min of contact `c` [M L/T].
   double lowest_gamma(std::size_t c) const {
     if (ordinary_.contacts[c].is_stop()) return 0;
     const auto& of = pair(c);
@@ -90,12 +96,10 @@ class Blow {
         of, step_.state.memories.of(of.memory),
         radii_in_fluid(*step_.setting.fluid, of, step_.state.particles, step_.obstacles));
   }
-  /// Rate of the gap of contact `c` for velocities of all particles [L/T].
   double rate(std::size_t c, std::span<const double> velocities) const {
     return opening(ordinary_.contacts[c], velocities.data(), conditions_.layout) + parts_[c].drift;
   }
-  // The conditions (fluid_contacts.hpp) of a problem in which the impulse of a contact is its force
-  // times `length` [T].
+  // For a problem in which the impulse of a contact is its force times `length` [T].
   ContactConditions conditions_over(double length) const {
     auto conditions = conditions_;
     conditions.h = length;
@@ -112,14 +116,12 @@ class Blow {
   int iterations_ = 0;  // of all problems
 };
 
-/// Sets the members of each part from `drift` to `late`. Returns true if a contact is hit, that is,
-/// if its gap closes in the step because its surfaces approach each other.
 bool Blow::find_hits() {
   const auto free = conditions_.free_velocities;
   const double h = conditions_.h;
   const double touching = conditions_.solver.tolerance * conditions_.mean_radius;
   // An approach counts only if it changes the gap in the step by more than a thousandth of the
-  // tolerance `touching`, a free choice, and if its velocity exceeds rounding errors.
+  // tolerance `touching`, and if its velocity exceeds rounding errors.
   constexpr double kUnseen = 1e-3, kRounding = 1e-12;
   const double unseen = std::max(kUnseen * touching / h,
                                  kRounding * std::max(fastest(free, conditions_.layout),
@@ -160,7 +162,7 @@ bool Blow::find_hits() {
     const auto& of = pair(c);
     // A contact that bore a load is hit only if its surfaces approached each other faster than
     // kUnderLoad times the rate that the forces of a step cause. Otherwise small rebounds would
-    // keep a packing moving. The number is a free choice, which impacts/impacts.cpp also uses.
+    // keep a packing moving. impacts/impacts.cpp uses the same number.
     constexpr double kUnderLoad = 5;
     const bool bore_load = of.impulse != 0 || of.gamma < 0;
     if (part.is_closed && bore_load && !(rate(c, step_.before) < kUnderLoad * part.pull)) continue;
@@ -170,11 +172,6 @@ bool Blow::find_hits() {
   return any;
 }
 
-/// The contact problem of a blow. The impulse of a contact acts on the velocities as a force would
-/// do in the time BlowStep::kick [T], for which the forces of the step act on the velocities. This
-/// time takes the place of the length h of the step. The gaps of hit contacts are 0 when the blow
-/// begins. The gaps of all others are multiplied by kick/h, so that they close at the same velocity
-/// as in the step.
 StepContacts Blow::problem() const {
   const double kick = step_.kick;
   StepContacts problem;
@@ -188,9 +185,6 @@ StepContacts Blow::problem() const {
   return problem;
 }
 
-/// Sets Part::load of the contacts that are closed or hit: the impulses that would keep these gaps
-/// from closing if the particles were at rest and the forces of the step acted on them. Returns
-/// true if the residuals of these impulses are allowed.
 bool Blow::take_load() {
   auto load = problem();
   std::vector<Contact<2>> contacts;
@@ -215,9 +209,6 @@ bool Blow::take_load() {
   return load.is_solved;
 }
 
-/// Divides the impulses of the contacts at the end of the compression, `compressed`, between films
-/// and solids. Returns true if the solids of a contact give back more than its load. Otherwise
-/// there is no blow, because the particles would be apart for less than two steps.
 bool Blow::share_impulses(const std::vector<Contact<2>>& compressed) {
   bool any = false;
   for (std::size_t c = 0; c < parts_.size(); ++c) {
@@ -227,8 +218,7 @@ bool Blow::share_impulses(const std::vector<Contact<2>>& compressed) {
     const double by_load = std::clamp(gamma - part.load, lowest, 0.0);
     part.solid = RestitutionLaw::solid_impulse(part.compressed - part.load, by_load - lowest);
     part.left = std::clamp(gamma - part.compressed, lowest, 0.0);
-    // Solids of a contact that is neither hit nor closed do not rebound in this step: the contact
-    // may close after the blow only.
+    // A contact that is neither hit nor closed may close after the blow only.
     const bool gives_back = !compressed[c].is_stop() &&
                             laws_.restitution.coefficient * part.solid > std::max(part.load, 0.0);
     if (gives_back && (part.is_hit || part.is_closed))
@@ -239,11 +229,9 @@ bool Blow::share_impulses(const std::vector<Contact<2>>& compressed) {
   return any;
 }
 
-/// Keeps a blow from adding energy. The work of the impulses is a sum over the contacts: the
-/// impulse times the mean of the rates of the gap before and after the blow. The work can be
-/// positive if several contacts have films. The impulses `restored` are then moved towards those of
-/// the compression, whose work is negative, until the work is not positive.
 void Blow::restrain(const StepContacts& compressed, StepContacts& restored) const {
+  // The sum over the contacts of the impulse times the mean of the rates of the gap before and
+  // after the blow.
   const auto work = [&](double share) {
     double sum = 0;
     for (std::size_t c = 0; c < parts_.size(); ++c) {
@@ -275,9 +263,6 @@ void Blow::restrain(const StepContacts& compressed, StepContacts& restored) cons
   }
 }
 
-/// Sets FluidBlow::moved, the displacements of the step divided by its length. A hit contact exerts
-/// no force until the time of its hit, and the force of the blow in the rest of the step. A contact
-/// that is not hit exerts its load until the time of the first hit, and then the force of the blow.
 void Blow::move(FluidBlow& blow) {
   const auto& layout = conditions_.layout;
   double first = 1;
@@ -296,8 +281,7 @@ void Blow::move(FluidBlow& blow) {
   for (std::size_t i = 0; i < blow.moved.size(); ++i)
     blow.moved[i] += conditions_.free_velocities[i];
   // Because hits have different times, some particles may now overlap, or a gap may be open
-  // although its film still pulls. Contact forces then change the displacements until no particles
-  // overlap and no such gap is open.
+  // although its film still pulls. Contact forces then change the displacements.
   StepContacts gaps;
   gaps.contacts = ordinary_.contacts;
   const double allowed = conditions_.solver.tolerance * conditions_.mean_radius / 2;
@@ -318,11 +302,8 @@ void Blow::move(FluidBlow& blow) {
   blow.moved = std::move(gaps.velocities);
 }
 
-/// Sets FluidBlow::absorbed, the impulses from which the films get their new gamma, and
-/// FluidBlow::rebounds, the records of the contacts whose solids rebound.
 void Blow::book(FluidBlow& blow) const {
-  // If the rate of a gap after the blow is below this share of its rate before, it counts as 0,
-  // because it is a rounding error of the fluid solver.
+  // The rate of a gap below this share of its rate before is a rounding error.
   constexpr double kAtRest = 1e-9;
   for (std::size_t c = 0; c < parts_.size(); ++c) {
     const auto& part = parts_[c];
@@ -340,8 +321,6 @@ void Blow::book(FluidBlow& blow) const {
   }
 }
 
-/// Computes the compression, the loads, the restitution and the displacements. Returns nothing if
-/// no contact is hit, or if no solids give back more than their load.
 std::optional<FluidBlow> Blow::solve() {
   if (!find_hits()) return std::nullopt;
   const auto conditions = conditions_over(step_.kick);
@@ -379,10 +358,10 @@ std::optional<FluidBlow> Blow::solve() {
 
 }  // namespace
 
-/// Finds the blow of a step, or nothing if there is none. `contacts` are the contacts of the step,
-/// solved without restitution.
 std::optional<FluidBlow> solve_blow(const StepContacts& contacts, const BlowStep& step,
                                     const Mobility& mobility, const ContactConditions& conditions) {
+  assert(step.kick > 0 && step.end > step.state.time);
+  assert(step.before.size() == conditions.free_velocities.size());
   return Blow(contacts, step, mobility, conditions).solve();
 }
 

@@ -1,14 +1,7 @@
-// Lists pairs that are close to contact, chooses the contacts of a step among them and measures
-// their residuals. Gaps and radii are in [L], impulses and gamma in [M L/T], velocities of all
-// particles in [L/T, 1/T], 3 numbers for each, or 1 on an axis; units are any consistent ones, of
-// discs per length. The gap of a contact is the distance less the threshold gap. gamma <= 0 is
-// minus the impulse that the film of a pair has absorbed. A plate is a particle with round ends:
-// all points at one distance from a line, its spine. The other sources of this folder use this
-// file. Errors of the mobility are thrown, and Error(kNotConverged) for plates that overlap. Sizes
-// are not checked, and missed tolerances make StepContacts::is_solved false. A change must keep the
-// order of pairs, which files of contacts and restart files have.
+// Lists pairs that are close to contact, makes the contacts of a step and measures their residuals.
 #include "viscontact/particles/fluid/fluid_contacts.hpp"
 
+#include <cassert>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -25,13 +18,14 @@
 namespace viscontact::particles {
 namespace {
 
-/// The key by which pairs are sorted. Obstacles are in the order -1, -2, ...
+/// Pairs are sorted by this key, with the obstacles in the order -1, -2, ... Files of contacts and
+/// restart files have this order.
 auto place_of_pair(const Pair& pair) {
   return std::tuple(std::max(pair.first, -1 - pair.first), pair.second, pair.image, pair.place);
 }
 
-/// Sorts `pairs`. A pair that is also in `before`, the list of the step before, gets its memory
-/// from this list. The pairs of `before` with gamma < 0 are added.
+/// Sorts `pairs`. Those that are also in `before`, the list of the step before, get their memory
+/// from it; the pairs of `before` with gamma < 0 are added.
 void keep_memory(std::vector<Pair>& pairs, std::vector<Pair> before) {
   std::ranges::sort(pairs, {}, place_of_pair);
   std::ranges::sort(before, {}, place_of_pair);
@@ -46,8 +40,7 @@ void keep_memory(std::vector<Pair>& pairs, std::vector<Pair> before) {
   pairs = std::move(merged);
 }
 
-/// The one or two contacts of a pair of plates. The result is empty if `pair` is not a pair of two
-/// plates.
+/// Nothing if the pair is none of two plates.
 std::optional<SpineContacts> contacts_of_two_plates(const Fluid& fluid, const Particles& p,
                                                     const Pair& pair) {
   if (pair.first < 0) return {};
@@ -57,9 +50,8 @@ std::optional<SpineContacts> contacts_of_two_plates(const Fluid& fluid, const Pa
                        outline_of(fluid, p, p.angles, j, shift_of(p.cell, pair.image)));
 }
 
-/// Returns the pairs `before` of the step before. Pair::place of two plates becomes the place of
-/// their present contact. If two contacts became one, this one gets the memory of the contact with
-/// the smaller gamma.
+/// The pairs `before` of the step before, with the places of the present contacts of plates. If two
+/// contacts became one, this one gets the memory of the contact with the smaller gamma.
 std::vector<Pair> at_present_places(const std::vector<Pair>& before, const State& state,
                                     const Fluid& fluid) {
   if (fluid.plates.empty()) return before;
@@ -77,9 +69,8 @@ std::vector<Pair> at_present_places(const std::vector<Pair>& before, const State
   return pairs;
 }
 
-/// Lists all pairs with a distance of their surfaces below `reach` [L] and those with gamma < 0,
-/// with their memory. The side of a cylinder, whose normal has no component along the axis of the
-/// particles, is left out.
+/// Lists all pairs with a distance of their surfaces below `reach` [L] and those with gamma < 0. On
+/// an axis the side of a cylinder is left out.
 void list_pairs(StepContacts& step, const State& state, const Fluid& fluid,
                 std::span<const PlanePosition> obstacles, double reach, ThreadPool& pool) {
   // Particles are found by circles around them that overlap, whose radii must be below half a
@@ -122,27 +113,23 @@ void list_pairs(StepContacts& step, const State& state, const Fluid& fluid,
   keep_memory(step.walls, state.walls);
 }
 
-/// True if a particle of the pair is a plate.
 bool has_plate(const Fluid& fluid, std::int32_t first, std::int32_t second) {
   return fluid.is_plate(index_of(second)) || (first >= 0 && fluid.is_plate(index_of(first)));
 }
 
-/// The moment of a force about the begin of the arm: the cross product of both vectors.
 double cross(const std::array<double, 2>& arm, const std::array<double, 2>& force) {
   return arm[0] * force[1] - arm[1] * force[0];
 }
 
-/// The component of `arm` [L] along the unit vector `normal`.
 double along(const std::array<double, 2>& arm, const std::array<double, 2>& normal) {
   return arm[0] * normal[0] + arm[1] * normal[1];
 }
 
-/// Returns the contact of a plate and a plate, a disc or an obstacle. It is the contact of two
-/// discs, whose centres are the nearest points of both spines; the spine of a disc is its centre.
-/// At an obstacle each end of the plate has a contact of its own, and two plates may have two
-/// contacts. Pair::place says which contact it is: the end, 0 or 1, or a place of SpineContacts, 0
-/// to 3. `start` are the particles at the beginning of the step, which decide what place belongs to
-/// what contact; `p` are the particles whose gap is computed. Sets `place`, where friction acts.
+/// The contact of a plate and a plate, a disc or an obstacle: that of two discs, whose centres are
+/// the nearest points of both spines; the spine of a disc is its centre. At an obstacle each end of
+/// the plate has a contact of its own, and two plates may have two contacts. Pair::place is the
+/// end, 0 or 1, or a place of SpineContacts, 0 to 3. The particles `start` decide what place
+/// belongs to what contact; the gap is that of `p`. Sets `place`, where friction acts.
 Contact<2> contact_of_plates(const Fluid& fluid, const Particles& start, const Particles& p,
                              const Pair& pair, std::span<const PlanePosition> obstacles,
                              FrictionPlace& place) {
@@ -189,9 +176,8 @@ Contact<2> contact_of_plates(const Fluid& fluid, const Particles& start, const P
   return contact;
 }
 
-/// Returns the contact of any pair, with the distance of the surfaces as its gap. On an axis the
-/// normal has one component. The tangent takes the place of a round wall. It touches the wall where
-/// the particle comes with its velocity without contact. Sets `place`, except on an axis.
+/// The contact of any pair, with the distance of the surfaces as its gap. A tangent takes the place
+/// of a round wall, where the particle comes with its velocity without contact. Sets `place`.
 Contact<2> contact_in_fluid(const Fluid& fluid, const Particles& p, const Pair& pair,
                             std::span<const PlanePosition> obstacles,
                             const ContactConditions& conditions, FrictionPlace& place) {
@@ -227,8 +213,6 @@ Contact<2> contact_in_fluid(const Fluid& fluid, const Particles& p, const Pair& 
   return contact;
 }
 
-/// Appends the contacts of the listed pairs to the step, and their friction unless `friction` is
-/// null. The gap of such a contact is the distance of the surfaces minus the threshold gap.
 void make_contacts(StepContacts& step, const Particles& p, const Fluid& fluid,
                    std::span<const PlanePosition> obstacles, const ContactConditions& conditions,
                    const FrictionOfStep* friction) {
@@ -258,7 +242,6 @@ void make_contacts(StepContacts& step, const Particles& p, const Fluid& fluid,
     }
 }
 
-/// The particles after they moved and turned with the `velocities` for a time `h` [T].
 Particles moved(const Particles& p, std::span<const double> velocities, double h,
                 const MotionLayout& layout) {
   auto result = p;
@@ -270,10 +253,10 @@ Particles moved(const Particles& p, std::span<const double> velocities, double h
   return result;
 }
 
-/// Corrects the gaps of contacts of plates, which turn by finite angles in the step. To each gap
-/// the difference between the true gap after the step and the linearised one is added. Returns
-/// false, and changes nothing, if this difference is at most a quarter of the tolerance for each
-/// contact that may act. (The quarter is a free choice.)
+/// Corrects the gaps of contacts of plates, which turn by finite angles in the step, by the
+/// difference between the true gap after the step and the linearised one. Returns false, and
+/// changes nothing, if this difference is at most a quarter of the tolerance for each contact that
+/// may act.
 bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
                    std::span<const PlanePosition> obstacles, const ContactConditions& conditions) {
   const double h = conditions.h;
@@ -304,7 +287,7 @@ bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
 }
 
 /// Throws Error(kNotConverged) if two plates are closer after the step than the tolerance allows,
-/// because they turned so far that they touch at a place that was no contact at its beginning.
+/// at a place that was no contact at its beginning.
 void check_plates_apart(const StepContacts& step, const Particles& p, const Fluid& fluid,
                         const ContactConditions& conditions) {
   if (fluid.plates.empty()) return;
@@ -330,8 +313,6 @@ void check_plates_apart(const StepContacts& step, const Particles& p, const Flui
 
 }  // namespace
 
-/// The radii [L] of both surfaces at the contact of a pair. The radius of a plate is that of its
-/// round ends.
 PairRadii radii_in_fluid(const Fluid& fluid, const Pair& pair, const Particles& particles,
                          std::span<const Plane> obstacles) {
   auto radii = radii_of(pair, particles, obstacles);
@@ -340,8 +321,6 @@ PairRadii radii_in_fluid(const Fluid& fluid, const Pair& pair, const Particles& 
   return radii;
 }
 
-/// The stops of hinges (bounds of their angles) as contacts. The gap [L] of a stop is the angle
-/// that is left, times the radius of the particle that the hinge holds.
 std::vector<Contact<2>> contacts_of_stops(const Links& links, const Particles& particles) {
   std::vector<Contact<2>> contacts;
   for (const auto& stop : stop_equations(links, particles)) {
@@ -355,12 +334,11 @@ std::vector<Contact<2>> contacts_of_stops(const Links& links, const Particles& p
   return contacts;
 }
 
-/// Adds the torques [M L^2/T^2] of the stops of hinges to `link_forces` (State::link_forces). The
-/// last of the `contacts` must be the stops, with the impulses of a step of length `h` > 0 [T].
 void add_torques_of_stops(const Links& links, const Particles& particles,
                           std::span<const Contact<2>> contacts, double h,
                           std::span<double> link_forces) {
   const auto stops = stop_equations(links, particles);
+  assert(h > 0 && contacts.size() >= stops.size());
   const auto of_stops = contacts.last(stops.size());
   for (std::size_t s = 0; s < stops.size(); ++s)
     link_forces[stops[s].first_force] += of_stops[s].levers[1] * of_stops[s].impulse / h;
@@ -368,8 +346,7 @@ void add_torques_of_stops(const Links& links, const Particles& particles,
 
 namespace {
 
-/// True if a force of the contact changes the gap of the contact. A hinge that holds the point of
-/// contact prevents such a change.
+/// False if a hinge holds the point of contact, so that its force cannot change the gap.
 bool moves(const Contact<2>& contact, const Mobility& mobility,
            const ContactConditions& conditions) {
   if (!(conditions.least_w > 0)) return true;
@@ -378,15 +355,14 @@ bool moves(const Contact<2>& contact, const Mobility& mobility,
   return opening(contact, mobility(forces).data(), conditions.layout) > conditions.least_w;
 }
 
-/// A mobility that remembers the velocities for the forces of single contacts, because problems
-/// with friction ask for them repeatedly.
+/// Remembers the velocities for the forces of single contacts, for which problems with friction ask
+/// repeatedly.
 Mobility remembered(const Mobility& mobility) {
   return
       [&mobility, answers = std::make_shared<std::map<std::vector<double>, std::vector<double>>>()](
           std::span<const double> forces) {
         // The force of one contact has at most six components that are not 0: two forces and a
-        // torque on each particle. Velocities for sums of more forces are not remembered, because
-        // nothing asks for them twice.
+        // torque on each particle. Nothing asks twice for sums of more forces.
         constexpr std::ptrdiff_t kMost = 6;
         if (std::ranges::count_if(forces, [](double f) { return f != 0; }) > kMost)
           return mobility(forces);
@@ -398,9 +374,6 @@ Mobility remembered(const Mobility& mobility) {
 
 }  // namespace
 
-/// Finds the impulses of step.contacts. A contact takes part if its gap would close, or if it had
-/// an impulse or a lower bound other than 0. Sets the impulses, w, loads, velocities and is_solved
-/// of the step.
 void solve_listed(StepContacts& step, const Mobility& mobility,
                   const ContactConditions& conditions) {
   ContactProblem problem(conditions, mobility);
@@ -441,8 +414,6 @@ void solve_listed(StepContacts& step, const Mobility& mobility,
   step.iterations += problem.iterations();
 }
 
-/// The largest distance [L] of two surfaces that can come to contact if all particles move with
-/// `velocities` in a step of length conditions.h.
 double reach_of(const State& state, const Fluid& fluid, std::span<const double> velocities,
                 const ContactConditions& conditions) {
   const auto& cell = state.particles.cell;
@@ -456,19 +427,17 @@ double reach_of(const State& state, const Fluid& fluid, std::span<const double> 
          conditions.h * (2 * (fastest(velocities, conditions.layout) + of_turns) + of_images);
 }
 
-/// Lists the pairs that may come to contact, except those for which `is_left_out` is true, and
-/// solves their contacts. `state` is the state before the step, `obstacles` are at their places
-/// after it. If `friction` is null, contacts have no friction.
 StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links& links,
                             std::span<const PlanePosition> obstacles,
                             const std::function<bool(const Pair&)>& is_left_out,
                             const Mobility& mobility, const ContactConditions& conditions,
                             ThreadPool& pool, const FrictionOfStep* friction) {
+  assert(friction == nullptr || friction->setting.laws.friction);
   const auto& p = state.particles;
   const auto& free = conditions.free_velocities;
   const auto stops = contacts_of_stops(links, p);
-  // The first reach is a guess and a free choice, because it is enlarged if it was too small.
-  // Contacts seldom push particles to more than twice the largest speed without contact.
+  // The first reach is a guess, which is enlarged if it was too small. Contacts seldom push
+  // particles to more than twice the largest speed without contact.
   double reach =
       std::max(conditions.least_reach, reach_of(state, fluid, free, conditions) +
                                            2 * conditions.h * fastest(free, conditions.layout) +
@@ -493,7 +462,7 @@ StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links&
     step.contacts.insert(step.contacts.end(), stops.begin(), stops.end());
     solve(step);
     // Each correction multiplies the error by about the angle [rad] by which plates turn in the
-    // step, so that few corrections are needed. The limit is a free choice.
+    // step, so that few corrections are needed.
     constexpr int kMostCorrections = 20;
     for (int n = 0; n < kMostCorrections && !fluid.plates.empty(); ++n) {
       if (!correct_turns(step, p, fluid, obstacles, conditions)) break;
@@ -511,10 +480,6 @@ StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links&
   }
 }
 
-/// Sets the allowed residual [L] of each contact, and returns the impulse at work in it [M L/T].
-/// The impulse at work on a particle is the largest of the impulses of its contacts and of those
-/// with which a single contact would keep its gap from changing. The impulse at work in a contact
-/// is the smaller one of the impulses at work on its two particles.
 std::vector<double> set_allowed(std::span<Contact<2>> contacts,
                                 const ContactConditions& conditions) {
   const auto& free = conditions.free_velocities;
@@ -549,10 +514,9 @@ std::vector<double> set_allowed(std::span<Contact<2>> contacts,
   return at_work;
 }
 
-/// The residuals of the contacts [L] for their impulses and the `velocities` of the particles with
-/// these impulses. Also sets the allowed residuals.
 StepResiduals measure_residuals(std::span<Contact<2>> contacts, std::span<const double> velocities,
                                 const ContactConditions& conditions) {
+  assert(velocities.size() == conditions.free_velocities.size());
   const auto at_work = set_allowed(contacts, conditions);
   StepResiduals residuals;
   residuals.impulse_errors.resize(contacts.size());

@@ -1,15 +1,8 @@
-// Solves Coulomb's law of contacts in a fluid, docs/physics.md (6.14): the friction is at most
-// mu_s >= 0, its coefficient, times the load of the solids, and equal to this bound if they slide.
-// There are rounds of two parts. First solve_listed() finds the normal impulses that keep the gaps
-// open with the friction found so far, and adds contacts whose gaps would close. Then, if the law
-// does not hold yet, solve_constraints() finds the normal and tangential impulses of all these
-// contacts together. Impulses are in [M L/T], gaps and slips in [L], velocities of all particles in
-// [L/T, 1/T], 3 numbers for each. Only the errors of the mobility are thrown; if the law is not
-// reached, StepContacts::is_solved is false. fluid_contacts.cpp, fluid_acceptance.cpp and
-// fluid_simulation.cpp use this file. A change must keep that each solution ends with the first
-// part, so that gaps are exact for the friction found.
+// Coulomb's law of contacts in a fluid, docs/physics.md (6.14). In rounds, the gaps are made exact
+// for the friction found so far, and then all impulses are improved together.
 #include <Eigen/Core>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -27,13 +20,11 @@ namespace {
 
 using Eigen::Index;
 
-/// The problem of all contacts together is solved to this share of the allowed residuals. The rest
-/// is left for errors of its velocities, which are sums of rounded velocities of the fluid solver.
-/// Any share well below 1 works.
+/// The problem of all contacts together is solved to this share of the allowed residuals; the rest
+/// is left for errors of its velocities. Any share well below 1 works.
 constexpr double kShareOfAllowed = 0.1;
 
-/// The sides of a box that are walls, as indices of SideVelocities (0 left, 1 right, 2 bottom, 3
-/// top), in the order in which the walls are obstacles.
+/// The sides of a box that are walls, as indices of SideVelocities, in the order of the obstacles.
 std::vector<std::size_t> walls_of(const BoxDomain& box) {
   std::vector<std::size_t> sides;
   for (std::size_t d = 0; d < 2; ++d)
@@ -41,9 +32,9 @@ std::vector<std::size_t> walls_of(const BoxDomain& box) {
   return sides;
 }
 
-/// Mean velocity [L/T] of the wall with the number `wall` among the obstacles, at `point` [L], from
-/// the time `begin` to `end` [T]. The caller uses the component along the wall only. This component
-/// is 0 on an open side, and on a side with a parabolic velocity, which is normal to the side.
+/// Mean velocity [L/T] of wall number `wall` of the obstacles at `point` [L], from `begin` to `end`
+/// [T]. Only its component along the wall is used; this is 0 on an open side, and on a side with a
+/// parabolic velocity, which is normal to the side.
 std::array<double, 2> velocity_of_wall(const Setting& setting, std::size_t wall,
                                        const Vector& point, double begin, double end) {
   const auto& boundary = setting.fluid->boundary;
@@ -58,15 +49,13 @@ std::array<double, 2> velocity_of_wall(const Setting& setting, std::size_t wall,
 }
 
 /// The residual of Coulomb's law as a length [L]: w times the difference between the friction p_t
-/// and the projection of p_t - slip/w on [-bound, bound]; w [T/M] is the change of the slip per
-/// impulse of friction.
+/// and the projection of p_t - slip/w on [-bound, bound].
 double residual_of_friction(double p_t, double bound, double slip, double w) {
   if (bound == 0 && p_t == 0) return 0;
   return w * std::abs(p_t - std::clamp(p_t - slip / w, -bound, bound));
 }
 
-/// The residual [L] that is allowed for the friction of a contact, > 0. Contact::allowed must be
-/// set.
+/// The residual [L] that is allowed for the friction of a contact; Contact::allowed must be set.
 double allowed_for(const ContactFrictionInFluid& friction, const Contact<2>& contact,
                    const ContactConditions& conditions) {
   const double largest = conditions.solver.tolerance * conditions.mean_radius / 2;
@@ -74,26 +63,27 @@ double allowed_for(const ContactFrictionInFluid& friction, const Contact<2>& con
   return std::min(largest, contact.allowed * std::max(1.0, friction.w / contact.w));
 }
 
-/// The rows of all contacts of the step: for each contact a gap and, with friction, a slip. With
-/// the impulses p of the rows, gaps and slips after the step are q + W p (W: see matrix_of()).
+/// A gap and, with friction, a slip for each contact. With the impulses p, gaps and slips after the
+/// step are q + W p.
 struct CoupledRows {
   std::vector<double> q;                            ///< gaps and slips without contact [L]
   std::vector<double> p;                            ///< normal and tangential impulses [M L/T]
   std::vector<const std::vector<double>*> answers;  ///< velocities by a unit force of each row
-  std::vector<ConstraintBlock> blocks;              ///< one for each contact
+  std::vector<ConstraintBlock> blocks;
 };
 
 /// The eigenvectors of a symmetric matrix W with a positive diagonal that is known up to a relative
 /// error, after its rows and columns were scaled to the diagonal 1. Eigenvectors whose eigenvalue
-/// is 0 within the error are called unmoved: no impulse changes the sum of the rows, each divided
-/// by (W_rr)^(1/2), with the entries of such a vector as weights.
+/// is 0 within the error are unmoved: no impulse changes the sum of the rows, each divided by
+/// (W_rr)^(1/2), with the entries of such a vector as weights.
 struct MovedDirections {
   Eigen::MatrixXd root;     ///< a matrix L with W = L L^T within the error
-  Eigen::MatrixXd unmoved;  ///< the unmoved eigenvectors, as columns
-  Eigen::VectorXd scales;   ///< square roots of the diagonal entries W_rr
+  Eigen::MatrixXd unmoved;  ///< as columns
+  Eigen::VectorXd scales;   ///< (W_rr)^(1/2)
 
-  /// `w` is W [T/M], and `error` > 0 [1] its relative error.
+  /// `w` is W [T/M], and `error` [1] its relative error.
   MovedDirections(const Eigen::MatrixXd& w, double error) : scales(w.diagonal().cwiseSqrt()) {
+    assert(w.rows() == w.cols() && error > 0);
     const Eigen::MatrixXd scaled = w.cwiseQuotient(scales * scales.transpose());
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(scaled);
     const double least = error * modes.eigenvalues().maxCoeff();
@@ -104,9 +94,8 @@ struct MovedDirections {
     root = scales.asDiagonal() * modes.eigenvectors() * roots.asDiagonal();
   }
 
-  /// Removes from the offsets, the gaps and slips without contact [L], the sums with the weights of
-  /// unmoved eigenvectors, if the error `rounding` [L] of each offset explains them. Otherwise the
-  /// impulses would grow without end, because they cannot change these sums.
+  /// Removes from the offsets [L] the sums that no impulse can change, if the error `rounding` [L]
+  /// of each offset explains them. Otherwise the impulses would grow without end.
   Eigen::VectorXd consistent(const Eigen::VectorXd& offsets, double rounding) const {
     Eigen::VectorXd scaled = offsets.cwiseQuotient(scales);
     for (Index m = 0; m < unmoved.cols(); ++m) {
@@ -119,12 +108,11 @@ struct MovedDirections {
   }
 };
 
-/// Adds the rows to a problem of solve_constraints() whose matrix is W = root root^T. `offsets` are
-/// gaps and slips without contact [L], `guesses` are impulses [M L/T], one number of each for a
-/// row. Each column of `root` is an imagined degree of freedom, which a unit impulse moves by a
-/// unit length. Three columns each take the place of the degrees of freedom of one RigidUnit.
+/// Adds the rows to a problem whose matrix is W = root root^T. Each column of `root` is an imagined
+/// degree of freedom, which a unit impulse moves by a unit length; three of them make a RigidUnit.
 void add_rows(const Eigen::MatrixXd& root, std::span<const double> offsets,
               std::span<const double> guesses, ConstraintProblem<2>& problem) {
+  assert(offsets.size() == guesses.size() && root.rows() == std::ssize(offsets));
   constexpr Index kOfUnit = 3;
   const Index units = (root.cols() + kOfUnit - 1) / kOfUnit;
   RigidUnit<2> unit;
@@ -144,21 +132,21 @@ void add_rows(const Eigen::MatrixXd& root, std::span<const double> offsets,
   }
 }
 
-/// Improves the impulses rows.p in at most about `most` iterations, and returns the number of
-/// iterations. `w` [T/M] has the relative error `error`, and gaps and slips have the error
-/// `rounding` [L]. In a fluid with inertia W is not symmetric: its skew part times the impulses of
-/// the round before is added to the offsets. With `gives_loads` the friction is bounded by mu_s
-/// times the load of the solids in the first guess, docs/physics.md (5.17), not in the solution.
+/// Improves the impulses rows.p in at most about `most` iterations, and returns their number. `w`
+/// [T/M] has the relative error `error`, and gaps and slips have the error `rounding` [L]. In a
+/// fluid with inertia W is not symmetric: its skew part times the impulses of the round before is
+/// added to the offsets. With `gives_loads` the loads of the first guess bound the friction,
+/// docs/physics.md (5.17), not those of the solution.
 int improve(const Eigen::MatrixXd& w, double error, double rounding, bool gives_loads, int most,
             CoupledRows& rows) {
+  assert(w.rows() == std::ssize(rows.q) && rows.p.size() == rows.q.size());
   const Eigen::MatrixXd symmetric = (w + w.transpose()) / 2, skew = w - symmetric;
   const MovedDirections directions(symmetric, error);
   const auto n = std::ssize(rows.q);
   double allowed = std::numeric_limits<double>::infinity();
   for (const auto& block : rows.blocks) allowed = std::min(allowed, block.allowed);
   // Each round multiplies the error by about the ratio of the skew part to the symmetric part. The
-  // limit is a free choice. It is the same as kRoundsOfSkewPart in contact_problem.cpp, which
-  // solves the same problem without friction.
+  // limit is the same as kRoundsOfSkewPart in contact_problem.cpp.
   constexpr int kRounds = 40;
   int iterations = 0;
   for (int round = 0; round < kRounds && (gives_loads || iterations < most); ++round) {
@@ -180,11 +168,10 @@ int improve(const Eigen::MatrixXd& w, double error, double rounding, bool gives_
   return iterations;
 }
 
-/// Solves the friction of a step (solve_with_friction()). It keeps the velocities that unit forces
-/// of contacts cause, so that the fluid solver computes each of them once.
+/// Keeps the velocities that unit forces of contacts cause, so that the fluid solver computes each
+/// of them once.
 class FrictionSolver {
  public:
-  /// All references must outlive the object. `mu_s` [1] is >= 0.
   FrictionSolver(StepContacts& step, double mu_s, const Mobility& mobility,
                  const ContactConditions& conditions)
       : step_(step),
@@ -194,8 +181,6 @@ class FrictionSolver {
         of_gaps_(step.contacts.size()),
         of_slips_(step.frictions.size()) {}
 
-  /// Finds the normal and tangential impulses of the step. If Coulomb's law is not reached,
-  /// step.is_solved becomes false, and given loads bound the friction.
   void solve() {
     solve_in_rounds();
     share_responses();
@@ -209,8 +194,7 @@ class FrictionSolver {
   }
 
   void solve_in_rounds() {
-    // One round is enough unless further contacts are added after the round; a packing takes a few
-    // more rounds. The limit is a free choice.
+    // One round is enough unless further contacts are added after it; a packing takes a few more.
     constexpr int kMostRounds = 30;
     double least = std::numeric_limits<double>::infinity();
     auto best = impulses();
@@ -235,17 +219,13 @@ class FrictionSolver {
     step_.is_solved = false;
   }
 
-  /// Normal and tangential impulses of all contacts [M L/T].
   using Impulses = std::pair<std::vector<double>, std::vector<double>>;
 
-  /// Bounds the friction by given loads, docs/physics.md (5.17), after the rounds have not
-  /// converged. These are the loads of the solids in the best round (`best`), if the solution with
-  /// them nearly obeys Coulomb's law. Otherwise they are the loads of a solution without friction.
-  /// The loads of the rounds begin with the loads of the step before, and grow without bound where
-  /// friction locks particles that must move.
+  /// Bounds the friction by given loads, docs/physics.md (5.17): those in the round `best`, if the
+  /// solution with them nearly obeys Coulomb's law, otherwise those of a solution without friction.
+  /// The loads of the rounds grow without bound where friction locks particles that must move.
   void give_up(const Impulses& best) {
-    // If the residual is at most kNear times the allowed one, the solution counts as near the law.
-    // The number is a free choice.
+    // Up to this ratio of the residual to the allowed one the solution counts as near the law.
     constexpr double kNear = 100;
     step_.has_given_loads = true;
     for (auto& contact : step_.contacts) contact.impulse = 0;
@@ -255,8 +235,8 @@ class FrictionSolver {
     const double load = largest_load();
     take(best);
     solve_with_given_loads_of_step();
-    // Residuals are allowed in proportion to the impulses. The excess is therefore multiplied by
-    // the ratio of the loads, so that no residual counts as small because the impulses are large.
+    // Residuals are allowed in proportion to the impulses: none may count as small because the
+    // impulses are large.
     const double excess = excess_of_coulomb() * std::max(1.0, largest_load() / load);
     if (step_.is_solved && excess <= kNear) return;
     take(without_friction);
@@ -264,13 +244,11 @@ class FrictionSolver {
     excess_of_coulomb();
   }
 
-  /// Solves the problem in which the loads of the present impulses bound the friction.
   void solve_with_given_loads_of_step() {
     solve_together(true);
     solve_gaps(true);
   }
 
-  /// The largest impulse that solids carry [M L/T].
   double largest_load() const {
     double largest = 0;
     for (const auto& friction : step_.frictions)
@@ -283,8 +261,8 @@ class FrictionSolver {
   }
 
   /// Finds the normal impulses that keep the gaps open with the present friction. With
-  /// `keeps_solution`, impulses that keep the gaps open already are not changed. In redundant
-  /// contacts such impulses are not unique, and other ones would change the bounds of friction.
+  /// `keeps_solution`, impulses that do so already stay: in redundant contacts they are not unique,
+  /// and other ones would change the bounds of friction.
   void solve_gaps(bool keeps_solution) {
     std::vector<double> loads(conditions_.free_velocities.size());
     bool is_any = false;
@@ -320,9 +298,8 @@ class FrictionSolver {
       step_.frictions[f].impulse = found.second[f];
   }
 
-  /// The largest residual of Coulomb's law divided by the allowed one [1]. The law holds if the
-  /// result is at most 1. Sets ContactFrictionInFluid::slides, and w of each contact that carries a
-  /// load or has friction.
+  /// The largest residual of Coulomb's law over the allowed one [1]. Sets
+  /// ContactFrictionInFluid::slides, and w of each contact that carries a load or has friction.
   double excess_of_coulomb() {
     double excess = 0;
     for (std::size_t f = 0; f < step_.frictions.size(); ++f) {
@@ -350,7 +327,6 @@ class FrictionSolver {
     return excess;
   }
 
-  /// The velocities by a unit force of friction number `f`. Sets w of this friction.
   const std::vector<double>& respond(std::size_t f) {
     auto& friction = step_.frictions[f];
     if (of_slips_[f].empty()) {
@@ -366,8 +342,8 @@ class FrictionSolver {
     return of_slips_[f];
   }
 
-  /// Improves the normal and tangential impulses of all contacts of the step, in one problem. With
-  /// `gives_loads` the loads of the solids at the present impulses bound the friction.
+  /// Improves the normal and tangential impulses of all contacts in one problem. With `gives_loads`
+  /// the loads of the solids at the present impulses bound the friction.
   void solve_together(bool gives_loads) {
     CoupledRows rows;
     std::vector<std::size_t> contacts, frictions;  // numbers for each block; kNone: no friction
@@ -404,7 +380,7 @@ class FrictionSolver {
       contacts.push_back(c);
       frictions.push_back(number);
     }
-    // W consists of velocities of the fluid solver and has their relative error.
+    // W has the relative error of the velocities.
     const double error =
         std::max(std::numeric_limits<double>::epsilon(), conditions_.velocity_error);
     const double rounding = rounding_error_of_gaps(conditions_);
@@ -418,8 +394,7 @@ class FrictionSolver {
     }
   }
 
-  /// The matrix W of the rows [T/M]: column c has the rates of all gaps and slips by a unit force
-  /// of row c.
+  /// W [T/M]: column c has the rates of all gaps and slips by a unit force of row c.
   Eigen::MatrixXd matrix_of(const CoupledRows& rows, std::span<const std::size_t> contacts,
                             std::span<const std::size_t> frictions) const {
     const auto n = std::ssize(rows.q);
@@ -438,7 +413,6 @@ class FrictionSolver {
     return w;
   }
 
-  /// The velocities by a unit force of contact c.
   const std::vector<double>& respond_to_gap(std::size_t c) {
     if (of_gaps_[c].empty()) {
       std::vector<double> forces(conditions_.free_velocities.size());
@@ -458,13 +432,11 @@ class FrictionSolver {
 
 }  // namespace
 
-/// The friction of a contact before the problem is solved. `contact` must have the distance of the
-/// surfaces as its gap, and `place` says where the friction acts. The first guess of the impulse is
-/// the friction that the pair remembers.
 ContactFrictionInFluid friction_of_contact(const FrictionOfStep& step, const Particles& particles,
                                            const Pair& pair, const Contact<2>& contact,
                                            const FrictionPlace& place,
                                            const ContactConditions& conditions) {
+  assert(step.end > step.begin);
   const auto& setting = step.setting;
   ContactFrictionInFluid friction{.tangent = {-contact.normal[1], contact.normal[0]}};
   friction.levers = {pair.first < 0 ? 0 : -place.arms[0], -place.arms[1]};
@@ -495,15 +467,12 @@ ContactFrictionInFluid friction_of_contact(const FrictionOfStep& step, const Par
   return friction;
 }
 
-/// Finds the impulses of the contacts of a step with the friction step.frictions and its
-/// coefficient `mu_s` >= 0 [1].
 void solve_with_friction(StepContacts& step, double mu_s, const Mobility& mobility,
                          const ContactConditions& conditions) {
+  assert(mu_s >= 0 && (step.frictions.empty() || conditions.layout.components == 3));
   FrictionSolver(step, mu_s, mobility, conditions).solve();
 }
 
-/// The power [M L^2/T^3] that friction turns into heat in the step, for the `velocities` of the
-/// particles.
 double heat_of_friction(const StepContacts& step, std::span<const double> velocities,
                         const ContactConditions& conditions) {
   double heat = 0;
@@ -513,8 +482,6 @@ double heat_of_friction(const StepContacts& step, std::span<const double> veloci
   return heat / (conditions.h * conditions.h);
 }
 
-/// Adds the residuals [L] of Coulomb's law to `residuals`, for the `velocities` of the particles
-/// with the contact forces.
 void take_residuals_of_friction(const StepContacts& step, double mu_s,
                                 std::span<const double> velocities,
                                 const ContactConditions& conditions, StepResiduals& residuals) {

@@ -1,16 +1,7 @@
-// Changes the velocities of a step in a fluid so that at its end bodies are rigid, and hinges and
-// arms hold, that is, have the places and lengths that the case prescribes. The functions belong to
-// FluidSimulation, and FluidSimulation::solve() calls them. The fluid solver keeps linear
-// conditions on velocities, the rows. The rows hold bodies and links to first order in the motion
-// only, because bodies and links turn by finite angles; here velocities are changed until the
-// remaining error is within the tolerance. Velocities are in [L/T, 1/T], 3 numbers for each
-// particle, or 1 on an axis; forces of rows, one for each row, in [M L/T^2, M L^2/T^2]; the length
-// h of the step is > 0 [T]. hold_after_step() throws Error(kNotConverged) if a length or place
-// would be off by more than a mean radius (a free choice, which fluid_simulation.hpp states, too);
-// hold_with_contacts() throws what solve_contacts() throws. A smaller error above solver.tolerance
-// times the mean radius makes Motion::links_hold false. A change must keep that a continued run
-// gives the same bits as one without a break.
+// Changes the velocities of a step in a fluid until bodies and links hold at its end to the
+// tolerance, docs/physics.md (6.7); the rows hold them to first order in the motion only.
 
+#include <cassert>
 #include <cmath>
 
 #include "viscontact/common/error.hpp"
@@ -24,37 +15,28 @@ namespace viscontact::particles {
 namespace {
 
 // Corrections end when no length or place is off by more than kOfTolerance times the error that
-// solver.tolerance allows, so that errors do not add up over the steps. At most kMostChanges
-// corrections are made. Each multiplies the error by about the angle [rad] by which a body or an
-// arm turns in the step, so that few are needed unless this angle is about 1. Both numbers are free
-// choices.
+// solver.tolerance allows, so that errors do not add up over the steps. Each correction multiplies
+// the error by about the angle [rad] by which a body or an arm turns in the step, so that few are
+// needed unless this angle is about 1.
 constexpr double kOfTolerance = 1e-3;
 constexpr int kMostChanges = 20;
 
 }  // namespace
 
-/// The particles move with `velocities` in the step of length h [T], if they have no contact.
-/// Changes `velocities` until, at the end of the step, hinges and arms hold, and the springs of
-/// particles that accelerate have the forces that belong to their lengths. `held` has the rows
-/// (held_rows.hpp), and `flow` are the velocities that the fluid solver gave. Sets `holds` to
-/// whether the remaining error is within the tolerance. Returns the forces of the rows minus those
-/// with which the fluid solver found `flow`. Throws Error(kNotConverged) if a length or place would
-/// be off by more than a mean radius.
 std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equation,
                                                      const HeldMotion& held,
                                                      std::span<const double> flow,
                                                      std::vector<double>& velocities, double h,
                                                      bool& holds) const {
+  assert(flow.size() == velocities.size());
   const auto of_flow = held_->row_forces();
   auto forces = of_flow;
-  // `velocities` were extrapolated from `flow`. The forces of the rows that belong to the
+  // `velocities` were extrapolated from `flow`; the forces of the rows that belong to the
   // difference are added.
   auto extrapolated = velocities;
   for (std::size_t i = 0; i < flow.size(); ++i) extrapolated[i] -= flow[i];
   add_elements(held_->row_forces_for(extrapolated), forces);
   const auto thetas = held_->thetas();
-  // An entry of `thetas` [1] says how implicit the step is for a row that is a spring
-  // (held_solver.hpp).
   const bool with_springs = !equation.link_times().empty();
   const double allowed = tolerated_length();
   double off = 0;  // [L]
@@ -75,10 +57,6 @@ std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equatio
   return forces;
 }
 
-/// Changes `velocities`, with which the particles move in the step of length h [T], until hinges
-/// and arms hold at its end, by kMostChanges corrections at most. Adds the forces that this needs
-/// to `row_forces`; springs keep their forces. Returns the largest error of a length or place that
-/// is left [L]. Throws nothing.
 double FluidSimulation::hold_turned(const HeldMotion& held, double h,
                                     std::vector<double>& velocities,
                                     std::vector<double>& row_forces) const {
@@ -94,14 +72,6 @@ double FluidSimulation::hold_turned(const HeldMotion& held, double h,
   }
 }
 
-/// Makes bodies rigid, and hinges and arms hold, at the end of a step with contacts, which has the
-/// length h [T] and ends at the time `next` [T]. Contacts change the angles by which bodies and
-/// links turn, and with these angles the forces of the rows. The new forces change the velocities
-/// without contact, for which the contacts are solved again. This is repeated until the changes are
-/// small, kMostChanges times at most; if they are not small then, Motion::links_hold is false.
-/// Changes Motion::free, linear, contact and links_hold, and adds the forces to `row_forces`.
-/// Motion::blow has a value if solids rebound. The function does nothing if Motion::blow has a
-/// value or no contact has a load, and ends if a repetition sets Motion::blow.
 void FluidSimulation::hold_with_contacts(const StepEquation& equation, const HeldMotion& held,
                                          double h, double next, Motion& motion,
                                          std::vector<double>& row_forces) {
@@ -166,8 +136,7 @@ bool FluidSimulation::follow_turns(const StepEquation& equation, HeldMotion& hel
   const auto rows = held.geometric_rows();
   if (rows.empty() || (rows.size() == before && loaded == settled)) return false;
   held_->turn_with(rows);
-  // Tensions that are off by this share (a free choice) turn links by a share of the turn of the
-  // step.
+  // Tensions that are off by this share turn links by a share of the turn of the step.
   constexpr double kFollowed = 0.02;
   const bool changed = held_->settle_stiffnesses(loaded, kFollowed);
   settled = std::move(loaded);
@@ -236,16 +205,12 @@ double FluidSimulation::turn_of_films(std::span<const Contact<2>> contacts,
   return largest;
 }
 
-/// Changes the velocities `at_end` at the end of a step, in which particles moved with `moved`,
-/// until hinges and arms hold for them at that time. Without this change, a part of these
-/// velocities that a link does not allow would remain, and change its sign in each step. Only the
-/// velocities of particles that accelerate change, that is, of those with a mass and no given
-/// motion. Returns the forces of the rows, as means over the step; springs that the step resolves
-/// have 0. Throws nothing.
 std::vector<double> FluidSimulation::hold_at_end(const StepEquation& equation,
                                                  const HeldMotion& held,
                                                  std::span<const double> moved,
                                                  std::vector<double>& at_end) const {
+  // Without this change, a part of the velocities that a link does not allow would remain, and
+  // change its sign in each step.
   std::vector<char> is_stiff;
   for (std::size_t r = 0; r < held_->row_forces().size(); ++r)
     is_stiff.push_back(held_->is_stiff(r) ? 1 : 0);

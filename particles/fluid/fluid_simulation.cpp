@@ -1,19 +1,11 @@
-// Computes a step of particles in a fluid: velocities without contact, contact impulses, and
-// velocities with them. fluid_acceptance.cpp then changes the state. U is the velocity that the
-// fluid gives a particle at its place before the step, and U^+ the velocity with which the particle
-// moves. The number theta [1], from 1/2 to 1, says how implicit the step is. A blow is a collision
-// of solids that rebound. Links are hinges, springs and arms between particles. Velocities are in
-// [L/T, 1/T], forces in [M L/T^2, M L^2/T^2], 3 numbers for each particle, or 1 on an axis. Throws
-// Error(kBadInput) for a restart file without the flow that a fluid with inertia needs,
-// Error(kNotConverged) for a step that is refused (fluid_simulation.hpp has the limits), and the
-// errors of FluidSolver; the state is then as before the step. Used by run/ and the other sources
-// of this folder. A change must keep that a continued run gives the same bits as one without a
-// break: a step may depend on nothing but the setting and the state.
+// A step in a fluid, (6.1) to (6.5) in docs/physics.md: velocities without contact, contacts, and
+// velocities with them.
 #include "viscontact/particles/fluid/fluid_simulation.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -35,11 +27,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// How often a step is solved with geometric rows at most; a free choice. Tensions hardly depend on
-// how fast links turn.
+// How often a step is solved with geometric rows at most. Tensions hardly depend on how fast links
+// turn.
 constexpr int kMostTurns = 10;
 
-/// The times of the links in a step of length h [T] that ends at the time `next` [T].
 LinkTimes times_of_links(const StepEquation& equation, double h, double next) {
   const auto flow = equation.flow_step();
   return {h, h, next, false, flow.from, flow.to};
@@ -47,9 +38,6 @@ LinkTimes times_of_links(const StepEquation& equation, double h, double next) {
 
 }  // namespace
 
-/// Takes over a case with a fluid and the state at the start of the run. Throws Error(kBadInput) if
-/// the fluid has inertia and the state has done steps but has no flow. Throws the errors of
-/// FluidSolver::load_flow().
 FluidSimulation::FluidSimulation(Setting setting, State state, std::unique_ptr<FluidSolver> solver)
     : setting_(std::move(setting)),
       state_(std::move(state)),
@@ -58,6 +46,7 @@ FluidSimulation::FluidSimulation(Setting setting, State state, std::unique_ptr<F
       mean_radius_(mean_radius(state_.particles)),
       pool_(1),
       obstacles_(obstacles_of(setting_)) {
+  assert(setting_.fluid && solver_ != nullptr);
   auto& p = state_.particles;
   // A restart file of a run without a fluid has no velocities of the step before, and may contain
   // collisions, which a step in a fluid does not use.
@@ -90,8 +79,6 @@ FluidSimulation::FluidSimulation(Setting setting, State state, std::unique_ptr<F
   solver_ = std::move(held);
 }
 
-/// Returns the state for a restart file, with the flow if the fluid has inertia. Throws the errors
-/// of FluidSolver::saved_flow().
 State FluidSimulation::state_to_save() {
   auto state = state_;
   if (has_flow_) {
@@ -101,10 +88,6 @@ State FluidSimulation::state_to_save() {
   return state;
 }
 
-/// At the start of a run with inertia of the fluid, lets the solver keep the first flow. `h` is the
-/// length of the first step [T]. With FlowStart::kRest the fluid is at rest, and particles have the
-/// velocities of the case. Otherwise the first flow is the Stokes flow at the start, and free
-/// particles have the velocities of this flow. Throws the errors of FluidSolver.
 void FluidSimulation::begin_flow(double h) {
   if (!setting_.fluid->has_inertia() || has_flow_) return;
   const StepEquation equation(setting_, state_, h, state_.time + h);
@@ -128,13 +111,10 @@ void FluidSimulation::begin_flow(double h) {
   has_flow_ = true;
 }
 
-/// Returns U^+ of all particles without contact, one number for each of `flow`, which are the
-/// velocities U. `h` is the length of the step [T], and `held` is null without bodies and links.
-/// U^+ is U, which is of first order in time, for particles that are in contact; in a fluid without
-/// inertia also in the first step, and if a given motion jumps. Throws the errors of FluidSolver.
 std::vector<double> FluidSimulation::free_velocities(const StepEquation& equation,
                                                      std::span<const double> flow, double h,
                                                      const HeldMotion* held) {
+  assert(flow.size() == state_.particles.count() * layout_.components);
   std::vector<double> free(flow.begin(), flow.end());
   if (setting_.fluid->has_inertia()) {
     for (std::size_t i = 0; i < free.size(); ++i) {
@@ -179,10 +159,9 @@ std::vector<double> FluidSimulation::free_velocities(const StepEquation& equatio
   return free;
 }
 
-/// Returns what the contacts of a step of length `h` [T] must satisfy, for the velocities `free`
-/// without contact, to which the result refers. Throws nothing.
 ContactConditions FluidSimulation::contact_conditions(std::span<const double> free,
                                                       double h) const {
+  assert(h > 0);
   const auto& fluid = *setting_.fluid;
   ContactConditions conditions{
       free, h, layout_, setting_.solver, mean_radius_, error_of_answers(fluid), kick_length(h) / h};
@@ -192,8 +171,7 @@ ContactConditions FluidSimulation::contact_conditions(std::span<const double> fr
     // be 0, but consists of errors. least_w must lie between these errors and the least w of a gap
     // that can change. A particle resists a force with its mass over the step plus a drag of about
     // the viscosity, or some 1e5 times the viscosity in the narrowest gap that a mesh resolves.
-    // kShare and kErrors are free choices within these limits. There are no hinges on an axis,
-    // where the drag would have another dimension.
+    // There are no hinges on an axis, where the drag would have another dimension.
     constexpr double kShare = 1e-9, kErrors = 10;
     double heaviest = 0;
     const auto& p = state_.particles;
@@ -206,24 +184,18 @@ ContactConditions FluidSimulation::contact_conditions(std::span<const double> fr
   return conditions;
 }
 
-/// The time [T] for which the forces of a step of length h act on the velocities of the step. This
-/// time is h, but in a fluid with inertia it is the length of the step before: forces change the
-/// velocities in the step that ends at the present places, and particles move with them in the step
-/// that begins there.
 double FluidSimulation::kick_length(double h) const {
+  // In a fluid with inertia forces change the velocities in the step that ends at the present
+  // places, and particles move with them in the step that begins there.
   const auto& fluid = *setting_.fluid;
   const bool is_of_flow = fluid.has_inertia() && fluid.coupling != Coupling::kSplitting;
   return is_of_flow && state_.earlier_step > 0 ? state_.earlier_step : h;
 }
 
-/// True in the first step of a fluid with inertia, whose velocities the second step computes again.
 bool FluidSimulation::is_computed_twice() const {
   return setting_.fluid->has_inertia() && !(state_.earlier_step > 0);
 }
 
-/// Solves the contacts of a step of length h [T] that ends at the time `next` [T], for the
-/// velocities `free` without contact. Sets `contacts` to the solution without restitution, and
-/// returns the blow if solids rebound. Throws what solve_contacts() and solve_blow() throw.
 std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& equation,
                                                             std::span<const double> free, double h,
                                                             double next, StepContacts& contacts) {
@@ -232,8 +204,7 @@ std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& 
   const auto is_movable = [&](std::int32_t k) {
     return k >= 0 && !equation.is_driven(k) && !(is_split && inertia[layout_.at(k, 0)] == 0);
   };
-  // The velocities that the forces and torques `loads` on the particles cause. With splitting they
-  // come from the masses alone, otherwise from the fluid.
+  // With splitting the velocities come from the masses alone, otherwise from the fluid.
   const Mobility mobility = [&](std::span<const double> loads) {
     if (!is_split) return solver_->velocities(loads, false);
     std::vector<double> velocities(loads.size());
@@ -256,8 +227,7 @@ std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& 
   const FrictionOfStep friction{setting_, obstacles_, state_.memories, state_.time, next};
   const bool has_inertia = fluid.has_inertia();
   const auto before = has_inertia ? state_.earlier_velocities : equation.velocities();
-  // Returns BlowStep::loaded, the velocities that the forces of the step give, without contact, to
-  // particles that were at rest.
+  // BlowStep::loaded
   const auto loaded = [&] {
     if (has_inertia) return solver_->velocities(equation.forces(), false);
     std::vector<double> momentum(before.size());
@@ -283,8 +253,6 @@ std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& 
   }
 }
 
-/// For a fluid with inertia, sets Motion::kept, the velocities at the beginning of the step, and
-/// Motion::at_end, these velocities extrapolated to the end of the step.
 void FluidSimulation::keep_and_extrapolate(const StepEquation& equation, Motion& motion) const {
   // With coupling = splitting, contacts change the velocities of the particles, but not the flow.
   motion.kept = motion.flow;
@@ -303,10 +271,6 @@ void FluidSimulation::keep_and_extrapolate(const StepEquation& equation, Motion&
   }
 }
 
-/// Computes a step of length h [T] that ends at the time `next` [T], without changing the state.
-/// With `is_estimated`, and without inertia of the fluid, the function also estimates errors.
-/// Throws what hold_after_step(), solve_contacts_of() and FluidSolver throw. A contact that is not
-/// solved throws nothing; examine() then judges the residuals.
 FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_estimated) {
   const auto begin = Clock::now();
   const bool is_split = setting_.fluid->coupling == Coupling::kSplitting;
@@ -457,11 +421,6 @@ void FluidSimulation::report_inertia(Motion& motion) const {
   }
 }
 
-/// Estimates errors from the flow on two meshes, and with two penalties, under the same `forces`,
-/// which include those of contacts. Replaces Motion::quantities by the extrapolated ones, and sets
-/// the errors in Motion::fluid and Motion::force_errors. Except with Coupling::kSplitting, sets
-/// Motion::reported, the extrapolated velocities at the end of the step. Throws the errors of
-/// FluidSolver.
 void FluidSimulation::estimate(const StepEquation& equation, std::span<const double> forces,
                                const HeldMotion* held, Motion& motion) {
   std::function<std::vector<double>()> link_forces;
@@ -480,10 +439,6 @@ void FluidSimulation::estimate(const StepEquation& equation, std::span<const dou
     hold_at_end(equation, *held, moved, motion.reported);
 }
 
-/// Throws Error(kNotConverged) if an ellipse is closer to a wall, a plane or another particle than
-/// the threshold gap minus the tolerated error of gaps, because contacts of ellipses are not
-/// computed. Ellipses with a given motion may be closer to walls and planes, and to particles whose
-/// motion is given, too.
 void FluidSimulation::check_ellipses() const {
   const auto& fluid = *setting_.fluid;
   if (fluid.semi_axes.empty()) return;
@@ -520,9 +475,6 @@ void FluidSimulation::check_ellipses() const {
   }
 }
 
-/// Computes one step, which ends at `end` [T] or before. If the state has reached `end`, nothing
-/// moves, and the report has no contacts. Throws Error(kNotConverged) and the errors of
-/// FluidSolver, and then leaves the state as it was.
 StepReport FluidSimulation::step(double end) {
   const auto interval = StepGrid(setting_.time_step).next(state_, end);
   if (!interval) return {.time = state_.time, .parts = 1};
@@ -540,9 +492,6 @@ StepReport FluidSimulation::step(double end) {
   return report;
 }
 
-/// Returns the flow around the particles at their present places. For this it solves the next step,
-/// but moves nothing. Throws the errors of FluidSolver, and Error(kNotConverged) as step() does for
-/// links and plates.
 FlowField FluidSimulation::flow_at_present() {
   const double h = setting_.time_step;
   begin_flow(h);

@@ -1,15 +1,10 @@
-// Computes the rows, linear conditions on the velocities of particles in a fluid, that make bodies
-// rigid and hold links: hinges, arms, springs and torsion springs. A unit is a rigid body, or a
-// particle without a body. Velocities are in [L/T, 1/T], 3 numbers for each particle, or 1 on an
-// axis; forces of rows, one for each row, are in [M L/T^2, M L^2/T^2]; the length of the step
-// is > 0 [T]. Nothing is checked or thrown. fluid_simulation.cpp, fluid_links.cpp and
-// fluid_acceptance.cpp use it. A change must keep bodies exactly rigid, and the order of the rows:
-// bodies first, then links.
+// Rows of rigid bodies and links, docs/physics.md (6.7).
 #include "viscontact/particles/fluid/held_rows.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "viscontact/common/matrices/decompositions.hpp"
@@ -19,16 +14,13 @@
 namespace viscontact::particles {
 namespace {
 
-/// True for a hinge or an arm, which must hold exactly after a step.
+/// Such a link must hold exactly after a step.
 bool is_exact(const LinkEquations& link) {
   return link.kind == LinkEquations::Kind::kHinge || link.kind == LinkEquations::Kind::kArm;
 }
 
 }  // namespace
 
-/// Makes the equations of the links at the present places. The weights of the members of a body are
-/// their shares of its mass, or equal shares if the body has no mass. `link_times` is empty, or has
-/// one time [T] for each particle, which link_time() explains.
 HeldMotion::HeldMotion(const Links& links, const Particles& particles, const LinkTimes& times,
                        std::span<const double> link_times)
     : links_(links),
@@ -38,6 +30,8 @@ HeldMotion::HeldMotion(const Links& links, const Particles& particles, const Lin
       equations_(link_equations(links, particles, times)),
       in_rows_(equations_),
       link_times_(link_times.begin(), link_times.end()) {
+  assert(times.h > 0);
+  assert(link_times.empty() || link_times.size() == particles.count());
   for (const auto& body : particles.bodies.bodies) {
     body_rows_ += layout_.components * (body.members.size() - 1);
     auto weights = member_masses(body, particles);
@@ -52,14 +46,10 @@ HeldMotion::HeldMotion(const Links& links, const Particles& particles, const Lin
   turn_rows();
 }
 
-/// The time [T] in the step at which links act on a particle. A number < 0 means that the particle
-/// does not accelerate: it has no mass, or its motion is given.
 double HeldMotion::link_time(std::int32_t particle) const {
   return link_times_.empty() ? -1 : link_times_[index_of(particle)];
 }
 
-/// The time in the step at which a link acts [T], the latest of those of its particles; -1 if none
-/// of them accelerates.
 double HeldMotion::link_time(const LinkEquations& link) const {
   double latest = -1;
   for (const auto& part : link.parts()) latest = std::max(latest, link_time(part.particle));
@@ -77,8 +67,6 @@ std::vector<double> HeldMotion::velocities_before() const {
   return velocities;
 }
 
-/// Sets in_rows_: the equations of each link with the directions that they have when its units have
-/// moved with the velocities at the beginning of the step for the time link_time().
 void HeldMotion::turn_rows() {
   if (link_times_.empty()) return;
   const auto velocities = velocities_before();
@@ -91,8 +79,6 @@ void HeldMotion::turn_rows() {
   }
 }
 
-/// Adds the rows of the rigid body with this number, three for each member but the first. The rows
-/// demand that the member has the velocities [L/T, 1/T] of the rigid motion of the first member.
 void HeldMotion::add_body_rows(const RigidBody& body, std::size_t number,
                                std::vector<HeldRow>& rows) const {
   const auto first = body.members.front();
@@ -106,8 +92,8 @@ void HeldMotion::add_body_rows(const RigidBody& body, std::size_t number,
       row.name = fmt::format("body {}", number);
       row.accelerates = link_time(first) >= 0;
       row.entries = {{layout_.at(member, d), 1}, {layout_.at(first, d), -1}};
-      // The rotation of the body adds the angular velocity times the vector `apart`, turned by 90
-      // degrees, to the velocity of the member.
+      // The rotation adds the angular velocity times the vector `apart`, turned by 90 degrees, to
+      // the velocity of the member.
       if (d < 2) {
         row.entries.emplace_back(layout_.at(first, 2), d == 0 ? apart[1] : -apart[0]);
         row.image_rate = of_images[m][d] - of_images[0][d];
@@ -117,9 +103,6 @@ void HeldMotion::add_body_rows(const RigidBody& body, std::size_t number,
   }
 }
 
-/// Adds what one unit contributes to the entries of a row: the coefficient 1 for a turn; otherwise
-/// the direction [1] for the velocity of the particle, and the moment of the direction about the
-/// centre of the particle [L] for its angular velocity.
 void HeldMotion::add_entries(const LinkPart& part, HeldRow& row) const {
   if (part.is_turn) {
     row.entries.emplace_back(layout_.at(part.particle, 2), 1);
@@ -134,15 +117,13 @@ void HeldMotion::add_entries(const LinkPart& part, HeldRow& row) const {
     row.entries.emplace_back(layout_.at(part.particle, 2), moment);
 }
 
-/// The rows of the step: bodies first, then links at the places of in_rows_.
 std::vector<HeldRow> HeldMotion::rows() const { return rows_of(in_rows_); }
 
-/// The rate that the row of a hinge or an arm prescribes [L/T]. Without inertia of the fluid the
-/// velocities are those of the whole step, and the rate also removes the error that the place or
-/// length has at its beginning. In a fluid with inertia (rate_to > rate_from) the velocities are
-/// those at the beginning of the step. The rate is then 0, or, for an arm, the mean rate of its
-/// length, because a correction of places must not change the momentum of the fluid.
 double HeldMotion::rate_of(const LinkEquations& link, const LinkRow& row) const {
+  // Without inertia of the fluid the velocities are those of the whole step, and the rate also
+  // removes the error that the place or length has at its beginning. In a fluid with inertia
+  // (rate_to > rate_from) they are those at the beginning of the step, and a correction of places
+  // must not change the momentum of the fluid.
   if (!(times_.rate_to > times_.rate_from)) return -row.value / times_.h;
   if (link.kind != LinkEquations::Kind::kArm) return 0;
   const auto& length = links_.arms[link.number].length;
@@ -150,7 +131,6 @@ double HeldMotion::rate_of(const LinkEquations& link, const LinkRow& row) const 
          (times_.rate_to - times_.rate_from);
 }
 
-/// The rows of the bodies at their present places, and of the links in these equations.
 std::vector<HeldRow> HeldMotion::rows_of(const std::vector<LinkEquations>& equations) const {
   std::vector<HeldRow> rows;
   const auto& bodies = particles_.bodies.bodies;
@@ -171,9 +151,8 @@ std::vector<HeldRow> HeldMotion::rows_of(const std::vector<LinkEquations>& equat
   return rows;
 }
 
-/// Returns the mean velocity of the members of a body [L/T], as `displacement`, and their mean
-/// angular velocity [1/T], as `turn`. The means have the weights of the constructor.
 UnitMotion HeldMotion::motion_of_body(std::size_t body, std::span<const double> velocities) const {
+  assert(body < weights_.size());
   UnitMotion motion;
   const auto& of = particles_.bodies.bodies[body];
   for (std::size_t m = 0; m < of.members.size(); ++m) {
@@ -186,8 +165,6 @@ UnitMotion HeldMotion::motion_of_body(std::size_t body, std::span<const double> 
   return motion;
 }
 
-/// Displacement [L] and turn [rad] in the step of the unit of a part. In a sheared cell they
-/// contain the motion of the periodic image that the part names.
 UnitMotion HeldMotion::motion_of(const LinkPart& part, std::span<const double> velocities) const {
   UnitMotion motion;
   const auto particle = part.particle;
@@ -205,7 +182,6 @@ UnitMotion HeldMotion::motion_of(const LinkPart& part, std::span<const double> v
   return {times_.h * motion.displacement, times_.h * motion.turn};
 }
 
-/// The motions of all units of a link in the step, in the order of the parts of its first row.
 std::vector<UnitMotion> HeldMotion::motions_of(const LinkEquations& link,
                                                std::span<const double> velocities) const {
   std::vector<UnitMotion> motions;
@@ -213,15 +189,11 @@ std::vector<UnitMotion> HeldMotion::motions_of(const LinkEquations& link,
   return motions;
 }
 
-/// Returns for each row the number [L/T, 1/T] by which its sum must change so that hinges and arms
-/// hold after a step with `velocities`. For a spring with an end that accelerates, it is the error
-/// of the law force = -stiffness (extension + theta growth), divided by -(theta h stiffness); the
-/// force is that in `row_forces`, theta [1] that in `thetas`, and growth is the exact change of the
-/// extension in the step. The number is 0 for rows of bodies and of all other springs.
 std::vector<double> HeldMotion::missing(std::span<const double> velocities,
                                         std::span<const double> row_forces,
                                         std::span<const double> thetas,
                                         std::span<const double> stiffnesses) const {
+  assert(thetas.size() == stiffnesses.size() && row_forces.size() >= thetas.size());
   std::vector<double> changes(body_rows_, 0.0);
   for (std::size_t l = 0; l < equations_.size(); ++l) {
     const auto& link = equations_[l];
@@ -252,25 +224,19 @@ std::vector<double> HeldMotion::missing(std::span<const double> velocities,
   return changes;
 }
 
-/// The sum of the parts of a row for these velocities, with the motions of images [L/T, 1/T].
 double HeldMotion::sum_of(const LinkRow& row, std::span<const double> velocities) const {
   double sum = 0;
   for (const auto& part : row.parts) sum += value_of(part, motion_of(part, velocities));
   return sum / times_.h;
 }
 
-/// Changes `at_end`, the velocities at the end of a step in which the particles moved with
-/// `velocities`, until bodies are rigid and hinges and arms hold. The extension of a spring whose
-/// entry of `is_stiff` is not 0 then grows with its mean rate in the step. `mobility` has for each
-/// component of a particle the change of its velocity per force, >= 0 [T/M, T/(M L^2)]. Returns the
-/// forces of the rows that make the change, but 0 for rows without a unit that accelerates and for
-/// springs that are not stiff.
 std::vector<double> HeldMotion::hold_at_end(std::span<const double> velocities,
                                             std::span<const double> mobility,
                                             const std::vector<char>& is_stiff,
                                             std::span<double> at_end) const {
-  // The rate of an arm's length may jump at the end of the step. The rate is therefore taken
-  // slightly earlier, by 1e-9 of the step, a free choice above the rounding error of the time.
+  assert(mobility.size() == at_end.size() && velocities.size() == at_end.size());
+  // The rate of an arm's length may jump at the end of the step. It is therefore taken slightly
+  // earlier, by 1e-9 of the step, more than the rounding error of the time.
   const double end = times_.end - 1e-9 * times_.h;
   std::vector<LinkEquations> turned;
   std::vector<double> rates(body_rows_, 0.0);
@@ -289,6 +255,7 @@ std::vector<double> HeldMotion::hold_at_end(std::span<const double> velocities,
   }
   auto rows = rows_of(turned);
   turn_to_end(turned, velocities, rows, rates);
+  assert(is_stiff.size() >= rows.size());
   std::vector<std::size_t> chosen;
   for (std::size_t r = 0; r < rows.size(); ++r)
     if (!rows[r].is_spring() || is_stiff[r] != 0) chosen.push_back(r);
@@ -315,7 +282,7 @@ std::vector<double> HeldMotion::hold_at_end(std::span<const double> velocities,
   // W is the diagonal matrix of `mobility`, and x is W^(-1/2) times the change of the velocities.
   // The rows require matrix x = right, and x is the shortest solution. The forces f obey matrix^T f
   // = x; those of redundant rows are the smallest ones. A row counts as redundant if it follows
-  // from the others up to kRank, a free choice far above rounding errors.
+  // from the others up to kRank, which is far above rounding errors.
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factor;
   constexpr double kRank = 1e-10;
   factor.setThreshold(kRank);
@@ -338,8 +305,6 @@ std::vector<double> HeldMotion::hold_at_end(std::span<const double> velocities,
   return forces;
 }
 
-/// Returns `velocities`, but for members of bodies their displacements in the step, in which the
-/// body turns by a finite angle, divided by the length of the step [L/T, 1/T].
 std::vector<double> HeldMotion::with_finite_turns(std::span<const double> velocities) const {
   std::vector<double> result(velocities.begin(), velocities.end());
   const auto& bodies = particles_.bodies.bodies;
@@ -357,8 +322,6 @@ std::vector<double> HeldMotion::with_finite_turns(std::span<const double> veloci
   return result;
 }
 
-/// Replaces the velocities of the members of each body by those that the motion of motion_of_body()
-/// has at the places of the members.
 void HeldMotion::make_rigid(std::span<double> velocities) const {
   const auto& bodies = particles_.bodies.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -373,12 +336,9 @@ void HeldMotion::make_rigid(std::span<double> velocities) const {
   }
 }
 
-/// For each body that accelerates, subtracts from the torque on its first member in `forces` by how
-/// much the torque of the forces `of_fluid` changes because the body turns in a step with
-/// `velocities`. Both arrays have forces and torques of the particles on the fluid [M L/T^2, M
-/// L^2/T^2], as many numbers as `velocities`.
 void HeldMotion::keep_torques(std::span<const double> velocities, std::span<const double> of_fluid,
                               std::span<const double> stiffnesses, std::span<double> forces) const {
+  assert(stiffnesses.size() >= turns_.size() && of_fluid.size() == forces.size());
   const auto& bodies = particles_.bodies.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const auto first = bodies[b].members.front();
@@ -399,21 +359,18 @@ void HeldMotion::keep_torques(std::span<const double> velocities, std::span<cons
   }
 }
 
-/// The place of arm number `k`, which must exist, in equations_.
 std::size_t HeldMotion::arm(std::size_t k) const {
   const auto found = std::ranges::find_if(equations_, [&](const LinkEquations& link) {
     return link.kind == LinkEquations::Kind::kArm && link.number == k;
   });
+  assert(found != equations_.end());
   return static_cast<std::size_t>(found - equations_.begin());
 }
 
-/// Rate [L/T] at which arm `k` grows with `velocities`, in the direction that it has in its row.
 double HeldMotion::rate_of_arm(std::size_t k, std::span<const double> velocities) const {
   return sum_of(in_rows_[arm(k)].rows.front(), velocities);
 }
 
-/// Rate [L/T] at which arm `k` grows with `velocities`, in the direction that it has after a step
-/// in which the particles moved with `moved`.
 double HeldMotion::rate_of_arm_at_end(std::size_t k, std::span<const double> moved,
                                       std::span<const double> velocities) const {
   const auto& link = equations_[arm(k)];
@@ -423,6 +380,7 @@ double HeldMotion::rate_of_arm_at_end(std::size_t k, std::span<const double> mov
 
 std::vector<double> HeldMotion::row_forces(std::span<const double> link_forces) const {
   if (link_forces.empty()) return {};
+  assert(link_forces.size() == links_.force_count(particles_.dimension));
   std::vector<double> forces(body_rows_, 0.0);
   for (const auto& link : equations_)
     for (std::size_t k = 0; k < link.rows.size(); ++k)
@@ -430,7 +388,6 @@ std::vector<double> HeldMotion::row_forces(std::span<const double> link_forces) 
   return forces;
 }
 
-/// The entries of `row_forces` that belong to links, in the order of State::link_forces.
 std::vector<double> HeldMotion::link_forces(std::span<const double> row_forces) const {
   std::vector<double> forces(links_.force_count(particles_.dimension), 0.0);
   std::size_t r = body_rows_;

@@ -1,17 +1,8 @@
-// Finds the forces that keep linear conditions on the velocities of particles in a fluid. With the
-// mobility S of the fluid (velocities per force), the velocities v and the rows A of the
-// conditions, the sums of the rows are A v, and forces l of the rows add A S A^T l to them.
-// Velocities have 3 numbers for each particle, or 1 on an axis. Sums are in [L/T, 1/T], forces in
-// [M L/T^2, M L^2/T^2], one for each row; the length h of the step is > 0 [T], the relative error
-// of velocities > 0 [1]. With `driving`, the motions of walls and the values that the rows
-// prescribe act; without it, they count as 0. velocities() with `driving` throws
-// Error(kNotConverged) if conditions contradict each other; the errors of the fluid solver are
-// thrown, too. Sizes and the order hold(), place(), velocities() are not checked.
-// fluid_simulation.cpp and fluid_links.cpp use it. A change must keep that redundant rows get the
-// smallest forces, and that the forces of soft springs stay accurate beside stiff ones.
+// Forces that keep linear conditions on velocities: A S A^T l = rate - A S f (held_solver.hpp).
 #include "viscontact/particles/fluid/held_solver.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "viscontact/common/error.hpp"
@@ -23,8 +14,7 @@ using Eigen::Index;
 
 namespace {
 
-// Numbers below this factor times the relative errors of the fluid solver's velocities count as
-// zero; a free choice.
+// Numbers below this factor times the relative errors of the velocities count as zero.
 constexpr double kAboveErrors = 10;
 
 // Geometric rows act where their z is at least this. Without them the motion is stable up to 1
@@ -33,19 +23,19 @@ constexpr double kResolved = 0.05, kResolvedWithMass = 0.1;
 
 }  // namespace
 
-/// Takes over the fluid solver, which must not be null. `has_inertia` says whether its fluid has
-/// inertia.
 HeldSolver::HeldSolver(std::unique_ptr<FluidSolver> solver, double relative_error, bool has_inertia)
-    : solver_(std::move(solver)), relative_error_(relative_error), has_inertia_(has_inertia) {}
+    : solver_(std::move(solver)), relative_error_(relative_error), has_inertia_(has_inertia) {
+  assert(solver_ != nullptr);
+  assert(relative_error > 0);
+}
 
-/// Sets the rows and the length h of the step for the next place().
 void HeldSolver::hold(std::vector<HeldRow> rows, double h) {
+  assert(h > 0);
   rows_ = std::move(rows);
   stiffnesses_.clear();
   h_ = h;
 }
 
-/// The sums of the rows, A v, without HeldRow::image_rate.
 Eigen::VectorXd HeldSolver::sums(std::span<const double> velocities) const {
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Index>(rows_.size()));
   for (std::size_t r = 0; r < rows_.size(); ++r)
@@ -54,14 +44,12 @@ Eigen::VectorXd HeldSolver::sums(std::span<const double> velocities) const {
   return sums;
 }
 
-/// Adds to the `forces` on particles those that rows with the forces `of_rows` exert.
 void HeldSolver::add_row_forces(std::span<double> forces, const Eigen::VectorXd& of_rows) const {
   for (std::size_t r = 0; r < rows_.size(); ++r)
     for (const auto& [component, coefficient] : rows_[r].entries)
       forces[component] += coefficient * of_rows[static_cast<Index>(r)];
 }
 
-/// Adds to `velocities` those that the `forces` of the rows cause.
 void HeldSolver::add_responses(std::span<double> velocities, const Eigen::VectorXd& forces) const {
   for (std::size_t r = 0; r < rows_.size(); ++r)
     for (std::size_t i = 0; i < velocities.size(); ++i)
@@ -77,6 +65,7 @@ void HeldSolver::place(const FluidParticles& bodies) {
 }
 
 void HeldSolver::turn_with(std::span<const HeldRow> rows) {
+  assert(std::ranges::count_if(rows_, &HeldRow::is_geometric) <= std::ssize(rows));
   std::size_t known = 0;
   for (auto& row : rows_)
     if (row.is_geometric) row.stiffness = rows[known++].stiffness;
@@ -168,8 +157,6 @@ std::vector<double> HeldSolver::stiffnesses_for(const Eigen::VectorXd& of_rows) 
   return stiffnesses;
 }
 
-/// The value that each row prescribes for its sum, or, if it is a spring, for its sum plus its
-/// compliance times its force.
 Eigen::VectorXd HeldSolver::given() const {
   Eigen::VectorXd given(static_cast<Index>(rows_.size()));
   for (std::size_t r = 0; r < rows_.size(); ++r)
@@ -180,10 +167,11 @@ Eigen::VectorXd HeldSolver::given() const {
 }
 
 bool HeldSolver::settle_stiffnesses(std::span<const double> forces, double tolerance) {
+  assert(tolerance >= 0);
   const auto before = stiffnesses_;
   const Eigen::VectorXd free = sums(solver_->velocities(forces, true));
   // The forces of links hardly depend on how fast the links turn, so that few rounds are needed.
-  // Both numbers are free choices; stiffnesses that are not settled make the step less accurate.
+  // Stiffnesses that are not settled make the step less accurate.
   constexpr int kRounds = 50;
   constexpr double kSettled = 1e-8;
   const auto largest_change = [&](const std::vector<double>& from, const std::vector<double>& to) {
@@ -210,8 +198,6 @@ std::vector<double> HeldSolver::row_forces_under(std::span<const double> forces)
   return {of_rows.begin(), of_rows.end()};
 }
 
-/// Returns for each row its prescribed rate minus its sum with these velocities. The prescribed
-/// rate of a spring is 0.
 Eigen::VectorXd HeldSolver::missing(std::span<const double> velocities) const {
   Eigen::VectorXd missing = -sums(velocities);
   for (std::size_t r = 0; r < rows_.size(); ++r)
@@ -219,8 +205,6 @@ Eigen::VectorXd HeldSolver::missing(std::span<const double> velocities) const {
   return missing;
 }
 
-/// Computes the factors of A S A^T (matrix_): first those of the rows without stiffness (fixed_),
-/// then, with these rows eliminated, those of the springs.
 void HeldSolver::factorise() {
   for (Index r = 0; r < matrix_.rows(); ++r)
     (rows_[static_cast<std::size_t>(r)].is_spring() ? springs_ : fixed_).push_back(r);
@@ -229,8 +213,8 @@ void HeldSolver::factorise() {
   scale_ = matrix_.diagonal().unaryExpr([](double x) { return x > 0 ? 1 / std::sqrt(x) : 1; });
   const Eigen::MatrixXd scaled = scale_.asDiagonal() * matrix_ * scale_.asDiagonal();
   fixed_matrix_ = scaled(fixed_, fixed_);
-  // Redundant rows make the matrix singular, up to the errors of the fluid solver's velocities. The
-  // decomposition then gives the forces with the least sum of squares.
+  // Redundant rows make the matrix singular, up to the errors of the velocities. The decomposition
+  // then gives the forces with the least sum of squares.
   const double noise = kAboveErrors * relative_error_;
   factor_.setThreshold(noise);
   if (!fixed_.empty()) factor_.compute(fixed_matrix_);
@@ -250,21 +234,17 @@ void HeldSolver::factorise() {
   spring_matrix_ = projection * spring_matrix_ * projection;
 }
 
-/// The scaled forces of the rows without stiffness whose effect on the scaled sums of these rows is
-/// `right`, column by column, with one step of iterative refinement.
 Eigen::MatrixXd HeldSolver::solve_fixed(const Eigen::MatrixXd& right) const {
   if (fixed_.empty()) return right;
   Eigen::MatrixXd forces = factor_.solve(right);
+  // One step of iterative refinement.
   const Eigen::MatrixXd missing = right - fixed_matrix_ * forces;
   forces += factor_.solve(missing);
   return forces;
 }
 
-/// The forces of the rows for the right side `right`. The forces change the sum of each row without
-/// stiffness by its entry of `right`. For a spring, its entry of `right` is the change of its sum
-/// plus its compliance 1/(theta h stiffness) times its force. If `with_springs` is false, springs
-/// have the force 0.
 Eigen::VectorXd HeldSolver::solve(const Eigen::VectorXd& right, bool with_springs) const {
+  assert(static_cast<std::size_t>(right.size()) == rows_.size());
   const Eigen::VectorXd scaled = scale_.cwiseProduct(right);
   Eigen::VectorXd of_fixed = solve_fixed(scaled(fixed_));
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(right.size());
@@ -282,8 +262,7 @@ Eigen::VectorXd HeldSolver::solve(const Eigen::VectorXd& right, bool with_spring
       matrix.diagonal()[static_cast<Index>(i)] +=
           scale_[r] * scale_[r] / (stiffnesses_[k] * thetas_[k] * h_);
     }
-    // The matrix is scaled again to the diagonal 1, so that soft and stiff springs have entries of
-    // one size.
+    // Soft and stiff springs get entries of one size.
     const Eigen::VectorXd own = matrix.diagonal().cwiseSqrt().cwiseInverse();
     matrix = own.asDiagonal() * matrix * own.asDiagonal();
     rest = own.cwiseProduct(rest);
@@ -296,18 +275,15 @@ Eigen::VectorXd HeldSolver::solve(const Eigen::VectorXd& right, bool with_spring
   return scale_.cwiseProduct(forces);
 }
 
-/// Throws Error(kNotConverged), which names rows, if the forces do not add `right` to the sums of
-/// the rows without stiffness.
 void HeldSolver::check(const Eigen::VectorXd& right, const Eigen::VectorXd& forces) const {
   const Eigen::VectorXd scaled = scale_.cwiseProduct(right);
   const Eigen::VectorXd added = scale_.cwiseProduct(matrix_ * forces);
   // The effects of the forces may cancel each other. Errors are therefore relative to the sum of
-  // the absolute values of the effects.
+  // their absolute values.
   const Eigen::VectorXd parts = scale_.cwiseProduct(matrix_.cwiseAbs() * forces.cwiseAbs());
   double largest = 0;
   for (const Index r : fixed_) largest = std::max(largest, std::abs(scaled[r]) + parts[r]);
-  // kBroken is a free choice, far above the relative error of the velocities, which is usually
-  // 1e-9.
+  // Far above the relative error of the velocities, which is usually 1e-9.
   constexpr double kBroken = 1e-4;
   std::string names;
   for (const Index r : fixed_) {
@@ -324,9 +300,6 @@ void HeldSolver::check(const Eigen::VectorXd& right, const Eigen::VectorXd& forc
                 names);
 }
 
-/// Returns the velocities of the particles under `forces` and the forces with which the rows hold.
-/// With `driving`, keeps these forces for row_forces(), and throws Error(kNotConverged), which
-/// names the rows, if rows contradict each other.
 std::vector<double> HeldSolver::velocities(std::span<const double> forces, bool driving) {
   auto velocities = solver_->velocities(forces, driving);
   if (rows_.empty()) return velocities;
@@ -350,19 +323,16 @@ std::vector<double> HeldSolver::velocities(std::span<const double> forces, bool 
   return held;
 }
 
-/// Returns the velocities under `forces` with which the rows without stiffness have the sum 0,
-/// without forces of springs.
 std::vector<double> HeldSolver::velocities_without_springs(std::span<const double> forces) {
   auto velocities = solver_->velocities(forces, false);
   if (!rows_.empty()) add_responses(velocities, solve(-sums(velocities), false));
   return velocities;
 }
 
-/// Changes `velocities` by forces of the rows, which it returns. They change the sum of each row by
-/// its number in `changes`; springs take part as in solve(). The result is empty without rows.
 std::vector<double> HeldSolver::change(std::span<double> velocities,
                                        std::span<const double> changes, bool with_springs) const {
   if (rows_.empty()) return {};
+  assert(changes.size() == rows_.size());
   const auto right =
       Eigen::Map<const Eigen::VectorXd>(changes.data(), static_cast<Index>(changes.size()));
   const Eigen::VectorXd forces = solve(right, with_springs);
@@ -370,8 +340,6 @@ std::vector<double> HeldSolver::change(std::span<double> velocities,
   return {forces.begin(), forces.end()};
 }
 
-/// Returns the forces of the rows without stiffness that change their sums by as much as a change
-/// of the velocities by `changes` does. Springs have the force 0; the result is empty without rows.
 std::vector<double> HeldSolver::row_forces_for(std::span<const double> changes) const {
   if (rows_.empty()) return {};
   const Eigen::VectorXd forces = solve(sums(changes), false);
@@ -392,7 +360,6 @@ std::vector<double> HeldSolver::forces_of_step() const {
   return forces;
 }
 
-/// Changes `velocities` by forces of the rows until the rows without stiffness hold.
 void HeldSolver::hold_velocities(std::span<double> velocities) const {
   if (!rows_.empty()) add_responses(velocities, solve(missing(velocities), false));
 }
@@ -407,14 +374,10 @@ SecondMesh HeldSolver::vary_mesh() {
   return solver_->vary_mesh();
 }
 
-/// Corrects `of_rows`, forces of the rows that were computed with the mobility at place(), for the
-/// other mesh or penalty that the fluid solver has after vary_mesh() or vary_penalty(). Each
-/// correction multiplies the error of the sums by about the relative difference of both mobilities,
-/// which is small; the number of corrections is a free choice. `right` has for each row the value
-/// that it prescribes for its sum, or, if it is a spring, for its sum plus its compliance times its
-/// force.
 void HeldSolver::correct(const Eigen::VectorXd& right, std::span<const double> forces,
                          Eigen::VectorXd& of_rows) {
+  // Each correction multiplies the error of the sums by about the relative difference of both
+  // mobilities, which is small.
   constexpr int kCorrections = 2;
   for (int n = 0; n < kCorrections; ++n) {
     std::vector<double> all(forces.begin(), forces.end());

@@ -1,11 +1,5 @@
-// A fluid whose particles are held by rigid bodies, hinges, springs and arms, docs/physics.md
-// (6.7). Each of these puts linear conditions on velocities, which are called rows. Lengths [L],
-// masses [M] and times [T] are in any consistent units. An array of velocities [L/T, 1/T] or forces
-// [M L/T^2, M L^2/T^2] of particles has motion_components() numbers for each particle. An array for
-// rows has one number for each row of hold() and is empty without rows. Sizes and the order of
-// calls are not checked. Rows that contradict each other throw Error(kNotConverged); all other
-// errors are those of the fluid solver. fluid_simulation.cpp, fluid_links.cpp and held_rows.hpp use
-// the class. A change must keep that rows that follow from each other are no error.
+// A fluid solver whose particles are held by rigid bodies, hinges, springs and arms,
+// docs/physics.md (6.7).
 #pragma once
 
 #include <cstddef>
@@ -36,7 +30,7 @@ struct HeldRow {
   double extension = 0;  ///< of a spring at the beginning of the step [L, rad]; else not used
   /// True if a particle of the row accelerates, that is, has a mass and no given motion.
   bool accelerates = false;
-  std::string name{};  ///< name of the body or link in messages of errors
+  std::string name{};  ///< of the body or link, for messages of errors
   /// True if the row is the geometric stiffness of forces, docs/physics.md (6.15): it turns these
   /// forces with the motion. Such a row is a spring whose stiffness is that of `of_forces` plus the
   /// constant `stiffness`, which may then have any sign, or 0 if this is negative.
@@ -45,49 +39,41 @@ struct HeldRow {
   /// L].
   std::vector<std::pair<std::size_t, double>> of_forces{};
 
-  /// True if the row is a spring, of whatever kind.
   bool is_spring() const { return is_geometric || stiffness > 0; }
 };
 
 /// A fluid solver that holds the particles: it adds forces along the rows with which the conditions
-/// hold, and asks the fluid solver that it owns.
+/// hold, and asks the fluid solver that it owns. Arrays of velocities and forces are those of
+/// FluidSolver. Arrays for rows have one number for each row and are empty without rows. Rows that
+/// follow from each other are no error; they get the smallest forces.
 ///
 /// With the mobility S of the fluid (velocities per force), forces f of the caller and the matrix A
 /// of the coefficients of the rows, the velocities are v = S (f + A^T l), and the forces l of the
 /// rows solve A S A^T l = rate - A S f. place() asks the fluid solver for velocities once for each
-/// row. velocities() asks it once, or twice if `driving` is true.
+/// row, velocities() once, or twice if `driving` is true.
 ///
-/// Springs have theta = (1 + z)/(2 + z) with z = h stiffness (A S A^T)_rr of their row r. If an end
-/// of the spring accelerates, z^2 takes the place of z. An oscillation of angular frequency omega
-/// has z = (omega h)^2 theta, and theta is then nearly 1/2, without damping, if omega h is small.
+/// Springs have theta = (1 + z)/(2 + z) with z = h stiffness (A S A^T)_rr of their row r; if an end
+/// accelerates, z^2 takes the place of z. In a fluid with inertia the velocities are those at the
+/// beginning of the step, where the extensions are known, S is not symmetric, and theta = 2 z^2/(2
+/// + z^2). Its limit 2 is above 1, because the step extrapolates velocities by half of their
+/// change: the extension x of a stiff spring, with h V = -x/theta, obeys x^{n+1} = x^n + h (3/2 V^n
+/// - 1/2 V^{n-1}), which would not decay with theta = 1.
 ///
-/// In a fluid with inertia the velocities are those at the beginning of the step, where the
-/// extensions are known, and theta = 2 z^2/(2 + z^2). A spring whose motion the step resolves then
-/// has the force at that time up to the second order of the step, and a stiff spring is damped. The
-/// limit 2 of theta is above 1, because the step extrapolates velocities by half of their change:
-/// the extension x of a stiff spring, with h V = -x/theta, obeys x^{n+1} = x^n + h (3/2 V^n -
-/// 1/2 V^{n-1}), which would not decay with theta = 1. S is not symmetric in such a fluid, because
-/// moving fluid carries the effect of a force along.
+/// Geometric rows (6.15) have the same theta, or (1 + z^4)/(2 + z^4) if an end accelerates. Their z
+/// is the sum of h sqrt(k_r k_s) |A S A^T|_rs over all geometric rows s with the stiffnesses k,
+/// where S is the mobility that the rows without stiffness leave. Where z is small, the step
+/// resolves the motion, and the stiffness of the row counts as 0.
 ///
-/// A geometric row has the same theta, or, if an end accelerates, (1 + z^4)/(2 + z^4). Its z is the
-/// sum of h sqrt(k_r k_s) |A S A^T|_rs over all geometric rows s with their stiffnesses k, where S is
-/// the mobility that the rows without stiffness leave. Geometric rows of neighbouring links act on
-/// one particle; with this z no motion across a chain overshoots. Without inertia and masses it then
-/// decays monotonically for every h. Where z is small, the step resolves the motion and the row does
-/// not act: its stiffness counts as 0.
-///
-/// If rows depend on each other, A S A^T is singular up to the errors of the velocities. The
-/// compliance 1/(theta h stiffness) of a spring may be far larger or smaller than the entries of
-/// A S A^T. Therefore the rank is found only for the rows without stiffness. These rows are then
-/// eliminated, which leaves a mobility for the springs.
+/// If rows depend on each other, A S A^T is singular up to the errors of the velocities, and the
+/// compliance 1/(theta h stiffness) of a spring may be far larger or smaller than its entries.
+/// Therefore the rank is found only for the rows without stiffness, which are then eliminated.
 class HeldSolver : public FluidSolver {
  public:
-  /// `solver` must not be null. `relative_error` [1], > 0, is the relative error of its velocities.
-  /// `has_inertia` says whether its fluid has inertia.
+  /// `relative_error` [1] is that of the velocities of `solver`, whose fluid may have inertia.
   HeldSolver(std::unique_ptr<FluidSolver> solver, double relative_error, bool has_inertia);
 
-  /// Sets the rows that hold from the next place() on, in steps of length h > 0 [T]. If `rows` is
-  /// empty, the particles are not held. place() must follow before any other function.
+  /// Sets the rows that hold from the next place() on, in steps of length h > 0 [T]. place() must
+  /// follow before any other function.
   void hold(std::vector<HeldRow> rows, double h);
 
   void place(const FluidParticles& bodies) override;
@@ -96,19 +82,17 @@ class HeldSolver : public FluidSolver {
   /// solver is asked once for each of them.
   void turn_with(std::span<const HeldRow> rows);
 
-  /// Finds the stiffnesses of the geometric rows from the forces that all rows have under `forces`
-  /// of the caller. Keeps the stiffnesses of before and returns false if none of them differs from
-  /// its new value by more than `tolerance` [1], >= 0, times the larger of both. Asks the fluid
-  /// solver once.
+  /// Finds the stiffnesses of the geometric rows from the forces of all rows under `forces` of the
+  /// caller. Keeps the stiffnesses of before and returns false if none differs from its new value
+  /// by more than `tolerance` [1] times the larger of both. Asks the fluid solver once.
   bool settle_stiffnesses(std::span<const double> forces, double tolerance);
 
   /// The forces of the rows under `forces` of the caller. Asks the fluid solver once.
   std::vector<double> row_forces_under(std::span<const double> forces);
 
-  /// Returns the velocities with which the rows hold. If `driving` is false, the prescribed sums,
-  /// the motions of images and the extensions of springs are taken as 0. If `driving` is true and
-  /// rows contradict each other, throws Error(kNotConverged), which names these rows. Also throws
-  /// the errors of the fluid solver.
+  /// The velocities with which the rows hold. If `driving` is false, the prescribed sums, the
+  /// motions of images and the extensions of springs are taken as 0. If it is true and rows
+  /// contradict each other, throws Error(kNotConverged), which names these rows.
   std::vector<double> velocities(std::span<const double> forces, bool driving) override;
   FlowQuantities quantities() override { return solver_->quantities(); }
   double vary_penalty() override;
@@ -122,57 +106,63 @@ class HeldSolver : public FluidSolver {
   std::size_t unknowns() const override { return solver_->unknowns(); }
   double peak_memory_mebibytes() const override { return solver_->peak_memory_mebibytes(); }
 
-  /// Returns the same as velocities(forces, false), but without forces of springs: the rows without
-  /// stiffness have the sum 0. Throws the errors of the fluid solver.
+  /// The same as velocities(forces, false), but without forces of springs: the rows without
+  /// stiffness have the sum 0.
   std::vector<double> velocities_without_springs(std::span<const double> forces);
 
-  /// Changes `velocities` by forces along the rows. They change the sum of each row without
-  /// stiffness by its number in `changes` [L/T, 1/T]. If `with_springs` is true, they also change,
-  /// for each spring, the sum plus compliance times force by its number; otherwise springs keep
-  /// their forces. Returns the added forces of all rows. The fluid solver is not asked.
+  /// Changes `velocities` by forces along the rows, which it returns. They change the sum of each
+  /// row without stiffness by its number in `changes` [L/T, 1/T]. If `with_springs` is true, they
+  /// also change, for each spring, the sum plus compliance times force by its number; otherwise
+  /// springs keep their forces. The fluid solver is not asked.
   std::vector<double> change(std::span<double> velocities, std::span<const double> changes,
                              bool with_springs) const;
 
-  /// Returns the forces of the rows without stiffness that change the sums of these rows by as much
-  /// as a change of the velocities of all particles by `changes` does; 0 for springs.
+  /// The forces of the rows without stiffness that change their sums by as much as a change of all
+  /// velocities by `changes` does.
   std::vector<double> row_forces_for(std::span<const double> changes) const;
 
   /// The theta of each row [1]. That of a spring is from 1/2 to 1, in a fluid with inertia from
   /// 1e-9 to 2; that of another row is the smaller one of these bounds.
   std::vector<double> thetas() const { return thetas_; }
-  /// The stiffness of each row, >= 0 [M/T^2, M L^2/T^2]; 0 if the row is no spring.
+  /// >= 0 [M/T^2, M L^2/T^2]; 0 if the row is no spring.
   const std::vector<double>& stiffnesses() const { return stiffnesses_; }
-  /// True if row `r` is a spring with theta > 2/3, which means that the step does not resolve its
-  /// motion. This is so if z > 1 for the z of this class.
+  /// True if row `r` is a spring whose motion the step does not resolve: theta > 2/3, or z > 1.
   bool is_stiff(std::size_t r) const { return thetas_[r] > 2.0 / 3; }
 
-  /// The forces of the rows in the last velocities(forces, true) [M L/T^2, M L^2/T^2]; empty before
-  /// the first such call.
+  /// In the last velocities(forces, true) [M L/T^2, M L^2/T^2].
   const std::vector<double>& row_forces() const { return row_forces_; }
 
-  /// The forces and torques [M L/T^2, M L^2/T^2] that the springs, the rows with a particle that
-  /// accelerates, and the rows of whose forces a geometric row has a stiffness, exerted on all
-  /// particles in the last velocities(forces, true); empty without rows.
+  /// The forces and torques on all particles of springs, of rows with a particle that accelerates,
+  /// and of rows of whose forces a geometric row has a stiffness, in the last
+  /// velocities(forces, true).
   std::vector<double> forces_of_step() const;
 
-  /// Changes `velocities` by forces along the rows until the rows without stiffness hold. The fluid
-  /// solver is not asked.
+  /// Changes `velocities` by forces along the rows until the rows without stiffness hold.
   void hold_velocities(std::span<double> velocities) const;
 
  private:
+  /// A v, without HeldRow::image_rate.
   Eigen::VectorXd sums(std::span<const double> velocities) const;
+  /// HeldRow::rate, 0 for a spring, minus the sum with these velocities.
   Eigen::VectorXd missing(std::span<const double> velocities) const;
   void respond();
   void factorise();
   void set_stiffnesses(std::vector<double> stiffnesses);
   std::vector<double> stiffnesses_for(const Eigen::VectorXd& of_rows) const;
+  /// The value that each row prescribes for its sum, or, if it is a spring, for its sum plus its
+  /// compliance times its force.
   Eigen::VectorXd given() const;
+  /// The scaled forces of fixed_ rows whose effect on their scaled sums is `right`.
   Eigen::MatrixXd solve_fixed(const Eigen::MatrixXd& right) const;
+  /// Corrects `of_rows`, which were found with the mobility at place(), for the other mesh or
+  /// penalty that the fluid solver has now. `right` is given().
   void correct(const Eigen::VectorXd& right, std::span<const double> forces,
                Eigen::VectorXd& of_rows);
+  /// The forces of the rows for `right`, as in change().
   Eigen::VectorXd solve(const Eigen::VectorXd& right, bool with_springs) const;
   void add_responses(std::span<double> velocities, const Eigen::VectorXd& forces) const;
   void add_row_forces(std::span<double> forces, const Eigen::VectorXd& of_rows) const;
+  /// Throws Error(kNotConverged) if the forces do not add `right` to the sums of fixed_ rows.
   void check(const Eigen::VectorXd& right, const Eigen::VectorXd& forces) const;
   double theta_for(double z, const HeldRow& row) const;
   std::vector<double> rates_of_turning(const std::vector<double>& stiffnesses) const;
@@ -180,7 +170,7 @@ class HeldSolver : public FluidSolver {
   std::unique_ptr<FluidSolver> solver_;
   double relative_error_;
   bool has_inertia_;
-  double h_ = 0;             // [T]
+  double h_ = 0;
   std::size_t motions_ = 0;  // length of arrays of velocities
   std::vector<HeldRow> rows_;
   std::vector<double> stiffnesses_, thetas_;

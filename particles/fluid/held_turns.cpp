@@ -1,5 +1,5 @@
-// Geometric rows: the stiffness with which forces of links, bodies and films turn with the motion,
-// docs/physics.md (6.15).
+// Geometric rows: how forces of links, bodies and films turn with the motion, docs/physics.md
+// (6.15).
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -125,6 +125,7 @@ std::vector<HeldMotion::Turn> HeldMotion::turns_of_films(const ForcesOfStep& ste
 
 void HeldMotion::add_turns(const ForcesOfStep& step) {
   if (layout_.components != 3) return;
+  assert(step.on_particles.size() == step.mobility.size());
   const auto before = velocities_before();
   auto candidates = turns_of_links(before);
   for (auto& turns : {turns_of_units(step, before), turns_of_films(step)})
@@ -204,6 +205,7 @@ double HeldMotion::sum_of(const HeldRow& row, std::span<const double> velocities
 
 double HeldMotion::power_of_turning(std::size_t k, std::span<const double> row_forces,
                                     std::span<const double> velocities) const {
+  assert(row_forces.size() >= turns_.size());
   const auto base = row_forces.size() - turns_.size();
   const Turn::Key key{Turn::kLink, static_cast<std::int32_t>(arm(k)), 0, 0};
   for (std::size_t t = 0; t < turns_.size(); ++t)

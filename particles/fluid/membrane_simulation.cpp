@@ -1,12 +1,5 @@
-// Computes time steps of membranes (closed curves through particles, their beads) and rigid discs
-// without mass in a fluid without inertia, docs/physics.md (8.1) to (8.8). Units are those of the
-// case: places [L, rad], velocities [L/T, 1/T], forces [M L/T^2, M L^2/T^2], where M is a mass per
-// length. Arrays for the fluid solver have 3 numbers for each particle. Throws Error(kBadInput) if
-// a restart file has membranes of other lengths or areas, Error(kNotConverged) if a step is not
-// solved or leaves an overlap of more than the mean radius, and the errors of FluidSolver; the
-// state is then as before the step. run/particle_simulation.cpp uses it. A change must keep that a
-// step depends only on the setting and the state, because a run that continues from a restart file
-// must give the same bits as a run without a break.
+// Steps of membranes and rigid discs in a Stokes flow, docs/physics.md (8.6). A step depends on the
+// setting and the state only, so that a run from a restart file gives the same bits.
 #include "viscontact/particles/fluid/membrane_simulation.hpp"
 
 #include <Eigen/Core>
@@ -27,7 +20,7 @@
 namespace viscontact::particles {
 namespace {
 
-constexpr std::size_t kComponents = 3;  // number of components of a particle: x, y and turn
+constexpr std::size_t kComponents = 3;  // of a particle: x, y and turn
 
 }  // namespace
 
@@ -36,9 +29,10 @@ class MembraneSimulation::Implementation {
  public:
   Implementation(Setting setting, State state, std::unique_ptr<FluidSolver> solver);
   StepReport step(double end);
+  /// The flow around the particles of a state, under the forces of the step that led to it.
   FlowField flow_at(const State& state);
   const State& state() const { return state_; }
-  const State& before_step() const { return before_step_; }  ///< the state before the last step
+  const State& before_step() const { return before_step_; }
   const FluidSolver& solver() const { return *solver_; }
 
  private:
@@ -46,22 +40,37 @@ class MembraneSimulation::Implementation {
   // torques [M L/T^2, M L^2/T^2]: first x of all beads, then y of all beads, and then x, y and the
   // angle of each disc. The discs are the particles that are no beads.
   Eigen::Index bead_components() const { return 2 * membranes_.beads(); }
+  /// Places from `positions` [L] of all particles. If `near` is not null and the domain is
+  /// periodic, each disc and the first bead of each membrane are taken at the image nearest to
+  /// their place in `near`, and every other bead at its image nearest to the bead before it.
   Eigen::VectorXd places(std::span<const double> positions,
                          const Eigen::VectorXd* near = nullptr) const;
+  // `numbers` are kComponents for each particle; the third number of a bead stays as it is.
   Eigen::VectorXd from_particles(std::span<const double> numbers) const;
   void to_particles(const Eigen::VectorXd& all, std::vector<double>& numbers) const;
   void to_particles(const Eigen::VectorXd& all, std::vector<double>& of_centres,
                     std::vector<double>& of_turns) const;
+  // Means between the times `from` and `to` [T], or, if these are equal, values at this time.
   Eigen::VectorXd applied_forces(double from, double to) const;
   void place(const Eigen::VectorXd& places, double from, double to);
+  /// The velocities without forces, and the mobility, with walls and driven discs at rest: [T/M]
+  /// for centres, and one [1/L] more for each turn or torque.
   FluidAnswer ask(const Eigen::VectorXd& places, double from, double to);
+  /// The part of `answer` for the beads, with the velocities that the `loads` on the discs cause.
   FluidAnswer answer_to_beads(const FluidAnswer& answer, const Eigen::VectorXd& loads) const;
   Eigen::VectorXd velocities_of_all(const FluidAnswer& answer, const MembraneMotion& motion,
                                     const Eigen::VectorXd& loads) const;
+  /// Change of the places at the end of a step per force: a symmetric matrix [T^2/M], and one [1/L]
+  /// more for each turn or torque. `time`, `motion` and `positions` are those of Membranes::step(),
+  /// `loads` the forces in this step.
   Eigen::MatrixXd response(double time, const FluidAnswer& answer, const Eigen::VectorXd& loads,
                            const MembraneMotion& motion, const Eigen::VectorXd& positions) const;
+  /// Places of the discs at the end of a step of length `h` [T] from the places `now`.
   Eigen::VectorXd moved_discs(const Eigen::VectorXd& now, const Eigen::VectorXd& from, double time,
                               const Eigen::VectorXd& velocities, double h) const;
+  /// Solves the contacts of a step of length `h` [T] that ends at the time `next` [T]. `free` are
+  /// the mean velocities without contacts. Enters iterations and residuals in `report`. Throws
+  /// Error(kNotConverged) if an overlap of more than the mean radius would remain.
   StepContacts solve_contacts_of(const Eigen::VectorXd& free, double h, double next,
                                  const std::function<Eigen::MatrixXd()>& response,
                                  StepReport& report);
@@ -77,9 +86,6 @@ class MembraneSimulation::Implementation {
   std::vector<double> impulse_errors_;  // residual impulse of each contact of the step [M L/T]
 };
 
-/// Prepares a run. At the start of a run the fluid solver computes the velocities and forces of the
-/// state, and its errors are thrown. For a restart file, throws Error(kBadInput) if the membranes
-/// have other lengths or areas than those of the case.
 MembraneSimulation::Implementation::Implementation(Setting setting, State state,
                                                    std::unique_ptr<FluidSolver> solver)
     : setting_(std::move(setting)),
@@ -88,6 +94,7 @@ MembraneSimulation::Implementation::Implementation(Setting setting, State state,
       membranes_(setting_.fluid->membranes),
       pool_(1),
       obstacles_(obstacles_of(setting_)) {
+  assert(solver_ != nullptr && !setting_.fluid->membranes.empty());
   auto& film = setting_.laws.film;
   film.shape = FilmShape::kDiscs;
   film.begins_at = setting_.fluid->threshold_gap;
@@ -121,10 +128,6 @@ MembraneSimulation::Implementation::Implementation(Setting setting, State state,
   to_particles(forces, state_.earlier_forces);
 }
 
-/// Places of all beads and discs from `positions` [L] of all particles, two numbers for each. If
-/// `near` is not null and the domain is periodic, each disc and the first bead of each membrane are
-/// taken at the image nearest to their place in `near`. Every other bead is taken at its image
-/// nearest to the bead before it.
 Eigen::VectorXd MembraneSimulation::Implementation::places(std::span<const double> positions,
                                                            const Eigen::VectorXd* near) const {
   const auto& p = state_.particles;
@@ -146,9 +149,9 @@ Eigen::VectorXd MembraneSimulation::Implementation::places(std::span<const doubl
   return places;
 }
 
-/// The vector of all beads and discs from `numbers`, which are kComponents for each particle.
 Eigen::VectorXd MembraneSimulation::Implementation::from_particles(
     std::span<const double> numbers) const {
+  assert(numbers.size() == kComponents * state_.particles.count());
   const auto beads = bead_components();
   Eigen::VectorXd all(beads + static_cast<Eigen::Index>(kComponents * discs_.size()));
   all.head(beads) = membranes_.from_particles(numbers, kComponents);
@@ -159,10 +162,9 @@ Eigen::VectorXd MembraneSimulation::Implementation::from_particles(
   return all;
 }
 
-/// Writes a vector of all beads and discs into `numbers`, kComponents for each particle. The third
-/// number of a bead stays as it is.
 void MembraneSimulation::Implementation::to_particles(const Eigen::VectorXd& all,
                                                       std::vector<double>& numbers) const {
+  assert(numbers.size() == kComponents * state_.particles.count());
   membranes_.to_particles(all.head(bead_components()), kComponents, numbers);
   auto i = bead_components();
   for (const auto disc : discs_)
@@ -170,8 +172,6 @@ void MembraneSimulation::Implementation::to_particles(const Eigen::VectorXd& all
       numbers[kComponents * index_of(disc) + d] = all(i++);
 }
 
-/// Writes x and y of a vector of all beads and discs into `of_centres`, two numbers for each
-/// particle, and the third component of discs into `of_turns`, one number for each particle.
 void MembraneSimulation::Implementation::to_particles(const Eigen::VectorXd& all,
                                                       std::vector<double>& of_centres,
                                                       std::vector<double>& of_turns) const {
@@ -184,8 +184,6 @@ void MembraneSimulation::Implementation::to_particles(const Eigen::VectorXd& all
   }
 }
 
-/// The mean forces of the case on all beads and discs between the times `from` and `to` [T], or, if
-/// these are equal, the forces at this time.
 Eigen::VectorXd MembraneSimulation::Implementation::applied_forces(double from, double to) const {
   std::vector<double> forces(kComponents * state_.particles.count());
   for (const auto& [particle, force] : setting_.forces) {
@@ -195,9 +193,6 @@ Eigen::VectorXd MembraneSimulation::Implementation::applied_forces(double from, 
   return from_particles(forces);
 }
 
-/// Gives the fluid solver the places of all beads and discs. Also gives it the mean velocities,
-/// between the times `from` and `to` [T], of the driven discs, whose motion is given; if the times
-/// are equal, the velocities at this time.
 void MembraneSimulation::Implementation::place(const Eigen::VectorXd& places, double from,
                                                double to) {
   auto placed = state_.particles;
@@ -213,10 +208,6 @@ void MembraneSimulation::Implementation::place(const Eigen::VectorXd& places, do
   solver_->place(bodies);
 }
 
-/// Asks the fluid solver for two results at `places`. The first is the velocities of beads and
-/// discs without forces, if walls and driven discs move as between the times `from` and `to` [T].
-/// The second is the mobility, the velocities per force, if walls and driven discs are at rest:
-/// [T/M] for centres, and one [1/L] more for each turn or torque. Throws the errors of FluidSolver.
 FluidAnswer MembraneSimulation::Implementation::ask(const Eigen::VectorXd& places, double from,
                                                     double to) {
   place(places, from, to);
@@ -225,7 +216,7 @@ FluidAnswer MembraneSimulation::Implementation::ask(const Eigen::VectorXd& place
   FluidAnswer answer;
   answer.flow = from_particles(solver_->velocities(std::vector<double>(size), true));
   const auto rows = solver_->mobility(size);
-  // The numbers of rows of beads and discs in the solver, in the order of the arrays of this class.
+  // The numbers of rows in the solver, in the order of the arrays of this class.
   std::vector<double> numbers(size);
   for (std::size_t i = 0; i < size; ++i) numbers[i] = static_cast<double>(i);
   const auto order = from_particles(numbers);
@@ -233,13 +224,11 @@ FluidAnswer MembraneSimulation::Implementation::ask(const Eigen::VectorXd& place
   for (Eigen::Index i = 0; i < n; ++i)
     as_solved.col(i) =
         from_particles({rows.data() + static_cast<std::size_t>(order(i)) * size, size});
-  // The mobility is symmetric but for rounding errors of the solutions, which the mean removes.
+  // Symmetric but for rounding errors.
   answer.mobility = (as_solved + as_solved.transpose()) / 2;
   return answer;
 }
 
-/// The part of `answer` for the beads. Its flow is that of `answer`, to which the velocities that
-/// the `loads` on the discs cause are added.
 FluidAnswer MembraneSimulation::Implementation::answer_to_beads(
     const FluidAnswer& answer, const Eigen::VectorXd& loads) const {
   const auto b = bead_components(), d = answer.flow.size() - b;
@@ -247,8 +236,6 @@ FluidAnswer MembraneSimulation::Implementation::answer_to_beads(
           answer.mobility.topLeftCorner(b, b)};
 }
 
-/// The velocities of all beads and discs, with the forces of `motion` on the beads and `loads` on
-/// the discs.
 Eigen::VectorXd MembraneSimulation::Implementation::velocities_of_all(
     const FluidAnswer& answer, const MembraneMotion& motion, const Eigen::VectorXd& loads) const {
   const auto b = bead_components(), d = answer.flow.size() - b;
@@ -259,10 +246,6 @@ Eigen::VectorXd MembraneSimulation::Implementation::velocities_of_all(
   return velocities;
 }
 
-/// Change of the places at the end of a step per force on beads and discs. It is a symmetric matrix
-/// of displacements per force [T^2/M], turns per force and displacements per torque [T^2/(M L)],
-/// and turns per torque [T^2/(M L^2)]. `time`, `motion` and `positions` are those of
-/// Membranes::step(), `loads` the forces on all beads and discs in this step.
 Eigen::MatrixXd MembraneSimulation::Implementation::response(
     double time, const FluidAnswer& answer, const Eigen::VectorXd& loads,
     const MembraneMotion& motion, const Eigen::VectorXd& positions) const {
@@ -275,19 +258,17 @@ Eigen::MatrixXd MembraneSimulation::Implementation::response(
   response.topRows(b) = changes.positions;
   response.bottomRows(n - b) =
       moves.bottomRows(n - b) + moves.bottomLeftCorner(n - b, b) * changes.forces;
-  // The mean removes rounding errors, which are not symmetric.
+  // The mean removes rounding errors.
   return (response + response.transpose()) / 2;
 }
 
-/// Places of the discs at the end of a step of length `h` [T] that begins at the places `now`.
-/// Centres of free discs are at `from` + `time` times their velocities, which is the backward
-/// difference of second order. Centres of driven discs are at `now` + h times their mean
-/// velocities. Angles are integrated by the trapezoidal rule.
 Eigen::VectorXd MembraneSimulation::Implementation::moved_discs(const Eigen::VectorXd& now,
                                                                 const Eigen::VectorXd& from,
                                                                 double time,
                                                                 const Eigen::VectorXd& velocities,
                                                                 double h) const {
+  // Free discs move by the backward difference of second order, driven ones by their mean
+  // velocities. Angles are integrated by the trapezoidal rule.
   const auto b = bead_components();
   Eigen::VectorXd moved = (from + time * velocities).tail(now.size() - b);
   for (std::size_t j = 0; j < discs_.size(); ++j) {
@@ -301,11 +282,6 @@ Eigen::VectorXd MembraneSimulation::Implementation::moved_discs(const Eigen::Vec
   return moved;
 }
 
-/// Solves the contacts of a step of length `h` [T] that ends at the time `next` [T]. Beads of one
-/// membrane make no contact with each other. `free` are the mean velocities in the step without
-/// contacts. The argument `response` returns the matrix of the displacements per force. Enters
-/// iterations and residuals in `report`. Throws Error(kNotConverged) if the step is not solved and
-/// an overlap of more than the mean radius would remain.
 StepContacts MembraneSimulation::Implementation::solve_contacts_of(
     const Eigen::VectorXd& free, double h, double next,
     const std::function<Eigen::MatrixXd()>& response, StepReport& report) {
@@ -326,8 +302,7 @@ StepContacts MembraneSimulation::Implementation::solve_contacts_of(
     return (is_driven(pair.first) && is_driven(pair.second)) ||
            (pair.first >= 0 && setting_.fluid->are_of_one_membrane(pair.first, pair.second));
   };
-  // The relative error of the velocities that the fluid solver gives. It is equal to kError in
-  // error_of_answers() of fluid/fluid_motion.hpp, where its reason is given.
+  // kError in error_of_answers(), where its reason is given.
   constexpr double kErrorOfAnswers = 1e-9;
   const double radius = mean_radius(state_.particles);
   const ContactConditions conditions{velocities,      h,      MotionLayout{kComponents},
@@ -347,9 +322,6 @@ StepContacts MembraneSimulation::Implementation::solve_contacts_of(
   return contacts;
 }
 
-/// Stores the pairs and the impulses of the contacts of a step of length `h` [T] in the state, and
-/// updates what films and solids remember. Enters in `report` the numbers of contacts and of pairs
-/// whose film has absorbed an impulse.
 void MembraneSimulation::Implementation::remember(StepContacts contacts, double h,
                                                   StepReport& report) {
   state_.pairs = std::move(contacts.pairs);
@@ -370,8 +342,6 @@ void MembraneSimulation::Implementation::remember(StepContacts contacts, double 
   state_.memories.keep_only(state_.pairs, state_.walls);
 }
 
-/// Computes a step that ends at `end` [T] or before; no step if the state has reached `end`. Throws
-/// Error(kNotConverged) and the errors of FluidSolver before it changes the state.
 StepReport MembraneSimulation::Implementation::step(double end) {
   const auto interval = StepGrid(setting_.time_step).next(state_, end);
   if (!interval) return {.time = state_.time, .parts = 1};
@@ -444,8 +414,6 @@ StepReport MembraneSimulation::Implementation::step(double end) {
   return report;
 }
 
-/// The flow around the particles of a state, under the forces of the step that led to it. Throws
-/// the errors of FluidSolver.
 FlowField MembraneSimulation::Implementation::flow_at(const State& state) {
   place(places(state.particles.positions), state.time, state.time);
   solver_->velocities(state.earlier_forces, true);
@@ -459,25 +427,19 @@ MembraneSimulation::MembraneSimulation(Setting setting, State state,
 
 MembraneSimulation::~MembraneSimulation() = default;
 
-/// Computes a step that ends at `end` [T] or before. Throws Error(kNotConverged) and the errors of
-/// FluidSolver; the state is then as before the step.
 StepReport MembraneSimulation::step(double end) { return implementation_->step(end); }
 
 const State& MembraneSimulation::state() const { return implementation_->state(); }
 
-/// The flow with the particles at their places before the last step. There must have been a step
-/// (asserted). Throws the errors of FluidSolver.
 FlowField MembraneSimulation::flow() {
   assert(implementation_->before_step().particles.count() > 0);
   return implementation_->flow_at(implementation_->before_step());
 }
 
-/// The flow with the particles at their present places. Throws the errors of FluidSolver.
 FlowField MembraneSimulation::flow_at_present() {
   return implementation_->flow_at(implementation_->state());
 }
 
-/// Forces and torques of the fluid on all particles in the last step, 3 numbers for each particle.
 std::vector<double> MembraneSimulation::fluid_forces() const {
   auto forces = state().earlier_forces;
   for (auto& force : forces) force = -force;

@@ -1,14 +1,8 @@
-// Computes the terms of the equation of motion of a step in a fluid: forces [M L/T^2, M L^2/T^2],
-// inertia, which is mass over theta h [M/T, M L^2/T], and given motions [L/T, 1/T]. The number
-// theta [1] is 1/2 to 1; the velocities in the step are theta times those at its end plus 1 - theta
-// times those at its beginning. A component is a direction or the rotation of a particle; arrays
-// have 3 numbers for each particle, or 1 on an axis. The length h of the step is > 0 [T]; units are
-// any consistent ones. Nothing is checked; given_in_step() throws std::out_of_range for a particle
-// that is not driven. fluid_simulation.cpp and fluid_links.cpp use it. A change must keep the
-// second order in time away from contact.
+// Forces, inertia and given motions of a step in a fluid, docs/physics.md (6.5).
 #include "viscontact/particles/fluid/step_equation.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -23,8 +17,7 @@ namespace viscontact::particles {
 namespace {
 
 /// Mass [M] or moment of inertia [M L^2] of each component. The mass of a rigid body is divided
-/// among its members. The moment of inertia of the body, less that of these masses at the places of
-/// the members, is divided evenly among the members.
+/// among its members, and evenly what its moment of inertia exceeds that of these masses.
 std::vector<double> masses_of(const Particles& p, const Fluid& fluid, const MotionLayout& layout) {
   std::vector<double> masses(p.count() * layout.components);
   for (std::size_t k = 0; k < p.count(); ++k) {
@@ -50,8 +43,8 @@ std::vector<double> masses_of(const Particles& p, const Fluid& fluid, const Moti
   return masses;
 }
 
-/// The mean forces and torques on all particles [M L/T^2, M L^2/T^2] between the times `from` and
-/// `to` [T]: weight minus buoyancy, and those of the case and of the caller.
+/// The mean forces and torques between the times `from` and `to` [T]: weight minus buoyancy, and
+/// those of the case and of the caller.
 std::vector<double> mean_forces(const Setting& setting, const Particles& p,
                                 std::span<const double> masses, const MotionLayout& layout,
                                 double from, double to) {
@@ -111,8 +104,6 @@ bool has_kink(const Arm& arm, double from, double to) {
 
 }  // namespace
 
-/// The times [T] between which the forces of a step of length `h` that ends at `next` are averaged,
-/// and those between which given motions are averaged.
 StepEquation::Window StepEquation::window(const Setting& setting, const State& state, double h,
                                           double next) {
   const double now = state.time;
@@ -126,8 +117,6 @@ StepEquation::Window StepEquation::window(const Setting& setting, const State& s
   return {state.steps == 1 ? now - state.earlier_step : from, from, now + h / 2};
 }
 
-/// Makes the equation of a step of length `h` [T] that ends at the time `next` [T]. Particles are
-/// in contact if they had a contact in the step before, or an impulse that a film remembers.
 StepEquation::StepEquation(const Setting& setting, const State& state, double h, double next)
     : setting_(setting),
       state_(state),
@@ -139,6 +128,7 @@ StepEquation::StepEquation(const Setting& setting, const State& state, double h,
       forces_(mean_forces(setting, state.particles, masses_, layout_, window_.from_of_forces,
                           window_.to)),
       in_contact_(state.particles.count(), 0) {
+  assert(h > 0 && next > state.time);
   for (const auto& [particle, motion] : setting.given_motions)
     driven_.emplace(particle, given_motion(motion, window_.from, window_.to));
   for (const auto* pairs : {&state.pairs, &state.walls})
@@ -157,7 +147,6 @@ StepEquation::StepEquation(const Setting& setting, const State& state, double h,
   add_inertia();
 }
 
-/// Sets thetas_, inertia_ and link_times_.
 void StepEquation::add_inertia() {
   thetas_.assign(masses_.size(), 1);
   inertia_.assign(masses_.size(), 0);
@@ -187,7 +176,6 @@ void StepEquation::add_inertia() {
   }
 }
 
-/// Sets companions_, and in_contact_ of particles whose velocities may jump because of a link.
 void StepEquation::find_companions() {
   const auto& p = state_.particles;
   // Particles that move with each other form sets. set[k] is a particle of the set of k, and
@@ -227,7 +215,6 @@ void StepEquation::find_companions() {
     if (particles.size() > 1) companions_.push_back(std::move(particles));
 }
 
-/// Puts all particles in contact that move with a particle in contact.
 void StepEquation::spread_contact() {
   for (const auto& particles : companions_)
     if (std::ranges::any_of(particles,
@@ -235,9 +222,6 @@ void StepEquation::spread_contact() {
       for (const auto k : particles) in_contact_[index_of(k)] = 1;
 }
 
-/// The drag of particle k in the step before, over its velocity: force over speed [M/T], or, for
-/// the rotation, torque over angular velocity [M L^2/T]. It is 0 if the particle did not move, and
-/// infinite if there was no step before.
 double StepEquation::earlier_drag(std::size_t k, std::size_t component) const {
   const auto &u = state_.earlier_velocities, &f = state_.earlier_forces;
   if (u.size() != masses_.size() || f.size() != masses_.size())
@@ -252,11 +236,10 @@ double StepEquation::earlier_drag(std::size_t k, std::size_t component) const {
   return speed > 0 ? std::sqrt(force / speed) : 0;
 }
 
-/// The theta of all components of a rigid body, from its rate of damping c/m [1/T]. This is
-/// estimated as the power of the drag in the step before over twice the kinetic energy. The
-/// quotient lies between the rates of the least and of the most damped motion of the body, and does
-/// not depend on the forces between its members.
 double StepEquation::theta_of_body(const RigidBody& body) const {
+  // The rate of damping c/m [1/T] is estimated as the power of the drag in the step before over
+  // twice the kinetic energy. The quotient lies between the rates of the least and of the most
+  // damped motion of the body, and does not depend on the forces between its members.
   if (!(body.mass > 0) || in_contact_[index_of(body.members.front())] != 0) return 1;
   const auto &u = state_.earlier_velocities, &f = state_.earlier_forces;
   if (u.size() != masses_.size() || f.size() != masses_.size()) return 1;
@@ -273,35 +256,27 @@ double StepEquation::theta_of_body(const RigidBody& body) const {
   return std::isfinite(z) ? (1 + z) / (2 + z) : 1;
 }
 
-/// The Stokes drag per velocity of a sphere [M/T], or the torque per angular velocity of a disc
-/// [M L/T]. A disc that translates in an unbounded fluid has no drag in proportion to its velocity
-/// (Stokes' paradox); 4 pi mu [M/(L T)], of the right dimension, is taken in its place.
 double StepEquation::stokes_drag(std::size_t k, std::size_t component) const {
   const double r = state_.particles.radii[k], mu = setting_.fluid->viscosity;
   constexpr double kPi = std::numbers::pi;
+  // A disc that translates in an unbounded fluid has no drag in proportion to its velocity (Stokes'
+  // paradox); 4 pi mu, of the right dimension, is taken in its place.
   if (layout_.components == 1) return 6 * kPi * mu * r;
   return component == 2 ? 4 * kPi * mu * r * r : 4 * kPi * mu;
 }
 
-/// The theta of a component of particle k without a body: (1 + z)/(2 + z), where z is the length of
-/// the step times the drag over `mass`, the mass [M] or moment of inertia [M L^2]. A particle in
-/// contact has 1.
 double StepEquation::theta(std::size_t k, std::size_t component, double mass) const {
   if (in_contact_[k] != 0) return 1;
   const double z = h_ * std::max(stokes_drag(k, component), earlier_drag(k, component)) / mass;
   return std::isfinite(z) ? (1 + z) / (2 + z) : 1;
 }
 
-/// The particles for FluidSolver::place(), with the given motions and the inertia; the result
-/// refers to this object and the state.
 FluidParticles StepEquation::bodies() const {
   FluidParticles bodies{&state_.particles, state_.particles.angles, driven_, {}, flow_step()};
   if (std::ranges::any_of(inertia_, [](double x) { return x > 0; })) bodies.inertia = inertia_;
   return bodies;
 }
 
-/// How a fluid with inertia approximates rates of change in this step: the order 1 or 2, the
-/// lengths of the steps [T], and the masses. All members are 0 or empty in a fluid without inertia.
 FlowStep StepEquation::flow_step() const {
   if (!setting_.fluid->has_inertia()) return {};
   // The first step computes the velocity at its end, where the second step computes it again.
@@ -317,23 +292,16 @@ FlowStep StepEquation::flow_step() const {
           window_.from, window_.to, masses_};
 }
 
-/// In a fluid with inertia, the share [1] of the last change of a velocity that is added to it to
-/// move a particle without contact. It is 0 after a step that was too short, and -1/2 in the first
-/// step.
 double StepEquation::share_of_change() const {
   const bool is_first = !(state_.earlier_step > 0);
   if (is_first) return -0.5;
   return h_ <= kLargestRatioOfSteps * state_.earlier_step ? h_ / (2 * state_.earlier_step) : 0;
 }
 
-/// The mean given motion of a particle in the step: x, y [L/T] and angular velocity [1/T], or on an
-/// axis z, 0, 0. Throws std::out_of_range if the particle is not driven.
 std::array<double, 3> StepEquation::given_in_step(std::int32_t driven) const {
   return given_motion(setting_.given_motions.at(driven), state_.time, next_);
 }
 
-/// The inertia of each component [M/T, M L^2/T], in a fluid with inertia the mass or moment of
-/// inertia over the length of the step.
 std::vector<double> StepEquation::inertia_of_projection() const {
   if (!setting_.fluid->has_inertia()) return inertia_;
   auto inertia = masses_;
@@ -351,7 +319,6 @@ double StepEquation::velocity(std::size_t k, std::size_t component) const {
                                           : p.angular_velocities[k];
 }
 
-/// The velocities of all components before the step; for driven particles their given motions.
 std::vector<double> StepEquation::velocities() const {
   std::vector<double> velocities(masses_.size());
   for (std::size_t i = 0; i < velocities.size(); ++i)
@@ -361,9 +328,6 @@ std::vector<double> StepEquation::velocities() const {
   return velocities;
 }
 
-/// The right side of the equation [M L/T^2, M L^2/T^2]: the forces, plus the inertia times the
-/// velocities before the step. The forces on the members of a body that accelerates act at their
-/// places in the middle of the step, which changes the torque on the first member.
 std::vector<double> StepEquation::right_side() const {
   auto forces = forces_;
   for (std::size_t i = 0; i < forces.size(); ++i)
@@ -383,10 +347,9 @@ std::vector<double> StepEquation::right_side() const {
   return forces;
 }
 
-/// The velocities at the end of a step with the velocities `motions`. Components without inertia
-/// and driven particles have those in `flow`.
 std::vector<double> StepEquation::velocities_at_end(std::span<const double> motions,
                                                     std::span<const double> flow) const {
+  assert(motions.size() == masses_.size() && flow.size() == masses_.size());
   std::vector<double> velocities(flow.begin(), flow.end());
   for (std::size_t i = 0; i < velocities.size(); ++i) {
     const auto k = i / layout_.components;
@@ -397,12 +360,10 @@ std::vector<double> StepEquation::velocities_at_end(std::span<const double> moti
   return velocities;
 }
 
-/// The velocities by which forces are multiplied to give their power. The share of a force that
-/// accelerates a particle has the mean of the velocities before the step and `at_end`; the share
-/// that balances the `drag` of the particle on the fluid has `flow`.
 std::vector<double> StepEquation::velocities_of_work(std::span<const double> flow,
                                                      std::span<const double> at_end,
                                                      std::span<const double> drag) const {
+  assert(flow.size() == masses_.size() && at_end.size() == flow.size());
   std::vector<double> velocities(flow.begin(), flow.end());
   for (std::size_t i = 0; i < velocities.size(); ++i) {
     const auto k = i / layout_.components;
@@ -411,8 +372,8 @@ std::vector<double> StepEquation::velocities_of_work(std::span<const double> flo
     const double accelerating = masses_[i] / h_ * (at_end[i] - before);
     const double all = accelerating + drag[i];
     // If drag and acceleration nearly cancel, `all` is nearly 0, and the share means nothing,
-    // although the links of the particle may exert large forces that cancel each other. The bound,
-    // a free choice, keeps the powers of such links finite. It changes only reported powers.
+    // although the links of the particle may exert large forces that cancel each other. The bound
+    // keeps the powers of such links finite. It changes only reported powers.
     constexpr double kLargestShare = 10;
     const double share =
         all != 0 ? std::clamp(accelerating / all, -kLargestShare, kLargestShare) : 0;
@@ -421,8 +382,6 @@ std::vector<double> StepEquation::velocities_of_work(std::span<const double> flo
   return velocities;
 }
 
-/// The change of each velocity by a mean force in the step, per force [T/M, T/(M L^2)]: the step
-/// over the mass, without a mass one over the Stokes drag, and 0 for driven particles.
 std::vector<double> StepEquation::mobility_of_step() const {
   std::vector<double> mobility(masses_.size());
   for (std::size_t i = 0; i < mobility.size(); ++i) {
@@ -441,8 +400,6 @@ std::vector<double> StepEquation::largest_mobility() const {
   return mobility;
 }
 
-/// Marks the particles of contacts with an impulse as in contact, except driven ones. Returns true
-/// if a theta, or the order in a fluid with inertia, changed; the step must then be solved again.
 bool StepEquation::put_in_contact(std::span<const Contact<2>> contacts) {
   const auto before = thetas_;
   const bool was_any = is_any_in_contact();
@@ -456,8 +413,6 @@ bool StepEquation::put_in_contact(std::span<const Contact<2>> contacts) {
   return thetas_ != before || (setting_.fluid->has_inertia() && !was_any && is_any_in_contact());
 }
 
-/// The mean of a given motion between two times [T]: x, y [L/T] and angular velocity [1/T]; on an
-/// axis z, 0, 0.
 std::array<double, 3> StepEquation::given_motion(const GivenMotion& motion, double from,
                                                  double to) const {
   const Vector velocity = motion.velocity.mean(from, to);
@@ -465,7 +420,6 @@ std::array<double, 3> StepEquation::given_motion(const GivenMotion& motion, doub
   return {velocity[0], velocity[1], motion.angular_velocity.mean(from, to)[2]};
 }
 
-/// True if the given velocity of a driven particle differs from that in the step before.
 bool StepEquation::has_jump(std::int32_t driven) const {
   // In the first step theta = 1 in any case.
   if (!(state_.earlier_step > 0)) return false;
@@ -480,8 +434,6 @@ bool StepEquation::has_jump(std::int32_t driven) const {
   return false;
 }
 
-/// True if no given motion differs from that in the step before, and no rate of an arm's length
-/// jumps.
 bool StepEquation::drives_as_before() const {
   for (const auto& arm : setting_.links.arms)
     if (has_kink(arm, state_.time - state_.earlier_step, state_.time + h_)) return false;

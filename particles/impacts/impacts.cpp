@@ -1,15 +1,8 @@
-// Finds the blows of a time step, which are collisions of solids that rebound, in the order of
-// their times. The projection, which follows, solves the contacts of the step without rebound.
-// Displacements and gaps are in [L], turns in [rad], velocities in [L/T, 1/T], in any consistent
-// units; a time `t` [T] is counted from the beginning of the step, 0 to its length h > 0. Particles
-// and pairs are numbered from 0; pairs of State::pairs come before those of State::walls, and an
-// obstacle is a negative number. The structs Flight (what blows changed in a motion), Arm, Approach
-// and Hit are in impacts.hpp. Nothing is checked or thrown; converged() says whether all blows are
-// solved. simulation.cpp and projection/ use it. The order of the particles must change results by
-// rounding errors only.
+// Hits in the order of their times, docs/physics.md (5.16).
 #include "viscontact/particles/impacts/impacts.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -21,17 +14,16 @@ namespace viscontact::particles {
 namespace {
 
 // Times of hits that differ by less than this share of the step count as equal, so that the hits of
-// a symmetric blow are decided together although their times differ by rounding errors. The share
-// is far above these errors and far below 1.
+// a symmetric blow are decided together in spite of rounding errors.
 constexpr double kSameTime = 1e-9;
 
-/// Finds a root of a continuous function that is > 0 at `from` and <= 0 at `until`, by the Illinois
-/// method (a bracketing secant method). Returns the upper end of the last bracket, after 200 steps
-/// at most, a number that only guards against an endless loop.
+/// A root of a continuous function that is > 0 at `from` and <= 0 at `until`, by the Illinois
+/// method (a bracketing secant method): the upper end of the last bracket.
 template <class Function>
 double root_of_falling(const Function& f, double from, double until) {
   double low = from, high = until, at_low = f(low), at_high = f(high);
   int side = 0;
+  // This number only guards against an endless loop.
   constexpr int kMostSteps = 200;
   for (int n = 0; n < kMostSteps && at_high != 0; ++n) {
     double t = (low * at_high - high * at_low) / (at_high - at_low);
@@ -58,14 +50,15 @@ double root_of_falling(const Function& f, double from, double until) {
 
 }  // namespace
 
-/// Keeps references to the state and to the arrays of the step, and a copy of the motions that the
-/// rigid bodies have without blows. A pair that the state does not list is never hit.
 template <int D>
 Impacts<D>::Impacts(State& state, const ImpactStep& step)
-    : state_(state), step_(step), free_bodies_(step.bodies.begin(), step.bodies.end()) {}
+    : state_(state), step_(step), free_bodies_(step.bodies.begin(), step.bodies.end()) {
+  assert(step.h > 0 && step.kick > 0 && step.end >= step.begin && step.touching > 0);
+  assert(step.displacements.size() == step.mobilities.size() * static_cast<std::size_t>(D));
+  assert(step.turns.empty() == step.turn_mobilities.empty());
+  assert(step.bodies.size() == state.particles.bodies.count());
+}
 
-/// The record of what blows changed in the motion of particle `k`, >= 0, which is made at the first
-/// call.
 template <int D>
 typename Impacts<D>::Flight& Impacts<D>::flight(std::int32_t k) {
   if (flight_of_.empty()) flight_of_.assign(state_.particles.count(), -1);
@@ -78,29 +71,24 @@ typename Impacts<D>::Flight& Impacts<D>::flight(std::int32_t k) {
   return flights_[index_of(number)];
 }
 
-/// The same record, or one of zeros for an obstacle and for a particle without a blow.
 template <int D>
 const typename Impacts<D>::Flight& Impacts<D>::flight_or_none(std::int32_t k) const {
   static const Flight kNone{};
   return is_touched(k) ? flights_[index_of(flight_of_[index_of(k)])] : kNone;
 }
 
-/// Velocity of a particle at the end of the step without contacts [L/T]; 0 for an obstacle.
 template <int D>
 Vector Impacts<D>::free_velocity(std::int32_t k) const {
   if (k < 0) return {};
   return (1 / step_.h) * point_of(step_.displacements.data(), index_of(k), D);
 }
 
-/// The mean acceleration of a particle by its forces in the step [L/T^2]; 0 for an obstacle.
 template <int D>
 Vector Impacts<D>::acceleration(std::int32_t k) const {
   if (is_given(k)) return {};
   return (1 / step_.kick) * (free_velocity(k) - state_.particles.velocity(index_of(k)));
 }
 
-/// Angular velocity of a particle without contacts [1/T]; of discs only the third component. At
-/// every time of the step it contains what the torques change in the whole step.
 template <int D>
 Vector Impacts<D>::free_spin(std::int32_t k) const {
   if (k < 0 || step_.turns.empty()) return {};
@@ -110,15 +98,12 @@ Vector Impacts<D>::free_spin(std::int32_t k) const {
   return (1 / step_.h) * turn;
 }
 
-/// Velocity of the centre of the rigid body of a particle, or of the particle, at the end of the
-/// step without contacts [L/T]; 0 for an obstacle.
 template <int D>
 Vector Impacts<D>::centre_velocity(std::int32_t k) const {
   const auto body = k < 0 ? -1 : state_.particles.bodies.body_of(k);
   return body < 0 ? free_velocity(k) : (1 / step_.h) * free_bodies_[index_of(body)].displacement;
 }
 
-/// The mean acceleration of the same centre by forces in the step [L/T^2]; 0 for an obstacle.
 template <int D>
 Vector Impacts<D>::centre_acceleration(std::int32_t k) const {
   const auto body = k < 0 ? -1 : state_.particles.bodies.body_of(k);
@@ -127,8 +112,6 @@ Vector Impacts<D>::centre_acceleration(std::int32_t k) const {
   return (1 / step_.kick) * (centre_velocity(k) - before);
 }
 
-/// The place of a particle in its rigid body [L], with the turning of the body [1/T, rad]. All
-/// members are 0 for an obstacle and for a particle without a body.
 template <int D>
 typename Impacts<D>::Arm Impacts<D>::arm_of(std::int32_t k) const {
   const auto body = k < 0 ? -1 : state_.particles.bodies.body_of(k);
@@ -138,9 +121,6 @@ typename Impacts<D>::Arm Impacts<D>::arm_of(std::int32_t k) const {
           free_spin(k) - before};
 }
 
-/// The rigid body of particle `k` with the orientation, the angular momentum and the angular
-/// velocity that it has at the time `t` with the blows so far. Its lists of members stay empty,
-/// because nobody needs them and a copy takes time.
 template <int D>
 RigidBody Impacts<D>::body_at(std::int32_t k, double t) const {
   const auto number = index_of(state_.particles.bodies.body_of(k));
@@ -153,17 +133,11 @@ RigidBody Impacts<D>::body_at(std::int32_t k, double t) const {
   return body;
 }
 
-/// The angular velocity of particle `k` at a blow at the time `t` [1/T]. The angular velocity of a
-/// rigid body in space changes between blows, while spin(), with which its particles move, is
-/// constant. A blow needs the true velocity of the point at which it acts, because otherwise a blow
-/// with the coefficient of restitution 1 would not keep the energy.
 template <int D>
 Vector Impacts<D>::spin_at(std::int32_t k, double t) const {
   return precesses(k) ? body_at(k, t).angular_velocity : spin(k);
 }
 
-/// The motion of the second particle of pair `k` in the step, with the blows so far: relative to
-/// the first particle, or, at an obstacle, in space.
 template <int D>
 typename Impacts<D>::Approach Impacts<D>::approach_of(std::size_t k) {
   const auto& p = state_.particles;
@@ -197,7 +171,6 @@ typename Impacts<D>::Approach Impacts<D>::approach_of(std::size_t k) {
   return approach;
 }
 
-/// The unit normal of a pair at the time `t`, from its first to its second member.
 template <int D>
 Vector Impacts<D>::normal_of(const Approach& approach, double t) const {
   const Vector x = approach.place(t);
@@ -206,7 +179,6 @@ Vector Impacts<D>::normal_of(const Approach& approach, double t) const {
   return distance > 0 ? (1 / distance) * x : Vector{1, 0, 0};
 }
 
-/// The gap of a pair at the time `t` [L], < 0 if the two overlap.
 template <int D>
 double Impacts<D>::gap_of(const Approach& approach, double t) const {
   const Vector x = approach.place(t);
@@ -215,7 +187,6 @@ double Impacts<D>::gap_of(const Approach& approach, double t) const {
              : norm(x) - approach.sum;
 }
 
-/// Velocity of the obstacle at its point nearest to the second particle [L/T]; 0 without obstacle.
 template <int D>
 Vector Impacts<D>::surface_of(const Approach& approach, double t) const {
   if (approach.obstacle == nullptr) return {};
@@ -224,15 +195,11 @@ Vector Impacts<D>::surface_of(const Approach& approach, double t) const {
   return approach.obstacle->surface_velocity(foot, step_.begin + t);
 }
 
-/// Velocity of the second centre relative to the first, or to the surface of the obstacle [L/T].
 template <int D>
 Vector Impacts<D>::velocity_of(const Approach& approach, double t) const {
   return approach.velocity(t) - surface_of(approach, t);
 }
 
-/// Second derivative of the gap in time [L/T^2]. For two particles it contains only the part
-/// of the forces. At an obstacle it also contains the part of the motion along a circle or at a
-/// plane that turns, which exists without a force.
 template <int D>
 double Impacts<D>::acceleration_of_gap(const Approach& approach, double t) const {
   const Vector n = normal_of(approach, t);
@@ -251,14 +218,13 @@ double Impacts<D>::acceleration_of_gap(const Approach& approach, double t) const
   return acceleration + dot(turns, 2.0 * u + cross(obstacle.angular_velocity, arm));
 }
 
-/// The first time in [`from`, `until`] at which the gap closes; std::nullopt if it stays open.
-/// After a blow the gap is 0 but for rounding errors, of either sign. A gap that opens at `from`
-/// therefore closes when it falls to 0, or, if it is < 0 at `from`, to its value there. The
-/// velocity of an obstacle must not jump between the two times.
 template <int D>
 std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, double from,
                                                   double until) const {
+  assert(from <= until);
   const auto* obstacle = approach.obstacle;
+  // After a blow the gap is 0 but for rounding errors, of either sign. A gap that opens at `from`
+  // therefore closes when it falls to 0, or, if it is < 0 at `from`, to its value there.
   const double closed = std::min(gap_of(approach, from), 0.0);
   const auto gap_at = [&](double t) { return gap_of(approach, t) - closed; };
   const auto rate_at = [&](double t) {
@@ -287,23 +253,21 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
     const double t = from + gap * (norm(c) + approach.sum) / (-along + std::sqrt(root));
     return t <= until ? std::optional(t) : std::nullopt;
   }
-  // With the normal n at `from`, the gap at the time from + s is gap + rate s + curvature s^2. Two
-  // particles that leave each other turn around each other, which adds the second part of
-  // curvature.
+  // With the normal n at `from`, the gap at from + s is gap + rate s + curvature s^2. Two particles
+  // that leave each other turn around each other, which adds the second part of curvature.
   double curvature = dot(n, approach.acceleration(from)) / 2;
   if (obstacle == nullptr && rate > 0)
     curvature += (dot(v, v) - rate * rate) / (2 * (approach.sum + gap + closed));
   const double root = rate * rate - 4 * curvature * gap;
   // The curvature changes on the way, so that a gap that opens may close again.
   if (root < 0 || (rate >= 0 && curvature >= 0)) return search();
-  // The time at which the gap falls to 0. There is a formula for each sign of the rate, in which
-  // terms do not cancel each other.
+  // The time at which the gap falls to 0, by a formula for each sign of the rate in which terms do
+  // not cancel each other.
   double t = from + (rate < 0 ? 2 * gap / (-rate + std::sqrt(root))
                               : (rate + std::sqrt(root)) / (-2 * curvature));
   if (obstacle != nullptr && !approach.turns()) return t <= until ? std::optional(t) : std::nullopt;
-  // The normal of two particles and the arm of a body change between the two times, so that
-  // Newton's method improves the guess t. It converges quadratically, and 20 steps are far more
-  // than it needs.
+  // The normal of two particles and the arm of a body change on the way, so that Newton's method
+  // improves the guess t. 20 steps are far more than it needs.
   constexpr int kMostSteps = 20;
   for (int i = 0; i < kMostSteps; ++i) {
     const double falls = rate_at(t);
@@ -316,9 +280,6 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
   return t <= until ? std::optional(t) : search();
 }
 
-/// The contact of pair `k` if it is hit at `time`, that is, if its gap is at most 2 touching and
-/// closes fast enough; otherwise std::nullopt. ImpactStep::touching > 0 [L] is the largest gap that
-/// counts as closed. The factors 0.05, 1e-3 and 5 of its limits of velocities are free choices.
 template <int D>
 std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double time) {
   const auto approach = approach_of(k);
@@ -330,8 +291,8 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
   if (of.first >= 0) at_start.c = at_start.c - flight_or_none(of.first).late;
   at_start.first.late = at_start.second.late = {};
   // An approach slower than `ended` [L/T] would cause a bounce that lasts less than this fraction
-  // of the step. The contact then counts as at rest, and the projection decides it. Both limits of
-  // rest, this one and `pulled`, tend to 0 with h (docs/physics.md (5.16)).
+  // of the step. The contact then counts as at rest. Both limits of rest, this one and `pulled`,
+  // tend to 0 with h (docs/physics.md (5.16)).
   constexpr double kShortestFlight = 0.05;
   const double pull = acceleration_of_gap(approach, time);
   const double ended =
@@ -356,7 +317,7 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
   const double closing = -dot(normal, approach.before - surface);
   const bool rests = gap_of(at_start, 0) <= step_.touching &&
                      (bore_load ? closing <= pulled : std::abs(closing) <= unseen);
-  // The velocity of a point by the true turning of its body, minus the velocity by spin(), which
+  // The velocity of a point by the true turning of its body, minus that by spin(), which
   // velocity_of() already contains.
   const auto turning_of = [&](std::int32_t particle, const Arm& arm) {
     if (!precesses(particle)) return Vector{};
@@ -373,17 +334,14 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
   return Hit{k, normal, rate, flies, approach.sum};
 }
 
-/// Adds the next hit of pair `k` from the time `from` on to expected_, if it is within the step.
 template <int D>
 void Impacts<D>::expect(std::size_t k, double from) {
   const auto& of = pair(k);
   if (is_given(of.first) && is_given(of.second)) return;
   const std::array versions = {version(of.first), version(of.second)};
   if (!hits_of_.empty()) {
-    // A pair that has been hit kMostHits times in a step, or kMostUnderLoad times if it bore a
-    // load, is not hit again; the projection then decides how it moves. Both numbers are free
-    // choices, which bound the computing time, because blows under load can follow each other
-    // without end.
+    // A pair that has been hit so often in a step, or so often with a load, is not hit again,
+    // because blows under load can follow each other without end.
     constexpr int kMostHits = 1000, kMostUnderLoad = 30;
     if (hits_of_[k] >= (of.impulse == 0 ? kMostHits : kMostUnderLoad)) return;
   }
@@ -392,8 +350,7 @@ void Impacts<D>::expect(std::size_t k, double from) {
   for (double begin = from, end = 0; begin < step_.h; begin = end) {
     // Each pass moves on by at least this part of the step, which is above rounding errors.
     constexpr double kBeyondRounding = 1e-12;
-    // The end is slightly later than that of the step, so that a hit at the end of the step counts
-    // although rounding errors make it later.
+    // A hit at the end of the step counts although rounding errors make it later.
     end = (1 + kSameTime) * step_.h;
     if (approach.obstacle != nullptr)
       end = std::min(end, approach.obstacle->velocity.next_end(step_.begin + begin) - step_.begin);
@@ -405,9 +362,6 @@ void Impacts<D>::expect(std::size_t k, double from) {
   }
 }
 
-/// Finds and solves all blows, adds their changes to the displacements, turns and bodies of the
-/// step, and changes gamma of the pairs (minus the impulse that the film of a pair has absorbed). A
-/// blow that is not solved makes converged() false.
 template <int D>
 void Impacts<D>::run() {
   const auto& p = state_.particles;
@@ -428,9 +382,8 @@ void Impacts<D>::run() {
       pairs_of_.emplace(state_, true);
       hits_of_.resize(pair_count());
     }
-    // Hits that share a particle or a rigid body are one blow. group_of maps each unit to the
-    // number of its group. The key of a particle k without a body is k, and the key of the rigid
-    // body b is -1 - b.
+    // Hits that share a particle or a rigid body are one blow. The key of a particle k without a
+    // body is k, that of the rigid body b is -1 - b.
     std::map<std::int32_t, std::size_t> group_of;
     std::vector<std::vector<Hit>> groups;
     const auto unit = [&](std::int32_t k) {
@@ -457,7 +410,6 @@ void Impacts<D>::run() {
   finish();
 }
 
-/// Adds what all blows changed to the displacements and turns of the particles.
 template <int D>
 void Impacts<D>::finish() {
   const auto& p = state_.particles;
@@ -479,7 +431,6 @@ void Impacts<D>::finish() {
   }
 }
 
-/// Gives all pairs gamma and the memory that they had before run(); motions stay as they are.
 template <int D>
 void Impacts<D>::undo() {
   for (auto before = before_.rbegin(); before != before_.rend(); ++before) {
@@ -490,15 +441,11 @@ void Impacts<D>::undo() {
   before_.clear();
 }
 
-/// Displacement of a particle in the step with its blows [L]; 0 if no blow changed the particle.
 template <int D>
 Vector Impacts<D>::displacement(std::int32_t k) const {
   return flight_or_none(k).displacement;
 }
 
-/// Corrects velocities that were computed as displacements over h. A blow at the time t that
-/// changes a velocity by d adds only (h - t) d to the displacement, so that t d/h is missing.
-/// Angular velocities are corrected in the same way.
 template <int D>
 void Impacts<D>::add_late_changes(Particles& particles) const {
   constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);

@@ -1,13 +1,7 @@
-// Solves a blow: the collision of solids with all contacts of connected particles that are hit at
-// one time, in the phases compression and restitution, docs/physics.md (5.15). The film of a
-// contact has absorbed the impulse -gamma >= 0; its solids touch if gamma has reached its lower
-// bound gamma_min <= 0. Velocities are in [L/T, 1/T], impulses and gamma in [M L/T], displacements
-// in [L, rad], in any consistent units; times within the step are counted from its beginning, 0 to
-// its length h > 0 [T]. Nothing is checked or thrown: a blow that is not solved makes
-// Impacts::converged() false, and its last impulses count. impacts.cpp uses it. A change must keep
-// the momentum to rounding errors, and must not let the energy grow.
+// The phases of a blow, compression and restitution, docs/physics.md (5.15).
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <set>
@@ -21,17 +15,13 @@
 
 namespace viscontact::particles {
 
-/// The contacts of a blow at `time` as a ConstraintProblem, whose unknowns are the changes of the
-/// velocities times the length h of the step [L]. A unit is a rigid body, or a particle without a
-/// body; one particle of each unit is appended to `unit_of`.
 template <int D>
 ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double time,
                                             std::vector<std::int32_t>& unit_of) {
   const auto& p = state_.particles;
   ConstraintProblem<D> problem;
   std::map<std::int32_t, std::int32_t> numbers;
-  // The unit of a particle in the problem, and the vector [L] from the centre of the unit to the
-  // particle.
+  // The unit of a particle, and the vector [L] from the centre of the unit to it.
   const auto side_of = [&](std::int32_t k) -> ContactSide {
     if (is_given(k)) return {};
     const auto body = p.bodies.body_of(k);
@@ -90,8 +80,6 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
   return problem;
 }
 
-/// Changes the motion of the unit of `particle` (its rigid body or itself) from `time` on. `change`
-/// is the change of its velocity and angular velocity times h [L, rad].
 template <int D>
 void Impacts<D>::move_unit(std::int32_t particle, const Motion<D>& change, double time) {
   const auto& p = state_.particles;
@@ -126,15 +114,11 @@ void Impacts<D>::move_unit(std::int32_t particle, const Motion<D>& change, doubl
   step.late_momentum = step.late_momentum + (time / step_.h) * momentum;
 }
 
-/// Solves the blow with the contacts `hits` at `time` [T], changes the motions of its particles and
-/// gamma of its pairs, and finds their next hits. Adds a record to impulses_ for each contact, and
-/// to rebounds_ for each contact whose solids touched. Does nothing if the films absorb the whole
-/// blow.
 template <int D>
 void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
-  // The bounds are ratios of residuals to the fastest approach [1]. The solver tries to reach
-  // kExact, which is near the rounding errors of a double. A blow counts as solved up to kSolved, a
-  // free choice.
+  assert(!hits.empty() && time >= 0 && time <= step_.h);
+  // Residuals over the fastest approach [1]: what the solver tries to reach, near the rounding
+  // errors of a double, and what counts as solved.
   constexpr double kExact = 1e-13, kSolved = 1e-8;
   const auto& laws = step_.laws;
   std::vector<std::int32_t> unit_of;
@@ -160,19 +144,15 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     of.impulses.assign(of.blocks.size(), 0.0);
   };
   keep_normal_rows(compression);
-  // If several contacts share a body, only sums of their impulses are determined. The impulse of
-  // each contact, and with it what its solids give back, must not depend on the order of the
-  // contacts. With kLeastImpulses they are independent of it. With friction between spheres, the
-  // method of kLeastImpulses may not converge. The blow is then solved again with kSweeps, whose
-  // impulses may depend on the order. The limits are free choices: 200 iterations are as many as
-  // one proximal step of kLeastImpulses may take, so that a failure costs little; 10000 is far
-  // above the 3000 iterations without progress after which solve_constraints() gives up (both in
-  // constraint_solver.cpp).
+  // Where contacts share a body, only sums of their impulses are determined. With kLeastImpulses
+  // what solids give back does not depend on the order of the contacts. With friction between
+  // spheres it may not converge, and kSweeps follow. 200 iterations are as many as one proximal
+  // step may take, so that a failure costs little; 10000 is far above the 3000 without progress
+  // after which solve_constraints() gives up.
   const auto solve = [&](ConstraintProblem<D>& of) {
     const auto guess = of.impulses;
     const auto is_solved = [&](ConstraintStart start, int most_iterations) {
       const auto result = solve_constraints(of, most_iterations, start).result;
-      // result.residual is the largest residual divided by the allowed one [1].
       iterations_ += result.iterations;
       return result.residual * kExact <= kSolved;
     };
@@ -181,10 +161,8 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     converged_ = is_solved(ConstraintStart::kSweeps, 10000) && converged_;
   };
   solve(compression);
-  // The film absorbs what it can of the compression, and the solids take the rest. The members are,
-  // in [M L/T]: what the film can absorb, gamma - gamma_min; the impulse of the compression; the
-  // part of it that the solids take; gamma after the compression; and the lower bound of the
-  // impulse in the restitution (restitution_law.hpp).
+  // What the film can absorb, gamma - gamma_min; the impulse of the compression and the part that
+  // the solids take of it; gamma after it; and the lower bound in the restitution [M L/T].
   struct Phases {
     double capacity, compressed, solid, gamma, lowest;
   };
@@ -201,7 +179,7 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     solids_touch = solids_touch || phase.solid > 0;
     phases.push_back(phase);
   }
-  // If films absorb the whole blow, nothing rebounds, and the projection (impacts.hpp) decides.
+  // Nothing rebounds, and the projection decides.
   if (!solids_touch) return;
   // The problem of the whole blow has the impulses of compression and restitution together.
   const double e = laws.restitution.coefficient;
@@ -213,9 +191,9 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     block.allowed_slip = kExact * step_.h * fastest_slip;
     const bool rubs = laws.friction && phase.solid > 0;
     block.friction = rubs ? laws.friction->coefficient : 0;
-    // Friction is bounded by the coefficient of friction times the impulse beyond `capacity`. With
-    // this capacity, the impulse beyond `capacity` is (1 + e) times the impulse of the solids in
-    // the compression, if the restitution adds its lower bound and this bound is >= 0.
+    // Friction is bounded by the coefficient of friction times the impulse beyond `capacity`, which
+    // with this capacity is (1 + e) times the impulse of the solids in the compression, if the
+    // restitution adds its lower bound and this bound is >= 0.
     block.capacity = phase.compressed + std::max(phase.lowest, 0.0) - (1 + e) * phase.solid;
     problem.impulses[block.row] = block.lowest;
   }
@@ -227,9 +205,9 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
   solve(problem);
   auto changes = motions<D>(problem, problem.impulses);
   // The work of the impulses is their product with the mean of the velocities before and after the
-  // blow. In a blow of several contacts, friction and films could make it positive, so that energy
-  // would be created. All impulses are then moved towards those of the compression, whose work is
-  // negative, until the work is 0. 50 halvings find this point to rounding errors.
+  // blow. In a blow of several contacts, friction and films could make it positive. The impulses
+  // are then moved towards those of the compression, whose work is negative, until it is 0; 50
+  // halvings are exact.
   const auto work = [&](const std::vector<double>& impulses) {
     const auto y = motions<D>(problem, impulses);
     double sum = 0;
@@ -264,8 +242,8 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     const auto& block = problem.blocks[c];
     before_.push_back({hits[c].pair, of, state_.memories.of(of.memory)});
     // remember() subtracts of.impulse from gamma. For this call of.impulse is therefore minus the
-    // change of gamma. Then the impulse of the last step is restored, which tells hit_at() whether
-    // the pair bore a load.
+    // change of gamma. Then the impulse of the last step is restored, from which hit_at() sees a
+    // load.
     const double gamma = laws.restitution.gamma_after(block.lowest, problem.impulses[block.row],
                                                       of.gamma - phase.capacity, of.gamma);
     const double impulse = std::exchange(of.impulse, of.gamma - gamma);
@@ -295,7 +273,6 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
                            std::abs(after) <= kExact * fastest ? 0 : after});
     ++hits_of_[hits[c].pair];
   }
-  // Find the next hits of all pairs with a particle whose motion has changed, each pair once.
   std::vector<std::int32_t> changed;
   for (const auto k : unit_of) {
     const auto body = state_.particles.bodies.body_of(k);

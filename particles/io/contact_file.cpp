@@ -1,17 +1,11 @@
-// Writes contacts and their forces as CSV tables, in the units of the case: gaps are in [L], gamma
-// and impulses in [M L/T], and forces in [M L/T^2]. Gamma, impulses and forces are per length for
-// discs in a fluid. The stress is in [M/(L T^2)] for spheres in space, spheres on an axis and discs
-// in a fluid, and in [M/T^2] for discs without a fluid. contact_file.hpp has all columns. i and j
-// are the ids of two particles; for a contact with an obstacle i is the id of the particle, and j
-// is -1, -2, ... for the first, second obstacle. Nothing is checked or thrown; without a domain the
-// stress is divided by 0. A change must keep the names and the order of the columns, which
-// docs/file-formats.md states and users' scripts read. Used by case/ and run/.
+// contact_file.hpp has the columns.
 #include "viscontact/particles/io/contact_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 
 #include "viscontact/common/error.hpp"
@@ -29,23 +23,19 @@ std::string_view axes_of(int dimension) {
                         : std::string_view("xyz").substr(0, static_cast<std::size_t>(dimension));
 }
 
-/// Names of the columns of a vector. Each is a comma, `begin` and an axis, as in
-/// ",force_x,force_y".
+/// Each name is a comma, `begin` and an axis, as in ",force_x,force_y".
 std::string components(std::string_view begin, int dimension) {
   std::string text;
   for (const char axis : axes_of(dimension)) text += fmt::format(",{}{}", begin, axis);
   return text;
 }
 
-/// Adds the components of a vector, each after a comma.
 void add(std::string& text, const Vector& x, int dimension) {
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
     (text += ',') += format_number(x[d]);
 }
 
-/// Names of the columns of the contact force, of the history variables of the contact laws
-/// (kMemoryFields), and of the force that the solids bear, which follow the columns of gamma, minus
-/// the impulse that the film of a contact has absorbed.
+/// The columns of write_contacts() that follow those of gamma.
 std::string force_columns(int dimension, bool has_friction) {
   auto text = ",normal_force" + (dimension == 1 ? "" : components("tangential_force_", dimension));
   for (const auto& field : kMemoryFields)
@@ -53,9 +43,7 @@ std::string force_columns(int dimension, bool has_friction) {
   return text + (has_friction ? ",solid_force" : "");
 }
 
-/// Adds the fields of the columns of force_columns() and a line break: the normal force, > 0 if it
-/// pushes, the friction on j (or, at an obstacle, on i), the history variables, and the part of the
-/// normal force that the solids bear; forces are in [M L/T^2].
+/// Adds the fields of force_columns() and a line break.
 void add_forces(std::string& text, const CurrentContact& contact, int dimension,
                 bool has_friction) {
   (text += ',') += format_number(contact.normal_force);
@@ -65,8 +53,6 @@ void add_forces(std::string& text, const CurrentContact& contact, int dimension,
   text += '\n';
 }
 
-/// The rows of contacts.csv, one for each contact: time,i,j,gap,gamma and the columns of
-/// force_columns().
 std::string contact_rows(const Setting& setting, const State& state, std::span<const double>) {
   std::string text;
   for (const auto& contact : contacts_of(setting, state)) {
@@ -78,7 +64,7 @@ std::string contact_rows(const Setting& setting, const State& state, std::span<c
   return text;
 }
 
-/// The force of a contact on its second particle [M L/T^2].
+/// The force on the second particle of the contact [M L/T^2].
 Vector force_of(const CurrentContact& contact) {
   return contact.normal_force * contact.normal + contact.tangential_force;
 }
@@ -90,15 +76,13 @@ Vector force_of(const CurrentContact& contact) {
 /// first or from the nearest point of the obstacle.
 template <class Visit>
 void for_forces(const Setting& setting, const State& state, const Visit& visit) {
+  assert(state.blows.empty() || state.earlier_step > 0);
   for (const auto& contact : contacts_of(setting, state))
     visit(contact.first, force_of(contact), contact.branch);
   for (const auto& blow : state.blows)
     visit(blow.first, (1 / state.earlier_step) * blow.impulse, blow.branch);
 }
 
-/// The rows of walls.csv: time, the number of the obstacle (-1, -2, ...), the components of the
-/// mean force of all contacts on it in the last step [M L/T^2], and those of its point [L] and of
-/// the velocity of this point [L/T].
 std::string wall_rows(const Setting& setting, const State& state, std::span<const double>) {
   const auto forces = wall_forces(setting, state);
   const auto obstacles = obstacles_of(setting, state.planes);
@@ -118,7 +102,6 @@ std::string wall_rows(const Setting& setting, const State& state, std::span<cons
   return text;
 }
 
-/// The rows of planes.csv, one for each plane under a load.
 std::string plane_rows(const Setting& setting, const State& state, std::span<const double>) {
   const auto obstacles = obstacles_of(setting, state.planes);
   const auto walls = obstacles.size() - setting.planes.size();
@@ -126,11 +109,13 @@ std::string plane_rows(const Setting& setting, const State& state, std::span<con
   for_forces(setting, state, [&](std::int32_t first, const Vector& force, const Vector&) {
     if (first >= 0) return;
     const auto k = static_cast<std::size_t>(-1 - first);
+    assert(k < pushes.size());
     pushes[k] += dot(force, obstacles[k].start.normal);
   });
   std::string text;
   for (std::size_t k = walls; k < obstacles.size(); ++k) {
     if (!obstacles[k].load) continue;
+    assert(k - walls < state.planes.size());
     const auto& motion = state.planes[k - walls];
     const auto& force = obstacles[k].load->force;
     const double load = state.earlier_step > 0
@@ -144,9 +129,6 @@ std::string plane_rows(const Setting& setting, const State& state, std::span<con
   return text;
 }
 
-/// The row of stress.csv: time and the components of the stress, xx, xy, ..., row by row. Component
-/// ij is minus the sum of force i times branch j over all contacts, divided by the area or volume
-/// of the region between walls and planes, docs/physics.md (5.19).
 std::string stress_row(const Setting& setting, const State& state, std::span<const double>) {
   auto text = format_number(state.time);
   for (const double component : contact_stress(setting, state))
@@ -157,7 +139,6 @@ std::string stress_row(const Setting& setting, const State& state, std::span<con
 /// True if motion.csv has columns for the loads of particles whose motion is given.
 bool has_loads(const Setting& setting) { return !setting.fluid && !setting.given_motions.empty(); }
 
-/// The rows of motion.csv (particle_file.hpp).
 std::string motion_table_rows(const Setting& setting, const State& state, std::span<const double>) {
   return motion_rows(state.time, state.particles,
                      has_loads(setting) ? &state.given_loads : nullptr);
@@ -169,6 +150,7 @@ std::vector<Vector> wall_forces(const Setting& setting, const State& state) {
   std::vector<Vector> forces(obstacles_of(setting).size());
   for_forces(setting, state, [&](std::int32_t first, const Vector& force, const Vector&) {
     if (first >= 0) return;
+    assert(-1 - first < std::ssize(forces));
     auto& sum = forces[static_cast<std::size_t>(-1 - first)];
     sum = sum - force;
   });
@@ -195,8 +177,6 @@ std::vector<double> contact_stress(const Setting& setting, const State& state) {
   return stress;
 }
 
-/// A table with a row for each contact: i,j,gap,gamma,gamma_error and the columns of
-/// force_columns(). gamma_error [M L/T], >= 0, is an estimate of the error of gamma.
 std::string write_contacts(const Particles& particles, std::span<const CurrentContact> contacts,
                            bool has_friction) {
   auto text = fmt::format("# rows: {}\ni,j,gap,gamma,gamma_error{}\n", contacts.size(),
@@ -210,8 +190,6 @@ std::string write_contacts(const Particles& particles, std::span<const CurrentCo
   return text;
 }
 
-/// The rows of rebounds.csv: time [T], i and j, velocity of the approach [L/T], impulse of the
-/// solids in the compression [M L/T], and the velocity after the collision [L/T].
 std::string rebound_rows(const Particles& particles, std::span<const Rebound> rebounds) {
   std::string text;
   for (const auto& rebound : rebounds) {
@@ -226,8 +204,6 @@ std::string rebound_rows(const Particles& particles, std::span<const Rebound> re
   return text;
 }
 
-/// The tables whose names are in `names`; in a fluid motion.csv and contacts.csv always. `tables`
-/// must have the order of kAskedTables. Names that are not known are ignored.
 std::vector<TimeTable> asked_tables(const Setting& setting, const Particles& particles,
                                     std::span<const std::string> names) {
   const int dimension = particles.dimension;

@@ -1,14 +1,9 @@
-// Writes bodies.csv, hinges.csv, springs.csv and arms.csv, and links as VTK PolyData; link_file.hpp
-// has the columns. Numbers are in the units of the case: times [T], lengths [L], angles [rad],
-// velocities [L/T, 1/T], forces [M L/T^2], torques [M L^2/T^2] and powers [M L^2/T^3]; forces,
-// torques and powers are per length for discs in a fluid. Links and bodies are numbered from 0;
-// forces are 0 before the first step. Nothing is checked or thrown. A change must keep the names
-// and the order of the columns and arrays, and the numbers of Kind, which docs/file-formats.md
-// states and users' scripts read. Used by run/.
+// link_file.hpp has the columns.
 #include "viscontact/particles/io/link_file.hpp"
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 
@@ -34,27 +29,27 @@ std::string error_field(const Setting& setting, std::span<const double> errors, 
                         std::size_t count = 1) {
   if (!setting.fluid) return "";
   if (errors.empty()) return ",";
+  assert(place + count <= errors.size());
   return "," +
          format_number(count == 1 ? errors[place] : std::hypot(errors[place], errors[place + 1]));
 }
 
-/// Adds the first `count` components of a vector, at most 3.
 void append(std::vector<double>& values, const Vector& vector, std::size_t count) {
+  assert(count <= vector.size());
   values.insert(values.end(), vector.begin(), vector.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
 /// The force or torque at this place of State::link_forces; 0 before the first step.
 double force_of(const State& state, std::size_t place) {
+  assert(state.link_forces.empty() || place < state.link_forces.size());
   return state.link_forces.empty() ? 0 : state.link_forces[place];
 }
 
-/// Distance [L] from the centre of particle `first` to the nearest image of particle `second`.
+/// The distance from the centre of particle `first` to the nearest image of particle `second` [L].
 double distance(const Particles& p, std::int32_t first, std::int32_t second) {
   return norm(nearest_image(p.cell, p.position(index_of(second)) - p.position(index_of(first))));
 }
 
-/// The rows of bodies.csv: time, number, centre, angle or, in space, quaternion (w, x, y, z),
-/// velocity and angular velocity, in the order that time_tables() names.
 std::string body_rows(const Setting& /*setting*/, const State& state,
                       std::span<const double> /*force_errors*/) {
   std::string text;
@@ -77,9 +72,7 @@ std::string body_rows(const Setting& /*setting*/, const State& state,
   return text;
 }
 
-/// The rows of hinges.csv: the force of the hinge on the particle or body that it holds. In the
-/// plane the torque of its torsion spring and stops, estimates of errors in a fluid, and the angle
-/// and angular velocity of the particle or body follow.
+/// In the plane the torque, estimates of errors in a fluid, and the motion follow the force.
 std::string hinge_rows(const Setting& setting, const State& state,
                        std::span<const double> force_errors) {
   std::string text;
@@ -101,8 +94,6 @@ std::string hinge_rows(const Setting& setting, const State& state,
   return text;
 }
 
-/// The rows of springs.csv: the distance of the ends, the force, > 0 if it pushes the ends apart,
-/// and in a fluid an estimate of its error.
 std::string spring_rows(const Setting& setting, const State& state,
                         std::span<const double> force_errors) {
   std::string text;
@@ -117,9 +108,6 @@ std::string spring_rows(const Setting& setting, const State& state,
   return text;
 }
 
-/// The rows of arms.csv: the distance of the ends, the force, > 0 if it pushes the ends apart, the
-/// power, > 0 if the arm does work on the particles, and in a fluid an estimate of the error of the
-/// force.
 std::string arm_rows(const Setting& setting, const State& state,
                      std::span<const double> force_errors) {
   std::string text;
@@ -136,8 +124,6 @@ std::string arm_rows(const Setting& setting, const State& state,
 
 }  // namespace
 
-/// The tables of a case, each with the line of its column names; tables of things that the case
-/// does not have are left out.
 std::vector<TimeTable> time_tables(const Setting& setting, const Particles& particles) {
   const bool in_space = particles.dimension == 3;
   const auto& links = setting.links;
@@ -165,17 +151,16 @@ std::vector<TimeTable> time_tables(const Setting& setting, const Particles& part
 
 namespace {
 
-// The numbers 0 to 3 that the array `kind` has in VTK files.
 enum class Kind : std::int32_t { kHinge, kSpring, kArm, kMembrane };
 
-/// The arrays of the VTK file. Points [L] and forces [M L/T^2] have three numbers each; there is
-/// one force, kind and id for each cell.
+/// The arrays of the VTK file, three numbers for each point [L]; each cell has one force [M L/T^2],
+/// kind and id.
 struct DrawnCells {
   std::vector<double> points, forces;
   std::vector<std::int32_t> kinds, ids;
   PolyCells cells;
 
-  /// Adds a point and returns its number, from 0.
+  /// Returns the number of the point, from 0.
   std::int64_t add_point(const Vector& x) {
     points.insert(points.end(), x.begin(), x.end());
     return std::ssize(points) / 3 - 1;
@@ -187,12 +172,10 @@ struct DrawnCells {
   }
 };
 
-/// The components in space of a vector, which on an axis has only one, along z.
+/// A vector on an axis has only one component, along z.
 Vector in_space(const Vector& x, int dimension) { return dimension == 1 ? Vector{0, 0, x[0]} : x; }
 
-/// Adds the line of a spring or arm, or the line between two neighbouring particles (beads) of a
-/// membrane. A `force` > 0 [M L/T^2] pushes the ends of the line apart. The array `force` gets the
-/// vector of the force on the second end.
+/// A `force` > 0 [M L/T^2] pushes the ends apart; the array `force` gets that on the second end.
 void add_line(DrawnCells& drawn, const Particles& p, Kind kind, std::size_t id, std::int32_t first,
               std::int32_t second, double force) {
   const Vector from = p.position(index_of(first));
@@ -207,9 +190,6 @@ void add_line(DrawnCells& drawn, const Particles& p, Kind kind, std::size_t id, 
 
 }  // namespace
 
-/// The content of a VTK file with a vertex for each hinge and a line for each spring, for each arm
-/// and for each two neighbouring beads of a membrane, in this order, with the arrays kind, id (the
-/// number of the link or membrane) and force.
 std::string write_links(const Setting& setting, const State& state) {
   const auto& p = state.particles;
   const auto& links = setting.links;

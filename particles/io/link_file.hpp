@@ -1,9 +1,5 @@
-// Writes the motion of rigid bodies and the forces of links (hinges, springs, arms and membranes)
-// as CSV tables over time, and the links at one time as a VTK file. Lengths, masses and times are
-// in the units of the case; forces of discs in a fluid are per length. Nothing is checked or
-// thrown; State::link_forces must be empty or have Links::force_count() entries. run/run_log.cpp
-// writes the files. A change must keep the names of the columns and arrays, which users' scripts
-// read.
+// The motion of rigid bodies and the forces of links (hinges, springs, arms and membranes) as CSV
+// tables over time, and the links at one time as a VTK file.
 #pragma once
 
 #include <span>
@@ -16,11 +12,11 @@ namespace viscontact::particles {
 
 /// A table to which a run adds rows at each output time.
 struct TimeTable {
-  std::string name;    ///< name of its file, such as "arms.csv"
-  std::string header;  ///< line with the names of its columns, with a line break at its end
-  /// Makes the rows of a state, each with a line break at its end. `force_errors` are estimates
-  /// >= 0 of the errors of State::link_forces, in the same order and units, [M L/T^2] of forces and
-  /// [M L^2/T^2] of torques; an empty list means that the errors are not known.
+  std::string name;    ///< of its file, such as "arms.csv"
+  std::string header;  ///< names of its columns, with a line break at the end
+  /// Makes the rows of a state, each with a line break at its end. `force_errors` are estimates >=
+  /// 0 of the errors of State::link_forces, in the same order and units; empty if they are not
+  /// known. State::link_forces has Links::force_count() entries or, before the first step, none.
   std::string (*rows)(const Setting& setting, const State& state,
                       std::span<const double> force_errors);
 };
@@ -39,19 +35,19 @@ struct TimeTable {
 /// force_error_estimate,torque_error_estimate before angle: estimates of the errors that the mesh
 /// of the fluid causes, in the units of force and torque, and empty where they are not known.
 ///
-/// Dimensions are: time [T], positions and lengths [L], angles [rad], velocities [L/T], angular
-/// velocities [1/T], forces [M L/T^2], torques [M L^2/T^2], powers [M L^2/T^3]. Ids are numbers
-/// from 0 in the order of the case. The force of a hinge is the force of the hinge on its body, and
-/// the torque of a hinge is the torque of its torsion spring and its stops on this body. Forces of
-/// springs and arms are > 0 where they push the ends apart. Forces and powers are means over the
-/// step that ended at `time`, and 0 before the first step. The power of an arm is > 0 where the arm
-/// does work on the particles.
+/// Units are: time [T], positions and lengths [L], angles [rad], velocities [L/T], angular
+/// velocities [1/T], forces [M L/T^2], torques [M L^2/T^2], powers [M L^2/T^3], the last three per
+/// length for discs in a fluid. Ids are numbers from 0 in the order of the case. The force of a
+/// hinge is that on its body, its torque that of its torsion spring and its stops on this body.
+/// Forces of springs and arms are > 0 where they push the ends apart. Forces and powers are means
+/// over the step that ended at `time`, and 0 before the first step. The power of an arm is > 0
+/// where the arm does work on the particles.
 std::vector<TimeTable> time_tables(const Setting& setting, const Particles& particles);
 
-/// Content of a VTK XML PolyData file (VTK's file formats, "XML file formats"; inline binary)
-/// with a vertex at the place of each hinge, and a line between the centres of two particles for
-/// each spring, for each arm, and for each two neighbouring particles (beads) of a membrane without
-/// a fluid. In a periodic domain the line goes to the nearest image of the second particle. Each
+/// Content of a VTK XML PolyData file (VTK's file formats, "XML file formats"; inline binary) with
+/// a vertex at the place of each hinge, and a line between the centres of two particles for each
+/// spring, for each arm, and for each two neighbouring particles (beads) of a membrane without a
+/// fluid. In a periodic domain the line goes to the nearest image of the second particle. Each
 /// vertex and each line has three arrays:
 ///
 /// - kind: 0 for a hinge, 1 for a spring, 2 for an arm, 3 for a line of a membrane;

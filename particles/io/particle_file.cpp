@@ -1,17 +1,11 @@
-// Reads particles from CSV files and writes them, and writes the rows of motion.csv;
-// particle_file.hpp has the columns. Numbers are in the units of the case: lengths [L], masses [M],
-// velocities [L/T, 1/T], angles [rad]. Radii and masses are 1e-100 to 1e100 (in a fluid a mass may
-// be 0), other numbers at most 1e100 in magnitude, ids whole numbers from 0 to 2^31 - 1. The
-// dimension is 1 (spheres on an axis), 2 (discs) or 3 (spheres). If a file has a fault,
-// Error(kBadInput) is thrown, which names the line if the fault is in one; writing throws nothing.
-// A change must keep the names of the columns, which docs/file-formats.md states and users' files
-// contain. Used by case/, io/ and run/.
+// Reads and writes particles as CSV; particle_file.hpp has the columns.
 #include "viscontact/particles/io/particle_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -31,9 +25,9 @@ constexpr std::size_t kColumns = 14, kId = 8, kAngle = 9, kAngularVelocity = 10;
 using Row = CsvRow<kColumns>;
 using Names = std::array<std::string, kColumns>;
 
-// Columns for discs, for spheres, and for spheres on an axis. The required columns come first, as
-// read_csv() expects: position, radius, mass. The velocity, columns that belong to other
-// dimensions, the id and the rotation follow. kId, kAngle, ... are indices in all three lists.
+// The required columns come first, as read_csv() expects: position, radius, mass. The velocity,
+// columns that belong to other dimensions, the id and the rotation follow. kId, kAngle, ... are
+// indices in all three lists.
 // clang-format off
 const Names kDiscs = {"x", "y", "radius", "mass", "vx", "vy", "z", "vz", "id", "angle",
   "angular_velocity", "angular_velocity_x", "angular_velocity_y", "angular_velocity_z"};
@@ -44,8 +38,7 @@ const Names kOnAxis = {"z", "radius", "mass", "vz", "x", "y", "vx", "vy", "id", 
 // clang-format on
 constexpr std::size_t kAngularVelocityX = 11;
 
-// The further columns in a fluid. read_particles() accepts the columns with forces of an earlier
-// run, but does not use them.
+// The further columns in a fluid. Those with forces of an earlier run are accepted, but not used.
 constexpr std::array<std::string_view, 7> kOfDiscsInFluid = {"angle",
                                                              "angular_velocity",
                                                              "fluid_force_x",
@@ -61,14 +54,13 @@ constexpr std::array<std::string_view, 2> kOfDiscsThatTurn = {"angle", "angular_
 constexpr std::array<std::string_view, 3> kOfSpheresThatTurn = {
     "angular_velocity_x", "angular_velocity_y", "angular_velocity_z"};
 
-/// The further columns of particles that turn without a fluid.
 std::span<const std::string_view> turning_columns(int dimension) {
   if (dimension == 1) return {};
   if (dimension == 2) return kOfDiscsThatTurn;
   return kOfSpheresThatTurn;
 }
 
-/// The further columns in a fluid; none in three dimensions, where there is no fluid.
+/// There are none in three dimensions, where there is no fluid.
 std::span<const std::string_view> fluid_columns(int dimension) {
   if (dimension == 1) return kOnAxisInFluid;
   if (dimension == 2) return kOfDiscsInFluid;
@@ -89,6 +81,7 @@ std::vector<std::string> load_columns(int dimension, bool turn) {
 /// Adds the fields of load_columns() for particle `k`, which are empty if `loads` does not have it.
 void add_load(std::string& text, std::span<const GivenParticleLoad> loads, std::size_t k,
               int dimension, bool turn) {
+  assert(std::ranges::is_sorted(loads, {}, &GivenParticleLoad::particle));
   const auto particle = static_cast<std::int32_t>(k);
   const auto load = std::ranges::lower_bound(loads, particle, {}, &GivenParticleLoad::particle);
   const bool has_load = load != loads.end() && load->particle == particle;
@@ -101,8 +94,8 @@ void add_load(std::string& text, std::span<const GivenParticleLoad> loads, std::
 
 enum class Sign { kAny, kNotNegative, kPositive };
 
-/// The number of a column in a row. Throws Error(kBadInput) if it is missing or has the wrong sign,
-/// if its magnitude is above 1e100, or, unless any sign is allowed, if it is between 0 and 1e-100.
+/// Throws Error(kBadInput) if the number is missing or has the wrong sign, if its magnitude is
+/// above 1e100, or, unless any sign is allowed, if it is between 0 and 1e-100.
 double allowed(const Row& row, const Names& names, std::size_t column, Sign sign,
                const std::string& file) {
   const double value = required_field(row, names, column, file);
@@ -120,9 +113,9 @@ double allowed(const Row& row, const Names& names, std::size_t column, Sign sign
   return value;
 }
 
-/// Throws Error(kBadInput) for unknown columns, because read_csv_rows() would ignore them (a
-/// misspelt velocity, for example), and for incomplete velocities. `text` is the content of the
-/// file, `names` has the columns of this dimension.
+/// Throws Error(kBadInput) for unknown columns, which read_csv_rows() would ignore (a misspelt
+/// velocity, for example), and for incomplete velocities. `names` has the columns of this
+/// dimension.
 void check_header(const std::string& text, const std::string& file, const Names& names,
                   int dimension, bool in_fluid) {
   // The columns of kDiscs up to `id` are those that each file may have, whatever its dimension.
@@ -138,7 +131,6 @@ void check_header(const std::string& text, const std::string& file, const Names&
           "has a column '{}' of ellipses or plates; the particles of a file must be discs or "
           "spheres, and each ellipse or plate a table [[particle]] with semi_axes or length",
           name);
-    // The loads of an earlier run are accepted, but not used.
     const bool is_load =
         !in_fluid && (name.starts_with("contact_force_") || name.starts_with("contact_torque"));
     if (!is_load && std::ranges::find(known, name) == known.end() &&
@@ -161,8 +153,8 @@ void check_header(const std::string& text, const std::string& file, const Names&
                       velocities.front(), name);
 }
 
-/// The ids of the rows. Empty if the file has no column `id`, if all fields of this column are
-/// empty, or if the ids are 0, 1, ..., as they are without the column.
+/// The ids of the rows. Empty if the file has no column `id`, if all its fields are empty, or if
+/// the ids are 0, 1, ..., as without the column.
 std::vector<std::int32_t> read_ids(const std::vector<Row>& rows, const std::string& file) {
   const auto has_id = [](const Row& row) { return row.fields[kId].has_value(); };
   if (std::ranges::none_of(rows, has_id)) return {};
@@ -189,10 +181,8 @@ std::vector<std::int32_t> read_ids(const std::vector<Row>& rows, const std::stri
 
 }  // namespace
 
-/// Reads the particles of a file and the line of each one. Particles::inertias are not set. Throws
-/// Error(kBadInput) if the file cannot be read, has an unknown column, lacks a required one, or has
-/// a wrong number.
 ParticleFile read_particles(const std::filesystem::path& path, int dimension, bool in_fluid) {
+  assert(dimension >= 1 && dimension <= 3);
   const auto& names = dimension == 1 ? kOnAxis : dimension == 2 ? kDiscs : kSpheres;
   const auto d = static_cast<std::size_t>(dimension);
   const std::string file = path.string(), text = read_file(path);
@@ -247,13 +237,14 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension, bo
   return result;
 }
 
-/// A table with the line "# rows: N", the names of the columns, and a row for each particle: id,
-/// position, velocity, radius and mass. With `forces`, columns of fluid_columns() follow, and
-/// semi-axes [L] of ellipses and plates; fields without a value are empty. Without `forces`, the
-/// columns of turning_columns() follow if the particles turn.
 std::string write_particles(const Particles& particles, const std::optional<FluidForces>& forces,
                             std::span<const GivenParticleLoad> loads) {
   const auto d = static_cast<std::size_t>(particles.dimension);
+  assert(!forces || forces->values.empty() ||
+         forces->values.size() == particles.count() * motion_components(particles.dimension));
+  assert(!forces || forces->errors.empty() ||
+         forces->errors.size() == particles.count() * motion_components(particles.dimension));
+  assert(!forces || forces->semi_axes.empty() || forces->semi_axes.size() == particles.count());
   std::string text = fmt::format("# rows: {}\n", particles.count());
   text += d == 1   ? "id,z,vz,radius,mass"
           : d == 2 ? "id,x,y,vx,vy,radius,mass"
@@ -300,7 +291,6 @@ std::string write_particles(const Particles& particles, const std::optional<Flui
   return text;
 }
 
-/// The line with the names of the columns of motion.csv; `turn` says whether particles turn.
 std::string motion_header(int dimension, bool turn, bool has_loads) {
   std::string header =
       dimension == 1 ? "time,id,z,vz"
@@ -313,7 +303,6 @@ std::string motion_header(int dimension, bool turn, bool has_loads) {
   return header + "\n";
 }
 
-/// The rows of motion.csv at `time` [T], one for each particle, in the order of motion_header().
 std::string motion_rows(double time, const Particles& particles,
                         const std::vector<GivenParticleLoad>* loads) {
   const auto d = static_cast<std::size_t>(particles.dimension);

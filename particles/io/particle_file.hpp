@@ -1,7 +1,4 @@
-// Reads particles from CSV files, writes them to such files, and writes the rows of motion.csv.
-// Positions, radii and semi-axes are in [L], masses in [M], velocities in [L/T] and [1/T], angles
-// in [rad], all in the units of the case. Only read_particles() checks and throws. case/ reads such
-// files, io/ and run/ write them. A change must keep the names of columns, which users' files have.
+// Particles as CSV files, in the units of the case, and the rows of motion.csv.
 #pragma once
 
 #include <filesystem>
@@ -15,17 +12,15 @@
 
 namespace viscontact::particles {
 
-/// Particles from a file, and the line of each particle in it.
 struct ParticleFile {
   Particles particles;     ///< in the order of the file
-  std::vector<int> lines;  ///< line of each particle in the file, from 1
+  std::vector<int> lines;  ///< of each particle in the file, from 1
 };
 
-/// Reads a file. `dimension` is 1 (spheres on an axis), 2 (discs) or 3 (spheres), and is not
-/// checked. The columns are x,y[,z],radius,mass and, if they exist, vx,vy[,vz] and id. Without
-/// columns of velocities the particles are at rest; without the column id, or with ids 0, 1, ...,
-/// Particles::ids is empty. The file final_particles.csv of a run can be read, too, unless the run
-/// has ellipses or plates.
+/// Reads a file. `dimension` is 1 (spheres on an axis), 2 (discs) or 3 (spheres). The columns are
+/// x,y[,z],radius,mass and, if they exist, vx,vy[,vz] and id. Without columns of velocities the
+/// particles are at rest; without the column id, or with ids 0, 1, ..., Particles::ids is empty.
+/// The file final_particles.csv of a run can be read, too, unless the run has ellipses or plates.
 ///
 /// On an axis (dimension 1) the columns are z,radius,mass and, if they exist, vz and id. In a fluid
 /// (`in_fluid`) discs have an angle and an angular velocity, which are 0 if their columns are
@@ -43,30 +38,30 @@ struct ParticleFile {
 ParticleFile read_particles(const std::filesystem::path& path, int dimension,
                             bool in_fluid = false);
 
-/// Forces and torques of the fluid on particles and estimates of their errors. The lists `values`
-/// and `errors` have three numbers for each disc: force_x, force_y and torque per length [M/T^2, M
-/// L/T^2]; or one for each sphere on an axis: force_z [M L/T^2]. An empty list means that the
-/// numbers are not known, and leaves their fields empty.
+/// Forces and torques of the fluid on particles and estimates >= 0 of their errors, with three
+/// numbers for each disc: force_x, force_y and torque per length [M/T^2, M L/T^2]; or one for each
+/// sphere on an axis: force_z [M L/T^2]. An empty list means that the numbers are not known, and
+/// leaves their fields empty.
 struct FluidForces {
-  std::span<const double> values;  ///< forces and torques
-  std::span<const double> errors;  ///< estimates of the errors of `values`, >= 0
-  /// Semi-axes of all particles [L], Fluid::semi_axes; empty if all particles are discs or spheres.
+  std::span<const double> values;
+  std::span<const double> errors;
+  /// Fluid::semi_axes of all particles [L]; empty if all particles are discs or spheres.
   std::span<const std::array<double, 2>> semi_axes{};
 };
 
 /// CSV text: a line "# rows: N" with the number of particles, the names of the columns, and a row
 /// for each particle. The columns are id,x,y[,z],vx,vy[,vz],radius,mass, or id,z,vz,radius,mass on
-/// an axis. Numbers have so many digits that they are read back to the same bits.
+/// an axis. Numbers are read back to the same bits.
 ///
-/// With `forces`, which the caller gives for particles in a fluid, discs also have the columns
+/// With `forces`, which particles in a fluid have, discs also have the columns
 /// angle,angular_velocity,fluid_force_x,fluid_force_y,fluid_torque,fluid_force_error_estimate,
 /// fluid_torque_error_estimate and, with FluidForces::semi_axes, semi_axis_1,semi_axis_2; spheres
 /// on an axis have fluid_force_z,fluid_force_error_estimate. Without `forces`, particles that turn
 /// have the columns angle,angular_velocity (discs) or
 /// angular_velocity_x,angular_velocity_y,angular_velocity_z.
 ///
-/// With `loads`, the force and the torque of all contacts and links on the particles whose motion is
-/// given without a fluid, follow contact_force_x,contact_force_y[,contact_force_z] and, if the
+/// With `loads`, the force and the torque of all contacts and links on the particles whose motion
+/// is given without a fluid, follow contact_force_x,contact_force_y[,contact_force_z] and, if the
 /// particles turn, contact_torque of discs or contact_torque_x,contact_torque_y,contact_torque_z.
 /// They are empty for other particles.
 std::string write_particles(const Particles& particles,
@@ -75,11 +70,11 @@ std::string write_particles(const Particles& particles,
 
 /// The line with the names of the columns of motion.csv: for discs time,id,x,y,vx,vy, or
 /// time,id,x,y,angle,vx,vy,angular_velocity if they turn; for spheres in space
-/// time,id,x,y,z,vx,vy,vz and, if they turn, angular_velocity_x,angular_velocity_y,
-/// angular_velocity_z; for spheres on an axis (dimension 1) time,id,z,vz. With `has_loads` the
-/// columns of the loads of write_particles() follow.
+/// time,id,x,y,z,vx,vy,vz and, if they turn,
+/// angular_velocity_x,angular_velocity_y,angular_velocity_z; for spheres on an axis time,id,z,vz.
+/// With `has_loads` the columns of the loads of write_particles() follow.
 std::string motion_header(int dimension, bool turn, bool has_loads = false);
-/// The rows of motion.csv of all particles at `time` [T]. `loads` are not null if the table has
+/// The rows of motion.csv of all particles at `time` [T]. `loads` is null unless the table has
 /// their columns.
 std::string motion_rows(double time, const Particles& particles,
                         const std::vector<GivenParticleLoad>* loads = nullptr);

@@ -1,11 +1,8 @@
-// Declares the frames of a simulation, that is, its states at the output times, as HTML pages and
-// pictures show them. Lengths, masses and times are in the units of the case. The file
-// run/particles_pages.cpp fills a Playback, and picture/ draws it. Nothing is checked or thrown:
-// whoever fills a Playback must give each list the length that its comment states. A change must
-// keep the memory of a frame small, because a run may have thousands of frames.
+// The frames of a simulation, its states at the output times, as HTML pages and pictures show them.
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -18,55 +15,51 @@
 
 namespace viscontact::particles {
 
-/// Particles, planes and contacts at one time.
+/// Particles, planes and contacts at one time. It is kept small, because a run may have thousands.
 struct Frame {
-  double time = 0;  ///< time of the frame [T]
+  double time = 0;  ///< [T]
   /// Flat array [L], Playback::dimension numbers for each particle; single precision is enough for
   /// a picture. They are NaN for a particle that a source has not added yet.
   std::vector<float> positions;
   std::vector<PlanePosition> planes;     ///< all obstacles, in the order of obstacles_of()
-  std::vector<CurrentContact> contacts;  ///< contacts, as contacts_of() lists them
-  std::vector<float> angles{};           ///< angle of each disc [rad]; empty if none turns
-  /// Orientation of each sphere in space, a unit quaternion (w, x, y, z); empty if none turns.
+  std::vector<CurrentContact> contacts;  ///< as contacts_of() lists them
+  std::vector<float> angles{};           ///< of each disc [rad]; empty if none turns
+  /// Unit quaternions (w, x, y, z) of spheres in space; empty if none turns.
   std::vector<float> orientations{};
-  std::vector<float> speeds{};  ///< speed of each particle [L/T], >= 0; empty: not known
-  /// File of the flow around the particles (flow_vtk.hpp); empty if there is none. A picture reads
-  /// the flows one after the other, because all of them together may be too large for the memory.
+  std::vector<float> speeds{};  ///< of each particle [L/T], >= 0; empty: not known
+  /// File of the flow around the particles (flow_vtk.hpp); empty if there is none. All flows
+  /// together may be too large for the memory.
   std::filesystem::path flow{};
 };
 
-/// The links that a page or a picture shows. They are the same in all frames.
+/// The links that a page or a picture shows, the same in all frames.
 struct DrawnLinks {
   using Ends = std::array<std::int32_t, 2>;  ///< numbers of two particles
-  std::vector<Vector> hinges{};              ///< places of the hinges [L]
-  std::vector<Ends> springs{},               ///< the particles of each spring
-      arms{};                                ///< the particles of each arm
-  /// True if there is nothing to draw.
+  std::vector<Vector> hinges{};              ///< places [L]
+  std::vector<Ends> springs{}, arms{};
   bool empty() const { return hinges.empty() && springs.empty() && arms.empty(); }
 };
 
-/// All frames that a page or a picture shows.
 struct Playback {
-  int dimension = 2;         ///< dimension of space: 1, 2 or 3
+  int dimension = 2;         ///< 1, 2 or 3
   Units units{};             ///< names of the units of the case, such as "m"; may be empty
-  std::vector<float> radii;  ///< radius of each particle [L], > 0
-  /// Mass of each particle [M], >= 0, of discs in a fluid per length [M/L]; empty: not known.
+  std::vector<float> radii;  ///< of each particle [L], > 0
+  /// The mass of each particle [M], >= 0, of discs in a fluid per length [M/L]; empty: not known.
   std::vector<float> masses{};
-  /// Semi-axes of each particle in the plane [L], the first along its angle; empty: no ellipses.
+  /// The semi-axes in the plane [L], the first along the angle; empty: no ellipses.
   std::vector<std::array<double, 2>> semi_axes{};
   /// For each particle 1 if it is a plate with round ends, else 0; empty: no particle is a plate.
   std::vector<char> plates{};
-  std::vector<Frame> frames;  ///< frames in the order of their times, from the start on
-  bool is_in_fluid = false;   ///< whether the case has a fluid around the particles
-  /// Id of each particle, >= 0; empty: particle k has the id k.
+  std::vector<Frame> frames;  ///< in the order of their times, from the start on
+  bool is_in_fluid = false;
+  /// The id of each particle, >= 0; empty: particle k has the id k.
   std::vector<std::int32_t> ids{};
-  PeriodicCell cell{};  ///< periodic cell of the case at the start
+  PeriodicCell cell{};  ///< that of the case at the start
   /// Number of the rigid body of each particle, -1: none; empty if there are no bodies.
   std::vector<std::int32_t> bodies{};
-  /// The links; empty if there are none.
   DrawnLinks links{};
   std::string note{};  ///< a sentence below the title of the page; may be empty
-  /// Coefficient of friction, >= 0; empty: there is no friction.
+  /// The coefficient is >= 0; empty: there is no friction.
   std::optional<double> friction_coefficient{};
 };
 
@@ -77,11 +70,12 @@ inline PeriodicCell cell_at(const Playback& playback, const Frame& frame) {
   return cell;
 }
 
-/// Position of particle k (from 0, not checked) in a frame [L]. The first `dimension` components
-/// are NaN if a source has not added the particle yet; the others are 0.
+/// Position of particle k in a frame [L]. The first `dimension` components are NaN if a source has
+/// not added the particle yet; the others are 0.
 inline Vector position(const Playback& playback, const Frame& frame, std::size_t k) {
   Vector x{};
   const auto dimension = static_cast<std::size_t>(playback.dimension);
+  assert((k + 1) * dimension <= frame.positions.size());
   for (std::size_t d = 0; d < dimension; ++d) x[d] = frame.positions[k * dimension + d];
   return x;
 }

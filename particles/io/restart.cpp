@@ -1,10 +1,4 @@
-// Writes and reads the binary restart file, a State bit for bit. Numbers are in the units of the
-// case: lengths [L], times [T], masses [M], gamma and impulses [M L/T]. Reading throws
-// Error(kBadInput), which names the file, if the file cannot be read, is damaged (its hash or the
-// sizes and signs of its arrays do not fit), or has another version or byte order. Whether the file
-// fits the case is not checked, and writing throws nothing. The texts kWhat and kHash must not
-// change. Files of versions 6 to 13 must stay readable; a change of the fields of State or Pair
-// (state.hpp) needs a new version. Used by run/.
+// The binary restart file. Another field of State or Pair (state.hpp) needs a new version.
 #include "viscontact/particles/io/restart.hpp"
 
 #include <algorithm>
@@ -23,25 +17,23 @@
 namespace viscontact::particles {
 namespace {
 
-// The versions that can be read. A file has the lowest version that can hold its state. Version 7
-// adds the memories of contact laws that have no array in version 6, version 8 the flow of a fluid
-// with inertia, version 9 the positions before the last step, for membranes, version 10
-// Pair::place, version 11 State::sources, version 12 State::blows, and version 13 State::planes and
-// State::given_loads.
+// A file has the lowest version that can hold its state. Version 7 adds the memories of contact
+// laws that have no array in version 6, version 8 the flow of a fluid with inertia, version 9 the
+// positions before the last step, for membranes, version 10 Pair::place, version 11 State::sources,
+// version 12 State::blows, and version 13 State::planes and State::given_loads.
 constexpr int kFirstVersion = 6, kLastVersion = 13;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
 constexpr std::string_view kOrder =
     std::endian::native == std::endian::little ? "little-endian" : "big-endian";
 
-/// A pair as files store it, with members of Pair (state.hpp). Images, impulses of friction, and
-/// the parts of the impulses that the solids carried are stored in arrays of their own.
+/// A pair as files store it, with members of Pair (state.hpp); the others are in arrays of their
+/// own.
 struct StoredPair {
   std::int32_t first, second;
   double gamma, impulse, gamma_error;
 };
 
-/// What a file stores in another form than State does.
 struct StoredArrays {
   std::vector<std::int32_t> images;  ///< of state.pairs; empty if all are 0
   std::vector<std::int32_t> places;  ///< of state.pairs, then of state.walls; empty if all are 0
@@ -52,18 +44,16 @@ struct StoredArrays {
   /// each with a line break, `memories` for each name one number for each pair and wall.
   std::vector<char> names;
   std::vector<double> memories;
-  // These arrays have the members of State::blows. There is an array for each member, because
-  // BlowImpulse has bytes without a value, which would change the hash of the file.
+  // The members of State::blows, in an array for each, because BlowImpulse has bytes without a
+  // value, which would change the hash of the file.
   std::vector<std::int32_t> blow_firsts;
   std::vector<Vector> blow_impulses, blow_branches;
-  // The members of State::given_loads, for the same reason.
   std::vector<std::int32_t> given_particles;
   std::vector<Vector> given_forces, given_torques;
 };
 
 /// Calls `field` for each stored field, in the order of a file of this version. Both writing and
-/// reading use the function, so that the orders agree. The order must be kept; new fields are added
-/// at the end.
+/// reading use the function, so that the orders agree. New fields are added at the end.
 template <class State, class Arrays, class Field>
 void for_fields(State& state, Arrays& arrays, int version, Field&& field) {
   auto& p = state.particles;
@@ -117,10 +107,9 @@ void for_fields(State& state, Arrays& arrays, int version, Field&& field) {
   field(arrays.given_torques);
 }
 
-/// Index of the first of kMemoryFields that has no array of its own in version 6.
+/// The first of kMemoryFields that has no array of its own in version 6.
 constexpr std::size_t kFirstNamed = 4;
 
-/// Copies the memories of the state into the arrays of a file.
 void store_memories(const State& state, StoredArrays& arrays) {
   const auto all = [&](const auto& visit) {
     for (const auto* pairs : {&state.pairs, &state.walls})
@@ -141,8 +130,8 @@ void store_memories(const State& state, StoredArrays& arrays) {
   }
 }
 
-/// Sets the memories of the state from the arrays. Returns false if the arrays do not fit the pairs
-/// of the state, or have a name or value that is not allowed.
+/// Returns false if the arrays do not fit the pairs of the state, or have a name or value that is
+/// not allowed.
 bool take_memories(const StoredArrays& arrays, State& state) {
   const auto count = state.pairs.size() + state.walls.size();
   const auto fits = [&](std::size_t size) { return size == 0 || size == count; };
@@ -174,8 +163,8 @@ bool take_memories(const StoredArrays& arrays, State& state) {
   return true;
 }
 
-/// Sets the blows of the state from the arrays. Returns false if the arrays do not fit each other
-/// or the particles, or if the state has no last step.
+/// Returns false if the arrays do not fit each other or the particles, or if the state has no last
+/// step.
 bool take_blows(const StoredArrays& arrays, State& state) {
   const auto count = arrays.blow_firsts.size();
   if (arrays.blow_impulses.size() != count || arrays.blow_branches.size() != count) return false;
@@ -192,8 +181,7 @@ bool take_blows(const StoredArrays& arrays, State& state) {
   return true;
 }
 
-/// Sets State::given_loads from the arrays. Returns false if they do not fit each other or the
-/// particles.
+/// Returns false if the arrays do not fit each other or the particles.
 bool take_given_loads(const StoredArrays& arrays, State& state) {
   const auto count = arrays.given_particles.size();
   if (arrays.given_forces.size() != count || arrays.given_torques.size() != count) return false;
@@ -272,8 +260,7 @@ class Reader {
   std::string file_;
 };
 
-/// Removes the first line of `rest`, which must begin with `begin`, and returns what follows
-/// `begin` in it. Throws Error(kBadInput) if the line begins otherwise.
+/// Removes the first line of `rest`, and returns what follows `begin` in it.
 std::string_view line_of(std::string_view& rest, std::string_view begin, const std::string& file) {
   const auto end = rest.find('\n');
   if (!rest.starts_with(begin) || end == std::string_view::npos)
@@ -283,8 +270,7 @@ std::string_view line_of(std::string_view& rest, std::string_view begin, const s
   return value;
 }
 
-/// Returns the version in the first line of `rest`, and removes this line. Throws Error(kBadInput)
-/// if the version is not known or the byte order is another one.
+/// Throws Error(kBadInput) if the version is not known or the byte order is another one.
 int read_version(std::string_view& rest, const std::string& file) {
   const auto line = line_of(rest, kWhat, file);
   int version = 0;
@@ -304,14 +290,14 @@ int read_version(std::string_view& rest, const std::string& file) {
 
 /// True if the sizes of the arrays fit the number of particles, the dimension is 1 to 3, the times
 /// velocity_lag, earlier_step and step_before are finite and >= 0, and there are at least as many
-/// particles as sources have poured. Positions, radii, masses and velocities may have any value.
+/// particles as sources have poured.
 bool is_consistent(const State& state) {
   const auto& p = state.particles;
   const auto numbers = p.count() * static_cast<std::size_t>(p.dimension);
   const auto is_empty_or = [](const std::vector<double>& values, std::size_t size) {
     return values.empty() || values.size() == size;
   };
-  auto others = static_cast<std::int64_t>(p.count());  // particles of no source counted so far
+  auto others = static_cast<std::int64_t>(p.count());  // of no source counted so far
   for (const auto& source : state.sources) {
     if (source.poured < 0 || source.poured > others || !std::isfinite(source.begin)) return false;
     others -= source.poured;
@@ -332,9 +318,8 @@ bool is_consistent(const State& state) {
          std::isfinite(state.step_before) && state.step_before >= 0;
 }
 
-/// True if the numbers of the two particles (for a pair `at_obstacle` the first one is < 0) and of
-/// the image and the place of the contact are in their ranges, gamma is finite and <= 0, the
-/// impulse is finite, and gamma_error is >= 0.
+/// True if the numbers of the particles, the image and the place of the contact are in their
+/// ranges, gamma is finite and <= 0, the impulse is finite, and gamma_error is >= 0.
 bool is_consistent(const Pair& pair, bool at_obstacle, std::size_t particles) {
   const bool first_in_range =
       at_obstacle ? pair.first < 0 : pair.first >= 0 && pair.first < pair.second;
@@ -346,9 +331,6 @@ bool is_consistent(const Pair& pair, bool at_obstacle, std::size_t particles) {
 
 }  // namespace
 
-/// The content of a file: a line with the version and the byte order, a line with the SHA-256 of
-/// the rest, and the fields in binary. Images, places, frictions and carried impulses are each
-/// stored as an empty array if all of them are 0.
 std::string write_restart(const State& state) {
   StoredArrays arrays;
   for (const auto& pair : state.pairs) arrays.images.push_back(pair.image);
@@ -392,14 +374,10 @@ std::string write_restart(const State& state) {
   return text + bytes;
 }
 
-/// Reads a file, which may begin with lines of provenance and record. Of rigid bodies only the
-/// motion is set, because the case has their members. Throws Error(kBadInput), which names the
-/// file, if it cannot be read or is no valid restart file.
 State read_restart(const std::filesystem::path& path) {
   const std::string file = path.string();
   const std::string text = read_file(path);
   std::string_view rest = text;
-  // run/ writes lines with provenance and record before the lines of write_restart().
   while (rest.starts_with("# provenance") || rest.starts_with("# record"))
     rest.remove_prefix(std::min(rest.find('\n'), rest.size() - 1) + 1);
   const int version = read_version(rest, file);

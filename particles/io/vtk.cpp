@@ -1,15 +1,11 @@
-// Writes the frames of a simulation as VTK files: particles are points, contacts are cells. Vectors
-// have three numbers, with z = 0 for discs and x = y = 0 on an axis. Numbers are in the units of
-// the case: radius and gap [L], velocity [L/T], angle [rad], angular velocity [1/T], mass [M],
-// gamma (minus the impulse that the film of a contact has absorbed) [M L/T], forces [M L/T^2];
-// masses, gamma and forces are per length for discs in a fluid. Nothing is checked or thrown. A
-// change must be made in vtk_reader.cpp and run/hdf5_file.cpp, too, which read these files, and
-// must keep the names of the arrays, by which users find them in ParaView. Used by run/.
+// Frames as VTK files: particles are points, contacts are cells. vtk_reader.cpp and
+// run/hdf5_file.cpp read these files.
 #include "viscontact/particles/io/vtk.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 
 #include "viscontact/common/text/number.hpp"
@@ -18,7 +14,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// Adds the three components of a vector to a list. In a case on an axis the vector is along z.
+/// Adds the three components of a vector, which is along z in a case on an axis.
 void append(std::vector<double>& values, const Vector& x, int dimension) {
   if (dimension == 1)
     values.insert(values.end(), {0, 0, x[0]});
@@ -35,13 +31,12 @@ struct ContactCells {
   PolyCells cells;
 
   ContactCells(const Particles& particles, std::span<const CurrentContact> contacts) {
-    // VTK numbers vertices before lines, so that contacts with obstacles come first.
     for (const bool wall : {true, false})
       for (const auto& contact : contacts)
         if ((contact.first < 0) == wall) add(particles, contact);
   }
 
-  /// The number at index `place` of ShownMemory (pair_memory.hpp), of all cells in their order.
+  /// The number at index `place` of ShownMemory (pair_memory.hpp) of all cells.
   std::vector<double> memory(std::size_t place) const {
     std::vector<double> values;
     for (const auto& numbers : shown) values.push_back(std::span(numbers)[place]);
@@ -49,10 +44,9 @@ struct ContactCells {
   }
 
  private:
-  /// Adds a cell, with an entry in each list. Cells have the numbers of particles; `firsts` and
-  /// `seconds` have the numbers of ids_of(), the ids of two particles, or of one particle and then
-  /// the number < 0 of the obstacle.
+  /// `firsts` and `seconds` have the numbers of ids_of(), cells those of particles.
   void add(const Particles& particles, const CurrentContact& contact) {
+    assert(contact.second >= 0 && index_of(contact.second) < particles.count());
     if (contact.first < 0)
       cells.add_vertex(contact.second);
     else
@@ -71,9 +65,6 @@ struct ContactCells {
   }
 };
 
-/// The arrays of the points, with an entry for each particle: radius, velocity and id; mass if one
-/// is > 0; angle or orientation (a unit quaternion w, x, y, z) and angular velocity of particles
-/// that turn; and the number of the rigid body, or -1, if there are bodies.
 std::string point_data(const Particles& particles) {
   std::vector<double> velocities;
   std::vector<std::int32_t> ids;
@@ -101,9 +92,6 @@ std::string point_data(const Particles& particles) {
 
 }  // namespace
 
-/// The content of the file of a frame. The arrays of the cells are gap, gamma, i and j (ids, j of a
-/// contact with an obstacle < 0), and normal_force, > 0 if it pushes; image in a periodic domain;
-/// and with `has_friction` friction (0: none, 1: sticks, 2: slides), tangential_force and solid_force.
 std::string write_vtp(const Particles& particles, std::span<const CurrentContact> contacts,
                       bool has_friction) {
   std::vector<double> points;
@@ -131,7 +119,6 @@ std::string write_vtp(const Particles& particles, std::span<const CurrentContact
   return text;
 }
 
-/// The line of a PVD file, ParaView's list of frames, for the frame at `time` [T] in `file`.
 std::string pvd_line(double time, const std::string& file) {
   return fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n",
                      format_number(time), file);

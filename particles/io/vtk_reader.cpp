@@ -1,10 +1,5 @@
-// Reads the VTK files that vtk.cpp writes, so that pages can be made from them. Numbers are in the
-// units of the case: positions, radii and gaps [L], velocities [L/T, 1/T], angles [rad], masses
-// [M], gamma [M L/T], forces [M L/T^2]; `dimension` is 1 (spheres on an axis), 2 or 3. The reader
-// understands only the layout that vtk.cpp writes, not VTK's formats in general; it throws
-// Error(kBadInput), which names the file, if the file is missing, cut short or of another layout.
-// Ranges of positions, radii and forces are not checked. Frames of earlier versions, which lack
-// some arrays, must stay readable. Used by run/.
+// Reads the layout of vtk.cpp, not VTK's formats in general; earlier frames lack some arrays.
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -22,8 +17,8 @@ namespace viscontact::particles {
 
 namespace {
 
-/// The array `name` of the contacts with `count` numbers, or zeros if the frame has no such array.
-/// Throws Error(kBadInput) if the array has another length.
+/// The array `name` of the contacts, or zeros if the frame has no such array. Throws
+/// Error(kBadInput) if the array does not have `count` numbers.
 template <class Number>
 std::vector<Number> numbers_or_zeros(const VtkReader& reader, const char* name, std::size_t count) {
   auto numbers = reader.has_array("CellData", name) ? reader.array<Number>("CellData", name)
@@ -33,8 +28,7 @@ std::vector<Number> numbers_or_zeros(const VtkReader& reader, const char* name, 
 }
 
 /// For each of `count` contacts, the numbers that contact laws remember and files show
-/// (pair_memory.hpp). Numbers that the frame does not have are 0. Throws Error(kBadInput) if an
-/// array has another length.
+/// (pair_memory.hpp). Throws Error(kBadInput) as numbers_or_zeros() does.
 std::vector<ShownMemory> read_memories(const VtkReader& reader, std::size_t count) {
   std::vector<ShownMemory> memories(count);
   std::size_t place = 0;
@@ -53,8 +47,7 @@ std::vector<ShownMemory> read_memories(const VtkReader& reader, std::size_t coun
   return memories;
 }
 
-/// The contacts of a frame with `particles` particles, first those of two particles and then those
-/// with obstacles. Arrays that frames of earlier versions lack count as zeros. Throws
+/// The contacts of a frame, first those of two particles and then those with obstacles. Throws
 /// Error(kBadInput) if arrays have other lengths, or if a number of a particle, image or kind of
 /// friction does not exist.
 std::vector<CurrentContact> read_contacts(const VtkReader& reader, std::int64_t particles) {
@@ -89,7 +82,6 @@ std::vector<CurrentContact> read_contacts(const VtkReader& reader, std::int64_t 
     return static_cast<ContactFriction>(number);
   };
   std::vector<CurrentContact> contacts;
-  // A frame has neither errors of gamma nor normals and branches, because no picture shows them.
   const auto add = [&](std::size_t i, std::int32_t first, std::int64_t second) {
     contacts.push_back({.first = first,
                         .second = particle(second),
@@ -113,10 +105,8 @@ std::vector<CurrentContact> read_contacts(const VtkReader& reader, std::int64_t 
 
 }  // namespace
 
-/// Reads a frame. Speeds are the lengths of the velocities [L/T]; masses, ids, angles and
-/// orientations are empty if the frame has none. Throws Error(kBadInput), which names the file, if
-/// it cannot be read or is not such a file.
 VtpContent read_vtp(const std::filesystem::path& path, int dimension) {
+  assert(dimension >= 1 && dimension <= 3);
   const std::string text = read_file(path);
   const VtkReader reader(text, path.string(), "frame");
   VtpContent content;
@@ -154,8 +144,6 @@ VtpContent read_vtp(const std::filesystem::path& path, int dimension) {
   return content;
 }
 
-/// Times [T] and names of the files of all frames in a PVD file, in its order. Whether these files
-/// exist is not checked. Throws Error(kBadInput) if the PVD file cannot be read or is no such list.
 std::vector<std::pair<double, std::string>> read_pvd(const std::filesystem::path& path) {
   const std::string text = read_file(path);
   if (text.find("</Collection>") == std::string::npos)

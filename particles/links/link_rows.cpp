@@ -1,17 +1,10 @@
-// Makes the equations of hinges, springs, arms and stops for one time step. A row is one equation,
-// value + sum of its parts + compliance * impulse = 0. A part belongs to a unit, which is a rigid
-// body or a particle without a body. Rows of displacements have values in [L], impulses in [M L/T]
-// and stiffnesses in [M/T^2]; rows of turns have values in [rad], moments of impulses in [M L^2/T]
-// and stiffnesses in [M L^2/T^2]. The times LinkTimes::h and kick are > 0 [T]; motions of units are
-// in [L, rad]; units are any consistent ones. Links, particles and places of forces count from 0.
-// Nothing is checked or thrown. constraints/, fluid/, run/ and simulation.cpp use it. A change must
-// keep the order of forces in State::link_forces, which restart files store, and that the parts of
-// a row are the derivatives of values_after() with respect to the motion.
+// The rows of hinges, springs, arms and stops, docs/physics.md (5.12) to (5.14).
 #include "viscontact/particles/links/link_rows.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -26,7 +19,7 @@ Vector unit_centre(const Particles& p, std::int32_t particle) {
   return body < 0 ? p.position(index_of(particle)) : p.bodies.bodies[index_of(body)].centre;
 }
 
-/// Vector [L] from the centre of the unit of a linked point to the point.
+/// From the centre of the unit of a linked point to the point [L].
 Vector arm_of_point(const Particles& p, const LinkedPoint& point) {
   const auto body = p.bodies.body_of(point.particle);
   if (body >= 0) return turned_with(p.bodies.bodies[index_of(body)], point.offset, p.dimension);
@@ -49,14 +42,13 @@ double unit_spin(const Particles& p, std::int32_t particle) {
   return p.angular_velocities[index_of(particle)];
 }
 
-/// The periodic image of a particle that is nearest to another one: the vector to it from the
-/// centre of the other [L], and the numbers of periods by which it is shifted.
+/// The periodic image of a particle that is nearest to another one: the vector to it [L], and the
+/// numbers of periods by which it is shifted.
 struct NearestImage {
   Vector apart{};
   Periods periods{};
 };
 
-/// The image of `second` that is nearest to `first`.
 NearestImage between(const Particles& p, std::int32_t first, std::int32_t second) {
   const Vector apart = p.position(index_of(second)) - p.position(index_of(first));
   const auto beyond = periods_towards(p.cell, apart);
@@ -69,7 +61,6 @@ Vector direction_of(const Vector& apart) {
   return length > 0 ? (1 / length) * apart : Vector{1, 0, 0};
 }
 
-/// The row of the distance of two centres, with the value 0.
 LinkRow row_between(const Particles& p, std::int32_t first, std::int32_t second,
                     const NearestImage& nearest) {
   const Vector direction = direction_of(nearest.apart);
@@ -79,11 +70,12 @@ LinkRow row_between(const Particles& p, std::int32_t first, std::int32_t second,
   return row;
 }
 
-/// Sets the row of a spring of the `stiffness` > 0 by Newmark's method with the parameter beta [1].
-/// With the `extension` e before the step [L, rad] and its `rate` [L/T, 1/T], the impulse is -kick
-/// stiffness (e + beta (change of e in this step - h rate)).
+/// Newmark's method with the parameter beta: with the `extension` e before the step [L, rad] and
+/// its `rate` [L/T, 1/T], the impulse is -kick stiffness (e + beta (change of e in this step - h
+/// rate)).
 void make_spring(LinkRow& row, double extension, double rate, double stiffness,
                  const LinkTimes& times) {
+  assert(stiffness > 0 && times.kick > 0);
   const double beta = times.beta();
   row.extension = extension;
   row.stiffness = stiffness;
@@ -91,8 +83,7 @@ void make_spring(LinkRow& row, double extension, double rate, double stiffness,
   row.compliance = 1 / (times.kick * stiffness * beta);
 }
 
-/// The rows of a hinge, one for each component of the vector from the fixed place to the point that
-/// the hinge holds [L].
+/// One row for each component of the vector from the fixed place to the point of the hinge [L].
 LinkEquations hinge_equations(const Hinge& hinge, const Particles& p) {
   LinkEquations equations{LinkEquations::Kind::kHinge};
   const auto particle = hinge.point.particle;
@@ -109,8 +100,7 @@ LinkEquations hinge_equations(const Hinge& hinge, const Particles& p) {
   return equations;
 }
 
-/// The row of the torsion spring of a hinge, whose extension is the angle of the unit minus the
-/// angle at rest [rad].
+/// The extension is the angle of the unit minus the angle at rest [rad].
 LinkEquations torsion_equations(const Hinge& hinge, const Particles& p, const LinkTimes& times) {
   LinkEquations equations{LinkEquations::Kind::kTorsion};
   LinkRow row;
@@ -121,7 +111,6 @@ LinkEquations torsion_equations(const Hinge& hinge, const Particles& p, const Li
   return equations;
 }
 
-/// The row of a spring, whose extension is the distance of its ends minus its length [L].
 LinkEquations spring_equations(const Spring& spring, const Particles& p, const LinkTimes& times) {
   LinkEquations equations{LinkEquations::Kind::kSpring};
   const auto nearest = between(p, spring.first, spring.second);
@@ -134,8 +123,6 @@ LinkEquations spring_equations(const Spring& spring, const Particles& p, const L
   return equations;
 }
 
-/// The row of an arm: its value is the distance of the ends before the step minus the length at the
-/// end of the step [L].
 LinkEquations arm_equations(const Arm& arm, const Particles& p, const LinkTimes& times) {
   LinkEquations equations{LinkEquations::Kind::kArm};
   const auto nearest = between(p, arm.first, arm.second);
@@ -145,7 +132,7 @@ LinkEquations arm_equations(const Arm& arm, const Particles& p, const LinkTimes&
   return equations;
 }
 
-/// Displacement of the point of a part for the motion of its unit [L].
+/// Displacement of the point of a part [L].
 Vector moved(const LinkPart& part, const UnitMotion& motion, int dimension) {
   return displacement_at(motion.displacement, motion.turn, part.arm, dimension);
 }
@@ -163,8 +150,6 @@ Vector apart_after(const LinkEquations& equations, const Links& links, const Par
 
 }  // namespace
 
-/// Numbers of periods from a particle to the periodic image of it that belongs to its rigid body; 0
-/// without a body.
 Periods periods_in_unit(const Particles& particles, std::int32_t particle) {
   const auto body = particles.bodies.body_of(particle);
   if (body < 0) return {};
@@ -172,8 +157,6 @@ Periods periods_in_unit(const Particles& particles, std::int32_t particle) {
   return periods_of_member(of, member_number(of, particle), particles);
 }
 
-/// Rate [L/T] at which the sum of the parts changes because periodic images move relative to their
-/// particles; 0 unless the cell is sheared.
 double image_rate(const LinkRow& row, const PeriodicCell& cell) {
   double rate = 0;
   for (const auto& part : row.parts)
@@ -181,14 +164,11 @@ double image_rate(const LinkRow& row, const PeriodicCell& cell) {
   return rate;
 }
 
-/// Value of a part for the motion of its unit, to first order in the turn [L, rad].
 double value_of(const LinkPart& part, const UnitMotion& motion) {
   return part.is_turn ? dot(part.direction, motion.turn)
                       : dot(part.direction, motion.displacement + cross(motion.turn, part.arm));
 }
 
-/// The equations of all hinges, each with its torsion spring, and then of springs, arms and
-/// membranes. `first_force` is the place of the force of the first row in State::link_forces.
 std::vector<LinkEquations> link_equations(const Links& links, const Particles& particles,
                                           const LinkTimes& times) {
   std::vector<LinkEquations> all;
@@ -218,8 +198,6 @@ std::vector<LinkEquations> link_equations(const Links& links, const Particles& p
   return all;
 }
 
-/// The stops of all hinges; none unless the particles are discs. The value of a row is the angle
-/// that is left to the stop [rad], which must be >= 0 after a step.
 std::vector<LinkEquations> stop_equations(const Links& links, const Particles& particles) {
   std::vector<LinkEquations> all;
   for (std::size_t k = 0; k < links.hinges.size(); ++k) {
@@ -242,11 +220,9 @@ std::vector<LinkEquations> stop_equations(const Links& links, const Particles& p
   return all;
 }
 
-/// A copy of `equations` for the places after `motions`, one for each unit. Directions of arms and
-/// springs, and the vectors from units to their points, are those after the motions; values stay as
-/// they are.
 LinkEquations turned_equations(const LinkEquations& equations, const Links& links,
                                const Particles& particles, std::span<const UnitMotion> motions) {
+  assert(motions.size() == equations.parts().size());
   auto turned = equations;
   const bool has_ends =
       equations.kind == LinkEquations::Kind::kArm || equations.kind == LinkEquations::Kind::kSpring;
@@ -256,18 +232,16 @@ LinkEquations turned_equations(const LinkEquations& equations, const Links& link
     for (std::size_t i = 0; i < row.parts.size(); ++i) {
       auto& part = row.parts[i];
       if (has_ends) part.direction = i == 0 ? -1 * direction : direction;
-      // The vector from the centre of the unit to the point of the part turns with the unit.
       if (!part.is_turn)
         part.arm = part.arm + displacement_at({}, motions[i].turn, part.arm, particles.dimension);
     }
   return turned;
 }
 
-/// For each row its value plus the sum of its parts after `motions` [L, rad]. The result is exact,
-/// except for springs, where it is of first order.
 std::vector<double> values_after(const LinkEquations& equations, const Links& links,
                                  const Particles& particles, const LinkTimes& times,
                                  std::span<const UnitMotion> motions) {
+  assert(motions.size() == equations.parts().size());
   if (equations.kind == LinkEquations::Kind::kArm)
     return {norm(apart_after(equations, links, particles, motions)) -
             length_at(links.arms[equations.number].length, times.end)};
@@ -280,7 +254,6 @@ std::vector<double> values_after(const LinkEquations& equations, const Links& li
       values.push_back(equations.rows[d].value + by[d]);
     return values;
   }
-  // The value of the row of a spring is computed to first order in the motions.
   for (const auto& row : equations.rows) {
     values.push_back(row.value);
     for (std::size_t i = 0; i < row.parts.size(); ++i)
@@ -294,16 +267,12 @@ double extension_after(const LinkEquations& spring, const Links& links, const Pa
   return norm(apart_after(spring, links, particles, motions)) - links.springs[spring.number].length;
 }
 
-/// Rate [L/T] at which an arm grows at the present places; `first` and `second` are the velocities
-/// of the units of its ends [L/T, 1/T].
 double rate_of_arm(const Arm& arm, const Particles& particles, const UnitMotion& first,
                    const UnitMotion& second) {
   const auto equations = arm_equations(arm, particles, {});
   return value_of(equations.parts()[0], first) + value_of(equations.parts()[1], second);
 }
 
-/// Name of a link in messages, with its number from 0 and the ids of its particles, such as "arm 2
-/// (particles 3 and 4)".
 std::string name_of(const LinkEquations& equations, const Links& links,
                     const Particles& particles) {
   const auto k = equations.number;

@@ -1,13 +1,8 @@
-// Computes the lengths of arms as functions of time, which are piecewise linear or sinusoidal. Arms
-// are links that keep the distance of two particles at such a length. Lengths [L] are > 0, times
-// [T] >= 0, rates in [L/T], phases in [rad], in any consistent units. A piecewise linear length has
-// at least one point (time, length), and the times of its points increase. Its period is larger
-// than the time of the last point, or 0 if there is none. Nothing is checked or thrown. case/,
-// fluid/held_rows.cpp and link_rows.cpp use it. A change must keep that rate_at() is the derivative
-// of length_at(), and at the time of a point the derivative in the next piece.
+// Lengths of arms as functions of time.
 #include "viscontact/particles/links/links.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -15,8 +10,7 @@
 namespace viscontact::particles {
 namespace {
 
-// About the largest number of times at which the checks of a case look at a length. It is a free
-// choice, which bounds the duration of the checks.
+// About the largest number of times at which a length is checked.
 constexpr std::size_t kMostTimes = 10000;
 
 /// The linear piece that holds at a time, between two points (time, length).
@@ -25,10 +19,11 @@ struct Piece {
   double rate() const { return (to[1] - from[1]) / (to[0] - from[0]); }
 };
 
-/// Returns the piece that holds at the time `t`, and moves `t` by periods into the first one. At
-/// the time of a point, the next piece holds. Without a period, returns std::nullopt before the
-/// first point, and at the last point and after it.
+/// The piece that holds at `t`, which is moved by periods into the first one; at the time of a
+/// point the next piece. Without a period, nothing before the first point, and from the last one
+/// on.
 std::optional<Piece> piece_at(const PiecewiseLinearLength& length, double& t) {
+  assert(!length.points.empty());
   const auto& points = length.points;
   const double first = points.front()[0];
   if (length.period > 0) t -= length.period * std::floor((t - first) / length.period);
@@ -38,8 +33,6 @@ std::optional<Piece> piece_at(const PiecewiseLinearLength& length, double& t) {
   return Piece{*(next - 1), *next};
 }
 
-/// The length at the time `t`. Without a period it is constant before the first and after the last
-/// point.
 double value_at(const PiecewiseLinearLength& length, double t) {
   const auto piece = piece_at(length, t);
   if (!piece)
@@ -62,8 +55,7 @@ double rate_of(const SinusoidalLength& length, double t) {
          std::cos(length.angular_frequency * t + length.phase);
 }
 
-/// Adds the times of all points between 0 and `end` in all periods. Later periods are left out when
-/// there are more than kMostTimes times.
+/// Later periods are left out when there are more than kMostTimes times.
 void add_times(const PiecewiseLinearLength& length, double end, std::vector<double>& times) {
   for (std::int64_t n = 0; static_cast<double>(n) * length.period <= end; ++n) {
     for (const auto& point : length.points) {
@@ -74,8 +66,6 @@ void add_times(const PiecewiseLinearLength& length, double end, std::vector<doub
   }
 }
 
-/// Adds times between 0 and `end` at which a sinusoidal length has its extrema and points between
-/// them, kMostTimes times at most.
 void add_times(const SinusoidalLength& length, double end, std::vector<double>& times) {
   // The times are an eighth of a period apart and include all extrema. Between two of them the
   // length differs from its chord by at most 8 percent of the amplitude.
@@ -101,16 +91,16 @@ double rate_at(const ArmLength& length, double t) {
   return std::visit([&](const auto& of) { return rate_of(of, t); }, length);
 }
 
-/// The times at which the checks of a case look at a length: 0, those of add_times(), and `end`.
 std::vector<double> decisive_times(const ArmLength& length, double end) {
+  assert(end >= 0);
   std::vector<double> times = {0};
   std::visit([&](const auto& of) { add_times(of, end, times); }, length);
   times.push_back(end);
   return times;
 }
 
-/// The least length at the decisive_times() up to `end`, which is the least one from 0 to `end`.
 double least_length(const ArmLength& length, double end) {
+  // All minima are at decisive_times().
   double least = std::numeric_limits<double>::infinity();
   for (const double time : decisive_times(length, end))
     least = std::min(least, length_at(length, time));

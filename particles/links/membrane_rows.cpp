@@ -1,13 +1,5 @@
-// Makes the equations of a membrane without a fluid in a time step: a closed polygon of at least 3
-// particles (beads), numbered from 0 counter-clockwise, whose distances and area are kept. A row is
-// one equation, value + sum of its parts + compliance * impulse = 0. The value of a row is in [L],
-// and in [rad] in a row for the turn of a bead; impulses are in [M L/T], and moments of impulses
-// for turns in [M L^2/T]. Membrane::lengths and the perimeter, > 0 [L], belong to the polygon; the
-// times LinkTimes::h and kick are > 0 [T]. Units are any consistent ones. Nothing is checked or
-// thrown: beads at one place give numbers that are not finite. link_rows.cpp uses this file. A
-// change must keep the order of the equations, which is that of State::link_forces, and that the
-// parts of a row, except of a bending spring, are the derivatives of membrane_value_after() with
-// respect to the motion.
+// The rows of a membrane without a fluid, docs/physics.md (8.9) to (8.12).
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -20,8 +12,8 @@ namespace {
 
 using Kind = LinkEquations::Kind;
 
-/// The vector from bead `from` to the nearest periodic image of bead `to` [L]. Numbers of beads may
-/// be any whole numbers, which Membrane::bead() takes modulo the number of beads.
+/// The vector from bead `from` to the nearest image of bead `to` [L]; numbers count modulo that of
+/// beads.
 Vector apart(const Membrane& membrane, const Particles& p, std::int32_t from, std::int32_t to) {
   return nearest_image(
       p.cell, p.position(index_of(membrane.bead(to))) - p.position(index_of(membrane.bead(from))));
@@ -32,15 +24,15 @@ Vector across(const Membrane& membrane, const Particles& p, std::int32_t k) {
   return apart(membrane, p, k - 1, k) + apart(membrane, p, k, k + 1);
 }
 
-/// The vector turned by 90 degrees to the left.
+/// `v` turned by 90 degrees to the left.
 Vector left_of(const Vector& v) { return {-v[1], v[0], 0}; }
 
-/// The angle from one vector to another, in (-pi, pi] [rad].
+/// In (-pi, pi] [rad].
 double angle_between(const Vector& from, const Vector& to) {
   return std::atan2(from[0] * to[1] - from[1] * to[0], dot(from, to));
 }
 
-/// The part of bead k in a row: the inner product of `direction` and the displacement of the bead.
+/// The inner product of `direction` and the displacement of bead k.
 LinkPart part(const Membrane& membrane, std::int32_t k, const Vector& direction) {
   LinkPart of_bead;
   of_bead.particle = membrane.bead(k);
@@ -48,7 +40,6 @@ LinkPart part(const Membrane& membrane, std::int32_t k, const Vector& direction)
   return of_bead;
 }
 
-/// The equations of one bead, or of the area, with this one row.
 LinkEquations equations(Kind kind, std::int32_t bead, LinkRow row) {
   LinkEquations one{kind};
   one.bead = bead;
@@ -56,7 +47,6 @@ LinkEquations equations(Kind kind, std::int32_t bead, LinkRow row) {
   return one;
 }
 
-/// The row of a distance: by how much the distance of beads k and k + 1 is too large [L].
 LinkRow distance_row(const Membrane& membrane, const Particles& p, std::int32_t k) {
   const Vector d = apart(membrane, p, k, k + 1);
   const Vector along = (1 / norm(d)) * d;
@@ -66,14 +56,12 @@ LinkRow distance_row(const Membrane& membrane, const Particles& p, std::int32_t 
   return row;
 }
 
-/// The bending spring at bead k, docs/physics.md (8.12). Its extension [L] is the angle by which
-/// the polygon turns at the bead, times the mean length l of its two sides, so that its stiffness
-/// is bending rigidity/l^3 [M/T^2]. It is integrated by Newmark's method with the parameter
-/// LinkTimes::beta(), as other springs are. The bending viscosity opposes the change of the
-/// extension in the step. The rigidity or the viscosity must be > 0, because the compliance is one
-/// over a sum of both.
+/// The bending spring at bead k, (8.12). Its extension [L] is the angle by which the polygon turns
+/// at the bead, times the mean length l of its two sides, so that its stiffness is bending
+/// rigidity/l^3 [M/T^2]. The bending viscosity opposes the change of the extension in the step.
 LinkRow bend_row(const Membrane& membrane, const Particles& p, std::int32_t k,
                  const LinkTimes& times) {
+  assert(membrane.resists_bending() && times.h > 0 && times.kick > 0);
   const auto n = membrane.lengths.size(), i = static_cast<std::size_t>(k);
   const double length = (membrane.lengths[(i + n - 1) % n] + membrane.lengths[i]) / 2;
   const Vector before = apart(membrane, p, k - 1, k), after = apart(membrane, p, k, k + 1);
@@ -97,8 +85,6 @@ LinkRow bend_row(const Membrane& membrane, const Particles& p, std::int32_t k,
   return row;
 }
 
-/// The row of a turn: by how much more bead k turns in the step than the line between its
-/// neighbours [rad]. Its value without motion is 0.
 LinkRow turn_row(const Membrane& membrane, const Particles& p, std::int32_t k) {
   const Vector chord = across(membrane, p, k);
   const Vector of_ends = (1 / dot(chord, chord)) * left_of(chord);
@@ -109,8 +95,8 @@ LinkRow turn_row(const Membrane& membrane, const Particles& p, std::int32_t k) {
   return row;
 }
 
-/// The row of the area: by how much the area inside is too large, divided by the mean distance of
-/// neighbours, so that all rows of distances and area have the dimension [L].
+/// Division by the mean distance of neighbours gives all rows of distances and area the dimension
+/// [L].
 LinkRow area_row(const Membrane& membrane, const Particles& p) {
   const double length = membrane.perimeter / membrane.count();
   const auto necklace = necklace_of(membrane, p);
@@ -124,10 +110,9 @@ LinkRow area_row(const Membrane& membrane, const Particles& p) {
 
 }  // namespace
 
-/// The equations of a membrane of N beads: N of distances, N of turns, N of bending springs if the
-/// membrane resists bending, and one of the area if it is kept.
 std::vector<LinkEquations> membrane_equations(const Membrane& membrane, const Particles& particles,
                                               const LinkTimes& times) {
+  assert(membrane.count() >= 3 && membrane.lengths.size() == membrane.beads.size());
   std::vector<LinkEquations> all;
   for (std::int32_t k = 0; k < membrane.count(); ++k)
     all.push_back(equations(Kind::kDistance, k, distance_row(membrane, particles, k)));
@@ -139,10 +124,9 @@ std::vector<LinkEquations> membrane_equations(const Membrane& membrane, const Pa
   return all;
 }
 
-/// The value of the row of a distance [L], a turn [rad] or the area [L] after `motions`, one for
-/// each part of the row [L, rad]. The result is exact.
 double membrane_value_after(const LinkEquations& equations, const Membrane& membrane,
                             const Particles& particles, std::span<const UnitMotion> motions) {
+  assert(!equations.is_spring() && motions.size() == equations.parts().size());
   const auto k = equations.bead;
   const auto by = [&](std::size_t i) { return motions[i].displacement; };
   if (equations.kind == Kind::kDistance)

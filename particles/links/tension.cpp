@@ -14,7 +14,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// Unit vectors at right angles to `along` and to each other: one in the plane, two in space.
+/// Unit vectors at right angles to `along` and to each other.
 std::vector<Vector> directions_across(const Vector& along, int dimension) {
   if (dimension == 2) {
     const double length = norm(along);
@@ -33,6 +33,7 @@ std::vector<Vector> directions_across(const Vector& along, int dimension) {
 }  // namespace
 
 std::vector<AxisStiffness> stiffness_of_turns(std::span<const ForceAtArm> forces, int dimension) {
+  assert(dimension == 2 || dimension == 3);
   double along = 0, largest = 0;
   for (const auto& [force, arm] : forces) {
     along += dot(force, arm);
@@ -97,6 +98,7 @@ std::vector<LinkRow> rows_of_tension(const LinkEquations& link, std::span<const 
                                      const Particles& particles) {
   using Kind = LinkEquations::Kind;
   const auto& parts = link.parts();
+  assert(forces.size() == link.rows.size());
   if (link.kind == Kind::kHinge) {
     Vector force{};
     for (std::size_t d = 0; d < link.rows.size(); ++d)

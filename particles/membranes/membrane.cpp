@@ -1,15 +1,9 @@
-// Computes measures and rows of output of membranes (closed lines through particles, the beads),
-// ellipses with a given perimeter and area, and the geometry of polygons. Lengths [L], areas [L^2],
-// times [T] and velocities [L/T] are in the units of the case, angles in radians. A polygon or
-// array of places has two numbers for each corner, x and y, and at least three corners; perimeters,
-// areas and distances are > 0. simulation.cpp, io/, run/ and the other sources of this folder use
-// it. check_shapes() throws Error(kBadInput); nothing else is checked or thrown, but ellipse_of()
-// returns std::nullopt, and shape_curve() infinity, if they find no places. A change must keep the
-// places of the beads of ellipse_of() bit for bit.
+// Measures, initial shapes and checks of membranes.
 #include "viscontact/particles/membranes/membrane.hpp"
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -24,13 +18,10 @@
 
 namespace viscontact::particles {
 
-/// The membranes of a case, those in its fluid or, without a fluid, those of its links.
 const std::vector<Membrane>& membranes_of(const Setting& setting) {
   return setting.fluid ? setting.fluid->membranes : setting.links.membranes;
 }
 
-/// Measures a membrane: without a fluid, where Membrane::lengths is not empty, the polygon through
-/// its beads, and in a fluid the smooth curve through them.
 MembraneMeasures measure(const Membrane& membrane, const Particles& particles) {
   if (!membrane.lengths.empty()) return measure_necklace(membrane, particles);
   const std::array one = {membrane};
@@ -43,7 +34,7 @@ MembraneMeasures measure(const Membrane& membrane, const Particles& particles) {
 namespace {
 
 /// True if the distances of neighbouring beads differ from Membrane::lengths by at most `kept`
-/// times the mean distance. Always true in a fluid, where there are no such lengths.
+/// times the mean distance, or if there are no such lengths.
 bool keeps_distances(const Membrane& membrane, const Particles& particles, double kept) {
   if (membrane.lengths.empty()) return true;
   const Eigen::VectorXd distances = distances_of(necklace_of(membrane, particles));
@@ -56,10 +47,9 @@ bool keeps_distances(const Membrane& membrane, const Particles& particles, doubl
 
 }  // namespace
 
-/// Throws Error(kBadInput) if the particles of a restart file have other shapes than `membranes`.
 void check_shapes(std::span<const Membrane> membranes, const Particles& particles) {
-  // A free choice [1], far above the relative errors with which a run keeps these numbers, and far
-  // below a change of the case.
+  // Far above the relative errors [1] with which a run keeps these numbers, and far below a change
+  // of the case.
   constexpr double kKept = 1e-6;
   for (std::size_t m = 0; m < membranes.size(); ++m) {
     const auto& asked = membranes[m];
@@ -78,8 +68,6 @@ void check_shapes(std::span<const Membrane> membranes, const Particles& particle
   }
 }
 
-/// Sets Particles::neighbours: for each particle the numbers of the beads before and after it, or
-/// {-1, -1} if it is no bead. The array becomes empty if there are no membranes.
 void join_neighbours(std::span<const Membrane> membranes, Particles& particles) {
   particles.neighbours.clear();
   if (membranes.empty()) return;
@@ -90,9 +78,6 @@ void join_neighbours(std::span<const Membrane> membranes, Particles& particles) 
                                                           membrane.bead(k + 1)};
 }
 
-/// The rows of membranes.csv, one for each membrane: time [T], number, x and y of the centre [L],
-/// inclination [rad], area [L^2], perimeter [L], mean speed of the beads relative to their mean
-/// [L/T], and tank-treading frequency [1/T].
 std::string membrane_rows(const Setting& setting, const State& state,
                           std::span<const double> /*force_errors*/) {
   std::string text;
@@ -128,14 +113,13 @@ std::vector<double> lengths_along(double a, double b) {
 
 using Corner = std::array<double, 2>;
 
-/// Corner `i` of a closed polygon.
 Corner corner(std::span<const double> polygon, std::size_t i) {
+  assert(polygon.size() >= 6 && polygon.size() % 2 == 0);
   const auto k = 2 * (i % (polygon.size() / 2));
   return {polygon[k], polygon[k + 1]};
 }
 
-/// Returns a number [L^2] that is > 0 if c is on the left of the line from a to b, and < 0 if c is
-/// on the right.
+/// The result [L^2] is > 0 if c is on the left of the line from a to b, < 0 if it is on the right.
 double side(const Corner& a, const Corner& b, const Corner& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
@@ -150,12 +134,9 @@ bool sides_cross(std::span<const double> first, std::size_t i, std::span<const d
 
 }  // namespace
 
-/// Returns the centres of the beads of a membrane that begins as an ellipse about `centre` [L] with
-/// the perimeter and area of `membrane`, two numbers for each bead [L]. The long axis has the
-/// direction `angle` [rad]. Returns std::nullopt if so few beads cannot have this shape. The area
-/// must be at most perimeter^2/(4 pi), and the ratio a/mean below, at most 1000, is a free choice.
 std::optional<std::vector<double>> ellipse_of(const Membrane& membrane, const Vector& centre,
                                               double angle) {
+  assert(membrane.count() >= 3 && membrane.area > 0);
   // The semi-axes a and b have a b = area/pi = mean^2, and the perimeter grows with a/mean, which
   // is found by bisection.
   const double mean = std::sqrt(membrane.area / std::numbers::pi);
@@ -195,8 +176,7 @@ std::optional<std::vector<double>> ellipse_of(const Membrane& membrane, const Ve
 
 namespace {
 
-/// Positions of the beads of a membrane, x of all and then y [L]. Their order is reversed if it is
-/// clockwise.
+/// Positions of the beads, x of all and then y [L]; their order is reversed if it is clockwise.
 Eigen::VectorXd ordered_necklace(Membrane& membrane, const Particles& particles) {
   const auto necklace = necklace_of(membrane, particles);
   if (area_of(necklace) >= 0) return necklace;
@@ -206,8 +186,6 @@ Eigen::VectorXd ordered_necklace(Membrane& membrane, const Particles& particles)
 
 }  // namespace
 
-/// Sets lengths, perimeter and area of a membrane without a fluid to those of the polygon through
-/// its particles, and reverses the order of its beads if it is clockwise.
 void shape_polygon(Membrane& membrane, const Particles& particles) {
   const auto necklace = ordered_necklace(membrane, particles);
   const auto distances = distances_of(necklace);
@@ -216,10 +194,6 @@ void shape_polygon(Membrane& membrane, const Particles& particles) {
   membrane.area = area_of(necklace);
 }
 
-/// Sets perimeter and area of a membrane in a fluid to those of the curve through its particles,
-/// reverses the order of its beads if it is clockwise, and moves the beads to equal distances along
-/// the curve. Returns the largest component of a displacement [L], or infinity if no such places
-/// are found; then no bead moves.
 double shape_curve(Membrane& membrane, Particles& particles) {
   const auto given = ordered_necklace(membrane, particles);
   const MembraneCurve curve(membrane.count());
@@ -237,9 +211,8 @@ double shape_curve(Membrane& membrane, Particles& particles) {
   return (kept - given).lpNorm<Eigen::Infinity>();
 }
 
-/// The largest area [L^2] of a polygon with these sides [L], each > 0 and less than the sum of the
-/// others.
 double largest_area(std::span<const double> lengths) {
+  assert(lengths.size() >= 3);
   // The sides are chords of the circle through the corners. Seen from its centre, their angles add
   // up to a full turn if the centre is inside the polygon; otherwise it lies beyond the longest
   // side, whose angle is then the sum of the others. The curvature 1/radius is found by bisection.
@@ -269,7 +242,6 @@ double largest_area(std::span<const double> lengths) {
   return area;
 }
 
-/// The polygon through the beads of a membrane, in their order.
 std::vector<double> corners_of(const Membrane& membrane, const Particles& particles) {
   const auto necklace = necklace_of(membrane, particles);
   std::vector<double> corners;
@@ -280,7 +252,6 @@ std::vector<double> corners_of(const Membrane& membrane, const Particles& partic
   return corners;
 }
 
-/// True if the point x is inside a polygon, of either orientation.
 bool is_inside(const std::array<double, 2>& x, std::span<const double> polygon) {
   bool inside = false;
   for (std::size_t i = 0; i < polygon.size() / 2; ++i) {
@@ -290,7 +261,6 @@ bool is_inside(const std::array<double, 2>& x, std::span<const double> polygon) 
   return inside;
 }
 
-/// True if a side of one polygon crosses a side of the other.
 bool do_cross(std::span<const double> first, std::span<const double> second) {
   for (std::size_t i = 0; i < first.size() / 2; ++i)
     for (std::size_t j = 0; j < second.size() / 2; ++j)
@@ -298,13 +268,10 @@ bool do_cross(std::span<const double> first, std::span<const double> second) {
   return false;
 }
 
-/// True if the first corner of one polygon is inside the other. If the polygons do not cross, one
-/// then contains the other.
 bool do_contain(std::span<const double> first, std::span<const double> second) {
   return is_inside(corner(first, 0), second) || is_inside(corner(second, 0), first);
 }
 
-/// True if two sides of a polygon that are not neighbours cross.
 bool crosses_itself(std::span<const double> polygon) {
   const auto count = polygon.size() / 2;
   for (std::size_t i = 0; i < count; ++i)

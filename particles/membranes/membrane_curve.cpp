@@ -1,14 +1,8 @@
-// Computes the closed curve through the N >= 3 particles (beads) of a membrane by trigonometric
-// interpolation. Also computes the lengths [L] and area [L^2] of the curve, the moments of this
-// area [L^4], and the bending energy divided by the bending rigidity [1/L]. Lengths are in any
-// unit. An array of positions [L] or velocities [L/T] has x of all beads and then y of all, 2 N
-// numbers; bead k is at the parameter 2 pi k/N [1] of the curve. Nothing is checked or thrown:
-// restore_lengths_and_area() returns false where it does not converge, and where the curve has the
-// speed 0 derivatives are NaN or infinite. The sources of this folder and freefem_flow/membranes/
-// use it. A change must keep that all derivatives are exact.
+// Trigonometric interpolation of closed curves, with exact derivatives for Newton's method.
 #include "viscontact/particles/membranes/membrane_curve.hpp"
 
 #include <array>
+#include <cassert>
 #include <cmath>
 
 #include "viscontact/common/matrices/decompositions.hpp"
@@ -16,10 +10,9 @@
 namespace viscontact::particles {
 namespace {
 
-/// The energy density e = c^2 q^(-5/2) (squared curvature times |dx/ds|) at one bead, where c = x'
-/// y'' - y' x'' and q = x'^2 + y'^2, and its derivatives with respect to (x', y', x'', y''). Primes
-/// are derivatives with respect to the parameter s of the curve [1]; x', y', x'' and y'' are in
-/// [L], and the value is in [1/L].
+/// The energy density e = c^2 q^(-5/2) (squared curvature times |dx/ds|) at one bead [1/L], where c
+/// = x' y'' - y' x'' and q = x'^2 + y'^2, and its derivatives with respect to (x', y', x'', y'').
+/// Primes are derivatives with respect to the parameter s [1].
 struct Density {
   double value = 0;
   Eigen::Vector4d gradient;
@@ -46,9 +39,8 @@ Density density_at(double ax, double ay, double bx, double by) {
 
 }  // namespace
 
-/// The trigonometric polynomial of least degree that is 1 at the angle 0 and 0 at the other angles
-/// 2 pi k/beads, or its derivative of the order `derivative`, 0 to 2, at the angle `theta` [rad].
 double cardinal(int beads, double theta, int derivative) {
+  assert(beads > 0 && derivative >= 0 && derivative <= 2);
   const double n = beads;
   double sum = derivative == 0 ? 1 : 0;
   const auto add = [&](double m, double weight) {
@@ -61,10 +53,9 @@ double cardinal(int beads, double theta, int derivative) {
   return sum / n;
 }
 
-/// Makes the N x N matrices that give, from the values at the beads, the first and second
-/// derivatives by s at the beads, and the first ones halfway between beads. `beads` is N.
 MembraneCurve::MembraneCurve(int beads)
     : n_(beads), first_(beads, beads), second_(beads, beads), first_halfway_(beads, beads) {
+  assert(n_ >= 3);
   for (int i = 0; i < n_; ++i)
     for (int j = 0; j < n_; ++j) {
       const double theta = kTwoPi * (i - j) / n_;
@@ -74,16 +65,15 @@ MembraneCurve::MembraneCurve(int beads)
     }
 }
 
-/// The speeds |dx/ds| >= 0 halfway between beads, N numbers [L]: number k belongs to beads k and k
-/// + 1.
 Eigen::VectorXd MembraneCurve::speeds(const Eigen::VectorXd& positions) const {
+  assert(positions.size() == 2 * n_);
   const Eigen::ArrayXd dx = first_halfway_ * positions.head(n_),
                        dy = first_halfway_ * positions.tail(n_);
   return (dx.square() + dy.square()).sqrt();
 }
 
-/// Derivatives of the speeds by the positions [1], N rows and 2 N columns.
 Eigen::MatrixXd MembraneCurve::speed_rows(const Eigen::VectorXd& positions) const {
+  assert(positions.size() == 2 * n_);
   const Eigen::VectorXd dx = first_halfway_ * positions.head(n_),
                         dy = first_halfway_ * positions.tail(n_);
   const Eigen::VectorXd speed = (dx.array().square() + dy.array().square()).sqrt();
@@ -93,10 +83,9 @@ Eigen::MatrixXd MembraneCurve::speed_rows(const Eigen::VectorXd& positions) cons
   return rows;
 }
 
-/// Second derivatives of the sum of factor k times speed k by the positions, 2 N rows and columns
-/// [1/L, times the unit of `factors`]; `factors` has N numbers.
 Eigen::MatrixXd MembraneCurve::speeds_hessian(const Eigen::VectorXd& positions,
                                               const Eigen::VectorXd& factors) const {
+  assert(positions.size() == 2 * n_ && factors.size() == n_);
   const Eigen::ArrayXd dx = first_halfway_ * positions.head(n_),
                        dy = first_halfway_ * positions.tail(n_);
   // The second derivatives of |d| with respect to d = (dx, dy) are (I - d d^T/|d|^2)/|d|.
@@ -120,16 +109,14 @@ double MembraneCurve::area(const Eigen::VectorXd& positions) const {
   return 0.5 * positions.dot(area_row(positions));
 }
 
-/// Derivatives of the area by the positions, 2 N numbers [L]. The area is > 0 if the beads go
-/// around counter-clockwise.
 Eigen::VectorXd MembraneCurve::area_row(const Eigen::VectorXd& positions) const {
+  assert(positions.size() == 2 * n_);
   Eigen::VectorXd row(2 * n_);
   row.head(n_) = kTwoPi / n_ * (first_ * positions.tail(n_));
   row.tail(n_) = -kTwoPi / n_ * (first_ * positions.head(n_));
   return row;
 }
 
-/// Second derivatives of the area by the positions [1].
 Eigen::MatrixXd MembraneCurve::area_hessian() const {
   Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(2 * n_, 2 * n_);
   hessian.topRightCorner(n_, n_) = kTwoPi / n_ * first_;
@@ -137,15 +124,14 @@ Eigen::MatrixXd MembraneCurve::area_hessian() const {
   return hessian;
 }
 
-/// First derivatives of x and y by s at the beads [L]: N rows, 2 columns.
 Eigen::MatrixXd MembraneCurve::tangents(const Eigen::VectorXd& positions) const {
+  assert(positions.size() == 2 * n_);
   Eigen::MatrixXd tangents(n_, 2);
   tangents.col(0) = first_ * positions.head(n_);
   tangents.col(1) = first_ * positions.tail(n_);
   return tangents;
 }
 
-/// The integral of curvature^2/2 along the curve, >= 0 [1/L].
 double MembraneCurve::bending_energy(const Eigen::VectorXd& positions) const {
   const Eigen::MatrixXd a = tangents(positions);
   const Eigen::VectorXd bx = second_ * positions.head(n_), by = second_ * positions.tail(n_);
@@ -154,7 +140,6 @@ double MembraneCurve::bending_energy(const Eigen::VectorXd& positions) const {
   return 0.5 * kTwoPi / n_ * sum;
 }
 
-/// Derivatives of bending_energy() by the positions, 2 N numbers [1/L^2].
 Eigen::VectorXd MembraneCurve::bending_gradient(const Eigen::VectorXd& positions) const {
   const Eigen::MatrixXd a = tangents(positions);
   const Eigen::VectorXd bx = second_ * positions.head(n_), by = second_ * positions.tail(n_);
@@ -167,7 +152,6 @@ Eigen::VectorXd MembraneCurve::bending_gradient(const Eigen::VectorXd& positions
   return 0.5 * kTwoPi / n_ * gradient;
 }
 
-/// Second derivatives of bending_energy() by the positions [1/L^3].
 Eigen::MatrixXd MembraneCurve::bending_hessian(const Eigen::VectorXd& positions) const {
   const Eigen::MatrixXd a = tangents(positions);
   const Eigen::VectorXd bx = second_ * positions.head(n_), by = second_ * positions.tail(n_);
@@ -191,13 +175,12 @@ Eigen::MatrixXd MembraneCurve::bending_hessian(const Eigen::VectorXd& positions)
   return 0.5 * kTwoPi / n_ * hessian;
 }
 
-/// Moves the beads as little as possible until all speeds are `perimeter`/(2 pi) [L] and the area
-/// is `area` [L^2]. Returns false, with undefined positions, if it does not converge in 50 rounds.
 bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, double area,
                               Eigen::VectorXd& positions) {
+  assert(perimeter > 0);
   const int n = curve.beads();
   const double speed = perimeter / kTwoPi;
-  constexpr int kMostRounds = 50;   // a free choice, which membrane_curve.hpp repeats
+  constexpr int kMostRounds = 50;
   constexpr double kExact = 1e-13;  // near rounding errors
   for (int round = 0; round < kMostRounds; ++round) {
     // Residuals and rows are divided by powers of `speed`, so that all entries are near 1.
@@ -221,7 +204,6 @@ bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, doub
 
 namespace {
 
-/// Centre [L] of the area inside the curve, and the second moments about it [L^4].
 AreaMoments moments_of(const MembraneCurve& curve, const Eigen::VectorXd& positions) {
   const int n = curve.beads();
   const Eigen::MatrixXd tangents = curve.tangents(positions);
@@ -244,11 +226,8 @@ AreaMoments moments_of(const MembraneCurve& curve, const Eigen::VectorXd& positi
 
 }  // namespace
 
-/// The angle from the direction of x to the long axis of the area, in (-pi/2, pi/2] [rad].
 double AreaMoments::inclination() const { return 0.5 * std::atan2(2 * xy, xx - yy); }
 
-/// Changes moments about the point (x, y) to those about the centre of the area, which becomes (x,
-/// y). `mx` and `my` are the first moments about the old point [L^3]; the area must not be 0.
 void AreaMoments::move_to_centre(double area, double mx, double my) {
   const double cx = mx / area, cy = my / area;
   x += cx;
@@ -258,7 +237,6 @@ void AreaMoments::move_to_centre(double area, double mx, double my) {
   xy -= area * cx * cy;
 }
 
-/// Measures a membrane in a fluid by its curve and the `velocities` of its beads.
 MembraneMeasures measure(const MembraneCurve& curve, const Eigen::VectorXd& positions,
                          const Eigen::VectorXd& velocities) {
   const Eigen::MatrixXd tangents = curve.tangents(positions);
@@ -275,10 +253,9 @@ MembraneMeasures measure(const MembraneCurve& curve, const Eigen::VectorXd& posi
       positions, velocities);
 }
 
-/// Measures a membrane by a closed line, the curve above or a polygon. The speed and the
-/// tank-treading frequency [1/T] are 0 if `velocities` is empty or uniform.
 MembraneMeasures measure(const MeasuredLine& line, const Eigen::VectorXd& positions,
                          const Eigen::VectorXd& velocities) {
+  assert(velocities.size() == 0 || velocities.size() == positions.size());
   const auto n = positions.size() / 2;
   const auto moments = line.moments(positions);
   MembraneMeasures measures;

@@ -1,13 +1,7 @@
-// Solves a time step of membranes in a fluid by Newton's method, docs/physics.md (8.4) to (8.6). An
-// array of all beads has x of the beads of the first membrane, the second one and so on, and then
-// all y in the same order. Positions are in [L], velocities in [L/T], forces and tensions in
-// [M L/T^2], pressures in [M/T^2], the mobility, a symmetric matrix, in [T/M]; the time of a step
-// is > 0 [T]. Units are any consistent ones; M is a mass per length of the third dimension.
-// membrane_simulation.cpp and membrane.cpp use it. step() throws Error(kNotConverged) if it cannot
-// solve a step; sizes are not checked. A change must keep that step_matrix() is the derivative of
-// the equations, so that the method converges quadratically.
+// Steps of membranes in a fluid by Newton's method, docs/physics.md (8.4) to (8.6).
 #include "viscontact/particles/membranes/membrane_motion.hpp"
 
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -17,7 +11,6 @@
 
 namespace viscontact::particles {
 
-/// Keeps a view of `membranes`, which must outlive the object, and makes their curves.
 Membranes::Membranes(std::span<const Membrane> membranes) : membranes_(membranes), first_{0} {
   for (const auto& membrane : membranes) {
     curves_.emplace_back(membrane.count());
@@ -25,11 +18,9 @@ Membranes::Membranes(std::span<const Membrane> membranes) : membranes_(membranes
   }
 }
 
-/// The positions of all beads from `positions`, two numbers for each particle. In a periodic cell
-/// each bead is taken at its image nearest to the bead before it, and the first bead of a membrane
-/// at its image nearest to its place in `near`, unless `near` is null.
 Eigen::VectorXd Membranes::places(std::span<const double> positions, const PeriodicCell& cell,
                                   const Eigen::VectorXd* near) const {
+  assert(near == nullptr || near->size() == 2 * beads());
   auto all = from_particles(positions, 2);
   for (std::size_t m = 0; m < membranes_.size(); ++m)
     for (Eigen::Index d = 0; d < 2; ++d) {
@@ -44,50 +35,47 @@ Eigen::VectorXd Membranes::places(std::span<const double> positions, const Perio
   return all;
 }
 
-/// An array of all beads from `numbers`, which has `components` >= 2 numbers of any unit for each
-/// particle, of which the first two are taken.
 Eigen::VectorXd Membranes::from_particles(std::span<const double> numbers,
                                           std::size_t components) const {
+  assert(components >= 2);
   Eigen::VectorXd all(2 * beads());
   for (std::size_t m = 0; m < membranes_.size(); ++m)
     for (Eigen::Index k = 0; k < membranes_[m].count(); ++k) {
       const auto at = components * index_of(membranes_[m].beads[static_cast<std::size_t>(k)]);
+      assert(at + 1 < numbers.size());
       all(first_[m] + k) = numbers[at];
       all(beads() + first_[m] + k) = numbers[at + 1];
     }
   return all;
 }
 
-/// Writes an array of all beads into the first two of the `components` numbers of each bead in
-/// `numbers`; other numbers stay as they are.
 void Membranes::to_particles(const Eigen::VectorXd& all, std::size_t components,
                              std::vector<double>& numbers) const {
+  assert(components >= 2 && all.size() == 2 * beads());
   for (std::size_t m = 0; m < membranes_.size(); ++m)
     for (Eigen::Index k = 0; k < membranes_[m].count(); ++k) {
       const auto at = components * index_of(membranes_[m].beads[static_cast<std::size_t>(k)]);
+      assert(at + 1 < numbers.size());
       numbers[at] = all(first_[m] + k);
       numbers[at + 1] = all(beads() + first_[m] + k);
     }
 }
 
-/// The part of an array of all beads that belongs to membrane `m`, from 0: x of its beads, and then
-/// y.
 Eigen::VectorXd Membranes::of(std::size_t m, const Eigen::VectorXd& all) const {
+  assert(m < curves_.size() && all.size() == 2 * beads());
   const auto n = first_[m + 1] - first_[m];
   Eigen::VectorXd own(2 * n);
   own << all.segment(first_[m], n), all.segment(beads() + first_[m], n);
   return own;
 }
 
-/// Writes the numbers `own` of membrane `m` into the array `all`; the inverse of of().
 void Membranes::put(std::size_t m, const Eigen::VectorXd& own, Eigen::VectorXd& all) const {
+  assert(m < curves_.size() && all.size() == 2 * beads());
   const auto n = first_[m + 1] - first_[m];
   all.segment(first_[m], n) = own.head(n);
   all.segment(beads() + first_[m], n) = own.tail(n);
 }
 
-/// Derivatives of the speeds of all curves (MembraneCurve::speeds) by the positions [1]: beads()
-/// rows, 2 beads() columns.
 Eigen::MatrixXd Membranes::speed_rows(const Eigen::VectorXd& positions) const {
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(beads(), 2 * beads());
   for (std::size_t m = 0; m < curves_.size(); ++m) {
@@ -99,7 +87,6 @@ Eigen::MatrixXd Membranes::speed_rows(const Eigen::VectorXd& positions) const {
   return rows;
 }
 
-/// The bending forces on all beads [M L/T^2].
 Eigen::VectorXd Membranes::bending_forces(const Eigen::VectorXd& positions) const {
   Eigen::VectorXd forces(2 * beads());
   for (std::size_t m = 0; m < curves_.size(); ++m)
@@ -107,8 +94,6 @@ Eigen::VectorXd Membranes::bending_forces(const Eigen::VectorXd& positions) cons
   return forces;
 }
 
-/// Second derivatives by the 2 beads() positions of bending energy plus tensions times speeds
-/// (MembraneCurve::speeds) plus pressures times areas [M/T^2].
 Eigen::MatrixXd Membranes::stiffness(const Eigen::VectorXd& positions,
                                      const MembraneMotion& motion) const {
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(2 * beads(), 2 * beads());
@@ -126,10 +111,9 @@ Eigen::MatrixXd Membranes::stiffness(const Eigen::VectorXd& positions,
   return stiffness;
 }
 
-/// The forces on the fluid and the velocities of the beads at `positions`. Tensions keep all
-/// lengths from changing. The result has no tension, pressure and flow_forces.
 MembraneMotion Membranes::motion_at(const Eigen::VectorXd& positions,
                                     const FluidAnswer& answer) const {
+  assert(positions.size() == 2 * beads());
   const Eigen::MatrixXd rows = speed_rows(positions);
   MembraneMotion motion;
   motion.forces = bending_forces(positions);
@@ -145,7 +129,6 @@ MembraneMotion Membranes::motion_at(const Eigen::VectorXd& positions,
   return motion;
 }
 
-/// Derivatives of the areas by the positions: 2 beads() rows, a column for each membrane [L].
 Eigen::MatrixXd Membranes::area_columns(const Eigen::VectorXd& positions) const {
   const auto count = static_cast<Eigen::Index>(curves_.size());
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(2 * beads(), count);
@@ -157,10 +140,6 @@ Eigen::MatrixXd Membranes::area_columns(const Eigen::VectorXd& positions) const 
   return columns;
 }
 
-/// The matrix of Newton's method for step(). Its unknowns are scaled to lengths, so that its
-/// entries have similar sizes. The unknowns are the positions [L]; the tensions over `unit`, a
-/// force per length [M/T^2]; and the pressures times the norm of their column of area_columns(),
-/// over `unit`. MembraneMotion::flow_forces must not contain the loads of step().
 Eigen::MatrixXd Membranes::step_matrix(double time, const FluidAnswer& answer,
                                        const Eigen::VectorXd& positions,
                                        const MembraneMotion& motion, double unit) const {
@@ -188,9 +167,6 @@ Eigen::MatrixXd Membranes::step_matrix(double time, const FluidAnswer& answer,
   return matrix;
 }
 
-/// Newton's method for step(), with the same `from` [L], `time` [T] and `answer`. `positions`, and
-/// the tensions and pressures of `motion`, are first guesses before, and the solution afterwards.
-/// Returns false if the method has not converged in kMostRounds rounds.
 bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
                            Eigen::VectorXd& positions, MembraneMotion& motion) const {
   const auto n = beads(), count = static_cast<Eigen::Index>(curves_.size());
@@ -203,7 +179,6 @@ bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const Fluid
     wanted.segment(first_[m], first_[m + 1] - first_[m]).setConstant(speed);
     size = std::max(size, speed);
   }
-  // The limit is a free choice.
   constexpr int kMostRounds = 30;
   // Newton's method is quadratic: after a change of the positions by less than kExact times
   // their size, the next one would be a rounding error. In stiff membranes rounding errors are
@@ -238,13 +213,11 @@ bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const Fluid
   return false;
 }
 
-/// Finds the positions z of the beads [L] for which (z - from)/time are the velocities of the fluid
-/// at the beads. The forces on the fluid are the bending forces and tensions at z and the further
-/// forces `loads` [M L/T^2]. Lengths and areas are kept. `positions` is a first guess of z before,
-/// and z afterwards. Throws Error(kNotConverged) if the step is not solved; `positions` are then
-/// undefined.
 MembraneMotion Membranes::step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
                                const Eigen::VectorXd& loads, Eigen::VectorXd& positions) const {
+  assert(time > 0);
+  assert(from.size() == 2 * beads() && loads.size() == 2 * beads());
+  assert(positions.size() == 2 * beads());
   const Eigen::VectorXd guess = positions;
   const FluidAnswer loaded{answer.flow + answer.mobility * loads, answer.mobility};
   MembraneMotion motion;
@@ -258,7 +231,7 @@ MembraneMotion Membranes::step(const Eigen::VectorXd& from, double time, const F
   if (!is_solved) {
     // Newton's method may fail if a stiff membrane is far from its equilibrium. Then steps of the
     // lengths time/2^12, time/2^11, ..., time are solved, each with the solution of the shorter one
-    // as its first guess. The number 12 is a free choice.
+    // as its first guess.
     begin();
     is_solved = true;
     for (int halvings = 12; halvings >= 0 && is_solved; --halvings)
@@ -281,13 +254,11 @@ MembraneMotion Membranes::step(const Eigen::VectorXd& from, double time, const F
   return motion;
 }
 
-/// How the positions and forces of a step change, to first order, if further loads would move the
-/// beads without membranes by the columns of `moves` [L]. The other arguments are those of step(),
-/// its result and the positions after it.
 LoadResponse Membranes::response(double time, const FluidAnswer& answer,
                                  const Eigen::VectorXd& loads, const MembraneMotion& motion,
                                  const Eigen::VectorXd& positions,
                                  const Eigen::MatrixXd& moves) const {
+  assert(time > 0 && loads.size() == 2 * beads() && moves.rows() == 2 * beads());
   const auto n = beads(), count = static_cast<Eigen::Index>(curves_.size());
   const double unit = static_cast<double>(2 * n) / (time * answer.mobility.trace());
   MembraneMotion unloaded = motion;

@@ -1,12 +1,5 @@
-// Computes the motion of membranes in a Stokes flow, docs/physics.md (8.4) to (8.6). A membrane is
-// a closed curve through particles, its beads. The fluid is represented by the velocities of the
-// beads as a linear function of the forces on them (FluidAnswer). Lengths, masses and times are in
-// any consistent units; M stands for a mass per length of the third dimension. Only step() throws;
-// sizes of arrays and numbers of membranes are not checked. An array of all beads has x of the
-// beads of the first membrane, of the second one and so on, and then all y in the same order: 2
-// beads() numbers. membrane.cpp and fluid/membrane_simulation.cpp use this file. Headers must not
-// include it, because programs of users must compile without the library Eigen. A change must keep
-// lengths and areas exact after each step.
+// The motion of membranes in a Stokes flow, docs/physics.md (8.4) to (8.6). Users' programs compile
+// without Eigen, so that no public header may include this one.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,52 +18,51 @@ struct FluidAnswer {
   Eigen::MatrixXd mobility;  ///< velocities per force [T/M], symmetric, 2 beads() rows
 };
 
-/// The forces of the membranes on the fluid at the beads, and the velocities of the beads. The
-/// first two arrays have 2 beads() numbers.
+/// The forces of the membranes on the fluid at the beads, and the velocities of the beads.
 struct MembraneMotion {
   Eigen::VectorXd forces;      ///< sum of the forces of bending, of tension and of loads [M L/T^2]
-  Eigen::VectorXd velocities;  ///< velocities of the beads [L/T]
-  /// Tensions T of step() [M L/T^2], one number for each bead: the tension that keeps the length
-  /// between this bead and the next one. Only step() sets this array and the two that follow.
+  Eigen::VectorXd velocities;  ///< [L/T]
+  /// Tensions T of step() [M L/T^2], one number for each bead, between this bead and the next one.
+  /// Only step() sets this array and the two that follow.
   Eigen::VectorXd tension;
   /// Pressures q of step(), one number for each membrane [M/T^2].
   Eigen::VectorXd pressure;
   Eigen::VectorXd flow_forces;  ///< `forces` minus those of the pressure, 2 beads() [M L/T^2]
 };
 
-/// How the result of Membranes::step() changes under small loads. The matrices have 2 beads() rows,
-/// and a column for each load, that is, for each column of `moves` of Membranes::response().
+/// How the result of Membranes::step() changes under small loads, with 2 beads() rows and a column
+/// for each load, that is, for each column of `moves` of response().
 struct LoadResponse {
   Eigen::MatrixXd positions;  ///< changes of the positions z of step() [L]
   Eigen::MatrixXd forces;     ///< changes of P f of step(), without the loads [M L/T^2]
 };
 
-/// All membranes of a case in a fluid.
+/// All membranes of a case in a fluid, in any consistent units; M stands for a mass per length of
+/// the third dimension. An array of all beads has x of the beads of the first membrane, of the
+/// second one and so on, and then all y in the same order: 2 beads() numbers.
 class Membranes {
  public:
-  /// `membranes` are those of Fluid::membranes, and must outlive this object.
+  /// `membranes` must outlive this object.
   explicit Membranes(std::span<const Membrane> membranes);
 
-  Eigen::Index beads() const { return first_.back(); }  ///< number of beads of all membranes
+  Eigen::Index beads() const { return first_.back(); }  ///< of all membranes
 
   /// Positions of all beads [L]. `positions` has two numbers for each particle. In a periodic
-  /// domain each bead is taken at its image nearest to the bead before it. If `near`, an array of
-  /// all beads [L], is given, the first bead of each membrane is taken at its image nearest to its
-  /// place in `near`.
+  /// domain each bead is taken at its image nearest to the bead before it, and the first bead of
+  /// each membrane at its image nearest to its place in `near` [L], if this is given.
   Eigen::VectorXd places(std::span<const double> positions, const PeriodicCell& cell,
                          const Eigen::VectorXd* near = nullptr) const;
 
-  /// An array of all beads, from `numbers`, which has `components` >= 2 numbers of any unit for
-  /// each particle. The first two numbers of a particle are x and y of its bead.
+  /// An array of all beads, from the first two of the `components` numbers (of any unit) of each
+  /// particle.
   Eigen::VectorXd from_particles(std::span<const double> numbers, std::size_t components) const;
-  /// The inverse of from_particles(): writes the array `all` into `numbers`, whose size it does not
-  /// change.
+  /// Writes the array `all` into the first two of the `components` numbers of each bead.
   void to_particles(const Eigen::VectorXd& all, std::size_t components,
                     std::vector<double>& numbers) const;
 
   /// The numbers of membrane `m`, from 0, in an array of all beads: x of its beads and then y.
   Eigen::VectorXd of(std::size_t m, const Eigen::VectorXd& all) const;
-  /// The inverse of of(): writes the numbers of membrane `m` into the array `all`.
+  /// The inverse of of().
   void put(std::size_t m, const Eigen::VectorXd& own, Eigen::VectorXd& all) const;
 
   /// Forces and velocities of the beads at `positions` [L], with tensions such that these
@@ -90,32 +82,40 @@ class Membranes {
   /// f - q a, with q such that the inner product of a and P f is 0 for each membrane. At the end z
   /// is changed by the smallest displacements with which lengths and areas are exact.
   ///
-  /// The caller's time scheme sets `from` [L] and `time` > 0 [T]. `loads` are further forces on the
-  /// beads [M L/T^2]. `positions` is a first guess of z before, and z afterwards [L]. These three
-  /// arrays have 2 beads() numbers. Throws Error(kNotConverged) if Newton's method fails, also with
-  /// a series of shorter steps (time/2^12, time/2^11, ..., time; the 12 is a free choice), or if no
+  /// The caller's time scheme sets `from` [L] and `time` [T]. `loads` are further forces on the
+  /// beads [M L/T^2]. `positions` is a first guess of z before, and z afterwards [L]. Throws
+  /// Error(kNotConverged) if Newton's method fails, also with a series of shorter steps, or if no
   /// places near z have exact lengths and areas; `positions` are then undefined.
   MembraneMotion step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
                       const Eigen::VectorXd& loads, Eigen::VectorXd& positions) const;
 
-  /// How the result of step() changes to first order under small further loads. `time`, `answer`
-  /// and `loads` are those of the call of step(), `motion` is what it returned, and `positions` are
-  /// those after it. `moves` [L] has 2 beads() rows and a column for each further load, with the
-  /// displacements that the load would cause without the membranes. The response also contains the
-  /// bending forces and tensions of the membranes, which oppose these displacements.
+  /// How the result of step() changes to first order under small further loads. The other arguments
+  /// are those of step(), what it returned, and the positions after it. A column of `moves` [L] has
+  /// the displacements that a load would cause without the membranes, whose bending forces and
+  /// tensions oppose them.
   LoadResponse response(double time, const FluidAnswer& answer, const Eigen::VectorXd& loads,
                         const MembraneMotion& motion, const Eigen::VectorXd& positions,
                         const Eigen::MatrixXd& moves) const;
 
  private:
+  // Newton's method. `positions`, and the tensions and pressures of `motion`, are first guesses
+  // before, and the solution afterwards. Returns false if the method has not converged.
   bool solve_step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
                   Eigen::VectorXd& positions, MembraneMotion& motion) const;
+  // The derivative of the equations of step(). The unknowns are scaled to lengths: the positions
+  // [L]; the tensions over `unit`, a force per length [M/T^2]; and the pressures times the norm of
+  // their column of area_columns(), over `unit`. MembraneMotion::flow_forces must not contain the
+  // loads.
   Eigen::MatrixXd step_matrix(double time, const FluidAnswer& answer,
                               const Eigen::VectorXd& positions, const MembraneMotion& motion,
                               double unit) const;
+  // Derivatives of the areas by the positions [L], a column for each membrane.
   Eigen::MatrixXd area_columns(const Eigen::VectorXd& positions) const;
+  // Derivatives of the speeds of all curves by the positions [1].
   Eigen::MatrixXd speed_rows(const Eigen::VectorXd& positions) const;
   Eigen::VectorXd bending_forces(const Eigen::VectorXd& positions) const;
+  // Second derivatives of bending energy plus tensions times speeds plus pressures times areas
+  // [M/T^2].
   Eigen::MatrixXd stiffness(const Eigen::VectorXd& positions, const MembraneMotion& motion) const;
 
   std::span<const Membrane> membranes_;

@@ -1,11 +1,7 @@
-// Computes the geometry of the polygon through the N >= 3 particles (beads) of a membrane. An array
-// of positions has x of all beads and then y of all, 2 N numbers [L]; distances [L] are > 0, areas
-// [L^2] > 0 if the beads go around counter-clockwise, turns in (-pi, pi] [rad]; units are any
-// consistent ones. Nothing is checked or thrown; restore_necklace() returns false where it does not
-// converge, and its positions are then undefined. membrane.cpp and links/membrane_rows.cpp use it.
-// A change must keep that area_gradient() is the derivative of area_of().
+// Polygons through the beads of membranes.
 #include "viscontact/particles/membranes/necklace.hpp"
 
+#include <cassert>
 #include <cmath>
 
 #include "viscontact/common/matrices/decompositions.hpp"
@@ -15,9 +11,9 @@
 namespace viscontact::particles {
 namespace {
 
-/// Position of bead k, which is counted around the polygon of n beads: k = n is bead 0, and k = -1
-/// the last one. k must be >= -n.
+/// Position of bead k, which is counted around the polygon: -1 is the last bead.
 Eigen::Vector2d bead(const Eigen::VectorXd& necklace, Eigen::Index k) {
+  assert(k >= -necklace.size() / 2);
   const auto n = necklace.size() / 2;
   const auto i = (k + n) % n;
   return {necklace(i), necklace(n + i)};
@@ -27,7 +23,6 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Centre [L] of the area inside a polygon, and the second moments about it [L^4].
 AreaMoments moments_of_polygon(const Eigen::VectorXd& necklace) {
   const auto n = necklace.size() / 2;
   const Eigen::Vector2d mean(necklace.head(n).mean(), necklace.tail(n).mean());
@@ -51,8 +46,6 @@ AreaMoments moments_of_polygon(const Eigen::VectorXd& necklace) {
 
 }  // namespace
 
-/// The array of positions of a membrane. In a periodic domain each bead is taken at its image
-/// nearest to the bead before it.
 Eigen::VectorXd necklace_of(const Membrane& membrane, const Particles& particles) {
   const Eigen::Index n = membrane.count();
   Eigen::VectorXd necklace(2 * n);
@@ -66,7 +59,6 @@ Eigen::VectorXd necklace_of(const Membrane& membrane, const Particles& particles
   return necklace;
 }
 
-/// The distances of neighbours, N numbers: number k is that of beads k and k + 1.
 Eigen::VectorXd distances_of(const Eigen::VectorXd& necklace) {
   Eigen::VectorXd distances(necklace.size() / 2);
   for (Eigen::Index k = 0; k < distances.size(); ++k)
@@ -83,7 +75,6 @@ double area_of(const Eigen::VectorXd& necklace) {
   return twice / 2;
 }
 
-/// Derivatives of area_of() by the positions, 2 N numbers [L].
 Eigen::VectorXd area_gradient(const Eigen::VectorXd& necklace) {
   const auto n = necklace.size() / 2;
   Eigen::VectorXd gradient(2 * n);
@@ -95,7 +86,6 @@ Eigen::VectorXd area_gradient(const Eigen::VectorXd& necklace) {
   return gradient;
 }
 
-/// The angles by which the polygon turns at the N beads, > 0 to the left.
 Eigen::VectorXd turns_of(const Eigen::VectorXd& necklace) {
   Eigen::VectorXd turns(necklace.size() / 2);
   for (Eigen::Index k = 0; k < turns.size(); ++k) {
@@ -106,9 +96,8 @@ Eigen::VectorXd turns_of(const Eigen::VectorXd& necklace) {
   return turns;
 }
 
-/// The bending energy divided by the bending rigidity [1/L]: the sum over beads of turn^2/(2
-/// length), where the length of a bead is the mean of its two distances in `lengths`, N numbers.
 double bending_energy(const Eigen::VectorXd& necklace, const Eigen::VectorXd& lengths) {
+  assert(necklace.size() == 2 * lengths.size());
   const auto turns = turns_of(necklace);
   const auto n = turns.size();
   double energy = 0;
@@ -117,12 +106,11 @@ double bending_energy(const Eigen::VectorXd& necklace, const Eigen::VectorXd& le
   return energy;
 }
 
-/// Moves the beads as little as possible until the distances are `lengths`, N numbers, and the area
-/// is `area`. Returns false, with undefined positions, if it does not converge in 50 rounds.
 bool restore_necklace(const Eigen::VectorXd& lengths, double area, Eigen::VectorXd& necklace) {
+  assert(necklace.size() == 2 * lengths.size() && lengths.size() >= 3);
   const auto n = lengths.size();
   const double size = lengths.mean();
-  constexpr int kMostRounds = 50;  // a free choice, which necklace.hpp repeats
+  constexpr int kMostRounds = 50;
   // Bounds of the errors of distances and area, divided by the mean distance and its square. kExact
   // is near rounding errors. Newton's method is quadratic: one more step after kNearlyExact also
   // leaves only rounding errors.
@@ -153,7 +141,6 @@ bool restore_necklace(const Eigen::VectorXd& lengths, double area, Eigen::Vector
   return false;
 }
 
-/// Measures a membrane without a fluid by the positions and velocities [L/T] of its beads.
 MembraneMeasures measure_necklace(const Membrane& membrane, const Particles& particles) {
   const auto necklace = necklace_of(membrane, particles);
   const auto n = necklace.size() / 2;

@@ -1,11 +1,5 @@
-// Computes the geometry of the polygon (necklace) through the particles (beads) of a membrane
-// without a fluid, docs/physics.md (8.9) to (8.12): its distances, area and bending. Lengths,
-// masses and times are in any consistent units. An array of positions has x of all N >= 3 beads of
-// one membrane and then y of all, 2 N numbers [L]. Nothing is checked or thrown;
-// restore_necklace() returns false if it fails. links/membrane_rows.cpp and membrane.cpp use this
-// file. No header that users of the library include may include it, because their programs must
-// compile without the library Eigen. A change must keep that area_gradient() is the derivative of
-// area_of().
+// The polygon (necklace) through the beads of a membrane without a fluid, docs/physics.md (8.9) to
+// (8.12). Users' programs compile without Eigen, so that no public header may include this one.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,12 +9,12 @@
 
 namespace viscontact::particles {
 
-/// Positions of the beads of a membrane, 2 N numbers [L]. In a periodic domain each bead is taken
-/// at its image that is nearest to the bead before it.
+/// Positions of the N beads of a membrane, x of all and then y of all, 2 N numbers [L]. In a
+/// periodic domain each bead is taken at its image that is nearest to the bead before it.
 Eigen::VectorXd necklace_of(const Membrane& membrane, const Particles& particles);
 
-/// The distances >= 0 of neighbours, N numbers [L]: entry k is the distance of beads k and k + 1,
-/// and the last entry that of the last and the first bead.
+/// The distances of neighbours, N numbers [L]: entry k is the distance of beads k and k + 1, and
+/// the last entry that of the last and the first bead.
 Eigen::VectorXd distances_of(const Eigen::VectorXd& necklace);
 
 /// The area inside the polygon [L^2], > 0 if it is counter-clockwise.
@@ -31,19 +25,17 @@ Eigen::VectorXd area_gradient(const Eigen::VectorXd& necklace);
 /// The angles by which the polygon turns (> 0: left) at the N beads, each in (-pi, pi] [rad].
 Eigen::VectorXd turns_of(const Eigen::VectorXd& necklace);
 
-/// The bending energy divided by the bending rigidity [1/L], >= 0. It is the sum over beads of
-/// turn^2/(2 length), where the turn is that of turns_of(), and the length of a bead is the mean of
-/// its two distances in `lengths` (N numbers [L], > 0).
+/// The bending energy divided by the bending rigidity [1/L], the sum over beads of turn^2/(2
+/// length), where the length of a bead is the mean of its two distances in `lengths` (N numbers
+/// [L], > 0).
 double bending_energy(const Eigen::VectorXd& necklace, const Eigen::VectorXd& lengths);
 
 /// Moves the beads as little as possible until the distances are `lengths` (N numbers [L]) and the
 /// area is `area` [L^2], with errors of about 1e-13 of the mean distance and of its square. Returns
-/// false if Newton's method finds no such positions in 50 rounds (a free choice); `necklace` is
-/// then undefined.
+/// false if Newton's method finds no such positions in 50 rounds; `necklace` is then undefined.
 bool restore_necklace(const Eigen::VectorXd& lengths, double area, Eigen::VectorXd& necklace);
 
-/// Measures a membrane without a fluid with the positions and velocities of these particles. The
-/// membrane speed and the tank-treading frequency are 0 if all beads have the same velocity.
+/// The membrane speed and the tank-treading frequency are 0 if all beads have the same velocity.
 MembraneMeasures measure_necklace(const Membrane& membrane, const Particles& particles);
 
 }  // namespace viscontact::particles

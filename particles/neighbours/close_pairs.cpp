@@ -1,14 +1,10 @@
-// Finds pairs of close particles, whose distance is less than the sum of their extents > 0 [L]. In
-// two and three dimensions the search uses grids of cells, one for each factor of 2 in the extents.
-// In one dimension it is a sweep along the line. In a periodic cell, copies of the particles near
-// the sides take part. Positions are finite, with as many numbers for each particle as there are
-// dimensions; lengths are in any unit. In a periodic cell the sum of two extents must be less than
-// each period. neighbour_list.cpp, current_contacts.cpp, case/ and fluid/ use it. Nothing is
-// checked or thrown. A change must keep the order of the pairs, on which bits of results depend.
+// Grids of cells, one for each factor of 2 in the extents, a sweep in one dimension, and copies
+// near the sides of a periodic cell.
 #include "viscontact/particles/neighbours/close_pairs.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -18,15 +14,13 @@
 namespace viscontact::particles {
 namespace {
 
-/// A particle in a grid, with the number of its cell.
 struct Entry {
   std::uint64_t cell;
   std::int32_t particle;
 };
 
-/// Sorts entries by cell and keeps the order of entries with equal cells. `most` is a bound of all
-/// cell numbers. This is a radix sort with 11 bits in a pass, a free choice with which its table
-/// has 16 kB.
+/// A radix sort, which keeps the order of entries with equal cells. `most` is a bound of all cell
+/// numbers. With 11 bits in a pass its table has 16 kB.
 void sort_by_cell(std::vector<Entry>& entries, std::uint64_t most) {
   constexpr int kBits = 11;
   std::vector<Entry> sorted(entries.size());
@@ -42,12 +36,12 @@ void sort_by_cell(std::vector<Entry>& entries, std::uint64_t most) {
   }
 }
 
-/// A grid: cells of one size, numbered row by row, that cover the positions of all particles, and
-/// the particles that belong to this grid.
+/// Cells of one size, numbered row by row, that cover the positions of all particles, and the
+/// particles that belong to this grid.
 template <int D>
 class Grid {
  public:
-  /// `cell` > 0 is the width of a cell [L]; `positions` has D numbers for each particle [L].
+  /// `cell` is the width of a cell [L]; `positions` has D numbers for each particle [L].
   Grid(double cell, std::span<const double> positions) : per_cell_(1 / cell) {
     const std::size_t count = positions.size() / D;
     for (std::size_t d = 0; d < D; ++d) {
@@ -66,14 +60,12 @@ class Grid {
     }
   }
 
-  /// A bound of all cell numbers.
   std::uint64_t last_cell() const {
     std::uint64_t product = 1;
     for (const auto cells : cells_) product *= cells;
     return product;
   }
 
-  /// Number of the cell of a position, D numbers.
   std::uint64_t cell_of(const double* position) const {
     std::uint64_t cell = 0;
     for (std::size_t d = D; d-- > 0;) {
@@ -85,7 +77,7 @@ class Grid {
   }
 
   /// `cell` and its neighbours form 3 (in the plane) or 9 (in space) runs of three cells along the
-  /// first axis. Calls see(first cell of the run, number of the run, from 0) for each.
+  /// first axis. Calls see(first cell of the run, number of the run) for each.
   template <class See>
   void for_rows_around(std::uint64_t cell, const See& see) const {
     constexpr std::uint64_t kLayers = D == 2 ? 1 : 3;
@@ -95,12 +87,12 @@ class Grid {
         see(cell - 1 - row - layer + y * row + z * layer, y + 3 * z);
   }
 
-  std::vector<Entry> entries;  ///< the particles in the grid, in order of cell
+  std::vector<Entry> entries;  ///< in order of cell
 
  private:
   /// The median of a sample, which a few particles far away do not change.
   static double middle(std::span<const double> positions, std::size_t d) {
-    constexpr std::size_t kSample = 1001;  // a free choice
+    constexpr std::size_t kSample = 1001;
     const std::size_t count = positions.size() / D, stride = count / kSample + 1;
     std::vector<double> sample;
     for (std::size_t k = 0; k < count; k += stride) sample.push_back(positions[k * D + d]);
@@ -109,22 +101,22 @@ class Grid {
     return *half;
   }
 
-  // Largest number of cells along an axis, so that cell numbers of three axes fit into 64 bits.
+  // So that cell numbers of three axes fit into 64 bits.
   static constexpr double kMostCells = 1 << 20;
   double per_cell_;
   std::array<double, D> middle_{}, half_{};
   std::array<std::uint64_t, D> cells_{};
 };
 
-/// The search in D dimensions. The arguments must outlive the object.
+/// The arguments must outlive the object.
 template <int D>
 class Search {
  public:
   Search(std::span<const double> positions, std::span<const double> extents, ThreadPool& pool)
       : positions_(positions), extents_(extents), pool_(pool) {}
 
-  /// The close pairs, in order of first, then second. Particles whose extents lie between the same
-  /// two powers of 2 share a grid.
+  /// In order of first, then second. Particles whose extents lie between the same two powers of 2
+  /// share a grid.
   std::vector<ClosePair> pairs() {
     std::vector<int> levels(extents_.size());
     for (std::size_t k = 0; k < extents_.size(); ++k) levels[k] = std::ilogb(extents_[k]);
@@ -136,7 +128,7 @@ class Search {
       for (std::size_t k = 0; k < extents_.size(); ++k)
         if (levels[k] == level) largest = std::max(largest, extents_[k]);
       Grid<D> grid(2 * largest, positions_);
-      // Find the pairs within the grid, then those of its particles with particles of finer grids.
+      // The pairs within the grid, then those of its particles with particles of finer grids.
       grid.entries = entries_of(grid, [&](std::size_t k) { return levels[k] == level; });
       look(grid, grid.entries, true);
       if (level != present.front())
@@ -146,7 +138,7 @@ class Search {
   }
 
  private:
-  /// The particles k for which test(k) is true, in order of their cell in `grid`.
+  /// In order of their cell in `grid`.
   template <class Test>
   std::vector<Entry> entries_of(const Grid<D>& grid, const Test& test) const {
     std::vector<Entry> entries;
@@ -157,7 +149,6 @@ class Search {
     return entries;
   }
 
-  /// True if the distance of two particles is less than the sum of their extents.
   bool close(std::int32_t i, std::int32_t j) const {
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
     double square = 0;
@@ -169,9 +160,8 @@ class Search {
     return square < reach * reach;
   }
 
-  /// Adds the pairs of `seekers` with the particles in the grid to found_. `same` is true if the
-  /// seekers are the particles of the grid. They are in order of cell, so that the search for the
-  /// cells around them only moves forward.
+  /// Adds the pairs of `seekers` with the particles in the grid, which are the same if `same`.
+  /// Seekers are in order of cell, so that the search for the cells around them only moves forward.
   void look(const Grid<D>& grid, const std::vector<Entry>& seekers, bool same) {
     const auto& in_grid = grid.entries;
     found_ += pool_.sum_of_blocks<ConcatenatedBlocks<ClosePair>>(
@@ -202,7 +192,6 @@ class Search {
         });
   }
 
-  /// The pairs in order: sorted by `first` with a counting sort, then by `second`.
   std::vector<ClosePair> sorted() const {
     std::vector<std::size_t> begin(extents_.size() + 1, 0);
     for (const auto& pair : found_.values) ++begin[static_cast<std::size_t>(pair.first) + 1];
@@ -223,8 +212,8 @@ class Search {
   ConcatenatedBlocks<ClosePair> found_;
 };
 
-/// Close pairs in one dimension. Particle k has the interval position -+ extent. Compares each
-/// particle, in order of the lower ends, with those before it whose intervals reach it.
+/// Compares each particle, in order of the lower ends position - extent, with those before it whose
+/// intervals reach it.
 std::vector<ClosePair> close_pairs_on_line(std::span<const double> positions,
                                            std::span<const double> extents) {
   std::vector<std::int32_t> order(extents.size());
@@ -256,10 +245,11 @@ std::vector<ClosePair> close_pairs_on_line(std::span<const double> positions,
 
 }  // namespace
 
-/// The close pairs of particles first < second in 1, 2 or 3 dimensions, in order of first, then
-/// second; `extents` has one number for each particle.
 std::vector<ClosePair> close_pairs(int dimension, std::span<const double> positions,
                                    std::span<const double> extents, ThreadPool& pool) {
+  assert(dimension >= 1 && dimension <= 3);
+  assert(positions.size() == extents.size() * static_cast<std::size_t>(dimension));
+  assert(std::ranges::all_of(extents, [](double extent) { return extent > 0; }));
   if (extents.empty()) return {};
   if (dimension == 1) return close_pairs_on_line(positions, extents);
   return dimension == 2 ? Search<2>(positions, extents, pool).pairs()
@@ -268,16 +258,15 @@ std::vector<ClosePair> close_pairs(int dimension, std::span<const double> positi
 
 namespace {
 
-/// Points for the search: all particles, moved into the cell, and then copies near its sides.
+/// All particles, moved into the cell, and then copies near its sides.
 struct Copies {
-  std::vector<double> positions, extents;  // of the points [L]
-  std::vector<std::int32_t> particles;     // of each point: the particle that it is an image of
-  std::vector<std::array<int, 3>> shifts;  // of each point: periods from the cell to the copy
+  std::vector<double> positions, extents;
+  std::vector<std::int32_t> particles;          // that the point is an image of
+  std::vector<std::array<int, 3>> shifts;       // periods from the cell to the copy
   std::vector<std::array<int, 3>> into_cell{};  // of each particle: periods that were subtracted
 };
 
-/// The points for a periodic cell. A copy is added if it is near enough to be close to a particle
-/// inside the cell.
+/// A copy is added if it is near enough to be close to a particle inside the cell.
 Copies copies_near_sides(std::size_t dimension, const PeriodicCell& cell,
                          std::span<const double> positions, std::span<const double> extents) {
   const double largest = extents.empty() ? 0 : *std::ranges::max_element(extents);
@@ -318,12 +307,11 @@ Copies copies_near_sides(std::size_t dimension, const PeriodicCell& cell,
 
 }  // namespace
 
-/// The close pairs of particles first < second in a periodic cell, in order of first, second,
-/// image. `image` is the number of the periodic image of `second` that is close, -13 to 13.
 std::vector<ClosePair> close_pairs_in_period(const PeriodicCell& cell,
                                              std::span<const double> positions,
                                              std::span<const double> extents, ThreadPool& pool) {
   if (extents.empty()) return {};
+  assert(positions.size() % extents.size() == 0);
   const auto dimension = positions.size() / extents.size();
   const auto all = copies_near_sides(dimension, cell, positions, extents);
   std::vector<ClosePair> pairs;

@@ -1,14 +1,8 @@
-// Checks whether the list of close pairs of a simulation is still valid, and makes it again.
-// Lengths [L] are in the unit of the case file; displacements have as many numbers for each
-// particle as there are dimensions, and radii are > 0. The skin of a particle, >= 0, is the length
-// by which it may move before the list must be made again. gamma <= 0 is minus the impulse that the
-// film of a pair has absorbed. simulation.cpp and fluid/ use it. rebuild_neighbour_list() throws
-// Error(kNotConverged) if a particle moves too far for a periodic cell, and the list is then the
-// same as before. Nothing else is checked. A change must keep the order of the pairs, because the
-// bits of a simulation depend on it.
+// When the list of close pairs is valid, and how it is made.
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <limits>
 #include <tuple>
@@ -21,14 +15,12 @@
 namespace viscontact::particles {
 namespace {
 
-/// The numbers by which the list of pairs is ordered: both particles, and the periodic image of the
-/// second one.
+/// The numbers by which the list of pairs is ordered.
 template <class AnyPair>
 auto place_of(const AnyPair& pair) {
   return std::tuple(pair.first, pair.second, pair.image);
 }
 
-/// Sum of the vectors of a block of the thread pool.
 struct VectorSum {
   Vector value{};
   VectorSum& operator+=(const VectorSum& other) {
@@ -37,7 +29,6 @@ struct VectorSum {
   }
 };
 
-/// Mean of vector(k) over all particles k < `count`.
 template <class Of>
 Vector mean_of(std::size_t count, ThreadPool& pool, const Of& vector) {
   const auto sum = pool.sum_of_blocks<VectorSum>(count, [&](std::size_t begin, std::size_t end) {
@@ -48,7 +39,7 @@ Vector mean_of(std::size_t count, ThreadPool& pool, const Of& vector) {
   return (1 / static_cast<double>(count)) * sum.value;
 }
 
-/// Half of the shortest period [L]; infinite if there is none.
+/// Infinite if there is no period [L].
 double half_shortest_period(const PeriodicCell& cell) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const double length : cell.lengths)
@@ -57,14 +48,13 @@ double half_shortest_period(const PeriodicCell& cell) {
 }
 
 /// The smaller of `skin` and the largest skin that particle k may have in a periodic cell [L]. With
-/// such skins, the radii r_i and r_j and the skins of a pair obey r_i + 2 skin_i + r_j + 2 skin_j
-/// <= period. The pair then stays closer than a period while its particles move by their skins, so
-/// that the image of the second particle has a number (periods.hpp). Throws Error(kNotConverged) if
-/// the particle moves by `moved`, further than this largest skin.
+/// such skins, the radii and the skins of a pair obey r_i + 2 skin_i + r_j + 2 skin_j <= period.
+/// The pair then stays closer than a period while its particles move by their skins, so that the
+/// image of the second one has a number. Throws Error(kNotConverged) if the particle moves by
+/// `moved`, further than this largest skin.
 double skin_within_period(const Particles& p, std::size_t k, double half_period, double skin,
                           double moved) {
-  // The factor kLess makes the skin slightly smaller, because rounding errors of positions add to
-  // the sum.
+  // Rounding errors of positions add to the sum.
   constexpr double kLess = 1 - 1e-9;
   const double longest = kLess * (half_period - p.radii[k]) / 2;
   if (!(moved <= longest))
@@ -77,13 +67,11 @@ double skin_within_period(const Particles& p, std::size_t k, double half_period,
 
 }  // namespace
 
-/// True if no particle, after it has moved by `displacements`, is further than its skin from its
-/// place when the list was made, apart from the mean displacement of all particles since then.
-/// False if no list was made, unless there are no particles.
 bool neighbour_list_is_valid(const State& state, std::span<const double> displacements,
                              ThreadPool& pool) {
   const auto& p = state.particles;
   if (state.positions_at_listing.empty()) return p.count() == 0;
+  assert(displacements.size() >= p.positions.size() && state.skins.size() == p.count());
   const auto moved = [&](std::size_t k) {
     return p.position(k) + point_of(displacements.data(), k, p.dimension) -
            point_of(state.positions_at_listing.data(), k, p.dimension);
@@ -98,23 +86,18 @@ bool neighbour_list_is_valid(const State& state, std::span<const double> displac
   return pool.sum_of_blocks<MaximumOfBlocks>(p.count(), beyond_skin).value <= 0;
 }
 
-/// Makes State::pairs again: all pairs with a gap less than the sum of both skins, and all pairs
-/// with gamma < 0, but no pairs of one rigid body or of neighbours on a membrane. Pairs keep what
-/// contact laws remember. Also sets the skins. Throws Error(kNotConverged) if a particle moves
-/// further than a periodic cell allows.
 void rebuild_neighbour_list(State& state, std::span<const double> displacements, ThreadPool& pool) {
   const auto& p = state.particles;
-  // A skin is at least kOfRadius times the radius of the particle, and kSteps times its
-  // displacement in a step. Both are free choices, which only change the time: in bench/box2d.cpp,
-  // smaller values cost time because the list is made more often, and larger values because the
-  // list has more pairs.
+  assert(displacements.size() >= p.positions.size());
+  // In bench/box2d.cpp smaller values cost time because the list is made more often, and larger
+  // values because the list has more pairs.
   constexpr double kOfRadius = 0.25, kSteps = 3;
   const auto displacement = [&](std::size_t k) {
     return point_of(displacements.data(), k, p.dimension);
   };
   const Vector common = mean_of(p.count(), pool, displacement);
   const double half_period = half_shortest_period(p.cell);
-  // The state gets the new skins when all particles have one, so that an error leaves it as it was.
+  // An error leaves the state as it was.
   auto skins = state.skins;
   skins.resize(p.count(), 0.0);
   std::vector<double> extents(p.count());
@@ -126,8 +109,8 @@ void rebuild_neighbour_list(State& state, std::span<const double> displacements,
   }
   state.skins = std::move(skins);
   state.positions_at_listing = p.positions;
-  // Only the pairs with something to keep are copied, which are few, so that the storage of the old
-  // list is free while the search needs storage.
+  // Few pairs have something to keep. The storage of the old list is then free while the search
+  // needs it.
   std::vector<Pair> before;
   std::ranges::copy_if(state.pairs, std::back_inserter(before), [](const Pair& pair) {
     return pair.gamma < 0 || pair.impulse != 0 || pair.memory != PairMemories::kNone;
@@ -155,17 +138,16 @@ void rebuild_neighbour_list(State& state, std::span<const double> displacements,
   keep_until({std::numeric_limits<std::int32_t>::max(), 0, 0});
 }
 
-/// Makes State::walls again: the pairs of an obstacle, number -1, -2, ..., and a particle with a
-/// gap less than `margin` >= 0 [L], or with gamma < 0. `planes` are the places of the obstacles.
 void rebuild_wall_list(State& state, std::span<const PlanePosition> planes, double margin,
                        ThreadPool& pool) {
   const auto& p = state.particles;
+  assert(margin >= 0);
   ConcatenatedBlocks<Pair> walls;
   for (std::size_t w = 0; w < planes.size(); ++w) {
     const auto plane = -1 - static_cast<std::int32_t>(w);
     const auto in_block = [&](std::size_t begin, std::size_t end) {
       ConcatenatedBlocks<Pair> pairs;
-      // state.walls is in the order of the planes, in which `first` = -1 - k falls.
+      // In the order of the planes, in which `first` = -1 - k falls.
       auto old = std::ranges::partition_point(state.walls, [&](const Pair& pair) {
         return pair.first > plane || (pair.first == plane && index_of(pair.second) < begin);
       });
@@ -183,8 +165,6 @@ void rebuild_wall_list(State& state, std::span<const PlanePosition> planes, doub
   state.walls = std::move(walls.values);
 }
 
-/// Moves all positions by whole periods into a periodic cell, and changes the images of the pairs
-/// with them. Does nothing without a period, or if the cell is sheared.
 void wrap_into_cell(State& state) {
   auto& p = state.particles;
   if (!p.cell.is_periodic() || p.cell.is_sheared()) return;
@@ -203,8 +183,7 @@ void wrap_into_cell(State& state) {
         state.positions_at_listing[dimension * k + d] -= periods * p.cell.lengths[d];
     }
   if (!any) return;
-  // The vector between the centres of a pair must stay the same, so that the shift of its image
-  // changes by the periods by which its particles were moved.
+  // The vector between the centres of a pair must stay the same.
   for (auto& pair : state.pairs) {
     auto shift = periods_of_image(pair.image);
     for (std::size_t d = 0; d < dimension; ++d)

@@ -1,11 +1,8 @@
-// Treats the pairs of a neighbour list as a graph, whose nodes are the particles. The graph tells
-// which pairs a particle has, and which further gaps may close when some gaps close. Particles are
-// numbered from 0. The number of a pair is its place in State::pairs, or, for a pair with an
-// obstacle, the number of those pairs plus its place in State::walls. Nothing is checked or thrown:
-// numbers must be those of existing pairs and particles. projection/ and impacts/ use this file. A
-// change must keep the order of pairs, because the bits of a simulation depend on it.
+// The pairs of a neighbour list as a graph. A pair is numbered by its place in State::pairs, or,
+// with an obstacle, by their number plus its place in State::walls.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -15,15 +12,13 @@
 
 namespace viscontact::particles {
 
-/// Graph of the pairs of particles. If a particle hits one end of a chain of particles, the gaps of
-/// the chain close one after the other. This class finds all these gaps before the problem for the
-/// contact impulses of the step is solved; otherwise each solution would show only the next gap
-/// that closes.
+/// If a particle hits one end of a chain of particles, the gaps of the chain close one after the
+/// other. This class finds all these gaps before the problem for the contact impulses is solved;
+/// otherwise each solution would show only the next gap that closes.
 class PairsOfParticles {
  public:
-  /// `state` must outlive the object, and its lists of pairs must not change. If `with_walls` is
-  /// true, pairs with an obstacle (State::walls) are in the graph, too; connected() must then not
-  /// be called, because it reads beyond its arrays.
+  /// `state` must outlive the object, and its lists of pairs must not change. `with_walls`: pairs
+  /// with an obstacle are in the graph, too; connected() must then not be called.
   explicit PairsOfParticles(const State& state, bool with_walls = false)
       : state_(&state), pair_count_(state.pairs.size()), offsets_(state.particles.count() + 1, 0) {
     const std::size_t count = pair_count_ + (with_walls ? state.walls.size() : 0);
@@ -39,16 +34,15 @@ class PairsOfParticles {
     for_particles([&](std::size_t k, std::size_t f) { pairs_of_[next[k]++] = f; });
   }
 
-  /// The numbers of the pairs of particle `particle` >= 0, in increasing order; the numbers of
-  /// pairs of State::walls are among them only if the graph was made `with_walls`.
+  /// The pairs of a particle, in increasing order.
   std::span<const std::size_t> of(std::int32_t particle) const {
     const auto k = index_of(particle);
+    assert(k + 1 < offsets_.size());
     return std::span(pairs_of_).subspan(offsets_[k], offsets_[k + 1] - offsets_[k]);
   }
 
-  /// Returns the numbers `start`, and then those of the pairs of particles that the search finds in
-  /// `depth` >= 0 rounds; 0 rounds find none. Each round finds the pairs f that share a particle
-  /// with a pair found before (in the first round, of `start`) and for which may_close(f) is true.
+  /// Returns `start`, and then the pairs that the search finds in `depth` rounds. Each round finds
+  /// the pairs f that share a particle with a pair found before and for which may_close(f) is true.
   /// may_close is called at most once for each pair, and not for those of `start`. `start` may
   /// contain pairs of State::walls, but the search finds no others, because an obstacle does not
   /// pass an impact on.
@@ -73,6 +67,7 @@ class PairsOfParticles {
       next.clear();
       for (const auto particle : frontier) {
         for (const auto f : of(particle)) {
+          assert(f < pair_count_);
           if (seen[f] != 0) continue;
           seen[f] = 1;
           if (!may_close(f)) continue;
@@ -92,7 +87,6 @@ class PairsOfParticles {
 
   const State* state_;
   std::size_t pair_count_;
-  // The pairs of particle k are entries offsets_[k] to offsets_[k + 1] - 1 of pairs_of_.
   std::vector<std::size_t> offsets_, pairs_of_;
 };
 

@@ -1,17 +1,10 @@
-// Writes particles, planes, contacts, marks of rotation, rigid bodies and links as elements of SVG.
-// Points and radii are in the case's unit of length [L]; coordinates, widths and sizes on the page
-// are in page units, of which the picture is 1000 wide, and the size of a panel and its scale
-// [page units per L] are > 0. Angles are in radians. Particles and frames are numbered from 0,
-// obstacles -1, -2, ...; a place that is NaN is that of a particle that is not there yet. Sizes
-// that stand below as numbers are free choices. Spheres must be drawn from the back to the front,
-// because SVG has no depth. Nothing is checked, but a contact with an obstacle that the frame does
-// not have throws std::out_of_range. Used by particles_picture.cpp. A change must agree with
-// view.js and picture.js in particles/picture/page, which draw the same on a web page.
+// Elements of SVG. A particle whose place is NaN is not there yet.
 #include "viscontact/particles/picture/frame_picture.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -23,11 +16,11 @@
 namespace viscontact::particles {
 namespace {
 
-/// Calls visit(k, centre) for each particle k that is drawn (0, d.every, 2 d.every, ...): with its
-/// own centre [L] and, where the motion is periodic, with those of its images, the copies of it
-/// that are shifted by -1, 0 or 1 periods along each axis.
+/// Calls visit(k, centre) for each particle k that is drawn: with its own centre [L] and with those
+/// of its periodic images.
 template <class Visit>
 void for_each_image(const PanelSettings& d, const Frame& frame, const Visit& visit) {
+  assert(d.every >= 1);
   const auto cell = cell_at(d.scene.playback, frame);
   for (std::size_t k = 0; k < d.scene.playback.radii.size(); k += d.every)
     for (std::int32_t image = -kLargestImage; image <= kLargestImage; ++image)
@@ -35,7 +28,6 @@ void for_each_image(const PanelSettings& d, const Frame& frame, const Visit& vis
         visit(k, particles::operator+(position(d.scene.playback, frame, k), shift_of(cell, image)));
 }
 
-/// True if particle k belongs to a rigid body.
 bool is_in_body(const Playback& playback, std::size_t k) {
   return !playback.bodies.empty() && playback.bodies[k] >= 0;
 }
@@ -45,7 +37,6 @@ bool is_seen(const PanelSettings& panel, double x, double y, double r) {
   return x > -r && x < panel.width + r && y > -r && y < panel.height + r;
 }
 
-/// Vector from the centre of particle `first` to the nearest image of particle `second` [L].
 Vector apart(const PanelSettings& panel, const Frame& frame, std::size_t first,
              std::size_t second) {
   const auto& playback = panel.scene.playback;
@@ -53,7 +44,6 @@ Vector apart(const PanelSettings& panel, const Frame& frame, std::size_t first,
                        position(playback, frame, second) - position(playback, frame, first));
 }
 
-/// Commands of an SVG path: move the pen to the point p [L], or draw a straight line to it.
 std::string move_to(const PanelSettings& panel, const Vector& p) {
   return fmt::format("M{:.2f} {:.2f}", panel.view.x(p), panel.view.y(p));
 }
@@ -101,7 +91,7 @@ std::string spring_path(const PanelSettings& panel, const Vector& from, const Ve
   return path + fmt::format("L{:.2f} {:.2f}", x + dx, y + dy);
 }
 
-/// A circle with the centre `at` and this radius [L]; empty if the panel does not show it.
+/// The text is empty if the panel does not show the circle.
 std::string circle(const PanelSettings& panel, const Vector& at, double radius) {
   const double x = panel.view.x(at), y = panel.view.y(at), r = panel.view.scale * radius;
   return is_seen(panel, x, y, r)
@@ -109,7 +99,7 @@ std::string circle(const PanelSettings& panel, const Vector& at, double radius) 
              : "";
 }
 
-/// Particle k with the centre `at` [L], a disc, ellipse or plate; empty if it is not seen.
+/// Particle k, a disc, ellipse or plate, with the centre `at` [L]; empty if it is not seen.
 std::string disc(const PanelSettings& panel, const Frame& frame, std::size_t k, const Vector& at) {
   const auto& playback = panel.scene.playback;
   if (playback.semi_axes.empty()) return circle(panel, at, playback.radii[k]);
@@ -128,8 +118,8 @@ std::string disc(const PanelSettings& panel, const Frame& frame, std::size_t k, 
       scale * a, scale * b, x, y, -frame.angles[k] * 180 / std::numbers::pi);
 }
 
-/// Draws dots that show how far discs and ellipses have turned. Each dot lies in the direction of
-/// the particle's angle. Very small particles have none. Empty if the frame has no angles.
+/// Draws dots that show how far discs and ellipses have turned, in the direction of the particle's
+/// angle. Very small particles have none. Empty if the frame has no angles.
 std::string angle_marks(const PanelSettings& panel, const Frame& frame) {
   constexpr double kSmallest = 0.5;  // least radius of a dot that is seen [page units]
   if (frame.angles.size() != panel.scene.playback.radii.size()) return "";
@@ -148,9 +138,8 @@ std::string angle_marks(const PanelSettings& panel, const Frame& frame) {
   return fmt::format("<g fill=\"{}\">\n{}</g>\n", kStyle.mark, text);
 }
 
-/// Draws dots on sphere k at the ends of the three axes that turn with it, as far as they are on
-/// the side that the reader sees. Empty if the frame has no orientations or if the sphere is too
-/// small.
+/// Dots at the ends of the three axes that turn with sphere k, on the side that the reader sees.
+/// The text is empty if the frame has no orientations or if the sphere is too small.
 std::string orientation_marks(const PanelSettings& panel, const Frame& frame, std::size_t k) {
   constexpr double kSmallest = 0.5;  // least radius of a dot that is seen [page units]
   const double r = panel.scene.playback.radii[k];
@@ -175,8 +164,7 @@ std::string orientation_marks(const PanelSettings& panel, const Frame& frame, st
   return fmt::format("<g fill=\"{}\" stroke=\"none\">{}</g>\n", kStyle.mark, dots);
 }
 
-/// Draws the discs of rigid bodies in colours that only they have, and lines from each disc of a
-/// body to the next disc of the same body. The text is empty if there are no bodies.
+/// Discs of rigid bodies have colours of their own, and lines join them.
 std::string body_discs(const PanelSettings& panel, const Frame& frame) {
   if (panel.scene.playback.bodies.empty()) return "";
   const auto [fill, edge] = kStyle.disc_of_body;
@@ -202,9 +190,7 @@ std::string body_discs(const PanelSettings& panel, const Frame& frame) {
   return text + "</g>\n";
 }
 
-/// Draws the links. A hinge, which holds a particle at a place, is a ring. A spring between two
-/// particles is a zigzag line. An arm, which keeps two particles at a prescribed distance, is a
-/// bar. Empty if only some of the particles are drawn.
+/// The text is empty if only some of the particles are drawn.
 std::string link_marks(const PanelSettings& panel, const Frame& frame) {
   const auto& links = panel.scene.playback.links;
   if (links.empty() || panel.every > 1) return "";
@@ -232,7 +218,7 @@ std::string link_marks(const PanelSettings& panel, const Frame& frame) {
   return text + "</g>\n";
 }
 
-/// The corners of a polygon or line [L] as an SVG path that is not closed.
+/// The polygon as an SVG path that is not closed.
 std::string path_of(const Polygon& polygon, const Projection& view) {
   std::string path;
   for (const auto& p : polygon)
@@ -240,8 +226,7 @@ std::string path_of(const Polygon& polygon, const Projection& view) {
   return path;
 }
 
-/// The circle `place` as a polygon [L]. With 240 sides it differs from the circle by less than 1e-4
-/// of the radius, which cannot be seen.
+/// With 240 sides the polygon differs from the circle by less than 1e-4 of the radius.
 Polygon circle_polygon(const PlanePosition& place) {
   constexpr int kSides = 240;
   Polygon polygon;
@@ -252,7 +237,7 @@ Polygon circle_polygon(const PlanePosition& place) {
   return polygon;
 }
 
-/// The outline of the circle `place` as a line, as far as it is in the box of the scene.
+/// The outline of a circle, as far as it is in the box of the scene.
 std::string circle_line(const PanelSettings& d, const PlanePosition& place) {
   const auto polygon = circle_polygon(place);
   std::string path;
@@ -264,8 +249,7 @@ std::string circle_line(const PanelSettings& d, const PlanePosition& place) {
   return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#333\" stroke-width=\"1.5\"/>\n", path);
 }
 
-/// Draws, for motions in the plane, the parts of the box that particles cannot enter, behind planes
-/// and outside circles, as grey areas.
+/// Draws the parts of the box behind planes and outside circles as grey areas.
 std::string plane_2d_solids(const PanelSettings& d, const Frame& frame) {
   const auto& [low, high] = d.scene.box;
   const Polygon all = {
@@ -284,7 +268,6 @@ std::string plane_2d_solids(const PanelSettings& d, const Frame& frame) {
   return text;
 }
 
-/// Draws, for motions in the plane, the planes and circles themselves as dark lines.
 std::string plane_2d_lines(const PanelSettings& d, const Frame& frame) {
   std::string text;
   for (std::size_t j = 0; j < frame.planes.size(); ++j) {
@@ -305,10 +288,9 @@ std::string plane_2d_lines(const PanelSettings& d, const Frame& frame) {
   return text;
 }
 
-/// Draws, for motions in space, the parts of planes in the box. The free side of a plane is the one
-/// on which the particles are. With `from_free_side`, the planes that are seen from their free side
-/// are drawn, and filled. Otherwise the other planes are drawn, only by their edges, because
-/// particles are behind them.
+/// Draws, for motions in space, the parts of planes in the box. With `from_free_side`, the planes
+/// that are seen from their free side are drawn, and filled. Otherwise the other planes are drawn,
+/// only by their edges, because particles are behind them.
 std::string plane_3d_patches(const PanelSettings& d, const Frame& frame, bool from_free_side) {
   std::string text;
   for (std::size_t j = 0; j < frame.planes.size(); ++j) {
@@ -337,8 +319,8 @@ std::string plane_3d_patches(const PanelSettings& d, const Frame& frame, bool fr
 }
 
 /// Colour "#rrggbb" of the line of a contact: one colour if the contact slides; otherwise that of
-/// gamma (minus the impulse that its film has absorbed) if gamma < 0, and that of its friction if
-/// gamma = 0. The scales have few colours, so that many contacts of one colour make one path.
+/// gamma if gamma < 0, and that of its friction if gamma = 0. The scales have few colours, so that
+/// many contacts of one colour make one path.
 std::string colour_of(const Scene& scene, const CurrentContact& contact) {
   const auto rounded = [](double share, int colours) {
     return static_cast<double>(std::lround(share * (colours - 1))) / (colours - 1);
@@ -367,18 +349,17 @@ double width_of(const PanelSettings& d, const CurrentContact& contact, double ra
   return width(is_wide ? kStyle.film_line : kStyle.touching_line, radius);
 }
 
-/// The line of a contact: its colour "#rrggbb", its width [page units] and its SVG path.
 struct ContactLine {
   std::string colour;
   double width = 0;
   std::string path;
 };
 
-/// Moves the ends `from` and `to` of the line between two particles [L], of which at least one is a
-/// plate, from their centres to the nearest points of their spines. The spine of a plate is the
-/// line in its middle between the centres of its round ends; that of a disc is its centre.
+/// Moves the ends of the line between two particles [L], of which at least one is a plate, from
+/// their centres to the nearest points of their spines (outline.hpp).
 void move_to_spines(const Playback& playback, const Frame& frame, std::size_t first,
                     std::size_t second, Vector& from, Vector& to) {
+  assert(playback.semi_axes.size() == playback.radii.size());
   const auto outline = [&](std::size_t k, const Vector& centre) {
     const auto [a, b] = playback.semi_axes[k];
     return Outline{{centre[0], centre[1]},
@@ -392,8 +373,7 @@ void move_to_spines(const Playback& playback, const Frame& frame, std::size_t fi
   to = {near.second[0], near.second[1], 0};
 }
 
-/// The line of a contact: between the centres of two particles (with plates, between their spines),
-/// or from a particle to the nearest point of an obstacle.
+/// The line between the centres (with plates, the spines), or to the nearest point of an obstacle.
 ContactLine line_of(const PanelSettings& d, const Frame& frame, const CurrentContact& contact) {
   const auto second = static_cast<std::size_t>(contact.second);
   Vector to = position(d.scene.playback, frame, second);
@@ -428,7 +408,6 @@ ContactLine line_of(const PanelSettings& d, const Frame& frame, const CurrentCon
   return line;
 }
 
-/// True if the particles of a contact are drawn.
 bool drawn(const PanelSettings& d, const CurrentContact& contact) {
   const auto shown = [&](std::int32_t k) { return static_cast<std::size_t>(k) % d.every == 0; };
   return shown(contact.second) && (contact.first < 0 || shown(contact.first));
@@ -461,7 +440,8 @@ std::string discs(const PanelSettings& d, const Frame& frame, const std::string&
 }
 
 /// The panel of a motion in space. A contact is drawn just after the nearer of its two particles:
-/// over this particle and those behind it, and under those in front of it.
+/// over this particle and those behind it, and under those in front of it. Spheres are drawn from
+/// the back to the front, because SVG has no depth.
 std::string spheres(const PanelSettings& d, const Frame& frame) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t k = 0; k < d.scene.playback.radii.size(); k += d.every)
@@ -496,9 +476,8 @@ std::string spheres(const PanelSettings& d, const Frame& frame) {
 
 }  // namespace
 
-/// The direction of view, with the scale 1 and the corner at 0: from the front for `dimension` 2;
-/// otherwise turned by 30 degrees about the third axis, and from 20 degrees above.
 Projection view_of(int dimension) {
+  assert(dimension == 2 || dimension == 3);
   Projection view;
   if (dimension == 2) return view;
   const double turn = 30 * std::numbers::pi / 180, from_above = 20 * std::numbers::pi / 180;
@@ -510,8 +489,6 @@ Projection view_of(int dimension) {
   return view;
 }
 
-/// The SVG elements of a panel that shows `frame`. In the plane, the SVG text `behind` comes first;
-/// in space it is not used.
 std::string frame_picture(const PanelSettings& panel, const Frame& frame,
                           const std::string& behind) {
   return panel.scene.playback.dimension == 2 ? discs(panel, frame, behind) : spheres(panel, frame);

@@ -1,9 +1,5 @@
-// Draws one frame of a motion of particles as SVG: the content of one panel of the still picture,
-// which shows some frames side by side. Lengths [L] are in the case's unit. Page units are those of
-// the SVG; the still picture is 1000 page units wide. Nothing is checked or thrown.
-// particles_picture.cpp draws its panels by frame_picture(), and particles_page.cpp uses
-// kFrictionColours. The scripts view.js and picture.js in particles/picture/page draw the same on a
-// web page, so that a change must be made there, too.
+// One frame of a motion of particles as SVG, a panel of the still picture. view.js and picture.js
+// in particles/picture/page draw the same on a web page.
 #pragma once
 
 #include <cstddef>
@@ -21,39 +17,37 @@ struct Projection {
   double scale = 1;          ///< page units per unit of length [1/L], > 0
   double left = 0, top = 0;  ///< coordinates of the panel's corner along `right` and `up` [L]
 
-  /// The coordinates of the point p [L] in the panel [page units].
   double x(const Vector& p) const { return scale * (dot(right, p) - left); }
   double y(const Vector& p) const { return scale * (top - dot(up, p)); }
 };
 
-/// The direction of view, with the scale 1 and the corner at 0. For `dimension` 2 (motions in the
-/// plane) the reader looks from the front. For 3 (motions in space) the third axis points upwards,
-/// the view is turned by 30 degrees about it, and the reader looks from 20 degrees above. Both
-/// angles are free choices, which view.js repeats.
+/// The direction of view, with the scale 1 and the corner at 0. For `dimension` 2 the reader looks
+/// from the front. For 3 the third axis points upwards, the view is turned by 30 degrees about it,
+/// and the reader looks from 20 degrees above; view.js repeats both angles.
 Projection view_of(int dimension);
 
-/// Settings that all panels of a picture share.
+/// Settings that all panels of a picture share. The still picture is 1000 page units wide.
 struct PanelSettings {
-  const Scene& scene;            ///< the motion; it must outlive the settings
-  Projection view;               ///< projection from the motion to each panel
+  const Scene& scene;  ///< must outlive the settings
+  Projection view;
   double width = 0, height = 0;  ///< size of a panel [page units], > 0
   std::size_t every = 1;         ///< only particles 0, every, 2 every, ... are drawn; >= 1
 };
 
-/// Number of colours of contacts with gamma < 0 in the still picture, where gamma [M L/T] is minus
-/// the impulse that the film of the contact has absorbed. Any number >= 2 works; with few colours
-/// the file is small.
+/// Number of colours of contacts with gamma < 0 in the still picture. With few colours the file is
+/// small.
 inline constexpr int kContactColours = 20;
 
 /// Number of colours for the friction of contacts with gamma = 0, in the still picture and on the
 /// page. Friction is at most the coefficient of friction times the normal force; with 11 colours a
-/// step is a tenth of this bound. Any number from 2 to 200 works.
+/// step is a tenth of this bound.
 inline constexpr int kFrictionColours = 11;
 
 /// The SVG elements of a panel that shows `frame`, a frame of panel.scene.playback. In motions in
 /// the plane, `behind` is SVG text that is drawn behind the particles, and periodic images of
-/// particles are drawn at the sides of the cell. In motions in space, `behind` is not used and no
-/// periodic images are drawn. Elements may extend beyond the panel, and the caller must clip them.
+/// particles are drawn at the sides of the cell; in motions in space neither is drawn. Elements may
+/// extend beyond the panel, and the caller must clip them. Throws std::out_of_range for a contact
+/// with an obstacle that the frame does not have.
 std::string frame_picture(const PanelSettings& panel, const Frame& frame,
                           const std::string& behind = "");
 

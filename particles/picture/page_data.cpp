@@ -1,14 +1,10 @@
-// Chooses the part of a motion of particles that a page shows, and writes its numbers as bytes, in
-// the units of the case: lengths [L], times [T], masses [M], speeds [L/T]. page_data.hpp has the
-// formats of the bytes. Numbers outside a scale are limited to it; nothing else is checked (arrays
-// of a Playback must have the lengths that io/playback.hpp states), and nothing is thrown. On a
-// big-endian machine the source does not compile. particles_page.cpp uses it. motion.js,
-// colouring.js and flow.js in particles/picture/page decode the bytes: a change here must agree
-// with them, and with kLevels, kNothing, kNoArrow and kSteps in flow.js.
+// Chooses what a page shows, and encodes it; kLevels, kNothing, kNoArrow and kSteps in flow.js are
+// the same as here.
 #include "viscontact/particles/picture/page_data.hpp"
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 
@@ -34,10 +30,9 @@ void append_short(Bytes& bytes, std::uint32_t value) {
   bytes.push_back(static_cast<unsigned char>(value));
 }
 
-/// Chooses whether a coordinate takes two bytes or four (PageData::position_bytes).
 void choose_position_bytes(PageData& data, const Playback& playback) {
   // kSteps is the largest 16-bit number. kSmall is the largest step, divided by the smallest
-  // radius, with which coordinates take two bytes: too small to be seen, a free choice.
+  // radius, with which coordinates take two bytes.
   constexpr double kSteps = 65535, kSmall = 0.02;
   const auto dimension = static_cast<std::size_t>(playback.dimension);
   for (std::size_t d = 0; d < dimension; ++d) {
@@ -59,8 +54,8 @@ void choose_position_bytes(PageData& data, const Playback& playback) {
   data.step = {1, 1, 1};
 }
 
-/// Chooses the frames 0, every_frame, 2 every_frame, ... and the last one.
 void choose_frames(PageData& data, const Playback& playback, std::size_t every_frame) {
+  assert(every_frame >= 1);
   data.every_frame = every_frame;
   data.frames.clear();
   for (std::size_t f = 0; f < playback.frames.size(); f += every_frame) data.frames.push_back(f);
@@ -153,8 +148,8 @@ std::size_t numbers_of_turn(const Playback& playback) {
 }
 
 /// Chooses the frames and particles, and whether contacts are shown, so that the page has at most
-/// kMostBytes and kMostParticles, which are free choices. `other_bytes` is the size of the flow in
-/// base64. If the other numbers of two frames are too many, the page is larger.
+/// kMostBytes and kMostParticles. `other_bytes` is the size of the flow in base64. If the other
+/// numbers of two frames are too many, the page is larger.
 Contacts choose_content(PageData& data, const Scene& scene, std::size_t other_bytes) {
   const auto& playback = scene.playback;
   constexpr std::size_t kMostBytes = 24'000'000, kMostParticles = 200'000;
@@ -199,7 +194,6 @@ Contacts choose_content(PageData& data, const Scene& scene, std::size_t other_by
   }
 }
 
-/// Sets PageData::first_frames.
 void find_first_frames(PageData& data, const Playback& playback) {
   const auto dimension = static_cast<std::size_t>(playback.dimension);
   bool any = false;
@@ -214,8 +208,8 @@ void find_first_frames(PageData& data, const Playback& playback) {
   if (!any) data.first_frames.clear();
 }
 
-/// Sets PageData::top_speed, and returns a byte for the speed of each shown particle in each shown
-/// frame, from 0 to 255 for the top speed. Empty if speeds are not known or are all 0.
+/// Sets PageData::top_speed, and returns the block `speeds`; empty if speeds are not known or are
+/// all 0.
 Bytes speeds_of(PageData& data, const Playback& playback) {
   data.top_speed = 0;
   for (const auto f : data.frames) {
@@ -239,13 +233,13 @@ constexpr std::uint16_t kNoArrow = 65535;  // stands for the point of the arrow:
 constexpr double kLineSteps = 65535;       // a coordinate at the right or upper side of the grid
 
 /// Appends a byte for each point of the field, which has rows of `columns` points. share(value) is
-/// the place of a value on its scale, from 0 at the lower end to 1 at the upper end; other shares
-/// are limited to these.
+/// the place of a value on its scale, limited to 0 (the lower end) to 1 (the upper end).
 template <class Share>
 void append_levels(Bytes& bytes, const std::vector<float>& field, std::size_t columns,
                    const Share& share) {
+  assert(columns > 0);
   // The page interpolates between the points of the grid. Therefore points up to three layers
-  // outside the flow get the mean of their neighbours; any number of layers >= 1 works.
+  // outside the flow get the mean of their neighbours.
   constexpr int kLayers = 3;
   std::vector<double> values(field.begin(), field.end());
   for (int layer = 0; layer < kLayers; ++layer) report::fill_next_to_known(values, columns);
@@ -255,14 +249,14 @@ void append_levels(Bytes& bytes, const std::vector<float>& field, std::size_t co
                                             kLevels * std::clamp(share(value), 0.0, 1.0))));
 }
 
-/// Appends the streamlines of a flow in the form of the block flow-lines (page_data.hpp).
+/// Appends the streamlines in the form of the block flow-lines.
 void append_lines(Bytes& bytes, const FlowFrame& frame, const report::Window& window) {
   const auto write = [&](std::size_t number) { append(bytes, static_cast<std::uint16_t>(number)); };
   const auto step = [](double share) {
     return static_cast<std::size_t>(std::lround(kLineSteps * std::clamp(share, 0.0, 1.0)));
   };
   // A line with kMost points or more, and lines after the first kMost, are left out, because 16-bit
-  // numbers count them. Any limit below 65535 works.
+  // numbers count them.
   constexpr std::size_t kMost = 65000;
   const auto is_short = [&](const report::StreamLine& line) { return line.points.size() < kMost; };
   const auto count = static_cast<std::size_t>(std::ranges::count_if(frame.lines, is_short));
@@ -283,6 +277,7 @@ void append_lines(Bytes& bytes, const FlowFrame& frame, const report::Window& wi
 
 PageData page_data(const Scene& scene, const Blocks& others) {
   const auto& playback = scene.playback;
+  assert(playback.dimension == 2 || playback.dimension == 3);
   PageData data;
   choose_position_bytes(data, playback);
   std::size_t other_bytes = 0;
@@ -356,6 +351,7 @@ Blocks flow_blocks(const Scene& scene) {
   if (flows.frames.empty()) return {};
   Bytes times, speeds, pressures, lines, offsets;
   for (const auto& frame : flows.frames) {
+    assert(frame.frame < scene.playback.frames.size());
     append(times, scene.playback.frames[frame.frame].time);
     append_levels(speeds, frame.speed, flows.grid.columns,
                   [&](double speed) { return flows.top_speed > 0 ? speed / flows.top_speed : 0; });

@@ -1,9 +1,5 @@
-// Makes the numbers of the page that plays a motion of particles: chooses the frames, particles and
-// contacts that fit into the page, and encodes them and the flow as blocks of numbers. Lengths,
-// masses and times are in the units of the case. Nothing is checked or thrown; on a big-endian
-// machine the source does not compile (static_assert). particles_page.cpp writes the blocks into
-// the page. motion.js, colouring.js and flow.js in particles/picture/page read the blocks, so that
-// a change of their names or layout must be made there, too.
+// The numbers of the page that plays a motion of particles, encoded as blocks, which motion.js,
+// colouring.js and flow.js in particles/picture/page read.
 #pragma once
 
 #include <array>
@@ -17,7 +13,7 @@
 
 namespace viscontact::particles {
 
-/// The bytes of a block of numbers, which are little-endian; empty if there are no numbers.
+/// The bytes of a block of numbers, which are little-endian.
 using Bytes = std::vector<unsigned char>;
 
 /// The blocks of a page: the id of the HTML element that holds a block, and the content.
@@ -27,27 +23,27 @@ using Blocks = std::vector<std::pair<const char*, Bytes>>;
 struct PageData {
   std::vector<std::size_t> frames;  ///< indices in Playback::frames of the shown frames, increasing
   /// Frames 0, every_frame, 2 every_frame, ... and the last frame are shown, and particles 0,
-  /// every_particle, 2 every_particle, ...; both are >= 1.
+  /// every_particle, 2 every_particle, ...
   std::size_t every_frame = 1, every_particle = 1;
-  bool contacts = true;  ///< whether contacts are shown
+  bool contacts = true;
   /// Bytes of a coordinate: 2 if it is a 16-bit number of steps from `low`, 4 if it is a float [L].
-  /// Two bytes are chosen if `step` is at most 1/50 of the smallest radius (a free choice) in every
-  /// direction.
+  /// Two bytes are chosen if `step` is at most 1/50 of the smallest radius in every direction,
+  /// which is too small to be seen.
   int position_bytes = 2;
-  /// A coordinate along x, y or z is the entry of `low` plus the number in the block times the
-  /// entry of `step` [L]. The entries are 0 and 1 if the numbers are floats.
+  /// A coordinate is the entry of `low` plus the number in the block times the entry of `step` [L];
+  /// 0 and 1 if the numbers are floats.
   std::array<double, 3> low{}, step{1, 1, 1};
   /// For each shown particle, the place in `frames` of the first frame in which it exists. Empty if
   /// all particles exist in all frames.
   std::vector<std::int32_t> first_frames{};
   double top_speed = 0;  ///< largest speed of the shown frames [L/T]; 0: no speeds
-  Blocks blocks{};       ///< what motion.js and colouring.js read, without the flow
+  Blocks blocks{};       ///< without the flow
 };
 
-/// Chooses as many frames as fit into a page of 24 MB (a free choice) beside `others`, the blocks
-/// of the flow, and encodes them. If two frames are still too many, contacts are left out. There
-/// are blocks for the f shown frames, the n shown particles, the m obstacles and the c pairs that
-/// are in contact in any shown frame; blocks of facts that the motion does not have are missing:
+/// Chooses as many frames as fit into a page of 24 MB beside `others`, the blocks of the flow, and
+/// encodes them. If two frames are still too many, contacts are left out. The blocks are those of
+/// the f shown frames, the n shown particles, the m obstacles and the c pairs that are in contact
+/// in any shown frame; blocks of facts that the motion does not have are missing:
 ///   radii          n floats [L]
 ///   firstFrames    n int32: PageData::first_frames
 ///   masses         n floats [M]

@@ -1,12 +1,5 @@
-// Writes the page that plays a motion of particles: words, controls, scales of colours, and the
-// blocks of page_data.hpp. Numbers are in the units of the case: lengths [L], times [T], masses
-// [M], speeds [L/T], forces [M L/T^2]; masses and forces of discs in a fluid are per length normal
-// to the plane. Shares are 0 to 1. Titles and words are plain text. The page has at most about
-// 24 MB; where a motion is too long for that, the page leaves out frames, particles or contacts. A
-// flow that cannot be read is an Error(kBadInput) with its path; nothing else of a motion is
-// checked. run/particles_pages.cpp calls particles_page(). The scripts in particles/picture/page
-// read the keys of the JSON and find elements by their ids, so a change of either must be made
-// there, too.
+// The page that plays a motion of particles. The scripts in particles/picture/page read the keys of
+// its JSON and find elements by their ids.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,19 +25,16 @@ std::string_view particles_style();
 
 namespace {
 
-// Number of colours of the scales of speed and pressure; any number >= 2 works.
 constexpr int kScaleColours = 64;
 
-/// The parts of the page that show the flow.
 struct FlowOfPage {
   std::string settings;          ///< a JSON object for flow.js; "null" if there is no flow
   Blocks blocks;                 ///< flow_blocks()
   std::string controls, legend;  ///< HTML; empty if there is no flow
 };
 
-/// HTML of a scale of colours: its words, a bar of its colours from the left to the right, and its
-/// numbers below, each at its share of the width of the bar. Words and numbers are plain text
-/// without the characters <, > and &, because they are not escaped.
+/// A scale of colours: its words, a bar of its colours, and its numbers below. Words and numbers
+/// are plain text without the characters <, > and &, because they are not escaped.
 std::string scale_html(const report::ColourScale& scale) {
   std::string places;
   for (const auto& [share, text] : scale.ticks)
@@ -56,9 +46,8 @@ std::string scale_html(const report::ColourScale& scale) {
       scale.words, fmt::join(scale.colours, ","), places);
 }
 
-/// The parts of the page that show the flows of the scene. The scale of speeds is missing if all
-/// speeds are 0. If a case does not say its units, the scale of pressures has the unit
-/// viscosity/time.
+/// The scale of speeds is missing if all speeds are 0. If a case does not say its units, the scale
+/// of pressures has the unit viscosity/time.
 FlowOfPage flow_of_page(const Scene& scene) {
   FlowOfPage page{.settings = "null", .blocks = {}, .controls = "", .legend = ""};
   const auto& flows = scene.flows;
@@ -136,11 +125,10 @@ std::string units_of_page(const Scene& scene) {
 }
 
 /// The elements of the page that the scripts read: the JSON object "motion", and the blocks of
-/// motion and flow in base64. In the object, `low`, `step` and `bytes` encode positions
-/// (PageData); `roomLow`, `roomHigh`, `cell` (place and periods), `meanRadius` and `hinges` are
-/// lengths [L]; `gradient` is the mean velocity gradient of the cell [1/T], 4 numbers; `lowest` is
-/// the lowest gamma [M L/T], which is minus the impulse that the film of a contact has absorbed;
-/// `topForce` is the force of the widest lines [M L/T^2]. `springs` and `arms` are pairs of
+/// motion and flow in base64. In the object, `low`, `step` and `bytes` encode positions (PageData);
+/// `roomLow`, `roomHigh`, `cell` (place and periods), `meanRadius` and `hinges` are lengths [L];
+/// `gradient` is the mean velocity gradient of the cell [1/T]; `lowest` is the lowest gamma [M
+/// L/T]; `topForce` is the force of the widest lines [M L/T^2]. `springs` and `arms` are pairs of
 /// particles, numbered from 0. `allForces` is true if the page has the forces of all contacts.
 std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& flow) {
   const auto& playback = scene.playback;
@@ -185,8 +173,7 @@ std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& 
   return text;
 }
 
-/// The sentences over the picture: the numbers of particles and frames, the times, and what the
-/// page leaves out.
+/// The numbers of particles and frames, the times, and what the page leaves out.
 std::string words_for(const Playback& playback, const PageData& data) {
   const auto count = playback.radii.size(), frames = playback.frames.size();
   std::string words = fmt::format("{} {}{}", count, playback.dimension == 2 ? "disc" : "sphere",
@@ -208,8 +195,8 @@ std::string words_for(const Playback& playback, const PageData& data) {
   return words;
 }
 
-/// HTML of the scales of colours and of the words that explain lines. What the scene does not show
-/// is left out. The scale of the colours of particles is empty; a script fills it.
+/// Scales of colours and the words that explain lines. What the scene does not show is left out.
+/// The scale of the colours of particles is empty; a script fills it.
 std::string legend(const Scene& scene, const FlowOfPage& flow) {
   std::string text = flow.legend;
   if (scene.lowest_gamma < 0)
@@ -235,8 +222,6 @@ std::string legend(const Scene& scene, const FlowOfPage& flow) {
 
 }  // namespace
 
-/// Returns the text of the page (HTML). If `flows` is not null, the flows that the page shows are
-/// written to it. Throws Error(kBadInput), which names the file, if a flow cannot be read.
 std::string particles_page(const Playback& original, const std::string& title, FlowFrames* flows) {
   std::vector<std::size_t> all(original.frames.size());
   std::iota(all.begin(), all.end(), std::size_t{0});

@@ -1,16 +1,11 @@
-// Arranges up to 6 frames of a motion of particles in an SVG, all at one scale, with the flow
-// behind them and the scales of colours below. Sizes and coordinates on the page are in page units;
-// the picture is 1000 page units wide. Sizes for which no reason is given are free choices. Lengths
-// [L], times [T] and speeds [L/T] of the motion are in the units of the case; points without flow
-// have the speed NaN. A panel is the picture of one frame. The title is plain text and may be
-// empty. A flow that cannot be read is an Error(kBadInput) with its path; nothing else of a motion
-// is checked. run/particles_pages.cpp uses this file. A change must keep that the result is one
-// complete SVG.
+// Panels, flow and scales of colours of the still picture. Sizes are in page units, of which the
+// picture is 1000 wide.
 #include "viscontact/particles/picture/particles_picture.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -22,12 +17,11 @@
 namespace viscontact::particles {
 namespace {
 
-// Width of the picture, largest height of all panels, margin, title and caption [page units].
+// Width of the picture, largest height of all panels, margin, title and caption.
 constexpr double kPictureWidth = 1000, kMostHeight = 900, kEdge = 16, kTitle = 44, kCaption = 30;
 
-/// The indices of the frames that are drawn, from 0 and increasing: those whose times are nearest
-/// to `panels` evenly spaced times from the first to the last frame, each once. `panels` is limited
-/// to 1 to 6 and to the number of frames; one panel shows the last frame. Empty without frames.
+/// The indices of the frames that are drawn, increasing: those whose times are nearest to evenly
+/// spaced times, each once. Empty without frames.
 std::vector<std::size_t> chosen_frames(const Playback& playback, int panels) {
   const auto& frames = playback.frames;
   if (frames.empty()) return {};
@@ -47,11 +41,10 @@ std::vector<std::size_t> chosen_frames(const Playback& playback, int panels) {
   return chosen;
 }
 
-/// The number of columns in which `panels` panels are arranged so that all panels together are
-/// about as wide as a slide and few places are empty. `panels` is at least 1; `width_over_height`,
-/// > 0 [1], is the width of a panel divided by its height.
+/// With this number of columns all panels together are about as wide as a slide.
 int columns_for(int panels, double width_over_height) {
-  constexpr double kSlide = 2.2;  // width over height of all panels, a free choice
+  assert(panels >= 1);
+  constexpr double kSlide = 2.2;  // width over height of all panels
   int best = 1;
   double least = std::numeric_limits<double>::infinity();
   for (int columns = 1; columns <= panels; ++columns) {
@@ -66,9 +59,9 @@ int columns_for(int panels, double width_over_height) {
   return best;
 }
 
-/// SVG of a scale of colours: a bar with numbers and words below it. `left` and `top` are the upper
-/// left corner of the bar and `width` > 0 is its width [page units].
+/// The upper left corner of the bar is (left, top); numbers and words are below the bar.
 std::string picture_of(const report::ColourScale& bar, double left, double top, double width) {
+  assert(!bar.colours.empty());
   constexpr int kHeight = 12;  // [page units]
   std::string text;
   const double step = width / static_cast<double>(bar.colours.size());
@@ -87,12 +80,11 @@ std::string picture_of(const report::ColourScale& bar, double left, double top, 
                             top + kHeight + 34, bar.words);
 }
 
-constexpr int kBands = 20;  // number of colours of the speed, a free choice
+constexpr int kBands = 20;  // number of colours of the speed
 
-/// The speed [L/T] as a field on triangles, for level lines. One more ring of points surrounds the
-/// grid. Its points have the places of the outermost points of the grid, but the speed -1, so that
-/// level lines are closed. The speeds of `frame` are in the order of the grid, row by row from the
-/// bottom.
+/// The speed as a field on triangles, for level lines. One more ring of points surrounds the grid.
+/// Its points have the places of the outermost points of the grid, but the speed -1, so that level
+/// lines are closed.
 report::LinearField closed_field(const report::Grid& grid, const FlowFrame& frame) {
   std::vector<double> speeds(frame.speed.begin(), frame.speed.end());
   // Points without flow, which are in solids, take the speed of their neighbours, layer by layer.
@@ -120,9 +112,8 @@ report::LinearField closed_field(const report::Grid& grid, const FlowFrame& fram
   return field;
 }
 
-/// Appends a line [L] to an SVG path. Points less than kNear page units from the last appended
-/// point are left out, because they could not be seen; the first and the last point are never left
-/// out.
+/// Appends a line [L] to an SVG path. Points nearer than kNear to the last appended point are left
+/// out, because they could not be seen, but never the first and the last point.
 void append_path(std::string& path, const report::Polyline& line, const Projection& view) {
   constexpr double kNear = 0.5;
   double last_x = 0, last_y = 0;
@@ -136,9 +127,10 @@ void append_path(std::string& path, const report::Polyline& line, const Projecti
   }
 }
 
-/// SVG path of an arrowhead with its tip at point number `at` >= 1 of a line [L], in the direction
-/// of the line; empty if this point and the point before it have the same place.
+/// SVG path of an arrowhead with its tip at point number `at` of a line [L], in the direction of
+/// the line; empty if this point and the point before it have the same place.
 std::string arrow_head(const report::Polyline& line, std::size_t at, const Projection& view) {
+  assert(at >= 1 && at < line.size());
   constexpr double kLength = 5, kHalfWidth = 2.2;  // [page units]
   const Vector tip = {line[at].first, line[at].second, 0};
   const Vector tail = {line[at - 1].first, line[at - 1].second, 0};
@@ -181,8 +173,7 @@ std::string half_picture(const FlowFrames& flows, const FlowFrame& frame, const 
                     report::kStreamLineColour, lines, arrows);
 }
 
-/// SVG of the whole flow. If the flow has an axis, the grid covers one half of the picture, and the
-/// other half is its mirror image.
+/// With an axis, the grid covers one half of the picture; the other half is its mirror image.
 std::string flow_picture(const FlowFrames& flows, const FlowFrame& frame, const Projection& view) {
   auto half = half_picture(flows, frame, view);
   if (!flows.has_axis) return half;
@@ -190,7 +181,6 @@ std::string flow_picture(const FlowFrames& flows, const FlowFrame& frame, const 
                             2 * view.x({0, 0, 0}), half);
 }
 
-/// The flow of frame number `f` as SVG, to be drawn behind its particles; empty if there is none.
 std::string flow_behind(const FlowFrames& flows, std::size_t f, const Projection& view) {
   const auto flow = std::ranges::find(flows.frames, f, &FlowFrame::frame);
   return flow == flows.frames.end() ? "" : flow_picture(flows, *flow, view);
@@ -212,8 +202,7 @@ std::pair<double, double> show_box(Projection& view, const ViewBox& box) {
   return {x.high - x.low, y.high - y.low};
 }
 
-/// SVG element, with the id `id`, of the gradient that fills a sphere: `colours[0]` at the
-/// brightest point of the sphere, `colours[1]` in between, and `colours[2]` at the rim.
+/// `colours[0]` is at the brightest point of a sphere, `colours[2]` at its rim.
 std::string gradient(const char* id, const std::array<SceneStyle::Colour, 4>& colours) {
   return fmt::format(
       "<radialGradient id=\"{}\" cx=\".36\" cy=\".32\" r=\".72\">"
@@ -223,8 +212,6 @@ std::string gradient(const char* id, const std::array<SceneStyle::Colour, 4>& co
 }
 
 /// The beginning of the SVG: size, title (plain text, escaped here), gradients and background.
-/// `height` > 0 is the height of the whole picture [page units]. If `has_bodies` is true, there is
-/// a gradient for spheres of rigid bodies, too.
 std::string opening(const std::string& title, double height, bool has_bodies) {
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -239,10 +226,9 @@ std::string opening(const std::string& title, double height, bool has_bodies) {
       gradient("ball", kStyle.ball), has_bodies ? gradient("body", kStyle.ball_of_body) : "");
 }
 
-/// SVG of the panels of the chosen frames with their times. `chosen` are indices of frames, from 0;
-/// a row has `columns` >= 1 panels.
 std::string panels_of(const PanelSettings& panel, const std::vector<std::size_t>& chosen,
                       int columns) {
+  assert(columns >= 1);
   const auto& units = panel.scene.playback.units;
   std::string text;
   // If the height limits the scale, the panels do not fill the width and stand apart.
@@ -268,12 +254,10 @@ std::string panels_of(const PanelSettings& panel, const std::vector<std::size_t>
 
 }  // namespace
 
-/// Returns the text of the SVG. `panels` is limited to 1 to 6 and to the number of frames. `known`
-/// may be null or flows of the same motion that need not be read again.
 std::string particles_picture(const Playback& original, const std::string& title, int panels,
                               const FlowFrames* known) {
-  // In a panel, more than 20000 particles or 50000 points of a flow could not be told apart. If the
-  // web page shows flows on more points, the picture takes as many, so that it can use `known`.
+  // In a panel, more particles or points of a flow could not be told apart. If the web page shows
+  // flows on more points, the picture takes as many, so that it can use `known`.
   constexpr std::size_t kMostInPanel = 20000, kPointsOfFlow = 50000;
   const auto chosen = chosen_frames(original, panels);
   const int count = static_cast<int>(chosen.size());

@@ -1,15 +1,9 @@
-// Finds the box that is seen, reads the flows in it, and chooses the scales of colours and widths.
-// Lengths [L], speeds [L/T], pressures [M/(L T^2)], gamma [M L/T] (minus the impulse that the film
-// of a contact has absorbed) and forces [M L/T^2] are in the units of the case; for discs in a
-// fluid, gamma and forces are per length. Indices of frames, particles and planes count from 0;
-// shares are 0 to 1; dimensions are 1 (spheres on an axis, drawn in the plane), 2 or 3. A point
-// without flow has the speed and pressure NaN. A flow that cannot be read is an Error(kBadInput)
-// with its path; nothing else is checked. The other sources of this folder use this file. A change
-// of the choices alters both the still picture and the page.
+// The box that is seen, the flows in it, and the scales of colours and widths.
 #include "viscontact/particles/picture/scene.hpp"
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -20,9 +14,9 @@
 namespace viscontact::particles {
 namespace {
 
-/// The interval that the particles of a frame cover along the axis number `axis` (0 to 2) [L]. The
-/// `cut` outermost particles at either end are left out, and particles with the position NaN, which
-/// do not exist yet. Empty if no particle is left.
+/// The interval that the particles of a frame cover along an axis [L], without the `cut` outermost
+/// particles at either end, and without particles at NaN, which do not exist yet. Empty if no
+/// particle is left.
 Interval reach_of(const Playback& playback, const Frame& frame, std::size_t axis, std::size_t cut) {
   std::vector<double> lows, highs;
   for (std::size_t k = 0; k < playback.radii.size(); ++k) {
@@ -48,10 +42,9 @@ double size_of(const ViewBox& box, int dimension) {
   return size;
 }
 
-/// Extends the box to a plane or circle near the box, so that the reader sees what the particles
-/// lie on. `dimension` is 2 or 3.
+/// Extends the box to a plane or circle near it, so that the reader sees what particles lie on.
 void extend_to_plane(ViewBox& box, const PlanePosition& plane, int dimension) {
-  constexpr double kNear = 0.5;  // largest distance over the longest side, a free choice
+  constexpr double kNear = 0.5;  // largest distance over the longest side
   const double size = size_of(box, dimension);
   if (plane.is_curved())
     for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
@@ -70,15 +63,14 @@ void extend_to_plane(ViewBox& box, const PlanePosition& plane, int dimension) {
   }
 }
 
-/// Scene::box, the part of space that is seen [L], for the frames with the indices `frames` and for
-/// the flow that fills `domain`, if there is one.
+/// Scene::box, where the flow, if there is one, fills `domain`.
 ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& frames,
                     const std::optional<report::Window>& domain) {
   // If all particles cover more than 1.5 times the interval that the central ones cover, some have
-  // flown away. Any factor that is clearly larger than 1 works.
+  // flown away.
   constexpr double kFlownAway = 1.5;
   const auto dimension = static_cast<std::size_t>(playback.dimension);
-  // The particles that are left out at both ends of all axes are together 2 %, a free choice.
+  // The particles that are left out at both ends of all axes are together 2 %.
   const auto cut = playback.radii.size() / (100 * dimension);
   ViewBox box;
   double size = 0;
@@ -101,11 +93,11 @@ ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& fr
     for (const auto& plane : playback.frames[f].planes)
       extend_to_plane(box, plane, playback.dimension);
   // If the domain is more than this many times as large as the box of the particles, the whole
-  // domain is not shown, because the particles would be too small. The number is a free choice.
+  // domain is not shown, because the particles would be too small.
   constexpr double kTooLarge = 16;
   if (domain && std::max(domain->width(), domain->height()) <= kTooLarge * size)
     box = {{domain->left, domain->bottom, 0}, {domain->right, domain->top, 0}};
-  // Margin, and least length of a side, over the longest side of the box; both are free choices.
+  // Margin, and least length of a side, over the longest side of the box.
   constexpr double kMargin = 0.04, kFlattest = 0.15;
   size = std::max(size, size_of(box, playback.dimension));
   for (std::size_t axis = 0; axis < dimension; ++axis) {
@@ -122,9 +114,8 @@ ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& fr
   return box;
 }
 
-/// Returns a number for each point of the grid, row by row from the bottom. The number is 1 if the
-/// point is in a particle or, in a periodic cell, in an image of a particle (a copy that is shifted
-/// by periods), otherwise 0. Particles are discs, ellipses or plates with round ends.
+/// For each point of the grid, row by row from the bottom, 1 if the point is in a particle or in an
+/// image of a particle, otherwise 0.
 std::vector<char> points_in_bodies(const report::Grid& grid, const Playback& playback,
                                    const Frame& frame) {
   std::vector<char> is_body(grid.size(), 0);
@@ -165,22 +156,22 @@ std::vector<char> points_in_bodies(const report::Grid& grid, const Playback& pla
   return is_body;
 }
 
-/// Values of a field at points outside the particles, at most kOfFrame of each frame, which are
-/// enough for quantiles.
+/// Values at points outside the particles, at most kOfFrame of each frame, enough for quantiles.
 struct Samples {
   std::vector<double> values;
 
-  /// Adds the finite values of every n-th point. `is_body` is that of points_in_bodies(), as long
-  /// as `field`.
+  /// Adds the finite values of every n-th point. `is_body` is that of points_in_bodies().
   void add(const std::vector<float>& field, const std::vector<char>& is_body) {
+    assert(is_body.size() == field.size());
     constexpr std::size_t kOfFrame = 4000;
     const auto every = field.size() / kOfFrame + 1;
     for (std::size_t i = 0; i < field.size(); i += every)
       if (is_body[i] == 0 && std::isfinite(field[i])) values.push_back(field[i]);
   }
 
-  /// The value that `share` (0 to 1) of the samples do not exceed; 0 if there is no sample.
+  /// The value that the fraction `share` of the samples does not exceed; 0 if there is no sample.
   double quantile(double share) {
+    assert(share >= 0 && share <= 1);
     if (values.empty()) return 0;
     const auto at = values.begin() +
                     static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -189,9 +180,10 @@ struct Samples {
   }
 };
 
-/// The mean of `field`, in its unit, at the points outside the particles where it is finite; 0 if
-/// there is no such point. `is_body` is that of points_in_bodies(), as long as `field`.
+/// The mean at the points outside the particles where the field is finite; 0 if there is no such
+/// point. `is_body` is that of points_in_bodies().
 double mean_outside(const std::vector<double>& field, const std::vector<char>& is_body) {
+  assert(is_body.size() == field.size());
   double sum = 0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < field.size(); ++i)
@@ -203,8 +195,7 @@ double mean_outside(const std::vector<double>& field, const std::vector<char>& i
 }
 
 /// A wall of a cylinder as a line in the plane (x, z), in which the axis is x = 0. The components
-/// of `plane` are z and the distance from the axis [L]. The line is on the side x > 0 if `side` is
-/// 1, and on the side x < 0 if `side` is -1.
+/// of `plane` are z and the distance from the axis. `side` is the sign of x on the line.
 PlanePosition in_half_plane(const PlanePosition& plane, double side) {
   return {{side * plane.point[1], plane.point[0], 0},
           {side * plane.normal[1], plane.normal[0], 0},
@@ -212,7 +203,7 @@ PlanePosition in_half_plane(const PlanePosition& plane, double side) {
 }
 
 /// The motion as it is drawn. Spheres on an axis become discs on the line x = 0 of the plane (x,
-/// z), and the side of their cylinder becomes two lines. Another motion is returned unchanged.
+/// z), and the side of their cylinder becomes two lines.
 Playback in_plane(const Playback& playback) {
   if (playback.dimension != 1) return playback;
   auto plane = playback;
@@ -233,10 +224,10 @@ Playback in_plane(const Playback& playback) {
   return plane;
 }
 
-/// The rectangle that the flow fills [L], in the first frame that has a flow. If there is an axis,
-/// the rectangle includes the mirror image of the flow. Along a direction with a period the
-/// rectangle is as long as the periodic cell. Returns nothing if no frame has a flow. Throws
-/// Error(kBadInput) if the flow cannot be read.
+/// The rectangle that the flow fills, in the first frame that has a flow; no value if there is
+/// none. If there is an axis, the rectangle includes the mirror image of the flow. Along a
+/// direction with a period it is as long as the cell. Throws Error(kBadInput) if the flow cannot be
+/// read.
 std::optional<report::Window> flow_extent(const Playback& in_plane, bool has_axis) {
   for (const auto& frame : in_plane.frames) {
     if (frame.flow.empty()) continue;
@@ -259,18 +250,17 @@ std::optional<report::Window> flow_extent(const Playback& in_plane, bool has_axi
   return {};
 }
 
-/// The part of the rectangle of the flow, `extent`, that is in the box `view` [L].
 report::Window common_part(const report::Window& extent, const ViewBox& view) {
   return {std::max(extent.left, view.low[0]), std::min(extent.right, view.high[0]),
           std::max(extent.bottom, view.low[1]), std::min(extent.top, view.high[1])};
 }
 
-/// Reads the flow of the frame with the index `f`, interpolates it on the grid of `flows`, and
-/// computes its streamlines. The mean of the pressure outside the particles becomes 0. `is_body` is
-/// that of points_in_bodies(). If the file has no flow, the speeds of the result are empty.
+/// Reads the flow of frame `f`, interpolates it on the grid of `flows`, and computes its
+/// streamlines. `is_body` is that of points_in_bodies(). If the file has no flow, the speeds of the
+/// result are empty.
 FlowFrame read_flow_frame(const Playback& in_plane, std::size_t f, const FlowFrames& flows,
                           const std::vector<char>& is_body, report::StreamLines& stream_lines) {
-  constexpr int kLines = 18;  // about how many streamlines a picture has, a free choice
+  constexpr int kLines = 18;  // about how many streamlines a picture has
   FlowFrame found;
   found.frame = f;
   const auto field = read_flow(in_plane.frames[f].flow);
@@ -288,8 +278,8 @@ FlowFrame read_flow_frame(const Playback& in_plane, std::size_t f, const FlowFra
 }
 
 /// Reads the flows of these frames one after the other, because all of them may be larger than the
-/// memory, and keeps their values on a grid of about `points` >= 1 points in `window` [L]. `frames`
-/// are indices. A flow that `known` has on the same grid is copied from there.
+/// memory, and keeps their values on a grid of about `points` points in `window`. A flow that
+/// `known` has on the same grid is copied from there.
 FlowFrames read_flows(const Playback& in_plane, bool has_axis, const report::Window& window,
                       const std::vector<std::size_t>& frames, std::size_t points,
                       const FlowFrames& known) {
@@ -320,10 +310,7 @@ FlowFrames read_flows(const Playback& in_plane, bool has_axis, const report::Win
 
 }  // namespace
 
-/// Chooses at most kMostFlows frames that have a flow, evenly, and the number of points of the grid
-/// so that all flows fit into kFlowBytesOfPage bytes, with two bytes for each point.
 ShownFlows shown_flows(const Playback& playback) {
-  // Both limits are free choices, but comments of scene.hpp repeat them.
   constexpr std::size_t kMostFlows = 150, kMostPoints = 60'000;
   std::vector<std::size_t> with_flow;
   for (std::size_t f = 0; f < playback.frames.size(); ++f)
@@ -336,12 +323,11 @@ ShownFlows shown_flows(const Playback& playback) {
   return shown;
 }
 
-/// The scene of the frames with the indices `frames`. Flows are those of the frames `flow_frames`,
-/// on about `points` points, and are copied from `known` if it has them on the same grid. Throws
-/// Error(kBadInput), which names the file, if a flow cannot be read.
 Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
                const std::vector<std::size_t>& flow_frames, std::size_t points,
                const FlowFrames& known) {
+  assert(std::ranges::all_of(frames, [&](auto f) { return f < motion.frames.size(); }));
+  assert(std::ranges::all_of(flow_frames, [&](auto f) { return f < motion.frames.size(); }));
   Scene scene;
   scene.playback = in_plane(motion);
   scene.has_axis = motion.dimension == 1;
@@ -373,7 +359,7 @@ Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
         std::accumulate(radii.begin(), radii.end(), 0.0) / static_cast<double>(radii.size());
   if (forces.empty()) return scene;
   // In an impact a few contacts have much larger forces than all others. Therefore the largest 2 %
-  // of the forces are beyond the scale; any small share works.
+  // of the forces are beyond the scale.
   constexpr std::size_t kOneIn = 50;
   const auto top = forces.end() - 1 - static_cast<std::ptrdiff_t>(forces.size() / kOneIn);
   std::ranges::nth_element(forces, top);
@@ -383,22 +369,16 @@ Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
   return scene;
 }
 
-/// Returns the magnitude of the normal force divided by Scene::top_force, but at most 1; 0 if
-/// top_force is 0.
 double force_share(const Scene& scene, const CurrentContact& contact) {
   return scene.top_force > 0 ? std::min(1.0, std::abs(contact.normal_force) / scene.top_force) : 0;
 }
 
-/// Returns the tangential force divided by the product of friction coefficient and normal force,
-/// but at most 1. The result is 1 if the contact slides, and 0 without friction or load.
 double mobilised_friction(const Playback& playback, const CurrentContact& contact) {
   if (contact.friction == ContactFriction::kSlides) return 1;
   const double bound = playback.friction_coefficient.value_or(0) * contact.normal_force;
   return bound > 0 ? std::min(1.0, norm(contact.tangential_force) / bound) : 0;
 }
 
-/// The part of a convex polygon where the inner product of `normal` (any length > 0) and x - point
-/// [L] is >= 0; empty if there is none.
 Polygon clipped(const Polygon& polygon, const Vector& point, const Vector& normal) {
   Polygon kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -410,12 +390,9 @@ Polygon clipped(const Polygon& polygon, const Vector& point, const Vector& norma
   return kept;
 }
 
-/// The part of a convex polygon [L] in the box and on the free side of all planes but plane number
-/// `own`, in which the polygon lies. `dimension` is 2 or 3.
 Polygon clipped_to_view(Polygon polygon, const ViewBox& box,
                         const std::vector<PlanePosition>& planes, std::size_t own, int dimension) {
-  // Without the slack [L], a free choice, rounding errors could remove a polygon that lies in two
-  // planes that coincide.
+  assert(dimension == 2 || dimension == 3);
   const double slack = 1e-4 * size_of(box, dimension);
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
     Vector axis{0, 0, 0};

@@ -1,10 +1,5 @@
-// Determines what the still picture and the web page show of a motion of particles: its frames in
-// the plane, the part of space that is seen, the flow, and the scales of colours. Lengths [L],
-// masses [M] and times [T] are in the units of the case; gamma is minus the impulse that the film
-// of a contact has absorbed. The other sources of this folder use this file. A flow that cannot be
-// read throws Error(kBadInput). Indices and other numbers are not checked. A change of a name in
-// SceneStyle must be made in style_of_page() of particles_page.cpp and in the scripts in
-// particles/picture/page, too.
+// What the still picture and the web page show of a motion of particles: frames in the plane, the
+// part of space that is seen, the flow, and scales of colours.
 #pragma once
 
 #include <algorithm>
@@ -26,16 +21,14 @@ struct Interval {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
 
-  /// Extends the interval so that it contains [from, to].
   void add(double from, double to) {
     low = std::min(low, from);
     high = std::max(high, to);
   }
 };
 
-/// A box [L], whose sides are parallel to the axes, by two opposite corners.
 struct ViewBox {
-  /// The corners with the smallest and the largest coordinates [L]; 0 beyond the dimension.
+  /// The corners [L], 0 beyond the dimension.
   Vector low{}, high{};
 };
 
@@ -47,103 +40,97 @@ struct FlowFrame {
   /// outside the particles is 0, because the equations of a closed domain determine the pressure up
   /// to a constant only.
   std::vector<float> speed, pressure;
-  std::vector<report::StreamLine> lines;  ///< streamlines in the grid's window
+  std::vector<report::StreamLine> lines;  ///< in the grid's window
 };
 
-/// The flows that are drawn, all on one grid.
 struct FlowFrames {
-  /// The points of all flows [L]. If has_axis, they cover the half-plane x >= 0, and the other half
-  /// of the picture is the mirror image.
+  /// If has_axis, the points [L] cover the half-plane x >= 0, and the other half of the picture is
+  /// the mirror image.
   report::Grid grid;
   bool has_axis = false;          ///< whether the flow is symmetric about the line x = 0
   std::vector<FlowFrame> frames;  ///< in order of time; empty: there is no flow to draw
-  /// Upper end of the scale of speeds [L/T], >= 0. It is chosen so that one in a thousand points of
-  /// the fluid is faster, a free choice.
+  /// Upper end of the scale of speeds [L/T]: one in a thousand points of the fluid is faster.
   double top_speed = 0;
-  report::PressureColours pressure_colours;  ///< scale of colours of the pressure
+  report::PressureColours pressure_colours;
 };
 
 /// The largest size of all flows in a page [bytes]. Each point of a flow takes a byte for the speed
-/// and a byte for the pressure. In base64 this size is half of the 24 MB that a page may have
-/// (page_data.cpp), a free choice. The streamlines take about a tenth more.
+/// and a byte for the pressure. In base64 this size is half of the 24 MB that a page may have. The
+/// streamlines take about a tenth more.
 inline constexpr std::size_t kFlowBytesOfPage = 9'000'000;
 
-/// The frames whose flow the page shows, and on how many points it shows them. The frames are all
-/// those that have a flow, or 150 evenly chosen ones of them if there are more.
 struct ShownFlows {
   std::vector<std::size_t> frames;  ///< indices of the frames in Playback::frames, increasing
-  std::size_t points = 0;           ///< about how many points the grid has; 0 without a flow
+  std::size_t points = 0;           ///< 0 without a flow
 };
-/// Chooses the frames and the number of points: at most 60 000 points, and so few that all flows
-/// fit into kFlowBytesOfPage. The 60 000 and the 150 frames are free choices (scene.cpp).
+/// Chooses all frames that have a flow, or 150 evenly chosen ones, and at most 60 000 points, so
+/// few that all flows fit into kFlowBytesOfPage.
 ShownFlows shown_flows(const Playback& playback);
 
 /// The width of a line: it is proportional to a radius, but within limits [page units]. The still
 /// picture is 1000 page units wide; on the web page, a page unit is SceneStyle::page_unit.
 struct LineWidth {
-  double share = 0;  ///< width divided by the radius, >= 0
-  double least = 0;  ///< lower limit of the width [page units], >= 0
-  double most = 0;   ///< upper limit of the width [page units], >= least
+  double share = 0;  ///< width divided by the radius
+  double least = 0;
+  double most = 0;
 };
 
-/// Colours and proportions that the still picture and the page have in common. All are free
-/// choices. The page gets them as JSON.
+/// Colours and proportions of the still picture and the page, which gets them as JSON.
+/// style_of_page() of particles_page.cpp and the scripts in particles/picture/page have the same
+/// names.
 struct SceneStyle {
   using Colour = const char*;  ///< "#rrggbb"
   /// Fill and edge of a disc: outside a fluid, in a fluid, and of a rigid body.
   std::array<Colour, 2> disc{"#a9c3da", "#4f728f"}, disc_in_fluid{"#f1ece0", "#3c3a34"},
       disc_of_body{"#e0cda6", "#8a713b"};
-  /// Three colours of a sphere from its brightest point to its rim, and the colour of its edge:
-  /// `ball` of a sphere in no rigid body, `ball_of_body` of a sphere in one.
+  /// Three colours of a sphere from its brightest point to its rim, and that of its edge: in no
+  /// rigid body, and in one.
   std::array<Colour, 4> ball{"#e3eef7", "#a3bfd8", "#5b7f9f", "#34536e"},
       ball_of_body{"#f6ead0", "#dcc79c", "#a98d55", "#7a6231"};
   /// Colours of the marks of rotation on particles, and of springs.
   Colour mark = "#4a4a44", spring = "#2b6e3f";
-  /// The first two numbers are for the dot that shows the angle of a disc: its distance from the
-  /// centre and its radius, both divided by the radius of the disc. The third number is the radius
-  /// of the dots at the axes of a sphere, divided by the radius of the sphere.
+  /// For the dot that shows the angle of a disc: its distance from the centre and its radius,
+  /// divided by the radius of the disc. Then the radius of the dots at the axes of a sphere,
+  /// divided by that of the sphere.
   double mark_distance = 0.66, mark_radius = 0.13, axis_radius = 0.12;
-  /// An axis of a sphere is marked where its component towards the reader is larger than this,
-  /// because a dot nearer to the rim would be seen from the side.
+  /// An axis of a sphere is marked where its component towards the reader is larger than this.
   double least_toward = 0.15;
-  /// Three widths, divided by the smaller radius of the two particles: that of the line that joins
-  /// them in a rigid body, that of an arm, and half of that of the zigzag line of a spring.
+  /// Divided by the smaller radius of the two particles: the widths of the line that joins them in
+  /// a rigid body, of an arm, and half of that of the zigzag line of a spring.
   double body_line = 0.18, arm = 0.25, spring_width = 0.35;
-  /// The width of the line of a contact that has a film (gamma < 0) or slides, if contacts have no
-  /// forces. The radius is the smaller one of its two particles.
+  /// The line of a contact that has a film (gamma < 0) or slides, if contacts have no forces, for
+  /// the smaller radius of its two particles.
   LineWidth film_line{0.3, 0.8, 5};
-  /// The width of the line of any other contact, for the same radius, if contacts have no forces.
+  /// The line of any other contact, for the same radius, if contacts have no forces.
   LineWidth touching_line{0.06, 0.3, 1};
-  /// The width of the line for the force Scene::top_force, if contacts have forces. The radius is
-  /// the mean radius. Widths are proportional to the force, but at least the next two widths.
+  /// The line for the force Scene::top_force, for the mean radius. Widths are proportional to the
+  /// force, but at least the next two widths.
   LineWidth force_line{0.9, 0, 12};
-  /// The least width of the line of a contact with a force and a film, for the smaller radius.
+  /// The least width for a contact with a force and a film, for the smaller radius.
   LineWidth film_with_force{0.1, 0.8, 2};
-  /// The least width of the line of a contact with a force and no film, for the smaller radius.
+  /// The least width for a contact with a force and no film, for the smaller radius.
   LineWidth touching_with_force{0, 0.3, 0.3};
   double page_unit = 1.5;    ///< length of a page unit on the web page [CSS pixels], > 0
   int spring_turns = 12;     ///< corners of the zigzag line of a spring, >= 1
   double spring_end = 0.12;  ///< length of each straight end over that of the spring, < 0.5
 };
-/// The style of all pictures and pages.
 inline constexpr SceneStyle kStyle;
 
-/// The description of a motion from which the still picture and the page are drawn.
+/// The motion from which the still picture and the page are drawn, in the units of the case.
 struct Scene {
   /// The motion in the plane or in space. Spheres on an axis are discs on the line x = 0, and the
   /// side of their cylinder is two lines.
   Playback playback;
-  bool has_axis = false;     ///< whether the particles are on an axis, the line x = 0
+  bool has_axis = false;     ///< on the line x = 0
   bool is_in_fluid = false;  ///< whether there is a flow to draw
   /// Whether forces, impulses and masses are per length normal to the plane (discs in a fluid).
   bool is_per_length() const {
     return playback.is_in_fluid && !has_axis && playback.dimension == 2;
   }
   /// The part of space that is shown, with a margin: all particles of the shown frames (if a few
-  /// have flown far away, the central 98 % of each frame), and the planes next to them. If a flow
-  /// is drawn whose domain is at most 16 times as large, the box is the whole domain. Along axes
-  /// with a period the box is the cell. Its size is > 0 in each direction of the playback's
-  /// dimension. The limits are free choices in scene.cpp.
+  /// have flown far away, the central 98 % of each frame) and the planes next to them; the whole
+  /// domain of a flow, if it is at most 16 times as large; along axes with a period the cell. Its
+  /// size is > 0 in each direction of the playback's dimension.
   ViewBox box;
   FlowFrames flows;         ///< the flows in the box
   double lowest_gamma = 0;  ///< lowest gamma of all frames, <= 0 [M L/T], if is_per_length() [M/T]
@@ -151,44 +138,38 @@ struct Scene {
   bool touches = false;     ///< whether a contact of the shown frames has gamma = 0
   bool slides = false;      ///< whether a contact of the shown frames slides
   /// The normal force that the widest lines show [M L/T^2], if is_per_length() [M/T^2]; 98 % of the
-  /// contacts with a force have at most this force. It is 0 if no contact has a force.
+  /// contacts with a force have at most this force. 0: no contact has a force.
   double top_force = 0;
-  double mean_radius = 0;   ///< mean radius of all particles [L], > 0; 0 without particles
+  double mean_radius = 0;   ///< [L]; 0 without particles
   std::string force_words;  ///< words for the widths of lines; empty if top_force is 0
 };
 
 /// The scene that shows the frames of `motion` with the indices `frames`, and the flows of the
 /// frames with the indices `flow_frames`, as far as they have one, on a grid of about `points`
-/// points. Indices are not checked. If `known` has flows on the same grid, they are taken from
-/// there. Throws Error(kBadInput), which names the file, if a flow cannot be read.
+/// points. If `known` has flows on the same grid, they are taken from there. Throws
+/// Error(kBadInput), which names the file, if a flow cannot be read.
 Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
                const std::vector<std::size_t>& flow_frames, std::size_t points,
                const FlowFrames& known = {});
 
-/// The magnitude of the normal force of a contact divided by Scene::top_force, from 0 to 1; 0 if
-/// top_force is 0. Larger forces give 1.
+/// The normal force of a contact over Scene::top_force, at most 1; 0 if top_force is 0.
 double force_share(const Scene& scene, const CurrentContact& contact);
 
-/// Friction of a contact divided by Coulomb's bound, from 0 to 1: the tangential force divided by
-/// the product of friction coefficient and normal force. It is 1 if the contact slides, and 0
-/// without friction or load.
+/// The tangential force of a contact divided by Coulomb's bound, at most 1. It is 1 if the contact
+/// slides, and 0 without friction or load.
 double mobilised_friction(const Playback& playback, const CurrentContact& contact);
 
-/// Words for the scale of colours of mobilised_friction().
 inline constexpr const char* kFrictionWords =
     "contacts without a film: friction / (coefficient × normal force); 1: slides";
 
 using Polygon = std::vector<Vector>;  ///< corners in order [L]; two corners: a line
 
-/// The part of a convex polygon or of a line where the inner product of `normal` and x - point is
-/// >= 0; empty if there is no such part. `point` [L] and `normal`, of any length > 0, define the
-/// line or plane that cuts.
+/// The part of a convex polygon or line where the inner product of `normal` and x - point is >= 0.
 Polygon clipped(const Polygon& polygon, const Vector& point, const Vector& normal);
 
-/// The part of a convex polygon or line that is in the box and on the free side (that of the
-/// particles) of all planes, except of plane number `own`, in which it lies. Planes are moved back
-/// by 1e-4 of the longest side of the box, so that rounding errors do not remove a polygon that
-/// lies in two equal planes. `dimension` is 2 or 3.
+/// The part of a convex polygon or line that is in the box and on the free side of all planes,
+/// except of plane number `own`, in which it lies. Planes are moved back by 1e-4 of the longest
+/// side of the box, so that rounding errors do not remove a polygon that lies in two equal planes.
 Polygon clipped_to_view(Polygon polygon, const ViewBox& box,
                         const std::vector<PlanePosition>& planes, std::size_t own, int dimension);
 

@@ -1,12 +1,6 @@
-// Measures the residuals of the contacts and links of a time step after a solution of its problem
-// for impulses, and finds links that contradict each other. A residual [L] is the distance of a gap
-// or length from the value that its condition demands; residuals of angles [rad] are multiplied by
-// the mean radius. A residual must be at most ResidualScale::allowed_gap() [L]. Lengths [L],
-// mobilities [T/M], > 0, and impulses [M L/T] are in any consistent units; the mean radius is > 0
-// [L]. Pairs, contacts, links and particles are numbered from 0. Nothing is thrown: a residual that
-// is too large or NaN makes StepResiduals::converged false. step_projection.cpp uses this file. A
-// change must keep that every pair whose gap the solution closes is found.
+// Residuals after a solution of (5.4), docs/physics.md, and links that contradict each other.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <vector>
 
@@ -15,9 +9,8 @@
 namespace viscontact::particles {
 namespace {
 
-/// Adds a residual of a gap or link [L] to `result`. Returns true if the residual is larger than
-/// allowed or NaN. A residual > scale.rounding also counts as an error of an impulse, which is the
-/// residual divided by scale.w [M L/T] times `ratio`; smaller residuals are rounding errors.
+/// Adds a residual of a gap or link [L] to `result`. Returns true if it is larger than allowed or
+/// NaN. A residual above scale.rounding also counts as an error of an impulse, times `ratio`.
 bool take(double residual, const ResidualScale& scale, const SolverSettings& settings,
           double mean_radius, ProjectionResult& result, double ratio = 1) {
   if (residual > scale.rounding)
@@ -25,16 +18,14 @@ bool take(double residual, const ResidualScale& scale, const SolverSettings& set
   return result.residuals.take(residual, scale.allowed_gap(settings, mean_radius));
 }
 
-/// The largest error of an impulse that is allowed [M L/T], > 0: the fraction of the impulse at work
-/// that is asked for, or what rounding errors cause.
+/// The largest error of an impulse that is allowed [M L/T].
 double allowed_error(const ImpulseError& error, const ResidualScale& scale,
                      const SolverSettings& settings) {
   return std::max(
       {settings.impulse_tolerance * scale.impulse, error.rounding, scale.rounding / scale.w});
 }
 
-/// Adds the residual of a gap or link [L], and the error of its impulse if it is known, to `result`.
-/// Returns true if one of them is larger than allowed or NaN.
+/// The same with the error of the impulse, if it is known.
 bool take(double residual, const ImpulseError& error, const ResidualScale& scale,
           const SolverSettings& settings, double mean_radius, ProjectionResult& result,
           double ratio = 1) {
@@ -49,12 +40,6 @@ bool take(double residual, const ImpulseError& error, const ResidualScale& scale
 
 }  // namespace
 
-/// The scale of the residual of a link. It is the scale of a contact whose change of the gap per
-/// impulse, w [T/M], is the sum of the mobilities of the particles of the link. The impulse at work
-/// (ResidualScale::impulse), the magnitude of the impulses that move or press the particles in the
-/// step, is at least d/w, where d [L] is the largest displacement that the impulse at work on a
-/// particle of the link causes. The reason is that a particle that a link holds may be at rest
-/// without any other force.
 template <int D>
 ResidualScale StepProjection<D>::scale_of_link(const LinkEquations& link,
                                                ResidualScales<D>& scales) const {
@@ -72,15 +57,15 @@ ResidualScale StepProjection<D>::scale_of_link(const LinkEquations& link,
           state_.particles.radii[index_of(part.particle)] * (1 + std::abs(link.rows.front().value));
   }
   auto scale = scales.of(particles, w, length);
+  // A particle that a link holds may be at rest without any other force.
   scale.impulse = std::max(scale.impulse, scales.largest_change(particles) / w);
   return scale;
 }
 
-/// Adds the residuals of the links to `result`. If one of them is not allowed, writes the names of
-/// links that contradict each other to `result`. Needs constraints_ (not checked).
 template <int D>
 void StepProjection<D>::examine_links(const SolverSettings& settings, double mean_radius,
                                       ProjectionResult& result) {
+  assert(constraints_);
   auto scales = residual_scales();
   const auto& links = constraints_->links();
   std::vector<std::size_t> beyond;
@@ -94,24 +79,19 @@ void StepProjection<D>::examine_links(const SolverSettings& settings, double mea
   if (!beyond.empty()) name_contradictions(beyond, mean_radius, result);
 }
 
-/// Writes the names of links (not springs) that contradict each other to `result`, if a residual of
-/// a link or an overlap is more than kBroken mean radii (step_projection.hpp); otherwise does
-/// nothing. The function looks at the motion that violates the linear equations of links and
-/// contacts least (least squares). The links that are named are those whose equations this motion
-/// violates. If it satisfies all equations up to kBroken mean radii, the contradiction comes from
-/// finite turns of bodies. Then all links are named that share a particle or rigid body with one of
-/// the links with the numbers `beyond`, whose residuals are not allowed.
 template <int D>
 void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyond,
                                             double mean_radius, ProjectionResult& result) {
+  // Without an overlap or residual of this size the contradiction is no error of the case.
   if (std::max(result.link_residual, -result.residuals.smallest_gap) <= kBroken * mean_radius)
     return;
   const auto& links = constraints_->links();
   const auto violations = constraints_->least_violations();
   const double largest = *std::ranges::max_element(violations);
+  // Links are named whose equations are violated by the motion that violates all of them least.
   if (largest > kBroken * mean_radius) {
     // A violation below kPart times the largest one counts as an error of least_violations(), whose
-    // errors are about 1e-6 times the largest violation; kPart is a free choice above them.
+    // errors are about 1e-6 times the largest violation.
     constexpr double kPart = 1e-3;
     const std::size_t contacts = chosen_.size();
     for (std::size_t b = 0; b < contacts; ++b)
@@ -121,6 +101,8 @@ void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyo
         result.unsolved_links.push_back(name_of(links[l], *links_, state_.particles));
     return;
   }
+  // Finite turns of bodies make the contradiction. All links are named that share a particle or
+  // body with one of `beyond`.
   result.contact_contradicts = result.turns_too_far = true;
   std::vector<char> is_held(state_.particles.count(), 0);
   const auto for_particles = [&](const LinkEquations& link, const auto& visit) {
@@ -141,12 +123,6 @@ void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyo
   }
 }
 
-/// Writes the residuals of the present solution to `result`. It always writes those of the pairs
-/// that are not chosen, whose gaps must not be closed, and if `is_final` is true also those of the
-/// chosen contacts and of the links. If `is_final` is false, StepResiduals::converged becomes
-/// false. Returns the numbers of the pairs that are not chosen and whose gaps are closed by more
-/// than allowed. Pairs whose particles move freely are not tested, because free motion closes the
-/// gaps of chosen pairs only. `mean_radius` is > 0 [L].
 template <int D>
 std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settings,
                                                     double mean_radius, bool is_final,
@@ -183,6 +159,7 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
   }
   if (constraints_ && is_final) examine_links(settings, mean_radius, result);
   std::vector<std::size_t> closed;
+  // Free motion closes the gaps of chosen pairs only.
   for (std::size_t k = 0; k < pair_count(); ++k) {
     if (!may_have_closed(k) || !gap_would_close(k, 0)) continue;
     const auto here = contact(k);

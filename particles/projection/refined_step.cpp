@@ -12,8 +12,6 @@
 
 namespace viscontact::particles {
 
-/// Refines the impulses of each island that is worth it, sets the displacements of its particles,
-/// and the errors of its impulses.
 template <int D>
 void StepProjection<D>::refine() {
   errors_.assign(system_.contacts.size(), {});
@@ -86,7 +84,6 @@ void StepProjection<D>::refine() {
   }
 }
 
-/// False if a Refinement of these contacts would do nothing; found without making its problem.
 template <int D>
 bool StepProjection<D>::is_worth_refining(const std::vector<std::size_t>& island) {
   if (island.size() <= Refinement<D>::kMany) return true;
@@ -106,8 +103,6 @@ bool StepProjection<D>::is_worth_refining(const std::vector<std::size_t>& island
          largest > Refinement<D>::kDifferent * least;
 }
 
-/// For each contact the factors by which the residual over w may understate the error of its
-/// impulse.
 template <int D>
 std::vector<typename StepProjection<D>::Understated> StepProjection<D>::understated() {
   std::vector<double> least(system_.bodies().size(), std::numeric_limits<double>::infinity());

@@ -1,27 +1,19 @@
-// Solves the projection of a time step, the problem for the impulses [M L/T] of contacts that keeps
-// gaps [L] open, docs/physics.md (5.3) and (5.4). The code chooses contacts, solves in rounds that
-// add further contacts, and computes the scales with which residuals are compared. h > 0 [T] is the
-// length of the step, u* are the velocities [L/T] at its end without contacts and links, v those
-// with contacts and links; displacements h u* or h v [L] have D (2 or 3) numbers for each particle;
-// mobilities h/m, with the mass m, are > 0 [T/M]. Units are any consistent ones. Particles that
-// chosen contacts or links join, directly or through other particles, form an island. Nothing is
-// checked or thrown: StepResiduals::converged says whether the step is solved. simulation.cpp uses
-// this file. A change must keep that results do not depend on the number of threads; a change of a
-// scale alters which steps converge.
+// Rounds of solutions of (5.4), docs/physics.md, and the scales of their residuals.
 #include "viscontact/particles/projection/step_projection.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
 namespace viscontact::particles {
 namespace {
 
-/// Returns the numbers `pairs` in an order in which a Gauss-Seidel sweep is fast. Pairs that are
-/// neighbours in the list share particles, so that the processor would have to finish one contact
-/// before it begins the next. The new order takes contacts in turn from kInterleaved distant parts
-/// of each block of ThreadPool::kBlock pairs. kInterleaved is a free choice >= 1: a step of
-/// bench/box2d.cpp takes 8.4, 6.8, 6.4, 7.0 and 7.2 ms with 1, 2, 3, 4 and 6 parts.
+/// Returns `pairs` in an order in which a Gauss-Seidel sweep is fast. Neighbours in the list share
+/// particles, so that the processor would have to finish one contact before it begins the next.
+/// Contacts are therefore taken in turn from kInterleaved distant parts of each block of
+/// ThreadPool::kBlock pairs: a step of bench/box2d.cpp takes 8.4, 6.8, 6.4, 7.0 and 7.2 ms with 1,
+/// 2, 3, 4 and 6 parts.
 std::vector<std::size_t> interleaved(const std::vector<std::size_t>& pairs) {
   constexpr std::size_t kInterleaved = 3;
   std::vector<std::size_t> order;
@@ -37,8 +29,6 @@ std::vector<std::size_t> interleaved(const std::vector<std::size_t>& pairs) {
 
 }  // namespace
 
-/// All arguments must outlive this object. `planes_before` and `planes` are all obstacles at the
-/// beginning and at the end of the step. `displacements` are h u* before solve(), and h v after it.
 template <int D>
 StepProjection<D>::StepProjection(State& state, double h,
                                   std::span<const PlanePosition> planes_before,
@@ -56,11 +46,12 @@ StepProjection<D>::StepProjection(State& state, double h,
       loaded_(loaded),
       is_chosen_(pair_count(), 0),
       system_(displacements, mobilities, state.particles) {
+  assert(h > 0 && planes_before.size() == planes.size());
+  assert(displacements.size() == mobilities.size() * static_cast<std::size_t>(D));
+  assert(loaded.empty() || loaded.size() == planes.size());
   find_tangents();
 }
 
-/// Sets the tangent of the obstacle for each pair in state.walls, at the place to which the present
-/// displacements move the particle. Does nothing if no obstacle is curved.
 template <int D>
 void StepProjection<D>::find_tangents() {
   if (std::ranges::none_of(planes_, &PlanePosition::is_curved)) return;
@@ -73,7 +64,6 @@ void StepProjection<D>::find_tangents() {
   }
 }
 
-/// Makes solve() treat friction, rigid bodies and links, too. `step` must outlive this object.
 template <int D>
 void StepProjection<D>::add_constraints(const ConstraintStep& step) {
   links_ = step.links;
@@ -82,11 +72,6 @@ void StepProjection<D>::add_constraints(const ConstraintStep& step) {
   constraints_->join_linked(system_);
 }
 
-/// The contact of pair k, of two particles, in a step with blows, which are collisions of solids
-/// (impacts/). Pairs are numbered from 0: first those of state.pairs, then those of state.walls.
-/// The normal of the contact is that at the end of the step, at the places where the blows have
-/// left both particles. The gap [L] is the distance of the centres at the beginning of the step
-/// along this normal, minus both radii.
 template <int D>
 Contact<D> StepProjection<D>::contact_at_end(std::size_t k) {
   const auto& p = state_.particles;
@@ -105,9 +90,8 @@ Contact<D> StepProjection<D>::contact_at_end(std::size_t k) {
     end[d] += relative[d];
     square += end[d] * end[d];
   }
-  // If particles pass each other in the step, the directions of their normals at its beginning and
-  // end differ by more than 60 degrees (cosine 0.5, a free choice). Then the normal at the
-  // beginning is used, as in a step without blows.
+  // The normals of particles that pass each other differ by more than 60 degrees in the step
+  // (cosine 0.5). That at the beginning is then used, as in a step without blows.
   constexpr double kLeastCosine = 0.5;
   double cosine = 0;
   for (std::size_t d = 0; d < D; ++d) cosine += contact.normal[d] * end[d];
@@ -120,7 +104,6 @@ Contact<D> StepProjection<D>::contact_at_end(std::size_t k) {
   return contact;
 }
 
-/// True if the present displacements make the linearised gap of pair k smaller than `margin` [L].
 template <int D>
 bool StepProjection<D>::gap_would_close(std::size_t k, double margin) {
   const auto& p = state_.particles;
@@ -131,9 +114,6 @@ bool StepProjection<D>::gap_would_close(std::size_t k, double margin) {
          paths_meet(p, here, displacements_);
 }
 
-/// Returns the numbers of the pairs that have a film (gamma < 0, where gamma [M L/T] is minus the
-/// impulse that the film has absorbed), had an impulse in the last step, or whose gaps the present
-/// displacements, without contacts, would close; in increasing order.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::closed_by_free_motion() {
   const auto in_block = [&](std::size_t begin, std::size_t end) {
@@ -146,16 +126,13 @@ std::vector<std::size_t> StepProjection<D>::closed_by_free_motion() {
   return pool_.sum_of_blocks<ConcatenatedBlocks<std::size_t>>(pair_count(), in_block).values;
 }
 
-/// True if pair k has a film that can absorb an impulse. add_constraints() must have been called
-/// (not checked).
 template <int D>
 bool StepProjection<D>::has_film(std::size_t k) {
+  assert(step_ != nullptr);
   return step_->laws.lowest_gamma(pair(k), state_.memories.of(pair(k).memory),
                                   radii_of(pair(k), state_.particles, step_->obstacles)) < 0;
 }
 
-/// Returns the numbers of the pairs that are not chosen and whose gaps the displacements make
-/// smaller than margin_ [L]. If `are_films_only` is true, these are only the pairs with a film.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::nearly_closed(bool are_films_only) {
   std::vector<std::size_t> pairs;
@@ -165,13 +142,12 @@ std::vector<std::size_t> StepProjection<D>::nearly_closed(bool are_films_only) {
   return pairs;
 }
 
-/// Adds the contacts of these pairs, which must not be chosen yet (not checked), to the problem.
-/// With constraints, a pair that an arm keeps apart is marked as chosen, but gets no contact.
 template <int D>
 void StepProjection<D>::choose(const std::vector<std::size_t>& pairs) {
   // With constraints one thread solves each island by itself. The order of the contacts of an
   // island must therefore not depend on other islands.
   for (const auto k : constraints_ ? pairs : interleaved(pairs)) {
+    assert(is_chosen_[k] == 0);
     is_chosen_[k] = 1;
     if (constraints_ && constraints_->is_held_apart(pair(k))) continue;
     chosen_.push_back(k);
@@ -181,10 +157,6 @@ void StepProjection<D>::choose(const std::vector<std::size_t>& pairs) {
   }
 }
 
-/// Computes the impulses of the chosen contacts and of the links; allow() must have set the allowed
-/// residuals. With constraints, a rough solution allows half of `length` [L] for all residuals. The
-/// step has done `iterations` iterations before. Returns the number of iterations after this
-/// solution, which `max_iterations` limits.
 template <int D>
 int StepProjection<D>::solve_contacts(bool is_rough, double length, int iterations,
                                       int max_iterations) {
@@ -195,10 +167,6 @@ int StepProjection<D>::solve_contacts(bool is_rough, double length, int iteratio
   return iterations;
 }
 
-/// Sets each allowed residual to half of what ResidualScale::allowed() returns. Its arguments are
-/// `length` [L] and `fraction` [1] for the chosen contacts, `length` and `of_slips` [1] for the
-/// slips of these contacts (their tangential displacements), and half of `length` and `fraction`
-/// for the links. All are > 0.
 template <int D>
 void StepProjection<D>::allow(double length, double fraction, double of_slips) {
   auto scales = residual_scales();
@@ -226,16 +194,13 @@ void StepProjection<D>::allow(double length, double fraction, double of_slips) {
   }
 }
 
-/// Returns `pairs` and, from the third round on, also pairs that are connected with `pairs` and
-/// whose gaps may close next. A gap may close if it is not larger than the largest change of a
-/// displacement that contacts and links have made in the island of one of the two particles.
-/// Without this function, each round would find only the next pair of a chain through which an
-/// impulse goes. The chain is followed over 1 pair in round 3, and over twice as many pairs in each
-/// further round. `round` counts from 1.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::with_connected_pairs(
     const std::vector<std::size_t>& pairs, int round) {
-  // Both numbers are free choices; 2 to the power of kLargestDepth must be an int.
+  // Otherwise each round would find only the next pair of a chain through which an impulse goes.
+  // The chain is followed over 1 pair in round 3, and over twice as many in each further round. A
+  // gap may close if it is not larger than the largest change of a displacement by contacts and
+  // links in the island of a particle. 2 to the power of kLargestDepth must be an int.
   constexpr int kFirstRound = 3, kLargestDepth = 20;
   if (pairs.empty() || round < kFirstRound) return pairs;
   std::vector<double> farthest(system_.bodies().size());  // in each island, at its root
@@ -262,14 +227,12 @@ std::vector<std::size_t> StepProjection<D>::with_connected_pairs(
   return pairs_of_particles_->connected(pairs, depth, may_close);
 }
 
-/// Removes from `pairs` those whose gaps the free motion closes by no more than the allowed
-/// residual. Pairs with a film, or with an impulse in the step before, stay. The reason is that the
-/// convex relaxation of friction, docs/physics.md (5.9), pushes apart each chosen pair that slides.
-/// For a particle that slides along an obstacle without load, rounding errors would decide whether
-/// the pair is chosen.
 template <int D>
 void StepProjection<D>::leave_touching(std::vector<std::size_t>& pairs,
                                        const SolverSettings& settings, double mean_radius) {
+  // The convex relaxation of friction, docs/physics.md (5.9), pushes apart each chosen pair that
+  // slides. For a particle that slides along an obstacle without load, rounding errors would decide
+  // whether the pair is chosen.
   auto scales = residual_scales();
   std::erase_if(pairs, [&](std::size_t k) {
     if (pair(k).gamma < 0 || pair(k).impulse != 0 || has_film(k)) return false;
@@ -278,22 +241,18 @@ void StepProjection<D>::leave_touching(std::vector<std::size_t>& pairs,
   });
 }
 
-/// Solves the projection and sets the displacements to h v. `mean_radius` is > 0 [L]; the tolerance
-/// of gaps in `settings` is in units of it. May be called once only (not checked). If the step is
-/// not solved within SolverSettings::max_iterations, the result has the last solution.
 template <int D>
 ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double mean_radius) {
+  assert(chosen_.empty() && mean_radius > 0);
   ProjectionResult result;
   // An overlap up to half of the tolerance is left as it is. The other half of the tolerance is for
   // the error that this step adds.
   tolerated_ = settings.tolerance * mean_radius / 2;
   // With friction, a further solution takes more time than contacts whose gaps stay open. Therefore
-  // pairs whose gaps are nearly closed (below kMargin mean radii, a free choice) are chosen early.
-  // With Coulomb's law they are chosen after a solution has closed further gaps. They are not
-  // chosen before the first solution, because redundant contacts would take loads from particles
-  // that stand without them, and would cost iterations. With the convex relaxation, (5.9), they are
-  // chosen before the first solution, but only pairs with a film, because this relaxation pushes
-  // sliding particles without a film apart.
+  // pairs whose gaps are below kMargin mean radii are chosen early: with Coulomb's law after a
+  // solution has closed further gaps, because redundant contacts would take loads from particles
+  // that stand without them; with the convex relaxation, (5.9), before the first solution, but only
+  // pairs with a film, because it pushes sliding particles without a film apart.
   constexpr double kMargin = 5e-3;
   const bool has_friction = step_ != nullptr && step_->laws.friction;
   const bool is_convex = has_friction && step_->laws.friction->method == FrictionMethod::kConvex;
@@ -312,10 +271,9 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     margin_ = kMargin * mean_radius;
     if (is_convex) choose(nearly_closed(true));
   }
-  // Tolerances of the rough solution: of the gaps in mean radii, and of the impulses as a fraction
-  // of the impulse at work (ResidualScale::impulse). Both are free choices. For bench/box2d.cpp
-  // with 1000 discs, steps with 5e-4 to 2e-3 take the same time, and with 3e-3 a tenth more. The
-  // fraction is 1, because the impulses of the step are not known before the first solution.
+  // Tolerances of the rough solution: of gaps in mean radii, and of impulses as a fraction of the
+  // impulse at work, 1, because impulses are not known yet. For bench/box2d.cpp with 1000 discs,
+  // steps with 5e-4 to 2e-3 take the same time, and with 3e-3 a tenth more.
   constexpr double kRoughLength = 1e-3, kRoughImpulse = 1;
   bool is_rough = settings.tolerance < kRoughLength && settings.impulse_tolerance < kRoughImpulse;
   int rounds = 0;
@@ -334,26 +292,25 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     auto more = examine(settings, mean_radius, !is_rough || is_last, result);
     if (result.residuals.converged) break;
     if (is_last || (constraints_ && constraints_->has_given_up() && !is_convex)) {
-      // An island is not solved, or its friction is bounded by given loads (normal impulses that
-      // are fixed beforehand) in place of Coulomb's law. Pairs that solutions close are still
-      // added, also to other islands, in at most kMostRounds rounds, a free choice that bounds the
-      // time of such a step.
+      // An island is not solved, or given loads bound its friction in place of Coulomb's law. Pairs
+      // that solutions close are still added, also to other islands, in at most kMostRounds rounds,
+      // which bounds the time of such a step.
       constexpr int kMostRounds = 20;
       if (!constraints_ || ++rounds_unsolved > kMostRounds) break;
       // The gaps of a rough solution are not accurate, so that another solution must follow it.
       if (more.empty() && !is_rough) break;
       is_rough = false;
     }
-    // After kPatience rounds (a free choice) in which no pair is added and the residuals do not
-    // fall, only rounding errors are left.
+    // After kPatience rounds in which no pair is added and the residuals do not fall, only rounding
+    // errors are left.
     constexpr int kPatience = 10;
     waited = more.empty() && !is_rough && result.residuals.excess >= least_excess ? waited + 1 : 0;
     if (waited == kPatience) break;
     if (!is_rough) least_excess = std::min(least_excess, result.residuals.excess);
     choose(with_connected_pairs(more, ++rounds));
-    // If a rough solution nearly closes further pairs, another rough solution may follow. Whether
-    // it follows must not depend on other islands. With Coulomb's law, whose loads rough solutions
-    // build up, it always follows. With the convex relaxation it never follows.
+    // If a rough solution nearly closes further pairs, another one may follow. Whether it does must
+    // not depend on other islands. With Coulomb's law, whose loads rough solutions build up, it
+    // always follows; with the convex relaxation never.
     if (is_convex && more.empty()) is_rough = false;
     const bool takes_near = margin_ > 0 && !(is_convex && is_rough);
     const auto near = takes_near ? nearly_closed(is_convex) : std::vector<std::size_t>{};
@@ -364,8 +321,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   for (std::size_t c = 0; c < chosen_.size(); ++c) {
     result.pairs.push_back(&pair(chosen_[c]));
     // A pair with an impulse is chosen in the next step, too, where the convex relaxation may push
-    // its particles apart. An impulse that is no larger than its allowed error must not have this
-    // effect. Therefore such an impulse is set to 0.
+    // its particles apart. An impulse that is no larger than its allowed error must not do so.
     const auto& here = system_.contacts[c];
     const double error = scales.of(here).allowed_gap(settings, mean_radius) / here.w;
     const bool is_error = is_convex && here.lowest == 0 && here.impulse <= error;
@@ -391,11 +347,10 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   return result;
 }
 
-/// Adds the impulse of contact number `c` to ProjectionResult::on_given if the motion of one of its
-/// particles is given. `memory` has the friction.
 template <int D>
 void StepProjection<D>::take_given(std::size_t c, const PairMemory& memory,
                                    ProjectionResult& result) {
+  assert(c < chosen_.size());
   const auto& here = system_.contacts[c];
   const auto& p = state_.particles;
   const auto is_given = [&](std::int32_t k) { return k >= 0 && !(mobilities_[index_of(k)] > 0); };
@@ -422,9 +377,6 @@ void StepProjection<D>::take_given(std::size_t c, const PairMemory& memory,
 template class StepProjection<2>;
 template class StepProjection<3>;
 
-/// The impulse at work on a particle [M L/T] is the largest of three: the impulse of its own motion
-/// (of_particle()), the impulses of its contacts, and the impulses that would end the overlaps of
-/// these contacts.
 template <int D>
 ResidualScales<D>::ResidualScales(const State& state, double h,
                                   std::span<const double> displacements,
@@ -440,6 +392,7 @@ ResidualScales<D>::ResidualScales(const State& state, double h,
   const auto& bodies = system.bodies();
   for (std::size_t b = 0; b < bodies.size(); ++b)
     body_scales_.push_back(of_particle(bodies[b], system.free_displacement(b)));
+  // At work is also what contacts bear, and what would end their overlaps.
   for (const auto& contact : system.contacts) {
     const double gap = system.gap(contact);
     // The film of a pair with gamma < 0 also pulls. Therefore an impulse would be needed to close
@@ -467,9 +420,6 @@ ResidualScales<D>::ResidualScales(const State& state, double h,
   }
 }
 
-/// The scale of a particle without its contacts. The impulse at work is the larger one of two: the
-/// impulse of forces and gravity in the step, and the change of the momentum of the particle.
-/// `moves` is the displacement h u* of the particle, D numbers [L].
 template <int D>
 typename ResidualScales<D>::ParticleScale ResidualScales<D>::of_particle(
     std::int32_t particle, const double* moves) const {
@@ -488,7 +438,6 @@ typename ResidualScales<D>::ParticleScale ResidualScales<D>::of_particle(
   return scale;
 }
 
-/// The scale of a particle. If the problem has the particle, its contacts are taken into account.
 template <int D>
 typename ResidualScales<D>::ParticleScale ResidualScales<D>::of_particle(
     std::int32_t particle) const {
@@ -497,8 +446,6 @@ typename ResidualScales<D>::ParticleScale ResidualScales<D>::of_particle(
                   : body_scales_[index_of(body)];
 }
 
-/// Returns the largest product of mobility and impulse at work of these particles [L], which is the
-/// largest displacement that an impulse at work causes; 0 without particles.
 template <int D>
 double ResidualScales<D>::largest_change(std::span<const std::int32_t> particles) const {
   double largest = 0;
@@ -507,9 +454,6 @@ double ResidualScales<D>::largest_change(std::span<const std::int32_t> particles
   return largest;
 }
 
-/// The scale of a contact or link between `particles`; negative numbers are obstacles. The impulse
-/// at work is the smallest of those of the particles. `w` > 0 is the change of the gap per impulse
-/// [T/M], and `length` >= 0 [L] is the size of the numbers whose difference is the gap.
 template <int D>
 ResidualScale ResidualScales<D>::of(std::span<const std::int32_t> particles, double w,
                                     double length) {
@@ -534,8 +478,6 @@ ResidualScale ResidualScales<D>::of(std::span<const std::int32_t> particles, dou
   return scale;
 }
 
-/// The scale of a contact. In a step with constraints its rounding errors are at least those of the
-/// radii.
 template <int D>
 ResidualScale ResidualScales<D>::of(const Contact<D>& contact) {
   const std::array particles{contact.first, contact.second};
@@ -544,9 +486,9 @@ ResidualScale ResidualScales<D>::of(const Contact<D>& contact) {
     length += norm(point_of(displacements_.data(), index_of(contact.loaded_plane), D));
   auto scale = of(particles, contact.w, length);
   if (!has_constraints_) return scale;
-  // The errors are taken as 1 unit in the last place of the radii. Where bodies or links turn, they
-  // are taken as 8 units in the last place of the radii and of the distances from the origin,
-  // because lengths of links are differences of coordinates. Both numbers are free choices.
+  // 1 unit in the last place of the radii, or, where bodies or links turn, 8 units in that of the
+  // radii and of the distances from the origin, because lengths of links are differences of
+  // coordinates.
   const bool is_held = system_.is_held(contact);
   const double rounding = (is_held ? 8 : 1) * std::numeric_limits<double>::epsilon();
   double lengths = 0;

@@ -1,11 +1,4 @@
-// Copies the arrays of all frames of a run into one HDF5 file, particles.h5 (write_hdf5() in
-// particles_pages.hpp). The file has the data set time [T] and the groups particles and contacts,
-// whose data sets have the rows of all frames one after the other. Numbers are in the units of the
-// case (lengths [L], velocities [L/T, 1/T], gamma [M L/T], forces [M L/T^2]) and are copied without
-// conversion. A frame that cannot be read, or a file that cannot be written, is an Error(kBadInput)
-// with its name; in a program without libhdf5 each call is an Error(kWrongUsage). A change must
-// keep the names of groups and data sets, which users' scripts read, and that checked() checks each
-// call of the C library whose failure can lose data. run/particles_stage.cpp uses it.
+// particles.h5, docs/file-formats.md. A failure that can lose data is caught by checked().
 #include "viscontact/common/error.hpp"
 #include "viscontact/particles/run/particles_pages.hpp"
 
@@ -14,6 +7,7 @@
 #include <hdf5.h>
 
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <string_view>
 #include <type_traits>
@@ -30,9 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// While an object of this class exists, the C library prints no errors, because the code of this
-/// file throws them. Afterwards the library prints errors as it did before, because other code of
-/// the process may rely on that, such as h5py beside the Python module.
+/// While an object of this class exists, the C library prints no errors, because they are thrown.
+/// Afterwards it prints errors as before, for other code of the process such as h5py.
 class SilentErrors {
  public:
   SilentErrors() {
@@ -63,20 +56,19 @@ std::string cause_of_error() {
   return std::string(between(cause, "error message = '", "'").value_or(cause));
 }
 
-/// Returns `result`. Throws Error(kBadInput) with the name of the file if `result`, a return value
-/// of the C library, is an error (< 0).
+/// Returns `result`, a return value of the C library. Throws Error(kBadInput) with the name of the
+/// file and the cause if it is an error (< 0).
 template <class Result>
 Result checked(Result result, const fs::path& file) {
   if (result < 0) throw_bad_input({file.string()}, "cannot be written ({})", cause_of_error());
   return result;
 }
 
-/// An object of the C library, which the destructor closes. Its data must have been flushed before,
-/// because the destructor ignores errors.
+/// An object of the C library. Its data must have been flushed before the destructor, which ignores
+/// errors.
 class Handle {
  public:
-  /// `closing` is the function of the C library that closes the object `id`. Throws
-  /// Error(kBadInput), which names `file`, if `id` is an error.
+  /// `closing` is the function that closes the object `id`. Throws as checked() does.
   Handle(hid_t id, herr_t (*closing)(hid_t), const fs::path& file)
       : id_(checked(id, file)), close_(closing) {}
   Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
@@ -86,7 +78,6 @@ class Handle {
   ~Handle() {
     if (id_ >= 0) close_(id_);
   }
-  /// Closes the object now. Throws Error(kBadInput) if that fails.
   void close(const fs::path& file) { checked(close_(std::exchange(id_, -1)), file); }
   operator hid_t() const { return id_; }  // NOLINT: the C library takes it
 
@@ -105,8 +96,7 @@ hid_t type_of() {
     return H5T_NATIVE_INT64;
 }
 
-/// A data set with rows of `columns` numbers each (1 to 8192), to which rows are appended. The
-/// functions throw Error(kBadInput), which names the file, if the C library fails.
+/// A data set with rows of `columns` numbers each (1 to 8192), to which rows are appended.
 template <class Number>
 class Rows {
  public:
@@ -114,6 +104,7 @@ class Rows {
       : file_(std::move(file)), columns_(columns), set_(create(group, name)) {}
 
   void append(const std::vector<Number>& numbers) {
+    assert(numbers.size() % columns_ == 0);
     const hsize_t count = numbers.size() / columns_;
     if (count == 0) return;
     const std::array<hsize_t, 2> begin = {rows_, 0}, part = {count, columns_};
@@ -130,11 +121,11 @@ class Rows {
  private:
   int rank() const { return columns_ == 1 ? 1 : 2; }
   Handle create(hid_t group, const std::string& name) {
+    assert(columns_ >= 1 && columns_ <= 8192);
     const std::array<hsize_t, 2> none = {0, columns_}, most = {H5S_UNLIMITED, columns_};
     const Handle space(H5Screate_simple(rank(), none.data(), most.data()), H5Sclose, file_);
     const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, file_);
-    // Chunks of 64 kB (32 kB of whole numbers) are read fast, and small files stay small. The level
-    // 4 of compression is a free choice.
+    // Chunks of 64 kB (32 kB of whole numbers) are read fast, and small files stay small.
     const std::array<hsize_t, 2> chunk = {8192 / columns_, columns_};
     checked(H5Pset_chunk(properties, rank(), chunk.data()), file_);
     checked(H5Pset_shuffle(properties), file_);
@@ -161,15 +152,15 @@ void add_text(hid_t object, const char* name, const std::string& text, const fs:
   checked(H5Awrite(attribute, type, &begin), file);
 }
 
-/// An array: its section and name in a frame, and its name and number of columns in the HDF5 file.
+/// An array has a section and a name in a frame, and a name and number of columns in the HDF5 file.
 struct Array {
   std::string_view section, name;
   std::string target;
   std::size_t columns;
 };
 
-/// Arrays with numbers of one type, and their rows in the file. Of the arrays `all` only those are
-/// copied that the last frame has: an earlier frame may lack the masses that a source adds.
+/// Only arrays that the last frame has are copied: an earlier one may lack the masses that a source
+/// adds.
 template <class Number>
 class Arrays {
  public:
@@ -178,8 +169,7 @@ class Arrays {
       if (last.has_array(array.section, array.name))
         arrays_.emplace_back(array, Rows<Number>(group, array.target, array.columns, file));
   }
-  /// Appends the arrays of a frame; an array that the frame lacks has zeros. Throws
-  /// Error(kBadInput) if an array does not have `count` rows.
+  /// An array that the frame lacks has zeros. Throws Error(kBadInput) for other than `count` rows.
   void append(const VtkReader& frame, std::size_t count) {
     for (auto& [array, rows] : arrays_) {
       const auto numbers = frame.has_array(array.section, array.name)
@@ -194,8 +184,8 @@ class Arrays {
   std::vector<std::pair<Array, Rows<Number>>> arrays_;
 };
 
-/// A group of the file with the rows of the particles, or of the contacts, of all frames. Its data
-/// set `begin` has the number of the first row of each frame, and last the number of all rows.
+/// A group with the rows of the particles, or of the contacts, of all frames. Its data set `begin`
+/// has the number of the first row of each frame, and last the number of all rows.
 class Table {
  public:
   Table(hid_t file_id, const char* name, const std::vector<Array>& decimal,
@@ -232,8 +222,8 @@ std::vector<Array> arrays_of_contacts() {
   return arrays;
 }
 
-/// Copies the frames into the new file `id`, and flushes it. `file` is the name of the file in
-/// messages. Throws Error(kBadInput) if there is no frame, or if a frame cannot be read.
+/// Copies the frames into the new file `id`, and flushes it. `file` is its name in messages. Throws
+/// Error(kBadInput) if there is no frame, or if a frame cannot be read.
 void copy_frames(const ParticlesCase& c, const fs::path& folder, hid_t id, const fs::path& file) {
   const auto frames = read_pvd(folder / "particles.pvd");
   if (frames.empty()) throw_bad_input({(folder / "particles.pvd").string()}, "has no frame");

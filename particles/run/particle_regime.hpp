@@ -16,7 +16,7 @@ struct ParticleRegime {
   double stokes = -1;
   /// Without a fluid around the particles: m |V|/|gamma_min|, with gamma_min of a film at a plane.
   double film = -1;
-  bool has_contact = false;          ///< whether there was a contact in a step
+  bool has_contact = false;
   bool have_solids_touched = false;  ///< whether a film has absorbed all that it can
 
   /// Takes the state at the end of a step into account, and whether it has contacts.

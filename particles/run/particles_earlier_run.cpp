@@ -1,17 +1,11 @@
-// Decides whether the run in a folder can be continued, and reads its state and record. A run can
-// be continued if its restart.bin records the same inputs and the same version of Viscontact as
-// this call has. Times [T] are in the unit of the case, angles in [rad]; particles, sources and
-// bodies are numbered from 0. If the run cannot be continued, a message on the terminal says so,
-// and the caller begins a new run at the start. A restart file that the user names is an
-// Error(kBadInput) with its path if it cannot be read, does not fit the case or is not earlier than
-// the end of the case. A change must keep that a run with other inputs is never continued. run/,
-// sweep/ and python/ use this file.
+// A run is continued only if restart.bin records the inputs and the version of this call.
 #include "viscontact/particles/run/particles_earlier_run.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -30,8 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Says in words how the inputs or the version of the earlier run differ from those of this call;
-/// empty if they are equal. Inputs are compared by their order and their hashes.
+/// Says how the inputs (their order and hashes) or the versions differ; empty if they are equal.
 std::string difference(const results::Provenance& before, const results::Provenance& now) {
   const auto version = [](const results::Provenance& provenance) {
     const auto found = provenance.versions.find("Viscontact");
@@ -47,8 +40,7 @@ std::string difference(const results::Provenance& before, const results::Provena
   return "";
 }
 
-/// Says in words how a source of the case differs from that of the earlier run; empty if it adds
-/// the same particles at the same times.
+/// Says how the source differs; empty if it adds the same particles at the same times.
 std::string difference(const SourceProgress& before, const Source& now) {
   if (before.begin_of_case != now.begin)
     return fmt::format("begins at {}, not {}", before.begin_of_case, now.begin);
@@ -60,10 +52,9 @@ std::string difference(const SourceProgress& before, const Source& now) {
   return "";
 }
 
-/// Throws Error(kBadInput), which names `restart`, if the state has other particles or sources than
-/// the case, or contacts with obstacles that the case does not have. The state must have the
-/// particles of the case, with the same radii and masses, and then those that sources have added;
-/// their places and velocities may be any.
+/// Throws Error(kBadInput), which names `restart`, unless the state has the particles of the case,
+/// with the same radii and masses, and then those that its sources have added, and only contacts
+/// with obstacles of the case. Places and velocities may be any.
 void check_same_particles(const State& state, const ParticlesCase& c, const fs::path& restart) {
   const auto& p = state.particles;
   const auto differs = [&](const std::string& what) {
@@ -75,7 +66,6 @@ void check_same_particles(const State& state, const ParticlesCase& c, const fs::
   };
   if (p.dimension != c.particles.dimension)
     differs(fmt::format("{} dimensions, not {}", p.dimension, c.particles.dimension));
-  // Particles that sources have added follow those of the case.
   const auto& sources = c.setting.sources;
   if (state.sources.size() > sources.size())
     differs(fmt::format("{} sources, not {}", state.sources.size(), sources.size()));
@@ -118,15 +108,14 @@ void check_same_particles(const State& state, const ParticlesCase& c, const fs::
   for (const auto& blow : state.blows) check_first(blow.first);
 }
 
-/// Gives the state the ids of the case, which the restart file does not store, and ids for the
-/// particles that sources have added.
+/// The restart file does not store the ids, nor those of particles that sources have added.
 void take_over_ids(State& state, const ParticlesCase& c) {
   state.particles.ids = c.particles.ids;
   add_missing_ids(state.particles);
 }
 
-/// Gives the state the rigid bodies of the case, of which the restart file stores the motion only.
-/// Throws Error(kBadInput) if the file has another number of bodies or of forces of links.
+/// The restart file stores the motion of bodies only. Throws Error(kBadInput) if it has another
+/// number of bodies or of forces of links.
 void take_over_bodies(State& state, const ParticlesCase& c, const fs::path& restart) {
   const auto moving = std::move(state.particles.bodies.bodies);
   state.particles.bodies = c.particles.bodies;
@@ -145,13 +134,11 @@ void take_over_bodies(State& state, const ParticlesCase& c, const fs::path& rest
                     c.path.string());
 }
 
-/// Throws Error(kBadInput) if a hinge of the state is turned beyond its stop, the limit of its
-/// angle. Then the earlier run had another stop, and the first step would turn the hinge back to
-/// the present stop at once.
+/// Throws Error(kBadInput) if a hinge of the state is turned beyond its stop, because the first
+/// step would turn it back at once: the earlier run had another stop.
 void check_stops(const State& state, const ParticlesCase& c, const fs::path& restart) {
   // A step may leave a point at the distance of one mean radius from the hinge beyond the stop by
-  // solver.tolerance mean radii. This is the angle solver.tolerance [rad]. The factor 10 and
-  // kBeyond are free choices.
+  // solver.tolerance mean radii, which is the angle solver.tolerance [rad].
   constexpr double kBeyond = 1e-3;  // [rad]
   const double allowed = std::max(kBeyond, 10 * c.setting.solver.tolerance);
   for (const auto& stop : stop_equations(c.setting.links, state.particles))
@@ -164,8 +151,6 @@ void check_stops(const State& state, const ParticlesCase& c, const fs::path& res
 
 }  // namespace
 
-/// The state at the start: that of the case if the path `restart` is empty, otherwise that of this
-/// restart file. Throws Error(kBadInput) if the file cannot be read or does not fit the case.
 State first_state(const ParticlesCase& c, const std::string& restart) {
   State state;
   if (restart.empty()) {
@@ -185,12 +170,12 @@ State first_state(const ParticlesCase& c, const std::string& restart) {
     add_rotation(state.particles);
   }
   check_stops(state, c, restart);
-  if (state.time > c.end_time * (1 - 1e-9))  // free choices above rounding errors: 1e-9, 1e-6
+  if (state.time > c.end_time * (1 - 1e-9))  // 1e-9 and 1e-6 are above rounding errors
     throw_bad_input({restart},
                     "is at time {}, but {} ends at {}, so there is no time left to simulate",
                     state.time, c.path.string(), c.end_time);
-  // If the time step is not that of the earlier run, steps end at multiples of the new time step
-  // after the time of this state (State::grid_time).
+  // If the time step has changed, steps end at multiples of the new time step after the time of
+  // this state (State::grid_time).
   const double on_grid =
       state.grid_time + static_cast<double>(state.steps - state.grid_step) * c.setting.time_step;
   if (std::abs(on_grid - state.time) > 1e-6 * c.setting.time_step) {
@@ -200,8 +185,6 @@ State first_state(const ParticlesCase& c, const std::string& restart) {
   return state;
 }
 
-/// The state and the record of the run in `folder`. `provenance` are the inputs and the version of
-/// this call. Returns nothing, and throws no Error, if there is no run or it cannot be continued.
 std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c, const fs::path& folder,
                                            const results::Provenance& provenance,
                                            const RunLog& log) {
@@ -232,11 +215,9 @@ std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c, const fs::pat
   }
 }
 
-/// True if the run has reached the end time of the case and the folder has all files that are
-/// written at the end, and all frames. `tiny` >= 0 [T] is the largest difference of times that
-/// counts as none. Throws nothing for a file that cannot be read, but returns false.
 bool is_finished(const EarlierRun& run, const ParticlesCase& c, double tiny,
                  const fs::path& folder) {
+  assert(tiny >= 0);
   if (run.state.time < c.end_time - tiny) return false;
   const auto is_there = [&](const auto& name) { return fs::is_regular_file(folder / name); };
   const auto written_at_end = std::to_array<const char*>(

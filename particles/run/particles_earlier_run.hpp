@@ -1,10 +1,4 @@
-// Decides whether the run that an earlier call of the command `particles` left in its folder can be
-// continued, and from which state. Lengths, masses and times are in the units of the case. run/,
-// sweep/ and python/ use this file. A restart file that the user names and that does not fit the
-// case throws Error(kBadInput). A run in a folder that cannot be continued is no error: a message
-// says why, and the caller begins at the start. A change must keep that a run with other inputs is
-// never continued, and that a continued run gives the same files as a run that was never
-// interrupted.
+// Whether the run that an earlier call left in its folder can be continued, and from which state.
 #pragma once
 
 #include <filesystem>
@@ -18,9 +12,9 @@
 
 namespace viscontact::particles {
 
-/// An interrupted or finished run: its last state, from which it can continue, and its record.
+/// An interrupted or finished run.
 struct EarlierRun {
-  State state;       ///< state of the run after its last saved step
+  State state;       ///< after its last saved step
   RunRecord record;  ///< what the run has done until this state
 };
 
@@ -28,15 +22,13 @@ struct EarlierRun {
 /// `restart` is empty. Throws Error(kBadInput) if the restart file cannot be read; if it has other
 /// particles, sources, rigid bodies or links than the case, or contacts with obstacles that the
 /// case does not have; if a hinge is turned beyond its stops by more than 1e-3 rad and by more than
-/// ten times the tolerance of the solver (free choices); or if its time is not before the end of
-/// the case.
+/// ten times the tolerance of the solver; or if its time is not before the end of the case.
 State first_state(const ParticlesCase& c, const std::string& restart);
 
-/// The run in the folder, if it can be continued. It must have been made from the same inputs by
-/// the same version of Viscontact as this call, both of which `provenance` records, and the files
-/// of `log` must be as the run has left them. Otherwise, also if a file is damaged, the function
-/// returns std::nullopt and throws no Error. If the folder has a restart.bin that cannot be used, a
-/// message on the terminal says why.
+/// The run in the folder, if it was made from the same inputs by the same version of Viscontact as
+/// `provenance` records, and if the files of `log` are as the run has left them. Otherwise, also if
+/// a file is damaged, std::nullopt; no Error is thrown. If there is a restart.bin that cannot be
+/// used, a message on the terminal says why.
 std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c,
                                            const std::filesystem::path& folder,
                                            const results::Provenance& provenance,

@@ -1,18 +1,10 @@
-// Recognises the files of frames by their names, and files that Viscontact wrote by their
-// provenance. Writes the rows of steps.csv and probes.csv, the record of restart.bin as JSON, and
-// run.json. Numbers of frames count from 0, those of steps from 1; times [T] are in the unit of the
-// case, computing times in seconds, residuals and overlaps in mean radii. A file of the user that
-// has the name of a result, a damaged record, an input that a run would overwrite, and a file that
-// cannot be removed are an Error(kBadInput); a missing folder is a
-// std::filesystem::filesystem_error. remove_results() looks at names only. Therefore
-// check_results() must come first, so that only files that Viscontact wrote are removed. A change
-// must keep this order, and the columns and keys, which users' scripts read. The files in run/ use
-// this file.
+// Files of frames are recognised by their names, files of Viscontact by their provenance.
 #include "viscontact/particles/run/particles_folder.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <charconv>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -45,7 +37,6 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunRecord, totals, frames, flows, last_frame, rebounds, files)
 
 namespace {
-// The beginning of the line with the record in restart.bin, which restart files contain.
 constexpr const char* kRecordOf = "# record after step ";
 }  // namespace
 
@@ -64,8 +55,8 @@ void StepTotals::add(const StepReport& report, double average_from) {
   largest_buckling = std::max(largest_buckling, report.buckling);
   lacks_springs += report.lacks_springs ? 1 : 0;
   given_loads += report.has_given_loads ? 1 : 0;
-  // Both numbers are free choices. A load that follows a motion through a spring, or the inertia of
-  // ever more particles, grows in proportion to the time, and hence by ever smaller factors.
+  // A load that follows a motion through a spring, or the inertia of ever more particles, grows in
+  // proportion to the time, and hence by ever smaller factors.
   constexpr double kGrowth = 1.5;
   constexpr int kGrowing = 10;
   growing = given_load > 0 && report.given_load > kGrowth * given_load ? growing + 1 : 0;
@@ -99,6 +90,7 @@ void StepTotals::add(const StepReport& report, double average_from) {
 }
 
 void StepTotals::add_means(const std::vector<double>& values, double duration) {
+  assert(contact_means.empty() || contact_means.size() == values.size());
   if (!(duration > 0)) return;
   contact_means.resize(values.size());
   contact_time += duration;
@@ -106,13 +98,6 @@ void StepTotals::add_means(const std::vector<double>& values, double duration) {
     contact_means[k] += (values[k] - contact_means[k]) * (duration / contact_time);
 }
 
-/// The names of the columns: numbers of steps, contacts, glued contacts (gamma < 0), iterations,
-/// parts and unresolved contacts; time [T]; residual and largest_overlap [mean radii]; converged (0
-/// or 1); impulse_residual [1]. With a fluid there are also dissipation [M L^2/T^3],
-/// apparent_viscosity [1] and fluid_seconds [s]; with inertia of the fluid also
-/// kinetic_energy_fluid [M L^2/T^2], reynolds_number and courant_number [1], and given_force_x and
-/// given_force_y [M L/T^2]. Dissipation, energy and forces in two dimensions are per length. gamma
-/// is minus the impulse that a film has absorbed.
 std::string steps_header(const std::optional<Fluid>& fluid) {
   std::string header =
       "step,time,contacts,glued,iterations,residual,largest_overlap,converged,impulse_residual,"
@@ -123,9 +108,8 @@ std::string steps_header(const std::optional<Fluid>& fluid) {
   return header + "\n";
 }
 
-/// The rows of probes.csv of a step, one for each probe: time of the flow [T], name, flow [L^2/T],
-/// pressure [M/(L T^2)]. `report.probes` must have an entry for each of `probes` (not checked).
 std::string probe_rows(const FluidStepReport& report, std::span<const Probe> probes) {
+  assert(report.probes.size() >= probes.size());
   std::string rows;
   for (std::size_t k = 0; k < probes.size(); ++k)
     rows += fmt::format("{},{},{},{}\n", format_number(report.flow_time), probes[k].name,
@@ -133,8 +117,6 @@ std::string probe_rows(const FluidStepReport& report, std::span<const Probe> pro
   return rows;
 }
 
-/// The row of the step with the number `step`, in the order of steps_header(), in the units of the
-/// report.
 std::string step_row(std::int64_t step, const StepReport& report,
                      const std::optional<Fluid>& fluid) {
   auto row =
@@ -154,13 +136,10 @@ std::string step_row(std::int64_t step, const StepReport& report,
   return row + "\n";
 }
 
-/// The comment line with the record after the step with the number `step`.
 std::string record_comment(const RunRecord& record, std::int64_t step) {
   return fmt::format("{}{}: {}\n", kRecordOf, step, nlohmann::json(record).dump());
 }
 
-/// The record in `head`, the first lines of the file `restart`. Throws Error(kBadInput), which
-/// names `restart`, if there is no record or if the record is damaged.
 RunRecord read_record(const std::string& head, const std::filesystem::path& restart) {
   const auto line = head.find(kRecordOf);
   const auto json = head.find('{', line);
@@ -209,8 +188,6 @@ void add_contact_means(const ParticlesCase& c, const StepTotals& totals, Json& j
 
 }  // namespace
 
-/// The text of run.json: one JSON object with the numbers of StepTotals in their units, tolerances
-/// [1], and the last overlap [mean radii]. A number that is not known is null.
 std::string run_json(const ParticlesCase& c, const StepTotals& totals, const State& state) {
   const auto steps = static_cast<double>(std::max<std::int64_t>(totals.steps, 1));
   Json json;
@@ -279,8 +256,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The number of the frame in `name`, such as 12 in particles_00012.vtp; nothing if `name` is not
-/// the name of a file of this kind.
+/// The number in a name such as particles_00012.vtp; nothing if it is not the name of such a file.
 std::optional<std::uint64_t> number_of_frame(const FrameKind& kind, std::string_view name) {
   const std::string_view begin(kind.begin);
   if (!name.starts_with(begin) || name.size() <= begin.size()) return {};
@@ -290,8 +266,7 @@ std::optional<std::uint64_t> number_of_frame(const FrameKind& kind, std::string_
   return number;
 }
 
-/// The files of one kind in the folder whose numbers are at least `first`, in no particular order.
-/// Throws std::filesystem::filesystem_error if there is no folder.
+/// The files whose numbers are at least `first`, in no particular order.
 std::vector<fs::path> frames_in(const fs::path& folder, const FrameKind& kind,
                                 std::uint64_t first) {
   std::vector<fs::path> files;
@@ -304,12 +279,10 @@ std::vector<fs::path> frames_in(const fs::path& folder, const FrameKind& kind,
 
 }  // namespace
 
-/// The name of the file of a frame. The number has at least five digits.
 std::string frame_name(const FrameKind& kind, std::uint64_t number) {
   return fmt::format("{}_{:05}{}", kind.begin, number, kind.end);
 }
 
-/// Throws Error(kBadInput) for a file with the name of a result that Viscontact did not write.
 void check_results(const fs::path& folder) {
   for (const auto* name : kParticleResults) results::refuse_other_kind(folder / name, "", "result");
   for (const auto& kind : {kFrameFile, kFlowFile, kLinksFile})
@@ -317,8 +290,6 @@ void check_results(const fs::path& folder) {
       results::refuse_other_kind(file, "", "result");
 }
 
-/// Throws Error(kBadInput) if a run into `folder` would overwrite one of its inputs: the case, its
-/// file of particles, or the file at the path `restart`, which may be empty.
 void check_inputs_stay(const ParticlesCase& c, const fs::path& restart, const fs::path& folder) {
   std::error_code none;
   if (!restart.empty() && fs::equivalent(fs::absolute(restart).parent_path(), folder, none))
@@ -335,14 +306,11 @@ void check_inputs_stay(const ParticlesCase& c, const fs::path& restart, const fs
   }
 }
 
-/// Removes all results and frames. Throws Error(kBadInput) if a file cannot be removed.
 void remove_results(const fs::path& folder) {
   for (const auto* name : kParticleResults) remove_file(folder / name);
   remove_later_frames(folder, 0, 0);
 }
 
-/// Removes the frames whose number is at least `frames`, the flows whose number is at least
-/// `flows`, and files that a killed process has not finished.
 void remove_later_frames(const fs::path& folder, std::uint64_t frames, std::uint64_t flows) {
   for (const auto& [kind, first] :
        {std::pair{kFrameFile, frames}, {kLinksFile, frames}, {kFlowFile, flows}})

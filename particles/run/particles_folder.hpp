@@ -1,10 +1,5 @@
-// Manages the files in the folder of a run of many particles (docs/file-formats.md): their names;
-// which of them a run may replace; how those of an earlier run are removed; the sums over the
-// steps, for run.json; and the record in restart.bin, which states where each file ends. Times [T]
-// are in the unit of the case, computing times in seconds. The files in run/ use it. A file that
-// cannot be read or removed, or that a run must not replace, throws Error(kBadInput) with its name;
-// a missing folder throws std::filesystem::filesystem_error. A change must keep names, columns and
-// keys, because scripts of users and interrupted runs rely on them.
+// Names, replacement and removal of the files in the folder of a run (docs/file-formats.md), the
+// sums over its steps, and the record in restart.bin.
 #pragma once
 
 #include <array>
@@ -35,19 +30,17 @@ inline constexpr auto kParticleResults = std::to_array<const char*>(
      "probes.csv",   "particles.h5",  "planes.csv",          "particles.pdf",
      "particles.xyz"});
 
-/// A kind of file of which each frame (output time) has one. The name of a file is `begin`, "_",
-/// the number of the frame, and `end`.
+/// A kind of file of which each frame (output time) has one, named `begin`_NUMBER`end`.
 struct FrameKind {
   const char* begin;  ///< with ".pvd" it is also the name of the list of these files
   const char* end;    ///< extension, with the dot
 };
-/// The kinds of files: the particles and contacts of a frame, the flow around the particles, and
-/// the links.
+/// Particles and contacts, the flow, and the links of a frame.
 inline constexpr FrameKind kFrameFile{"particles", ".vtp"}, kFlowFile{"flow", ".vtu"},
     kLinksFile{"links", ".vtp"};
 
-/// The name of the file of frame `number`, from 0, such as particles_00000.vtp. The number has at
-/// least five digits.
+/// The name of a file, such as particles_00000.vtp. `number` counts from 0; it has at least five
+/// digits.
 std::string frame_name(const FrameKind& kind, std::uint64_t number);
 
 /// Throws Error(kBadInput) if a file in the folder has the name of a result or of a frame, but
@@ -56,14 +49,13 @@ std::string frame_name(const FrameKind& kind, std::uint64_t number);
 void check_results(const std::filesystem::path& folder);
 
 /// Throws Error(kBadInput) if a run into `folder` would overwrite one of its inputs: the case, its
-/// file of particles, or the restart file of another run at the path `restart`, if it is not empty.
+/// file of particles, or the file at the path `restart`, which may be empty.
 void check_inputs_stay(const ParticlesCase& c, const std::filesystem::path& restart,
                        const std::filesystem::path& folder);
 
-/// Removes all results and frames from the folder, so that it never contains files of two runs. The
-/// function goes by names alone: check_results() must be called before, so that only files are
-/// removed that Viscontact wrote. Throws Error(kBadInput), which names the file, if a file cannot
-/// be removed.
+/// Removes all results and frames, so that the folder never has files of two runs. The function
+/// goes by names alone, so check_results() must be called before. Throws Error(kBadInput), which
+/// names the file, if a file cannot be removed.
 void remove_results(const std::filesystem::path& folder);
 
 /// Removes the files of all frames but the first `frames`, the flows of all but the first `flows`,
@@ -73,22 +65,20 @@ void remove_later_frames(const std::filesystem::path& folder, std::uint64_t fram
                          std::uint64_t flows);
 
 /// The largest factor (StepReport::excess) by which a step may miss the tolerances and still count
-/// as a result; a free choice. Steps that miss the tolerances by at most this factor cause a
-/// warning. Other steps that miss them make the command end with an error.
+/// as a result, with a warning. If a step misses them by more, the command ends with an error.
 inline constexpr double kStillAResult = 10;
 
-/// Sums and largest values over the steps of a run. If this call continues a run, the steps of the
-/// earlier calls are included.
+/// Sums and largest values over the steps of a run, including the earlier calls that it continues.
 struct StepTotals {
-  /// Number of steps, number of steps that did not converge, and number of iterations of all steps.
+  /// Numbers of steps, of steps that did not converge, and of iterations of all steps.
   std::int64_t steps = 0, unconverged = 0, iterations = 0;
-  /// Number of steps among `unconverged` whose StepReport::excess is above kStillAResult.
+  /// Number of `unconverged` steps whose StepReport::excess is above kStillAResult.
   std::int64_t failed = 0;
-  int most_iterations = 0;               ///< largest number of iterations in a step, >= 0
+  int most_iterations = 0;               ///< in a step
   double first_time = 0, last_time = 0;  ///< times at the start and after the last step [T]
-  /// Largest residual of a step and largest overlap, in mean radii [1], >= 0.
+  /// Largest residual of a step and largest overlap, in mean radii [1].
   double largest_residual = 0, largest_overlap = 0;
-  double largest_impulse_residual = 0;  ///< largest StepReport::impulse_residual [1], >= 0
+  double largest_impulse_residual = 0;  ///< largest StepReport::impulse_residual [1]
   std::int64_t divided = 0;             ///< number of steps that were divided into parts
   std::int64_t unresolved = 0;          ///< sum of StepReport::unresolved
   std::int64_t buckling = 0;            ///< number of steps with StepReport::buckling > 1
@@ -100,13 +90,13 @@ struct StepTotals {
   double seconds = 0;
   /// Largest memory of earlier calls [MiB]. In a saved record it includes the call that saved it.
   double peak_memory_mebibytes = 0;
-  ParticleRegime regime;  ///< largest Reynolds and Stokes numbers
+  ParticleRegime regime;
   // The following members are used in a fluid only.
   double fluid_seconds = 0;  ///< sum of FluidStepReport::seconds [s]
   /// Number of steps with an advection_error above kNamedAdvectionError, and the largest one [1].
   std::int64_t advection_errors = 0;
   double largest_advection_error = 0;
-  std::uint64_t unknowns = 0;  ///< number of unknowns of the fluid solver in the last step
+  std::uint64_t unknowns = 0;  ///< of the fluid solver in the last step
   /// Estimates of the relative errors [1] of velocities and forces, at the first and at the last
   /// step at which they were estimated; < 0 if they were not estimated.
   RelativeErrors first_velocity_errors, last_velocity_errors;
@@ -128,37 +118,35 @@ struct StepTotals {
 
   /// Adds a step, which must end after the steps before. The means begin at the time `average_from`
   /// [T]. A packing jams in a step with StepReport::jams, and in one in which bodies with given
-  /// motions push and the load on them has grown by a factor in each of several steps.
+  /// motions push and the load on them has grown by a factor of 1.5 in each of ten steps.
   void add(const StepReport& report, double average_from);
-  /// Adds the values of a step that has lasted `duration` [T] to contact_means. Their number must be
-  /// the same in each step.
+  /// Adds the values of a step that has lasted `duration` [T] to contact_means; always equally
+  /// many.
   void add_means(const std::vector<double>& values, double duration);
 };
 
-/// What a run has done until a state. Each file that grows during the run has an entry in `files`.
+/// What a run has done until a state.
 struct RunRecord {
-  StepTotals totals;                     ///< sums over the steps
+  StepTotals totals;
   std::uint64_t frames = 0, flows = 0;   ///< numbers of frames, and of frames whose flow is written
   double last_frame = 0;                 ///< time of the last frame [T]; 0 without a frame
-  std::uint64_t rebounds = 0;            ///< number of rows of rebounds.csv
+  std::uint64_t rebounds = 0;            ///< rows of rebounds.csv
   std::map<std::string, FileEnd> files;  ///< for the name of each growing file where it ends
 };
 
 /// The line with the names of the columns of steps.csv: step, time [T], contacts, glued (numbers of
-/// contacts), iterations, residual and largest_overlap [mean radii], converged (0 or 1),
-/// impulse_residual [1], parts and unresolved (numbers). A run in a fluid also has dissipation
-/// [M L^2/T^3], in two dimensions [M L/T^3], apparent_viscosity [1] and fluid_seconds [s]. With
-/// inertia there are also the kinetic energy of the fluid, the Reynolds and the Courant number, and
-/// the given force.
+/// contacts, glued: gamma < 0), iterations, residual and largest_overlap [mean radii], converged (0
+/// or 1), impulse_residual [1], parts and unresolved (numbers). A run in a fluid also has
+/// dissipation [M L^2/T^3], in two dimensions [M L/T^3], apparent_viscosity [1] and fluid_seconds
+/// [s]; with inertia of the fluid also kinetic_energy_fluid [M L^2/T^2], reynolds_number and
+/// courant_number [1], and given_force_x and given_force_y [M L/T^2], energy and forces in two
+/// dimensions per length.
 std::string steps_header(const std::optional<Fluid>& fluid);
-/// The line with the names of the columns of probes.csv.
 inline constexpr std::string_view kProbesHeader = "time,name,flow,pressure\n";
 /// The rows of probes.csv of a step, one for each probe: the time of the flow [T], the name of the
-/// probe, the flow [L^2/T] and the pressure [M/(L T^2)]. FluidStepReport::probes must have an entry
-/// for each of `probes` (not checked).
+/// probe, the flow [L^2/T] and the pressure [M/(L T^2)].
 std::string probe_rows(const FluidStepReport& report, std::span<const Probe> probes);
-/// The row of steps.csv of the step with the number `step`, from 1, in the order of steps_header():
-/// numbers of the report, in its units.
+/// The row of steps.csv of the step with the number `step`, from 1, in the order of steps_header().
 std::string step_row(std::int64_t step, const StepReport& report,
                      const std::optional<Fluid>& fluid);
 
@@ -168,9 +156,8 @@ std::string record_comment(const RunRecord& record, std::int64_t step);
 /// Error(kBadInput), which names the file, if it has no such line or the line is damaged.
 RunRecord read_record(const std::string& head, const std::filesystem::path& restart);
 
-/// The text of run.json at the end of a run with these sums and this last state: one JSON object,
-/// whose keys docs/file-formats.md has, with the numbers of StepTotals in their units. A number
-/// that is not known is null.
+/// The text of run.json at the end of a run: one JSON object (docs/file-formats.md) with the
+/// numbers of StepTotals in their units. A number that is not known is null.
 std::string run_json(const ParticlesCase& c, const StepTotals& totals, const State& state);
 
 }  // namespace viscontact::particles

@@ -1,9 +1,4 @@
-// Reads the frames of a run and draws them as a page and a picture. Times [T] and lengths [L] are
-// in the units of the case. If a radius is not between 1e-37 and 3e38, the lengths that a page can
-// draw, a warning says so. An Error(kBadInput) with the path is thrown for a list without a frame,
-// a frame that is missing, damaged or of other particles, a case that has changed, and a file that
-// cannot be written. A change must keep the memory bounded, however long the run is. app/ and run/
-// use this file.
+// Reads the frames of a run and draws them, with bounded memory however long the run is.
 #include "viscontact/particles/run/particles_pages.hpp"
 
 #include <algorithm>
@@ -29,7 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The members of Playback that are the same for all frames of the case.
 Playback without_frames(const ParticlesCase& c) {
   Playback playback;
   playback.dimension = c.particles.dimension;
@@ -57,8 +51,8 @@ Playback without_frames(const ParticlesCase& c) {
   return playback;
 }
 
-/// The frame at `time` [T] in the file at `path`, without the flow. Throws Error(kBadInput) if the
-/// file has fewer particles than the case, or more particles although the case has no sources.
+/// A frame without the flow. Throws Error(kBadInput) if the file has fewer particles than the case,
+/// or more although the case has no sources.
 Frame read_frame(double time, const fs::path& path, const ParticlesCase& c,
                  std::span<const PlaneMotion> motions) {
   auto content = read_vtp(path, c.particles.dimension);
@@ -76,9 +70,8 @@ Frame read_frame(double time, const fs::path& path, const ParticlesCase& c,
   return frame;
 }
 
-/// The motions of the planes under a load at the times of all frames, from planes.csv; empty if no
-/// plane has a load. Throws Error(kBadInput) if the file does not have a row for each plane and
-/// frame.
+/// The motions at the times of all frames, from planes.csv; empty if no plane has a load. Throws
+/// Error(kBadInput) if the file does not have a row for each plane and frame.
 std::vector<std::vector<PlaneMotion>> read_plane_motions(const ParticlesCase& c,
                                                          const fs::path& folder,
                                                          std::size_t frames) {
@@ -100,7 +93,6 @@ std::vector<std::vector<PlaneMotion>> read_plane_motions(const ParticlesCase& c,
   return motions;
 }
 
-/// Reads the frames that particles.pvd in `folder` lists, and the names of the files of flows.
 /// Whenever the frames in memory take more than kMostBytes, every second frame is left out; the
 /// last frame is always kept. Throws Error(kBadInput) if there is no frame, or for a frame that is
 /// missing, damaged or of other particles.
@@ -117,7 +109,7 @@ Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
     if (!playback.ids.empty()) playback.ids = last.ids;
     if (!playback.bodies.empty()) playback.bodies.resize(last.radii.size(), -1);
   }
-  // A free choice: a page of 24 MB cannot show as much.
+  // A page of 24 MB cannot show as much as kMostBytes.
   const auto motions = read_plane_motions(c, folder, files.size());
   constexpr std::size_t kMostBytes = std::size_t{256} << 20U;
   std::size_t every = 1, kept_bytes = 0;
@@ -154,8 +146,8 @@ Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
   return playback;
 }
 
-/// The numbers in run.json in `folder`; unknown ones if the file is missing, as after an interrupted
-/// run, or lacks them.
+/// The numbers in run.json; unknown ones if the file is missing, as after an interrupted run, or
+/// lacks them.
 ParticleRegime regime_in(const fs::path& folder) {
   ParticleRegime regime;
   if (!fs::is_regular_file(folder / "run.json")) return regime;
@@ -173,11 +165,9 @@ ParticleRegime regime_in(const fs::path& folder) {
 
 }  // namespace
 
-/// Writes particles.html and particles.svg into `folder`; both get the record `provenance` of
-/// inputs and command. Throws Error(kBadInput) if a file cannot be read or written.
 void write_pages(const ParticlesCase& c, const fs::path& folder,
                  const results::Provenance& provenance, const ParticleRegime& regime) {
-  constexpr int kPanels = 4;  // number of times that the still picture shows; free choice
+  constexpr int kPanels = 4;  // number of times that the still picture shows
   auto playback = read_playback(c, folder);
   playback.note = in_words(regime);
   for (const auto& warning : warnings_of(c, regime)) playback.note += ". Warning: " + warning;
@@ -194,9 +184,6 @@ void write_pages(const ParticlesCase& c, const fs::path& folder,
                         particles_picture(playback, c.title, kPanels, &flows), provenance);
 }
 
-/// Writes the page and the picture again for a run that has ended or was interrupted. particles.pvd
-/// in `folder` names the case. Throws Error(kBadInput) as write_pages() does, and if the case is
-/// wrong or has changed, or if Viscontact did not write a file that would be replaced.
 void report_particles(const fs::path& folder) {
   for (const auto* name : {"particles.html", "particles.svg"})
     results::refuse_other_kind(folder / name, "", "result");

@@ -1,18 +1,11 @@
-// Runs a case of many particles (particles_stage.hpp): checks the inputs, continues an earlier run,
-// computes time steps, saves the state and writes the results. Times of the motion [T] are in the
-// unit of the case, computing times in s, memory in MiB; the number of threads is at least 1 (not
-// checked). A wrong case or file is an Error(kBadInput), a request for HDF5 without libhdf5 an
-// Error(kWrongUsage), a failure of the fluid solver an Error(kExternalProgram), a step that does
-// not converge an Error(kNotConverged), a stop an Error(kInterrupted). Errors of a step are thrown
-// after the results are written. A change must keep that restart.bin is written after all files
-// that a run needs to continue (Run::save()), so that a run that is killed at any time can be
-// continued. app/ and sweep/ use this file.
+// Errors of a step are thrown after the results are written. restart.bin is written last.
 #include "viscontact/particles/run/particles_stage.hpp"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -46,15 +39,14 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-/// Times of a run that differ by less than this [T] count as equal. Rounding errors of times are
-/// smaller. All steps are longer, because Simulation::step() makes no shorter steps.
+/// Times of the run closer than this [T] count as equal. It is above rounding errors, and
+/// Simulation::step() makes no shorter steps.
 double tiny_time(const ParticlesCase& c) { return 1e-6 * c.setting.time_step; }
 
 /// A run with its simulation and its files. It can be saved after any step.
 class Run {
  public:
-  /// All arguments that are references must outlive this object. `log` is the log of a new run, or
-  /// of the interrupted run that this run continues. `folder` must exist (not checked).
+  /// The references must outlive this object. `log` is new or that of the run to continue.
   Run(const ParticlesCase& c, ParticleSimulation& simulation, fs::path folder,
       const results::Provenance& provenance, RunLog& log, const StopToken& stop)
       : case_(c),
@@ -62,13 +54,14 @@ class Run {
         folder_(std::move(folder)),
         provenance_(provenance),
         log_(log),
-        stop_(stop) {}
+        stop_(stop) {
+    assert(fs::is_directory(folder_));
+  }
 
   /// Computes steps until the end time, until a stop is requested, or until a step cannot be
   /// computed. In the last case the function returns the error of this step, and the state stays
   /// that before the step; otherwise it returns null. Throws Error(kBadInput) if a file cannot be
-  /// written, and the errors of the fluid solver if it fails between two steps, while it computes a
-  /// flow or saves its state.
+  /// written, and the errors of the fluid solver if it fails between two steps.
   std::exception_ptr simulate() {
     if (log_.record().frames == 0) add_frame();
     save(with_costs(log_.record()));
@@ -90,8 +83,8 @@ class Run {
         next_frame = frame_after(report.time);
       }
       tell(report);
-      // The time between two savings [s] is a free choice. It is shorter in a fluid with inertia,
-      // because a signal can end the solver, and then the flow since the last saving is lost.
+      // The time between two savings [s] is shorter in a fluid with inertia, because a signal can
+      // end the solver, and then the flow since the last saving is lost.
       const auto& fluid = case_.setting.fluid;
       const double save_every = fluid && fluid->has_inertia() ? 10 : 60;  // [s]
       if (!is_at_end() && seconds_since(last_saved_) > save_every) save(with_costs(log_.record()));
@@ -99,13 +92,11 @@ class Run {
     return {};
   }
 
-  /// Writes all files of the run that are written at its end, and restart.bin. Returns the text of
-  /// run.json. Throws Error(kBadInput) if a file cannot be written, and the errors of the fluid
-  /// solver while it computes the last flow or saves its state.
+  /// Writes all files that are written at the end, and restart.bin. Returns the text of run.json.
   std::string write_results() {
     terminal::clear_progress();
-    // The record is taken before the last frame and its flow are added. A run that continues from
-    // here removes them, because an uninterrupted run has no such frame.
+    // The record is taken before the last frame is added, because an uninterrupted run has no such
+    // frame: a run that continues from here removes it.
     auto record = log_.record();
     const auto& state = simulation_.state();
     if (record.last_frame < state.time) add_frame();
@@ -134,21 +125,19 @@ class Run {
     results::write_output(folder_ / name, kind, text, provenance_);
   }
 
-  /// The time [T] at which the next frame after `time` [T] is due: the start of the run plus a
-  /// whole number of intervals between frames. The frame is written after the first step that
-  /// reaches this time.
+  /// The time at which the next frame after `time` is due [T]: the start of the run plus a whole
+  /// number of intervals. The frame is written after the first step that reaches this time.
   double frame_after(double time) const {
     const double first = log_.totals().first_time;
     const double interval = std::max(case_.frame_interval, case_.setting.time_step);
     return first + (std::floor((time + tiny_time(case_) - first) / interval) + 1) * interval;
   }
 
-  /// Adds the flow around the particles at the end of the run, which no step computes. An
-  /// interrupted run adds nothing, because the next step computes this flow when the run continues.
-  /// A run in a sheared cell adds nothing either: in the solver the cell keeps its shape, so that
-  /// the solver would compute the flow around images that have not moved. If the flow cannot be
-  /// computed, only a warning says so, because all steps are done. Throws Error(kInterrupted) at a
-  /// stop.
+  /// The flow at the end of the run, which no step computes. An interrupted run adds nothing,
+  /// because the next step computes this flow when the run continues; nor does a run in a sheared
+  /// cell, because the solver would compute the flow around images that have not moved. If the flow
+  /// cannot be computed, only a warning says so, because all steps are done. Throws
+  /// Error(kInterrupted) at a stop.
   void add_last_flow() {
     if (cell_of(case_.setting).is_sheared()) return;
     if (!is_at_end() || stop_.stop_requested() || !log_.lacks_flow()) return;
@@ -169,7 +158,6 @@ class Run {
     log_.add_frame(simulation_.state(), link_force_errors);
   }
 
-  /// The text of final_particles.csv, with the forces of the fluid if there is a fluid.
   std::string final_particles() {
     const auto reported = simulation_.reported_particles();
     if (!simulation_.has_fluid())
@@ -179,8 +167,7 @@ class Run {
     return write_particles(reported, FluidForces{forces, errors, case_.setting.fluid->semi_axes});
   }
 
-  /// A copy of `record` with the computing time of this call added [s], and with the larger of the
-  /// memories of earlier calls and of this call [MiB].
+  /// Adds the computing time of this call [s] and takes the larger memory [MiB].
   RunRecord with_costs(RunRecord record) {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -192,9 +179,8 @@ class Run {
     return record;
   }
 
-  /// Writes restart.bin with the present state and the record, after all other files are on the
-  /// disk. If the process is killed at any time, the files contain at least what the record says,
-  /// and the run can continue from this record.
+  /// Writes restart.bin after all other files are on the disk. The files then contain at least what
+  /// the record says, and a run that is killed at any time can continue.
   void save(const RunRecord& record) {
     log_.sync();
     // In a fluid with inertia the solver has a part of the state, the flow.
@@ -204,7 +190,6 @@ class Run {
     last_saved_ = Clock::now();
   }
 
-  /// Shows the progress on the terminal, not after each step but when it is due.
   void tell(const StepReport& report) {
     if (!progress_.is_due()) return;
     terminal::show_progress(fmt::format(
@@ -220,12 +205,11 @@ class Run {
   const results::Provenance& provenance_;
   RunLog& log_;
   StopToken stop_;
-  double first_time_ = simulation_.state().time;  // time at which this call began [T]
+  double first_time_ = simulation_.state().time;  // at which this call began [T]
   Clock::time_point begin_ = Clock::now(), last_saved_ = begin_;
   terminal::ProgressTimer progress_;
 };
 
-/// Warns if particles have jammed before bodies whose motions are given.
 void warn_of_jam(const StepTotals& record) {
   if (record.jammed > 0)
     terminal::warn(
@@ -259,7 +243,6 @@ void warn_of_buckling(const ParticlesCase& c, const StepTotals& record) {
         record.buckling, record.steps, c.setting.time_step / std::sqrt(record.largest_buckling));
 }
 
-/// Warns if steps were solved without springs across films that pull.
 void warn_of_springs(const StepTotals& record) {
   if (record.lacks_springs > 0)
     terminal::warn(
@@ -281,7 +264,6 @@ void warn_of_advection(const ParticlesCase& c, const StepTotals& record) {
         c.setting.time_step * kNamedAdvectionError / record.largest_advection_error);
 }
 
-/// Warns of gravity that points upwards.
 void warn_of_gravity(const ParticlesCase& c) {
   const auto up =
       c.particles.dimension == 1 ? 0U : static_cast<unsigned>(c.particles.dimension) - 1;
@@ -292,9 +274,8 @@ void warn_of_gravity(const ParticlesCase& c) {
         c.setting.gravity[up]);
 }
 
-/// Says on the terminal how the run ended, after its files are written. Throws Error(kInterrupted)
-/// if the run was interrupted, Error(kNotConverged) if a step missed the tolerances by more than
-/// the factor kStillAResult (particles_folder.hpp).
+/// Throws Error(kInterrupted) if the run was interrupted, Error(kNotConverged) if a step missed the
+/// tolerances by more than the factor kStillAResult.
 void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State& state,
                   const fs::path& folder, const StopToken& stop) {
   terminal::say(
@@ -355,7 +336,7 @@ void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State&
                 c.setting.solver.impulse_tolerance, c.setting.solver.max_iterations);
 }
 
-/// Warns of a fixed mesh of many unknowns, which is as fine everywhere as on the smallest particle.
+/// Warns of a fixed mesh of many unknowns, as fine everywhere as on the smallest particle.
 void warn_of_fine_mesh(const ParticlesCase& c, const Particles& particles) {
   if (!c.setting.fluid || c.setting.fluid->mesh != FluidMesh::kFixed || particles.count() == 0)
     return;
@@ -376,8 +357,7 @@ void warn_of_fine_mesh(const ParticlesCase& c, const Particles& particles) {
       unknowns, std::ceil(unknowns / 1e4));
 }
 
-/// For a run that was finished before this call: prints the messages of the call that finished it,
-/// and throws the same error.
+/// Prints the messages of the earlier call that finished the run, and throws the same error.
 void tell_finished(const ParticlesCase& c, const EarlierRun& run, const fs::path& folder, bool json,
                    const StopToken& stop) {
   if (json) fmt::print("{}", results::without_provenance(read_file(folder / "run.json")));
@@ -393,9 +373,8 @@ void write_files_of_all_frames(const ParticlesRequest& request, const ParticlesC
 
 }  // namespace
 
-/// Runs the case. Inputs are checked before a file is written. Throws the errors that the head of
-/// this file lists.
 void run_particles(const ParticlesRequest& request) {
+  assert(request.threads >= 1);
   if (request.hdf5) require_hdf5();
   const ParticlesCase c = read_particles_case(request.case_file);
   std::vector<fs::path> inputs = {c.path};

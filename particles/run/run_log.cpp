@@ -1,14 +1,8 @@
-// Writes frames (VTK), their lists (PVD) and tables (CSV), and continues the files of an
-// interrupted run (run_log.hpp). Times [T], lengths [L], impulses [M L/T] and forces [M L/T^2] are
-// in the units of the case; impulses and forces of discs in a fluid are per length. vtk.hpp,
-// link_file.hpp and contact_file.hpp in io/ list all columns. Numbers of frames and flows count
-// from 0. A file that cannot be written, is missing or was changed is an Error(kBadInput) with its
-// name; add_flow() does not check that a frame lacks its flow. A change must keep that lists and
-// tables only grow, because a run is continued at the ends of files that its record states. The
-// files in run/ use this file.
+// Frames as VTK, their lists as PVD, tables as CSV; a run is continued at the ends of its files.
 #include "viscontact/particles/run/run_log.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <fstream>
 #include <string_view>
 
@@ -36,8 +30,8 @@ void check_frames(const fs::path& folder, const FrameKind& kind, std::uint64_t c
   }
 }
 
-/// The stress if there is a domain, the forces on obstacles, and without a fluid the forces and
-/// torques on particles whose motion is given: the values of which run.json has the means.
+/// The values of which run.json has the means: the stress if there is a domain, the forces on
+/// obstacles, and without a fluid the forces and torques on particles whose motion is given.
 std::vector<double> values_to_average(const Setting& setting, const State& state) {
   std::vector<double> values;
   if (!std::holds_alternative<std::monostate>(setting.domain))
@@ -57,8 +51,6 @@ std::string list_of(const FrameKind& kind) { return std::string(kind.begin) + ".
 
 }  // namespace
 
-/// Prepares the files of a new run, and writes none of them. The settings of the case decide which
-/// lists and tables there are. `c` and `provenance` must outlive this object.
 RunLog::RunLog(const ParticlesCase& c, fs::path folder, const results::Provenance& provenance)
     : case_(c), folder_(std::move(folder)), provenance_(provenance) {
   const auto add_list = [&](const FrameKind& kind) {
@@ -80,16 +72,12 @@ RunLog::RunLog(const ParticlesCase& c, fs::path folder, const results::Provenanc
     }
 }
 
-/// Adds a file that grows: `head` is its text at the beginning, and `foot` is the text that stays
-/// at its end.
 void RunLog::add_file(const std::string& name, TextKind kind, const std::string& head,
                       const std::string& foot) {
   const auto path = folder_ / name;
   files_.try_emplace(name, path, results::output_text(path, kind, head, provenance_), foot);
 }
 
-/// Throws Error(kBadInput), which names the file, if a file is missing or differs from what the
-/// record says.
 void RunLog::check(const RunRecord& record) const {
   for (const auto& [name, file] : files_) {
     const auto end = record.files.find(name);
@@ -100,8 +88,6 @@ void RunLog::check(const RunRecord& record) const {
   check_frames(folder_, kFlowFile, record.flows);
 }
 
-/// Continues the run with this record: removes what was written after the record. Throws
-/// Error(kBadInput) as check() does, or if a file cannot be removed or shortened.
 void RunLog::resume(const RunRecord& record) {
   check(record);
   record_ = record;
@@ -110,14 +96,11 @@ void RunLog::resume(const RunRecord& record) {
   for (auto& [name, file] : files_) file.resume(record.files.at(name));
 }
 
-/// Adds a step to the sums of the record, and its rows to steps.csv, probes.csv and rebounds.csv.
-/// `state` is that at the end of the step. `rebounds` are the impacts of solids; they must be empty
-/// if the case has no restitution, otherwise std::out_of_range is thrown.
 void RunLog::add_step(const StepReport& report, const State& state,
                       std::span<const Rebound> rebounds) {
-  // Three free choices bound the size of the tables. After kMostRows steps, only one step in kOneIn
-  // has a row, and each step that has not converged. After kMostRebounds rebounds, no further
-  // rebound has a row.
+  assert(rebounds.empty() || case_.setting.laws.restitution.is_on());
+  // The tables stay below 50 MB and 80 MB. After kMostRows steps, only one step in kOneIn has a
+  // row, and each step that has not converged.
   constexpr std::int64_t kMostRows = 1000000, kOneIn = 1000;
   constexpr std::uint64_t kMostRebounds = 1000000;
   const double duration = report.time - std::max(record_.totals.last_time, case_.average_from);
@@ -137,9 +120,6 @@ void RunLog::add_step(const StepReport& report, const State& state,
   record_.rebounds += more.size();
 }
 
-/// Writes the files of a frame, and the rows of the tables at its time. `link_force_errors` has the
-/// order and units of State::link_forces [M L/T^2, torques M L^2/T^2]; it is empty if the errors
-/// are not known.
 void RunLog::add_frame(const State& state, std::span<const double> link_force_errors) {
   const auto& setting = case_.setting;
   const auto contacts = contacts_of(setting, state);
@@ -155,13 +135,12 @@ void RunLog::add_frame(const State& state, std::span<const double> link_force_er
 }
 
 void RunLog::add_flow(const FlowField& flow) {
+  assert(lacks_flow());
   write_frame(kFlowFile, record_.frames - 1, record_.last_frame,
               write_flow(flow, case_.particles.dimension == 1));
   record_.flows = record_.frames;
 }
 
-/// Writes the file of frame `number` and adds it to its list with the time `time` [T]. The file may
-/// not be on the disk before sync().
 void RunLog::write_frame(const FrameKind& kind, std::uint64_t number, double time,
                          const std::string& text) {
   const auto name = frame_name(kind, number);
@@ -171,14 +150,12 @@ void RunLog::write_frame(const FrameKind& kind, std::uint64_t number, double tim
   files_.at(list_of(kind)).append(pvd_line(time, name));
 }
 
-/// Returns when all rows and frames that were added are on the disk.
 void RunLog::sync() {
   flush_files(unflushed_);
   unflushed_.clear();
   for (auto& [name, file] : files_) file.sync();
 }
 
-/// The record of what has been written, with the end of each growing file.
 RunRecord RunLog::record() const {
   auto record = record_;
   for (const auto& [name, file] : files_) record.files[name] = file.end();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -30,7 +31,6 @@ std::string in_words(const Vector& x) {
   return fmt::format("{} {} {}", format_number(x[0]), format_number(x[1]), format_number(x[2]));
 }
 
-/// A parallelepiped: its corner and its edges [L].
 struct Cell {
   Vector corner{};
   std::array<Vector, 3> edges{};
@@ -39,8 +39,9 @@ struct Cell {
 
 /// The cell of the case at `time`; nothing without a domain. Its edge along an axis without a
 /// period is that of the domain, or of the box around it. OVITO shows no cell of volume 0, so that
-/// a case in the plane has a cell as thick as the largest disc, of radius `largest_radius`.
+/// a case in the plane has a cell as thick as the largest disc.
 std::optional<Cell> cell_at(const ParticlesCase& c, double time, double largest_radius) {
+  assert(largest_radius > 0);
   Cell cell;
   Vector to{};
   if (const auto* disc = std::get_if<DiscDomain>(&c.setting.domain)) {
@@ -78,12 +79,12 @@ std::optional<Cell> cell_at(const ParticlesCase& c, double time, double largest_
   return cell;
 }
 
-/// A column or columns of the file that are an array of the points of a frame.
+/// A property of the particles: an array of the points of a frame, and its columns in the file.
 struct Column {
-  const char* array;  ///< its name in a frame
-  const char* name;   ///< its name in the file
-  std::size_t count;  ///< numbers of a particle
-  bool is_whole;      ///< whether they are whole numbers
+  const char* array;  ///< in a frame
+  const char* name;   ///< in the file
+  std::size_t count;  ///< of a particle
+  bool is_whole;
 };
 
 /// Reads frames and writes them as text.
@@ -102,7 +103,6 @@ class XyzText {
     is_turned_ = last.has_array("PointData", "orientation") || last.has_array("PointData", "angle");
   }
 
-  /// The lines of a frame.
   std::string of(const VtkReader& frame, double time) const {
     const auto radii = frame.array<double>("PointData", "radius");
     const auto points = numbers(frame, {"Points", "", 3, false}, radii.size(), "Points");

@@ -1,11 +1,8 @@
-// Decides where each time step ends: on a grid of points at the distance h, except near jumps of
-// forces, torques or velocities of planes (step_times.hpp says why). simulation.cpp and fluid/ use
-// it. The times and the length h > 0 of a step [T] are in the unit of the case file; jumps are
-// sorted. Nothing is checked or thrown. A change must keep all ends of steps bit for bit, so that
-// no constant of this file is a free choice.
+// Ends of time steps. Every constant decides the bits of results.
 #include "viscontact/particles/steps/step_times.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace viscontact::particles {
@@ -41,6 +38,8 @@ std::vector<double> jump_times(const Setting& setting) {
 }
 
 double leapfrog_step_end(double time, double grid_end, double h, std::span<const double> jumps) {
+  assert(h > 0);
+  assert(std::ranges::is_sorted(jumps));
   const auto next = std::ranges::upper_bound(jumps, time + kTiny * h);
   const double until_jump = next == jumps.end() ? 2 * h : *next - time;
   // A step of the length h that begins at most 1.125 h before a jump would end after the jump, or
@@ -56,6 +55,7 @@ double leapfrog_step_end(double time, double grid_end, double h, std::span<const
 }
 
 std::optional<StepInterval> StepGrid::next(const State& state, double end) const {
+  assert(time_step_ > 0);
   const double tiny = kTiny * time_step_;
   if (!(end > state.time + tiny)) return std::nullopt;
   const double on_grid =

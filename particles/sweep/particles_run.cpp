@@ -1,16 +1,10 @@
-// Runs the case of each row of a sweep and keeps its results, in the units of the case. Rows are
-// numbered from 0 (`index`, less than the number of rows), computing times are in s, and a run has
-// at least 1 thread; neither is checked. A run that fails throws nothing: the results of its row
-// say why. A stop is an Error(kInterrupted); a file that cannot be read or written, and a row that
-// another process computes at the same time, are an Error(kBadInput). A change must keep that
-// result.json is written after the run and records the case and the version. Then a process may be
-// killed at any time, and no result of another case is taken. particles_sweep_stage.cpp uses this
-// file.
+// result.json is written after the run and records the case and the version.
 #include "viscontact/particles/sweep/particles_run.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -37,8 +31,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Values = std::map<std::string, double>;
 
-/// The number in `json`, or the largest number if `json` has several, such as the errors at the
-/// first and at the last step; nothing if `json` has no finite number.
+/// The largest number if `json` has several, such as the errors at the first and at the last step;
+/// nothing if `json` has no finite number.
 std::optional<double> number_of(const Json& json) {
   if (json.is_number() && std::isfinite(json.get<double>())) return json.get<double>();
   std::optional<double> largest;
@@ -49,8 +43,7 @@ std::optional<double> number_of(const Json& json) {
   return largest;
 }
 
-/// Adds the values in the last row of the file steps.csv at `path` to `values`, for those of its
-/// columns that `columns` names. Throws Error(kBadInput) if the file cannot be read.
+/// Adds the values in the last row of steps.csv at `path` for those columns that `columns` names.
 void add_last_step(const fs::path& path, const std::vector<std::string>& columns, Values& values) {
   std::istringstream text(read_file(path));
   std::vector<std::string> names, last;
@@ -62,15 +55,13 @@ void add_last_step(const fs::path& path, const std::vector<std::string>& columns
       values[names[i]] = *value;
 }
 
-/// The values of the columns of a row, by their names, from steps.csv and run.json in the folder
-/// `run`, in the units of the case; columns without a finite value are left out. If the case `c`
-/// has an arrangement of particles, there is also the fraction of the domain that they cover [1].
-/// Throws Error(kBadInput) if a file cannot be read.
+/// The values by the names of the columns, from steps.csv and run.json in the folder `run`; columns
+/// without a finite value are left out. If the case `c` has an arrangement of particles, there is
+/// also the fraction of the domain that they cover [1].
 Values values_of(const ParticlesCase& c, const std::vector<std::string>& columns,
                  const fs::path& run) {
   Values values;
   add_last_step(run / "steps.csv", columns, values);
-  // run.json decides if both files have a value, because its values are those of the whole run.
   read_json(run / "run.json", [&](const Json& json) {
     for (const auto& column : columns)
       if (json.contains(column))
@@ -83,7 +74,6 @@ Values values_of(const ParticlesCase& c, const std::vector<std::string>& columns
   return values;
 }
 
-/// The text without each occurrence of `part`.
 std::string without(std::string text, const std::string& part) {
   for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at))
     text.erase(at, part.size());
@@ -103,11 +93,8 @@ void remove_the_rest(const fs::path& run) {
 
 }  // namespace
 
-/// The folder OUTPUT.runs for the file of rows OUTPUT; nothing is made on the disk.
 fs::path runs_folder(const fs::path& output) { return output.string() + ".runs"; }
 
-/// `sweep` must outlive this object. `keep_all` is true if all files of runs that succeed are kept;
-/// otherwise only run.json and steps.csv are kept. `start_solver` may be empty without a fluid.
 ParticlesRuns::ParticlesRuns(const ParticlesSweep& sweep, const fs::path& output,
                              std::string version, int threads, bool keep_all,
                              StartFluidSolver start_solver)
@@ -116,18 +103,17 @@ ParticlesRuns::ParticlesRuns(const ParticlesSweep& sweep, const fs::path& output
       version_(std::move(version)),
       threads_(threads),
       keep_all_(keep_all),
-      start_solver_(std::move(start_solver)) {}
+      start_solver_(std::move(start_solver)) {
+  assert(threads >= 1);
+}
 
-/// The folder of a row: POINT, or POINT-DRAW if each point of the sweep is repeated with several
-/// random arrangements (draws); both numbers count from 0.
 fs::path ParticlesRuns::folder_of(std::uint64_t index) const {
+  assert(index < sweep_.points().rows());
   const auto draws = sweep_.points().draws;
   return folder_ /
          (draws > 0 ? fmt::format("{}-{}", index / draws, index % draws) : std::to_string(index));
 }
 
-/// The results of a row; nothing if its run has not ended, or if result.json is damaged or belongs
-/// to another case or version.
 std::optional<sweep::RowResults> ParticlesRuns::ended(std::uint64_t index) const {
   const auto path = folder_of(index) / "result.json";
   if (!fs::is_regular_file(path)) return {};
@@ -141,13 +127,11 @@ std::optional<sweep::RowResults> ParticlesRuns::ended(std::uint64_t index) const
   }
 }
 
-/// True if the run of the row has ended without a failure.
 bool ParticlesRuns::has_succeeded(std::uint64_t index) const {
   const auto results = ended(index);
   return results && results->failure.empty();
 }
 
-/// The computing time of the run of a row [s]; 0 if run.json is missing or damaged.
 double ParticlesRuns::seconds(std::uint64_t index) const {
   const auto path = folder_of(index) / "run" / "run.json";
   if (!fs::is_regular_file(path)) return 0;
@@ -158,8 +142,6 @@ double ParticlesRuns::seconds(std::uint64_t index) const {
   }
 }
 
-/// Computes a row, continues its interrupted run, or returns the results of a run that succeeded. A
-/// run that failed before is run again.
 sweep::RowResults ParticlesRuns::compute(std::uint64_t index, const StopToken& stop) const {
   if (auto results = ended(index); results && results->failure.empty()) return *results;
   stop.throw_if_stop_requested();
@@ -167,7 +149,6 @@ sweep::RowResults ParticlesRuns::compute(std::uint64_t index, const StopToken& s
   const auto folder = folder_of(index), run = folder / "run", file = folder / "case.toml";
   const LockedFolder lock(
       folder, "is being computed by another process; wait until it has ended, or write elsewhere");
-  // Another process may have ended the run since the first call of ended().
   if (auto results = ended(index); results && results->failure.empty()) return *results;
   const auto text = sweep_.case_text(index);
   if (!fs::is_regular_file(file) || read_file(file) != text) write_file(file, text);

@@ -1,19 +1,12 @@
-// The stages of sweeps of particles (particles_sweep_stage.hpp): one case is simulated with other
-// values of its numbers, and each simulation gives a row. Computing times are in [s], other times
-// in the unit of the case. Rows are numbered from 0; `jobs` >= 1, and the number of a task less
-// than that of all tasks, are not checked. An Error(kNotConverged) is thrown if all runs fail, or
-// if rows are missing when they are gathered. A file that cannot be read or written is an
-// Error(kBadInput), a stop an Error(kInterrupted), a Slurm that fails an Error(kExternalProgram),
-// an open quotation mark in its options an Error(kWrongUsage). A change must keep runs in their
-// folders until the user deletes them. Then a sweep that gets more draws (random arrangements of
-// the particles, with which each point is repeated) computes only the new draws. app/ uses this
-// file.
+// Runs stay in their folders until the user deletes them, so that a sweep with more draws computes
+// only the new ones.
 #include "viscontact/particles/sweep/particles_sweep_stage.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -34,10 +27,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The runs of a sweep, of which `rows` are to be computed. If there are fewer rows than jobs, each
-/// run has several threads; results do not depend on the number of threads.
+/// The runs of `rows` rows. If there are fewer rows than jobs, each run has several threads;
+/// results do not depend on it.
 ParticlesRuns runs_of(const ParticlesSweep& sweep, const ParticlesSweepRequest& request,
                       std::uint64_t rows) {
+  assert(request.jobs >= 1);
   const auto runs_at_once =
       std::clamp<std::uint64_t>(rows, 1, static_cast<std::uint64_t>(request.jobs));
   return {sweep,
@@ -48,21 +42,18 @@ ParticlesRuns runs_of(const ParticlesSweep& sweep, const ParticlesSweepRequest& 
           request.start_solver};
 }
 
-/// Shows on the terminal that `done` of `size` rows are finished, at most as often as `timer` says.
 void show_finished_rows(terminal::ProgressTimer& timer, std::uint64_t done, std::uint64_t size) {
   if (timer.is_due()) terminal::show_progress(fmt::format("sweep: {} of {} rows", done, size));
 }
 
-/// The files that the rows depend on, for their provenance: the case, and the CSV file of particles
-/// that it names, if any.
 results::Inputs inputs_of(const ParticlesSweep& sweep) {
   results::Inputs inputs{{sweep.case_path()}, {}};
   if (!sweep.particles_file().empty()) inputs.given.push_back(sweep.particles_file());
   return inputs;
 }
 
-/// If there are draws, writes the table of means over the draws of each point, unless a file with
-/// this content exists. `output` is the path of the file of the rows.
+/// Writes the table of means over draws, unless a file with this content exists. `output` is the
+/// path of the file of the rows.
 void write_means(const ParticlesSweep& sweep, const std::string& output) {
   if (sweep.points().draws == 0) return;
   const auto path = path_of_means(output);
@@ -74,8 +65,7 @@ void write_means(const ParticlesSweep& sweep, const std::string& output) {
 }
 
 /// Calls `run` for each row that is not in the file of the rows, writes this file and the table of
-/// means, and says on the terminal how many runs failed. Throws Error(kBadInput) if a file cannot
-/// be read or written, Error(kInterrupted) at a stop, and Error(kNotConverged) if every run failed.
+/// means, and says on the terminal how many runs failed. Throws the errors of sweep_particles().
 void write_tables(const ParticlesSweep& sweep, const ParticlesSweepRequest& request,
                   ParticlesRunner run) {
   const auto& output = request.output;
@@ -98,8 +88,7 @@ void write_tables(const ParticlesSweep& sweep, const ParticlesSweepRequest& requ
                 outcome.first_failure);
 }
 
-/// The numbers of the rows whose run has not ended, increasing. If `failed` is true, also those of
-/// the rows whose run has failed.
+/// The numbers of the rows whose run has not ended or, if `failed` is true, has failed; increasing.
 std::vector<std::uint64_t> missing_rows(const ParticlesSweep& sweep, const ParticlesRuns& runs,
                                         bool failed) {
   std::vector<std::uint64_t> missing;
@@ -108,28 +97,25 @@ std::vector<std::uint64_t> missing_rows(const ParticlesSweep& sweep, const Parti
   return missing;
 }
 
-/// Seconds since a time.
 double seconds_since(std::chrono::steady_clock::time_point time) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - time).count();
 }
 
-/// The state from which another simulation can go on.
 State saved_state(ParticleSimulation& simulation) {
   return simulation.has_fluid() ? simulation.state_to_save() : simulation.state();
 }
 
-/// The computing time of a step of the case [s], measured at one time of the motion.
 struct StepCost {
-  double time = 0;     ///< [T]
-  double seconds = 0;  ///< mean of the steps there
+  double time = 0;     ///< of the motion [T]
+  double seconds = 0;  ///< computing time of a step there [s]
 };
 
-/// Computes steps of the case from `state` for about a second, or to the end. The very first step
-/// of a motion is not in the mean, because in a fluid it also estimates errors; `first` gets its
-/// seconds. `state` gets the state after these steps.
+/// Computes steps from `state` for about a second, or to the end; `state` gets the state after
+/// them. The very first step of a motion is not in the mean, because in a fluid it also estimates
+/// errors; `first` gets its seconds.
 StepCost cost_of_steps(const ParticlesCase& c, const StartFluidSolver& start_solver,
                        const StopToken& stop, State& state, double& first) {
-  constexpr double kEnough = 1;  // [s], a free choice; a step may take longer
+  constexpr double kEnough = 1;  // [s]; a step may take longer
   StepCost cost{state.time, 0};
   ParticleSimulation simulation(c.setting, std::move(state), 1, start_solver, stop);
   auto start = std::chrono::steady_clock::now();
@@ -147,13 +133,13 @@ StepCost cost_of_steps(const ParticlesCase& c, const StartFluidSolver& start_sol
   return cost;
 }
 
-/// Moves `state` on to `time` [T] or, if that takes more than about four seconds, not so far: a fall
-/// without contacts takes little time. The steps are longer than those of the case, because only the
-/// kind of the motion matters. A step that cannot be computed ends this.
+/// Moves `state` on to `time` [T] or, if that takes more than about four seconds, not so far: a
+/// fall without contacts takes little time. The steps are longer than those of the case, because
+/// only the kind of the motion matters. A step that cannot be computed ends this.
 void move_on_roughly(const ParticlesCase& c, const StartFluidSolver& start_solver,
                      const StopToken& stop, double time, State& state) {
-  // Seconds, and how many times as long a step is: free choices. A much longer step may take
-  // minutes, because many particles meet in it.
+  // Seconds, and how many times as long a step is. A much longer step may take minutes, because
+  // many particles meet in it.
   constexpr double kLongest = 4, kLonger = 4;
   auto setting = c.setting;
   setting.time_step *= kLonger;
@@ -165,14 +151,13 @@ void move_on_roughly(const ParticlesCase& c, const StartFluidSolver& start_solve
     if (error.kind() != ErrorKind::kNotConverged) throw;
   }
   state = saved_state(simulation);
-  // The steps of the case continue from here.
   state.grid_time = state.time;
   state.grid_step = state.steps;
 }
 
-/// Sets the computing time of a row in `run` [s] from steps of the first row at the beginning, in
-/// the middle and at the end of its motion, because particles that have come together take longer
-/// than those that fall. Between these times the cost of a step is linear.
+/// Times steps of the first row at the beginning, in the middle and at the end of its motion,
+/// because particles that have come together take longer than those that fall. Between these times
+/// the cost of a step is linear.
 void measure_steps(const ParticlesSweep& sweep, const StartFluidSolver& start_solver,
                    const StopToken& stop, pipeline::DryRun& run) {
   const auto c = sweep.case_of(0);
@@ -201,7 +186,6 @@ void measure_steps(const ParticlesSweep& sweep, const StartFluidSolver& start_so
 
 }  // namespace
 
-/// Computes the missing rows and writes the tables.
 void sweep_particles(const ParticlesSweep& sweep, const ParticlesSweepRequest& request) {
   const auto runs = runs_of(sweep, request, sweep.points().rows());
   write_tables(sweep, request, [&](std::uint64_t index, const StopToken& stop) {
@@ -209,10 +193,9 @@ void sweep_particles(const ParticlesSweep& sweep, const ParticlesSweepRequest& r
   });
 }
 
-/// Computes the rows of one task, those whose number modulo share.count is share.number, and writes
-/// no table. Throws Error(kNotConverged) if every run of the task failed.
 void share_of_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& request,
                     const pipeline::Share& share) {
+  assert(share.number < share.count);
   if (share.number >= sweep.points().rows()) return;
   const std::uint64_t size = (sweep.points().rows() - share.number + share.count - 1) / share.count;
   const auto runs = runs_of(sweep, request, size);
@@ -239,7 +222,6 @@ void share_of_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& re
                 runs.folder().string());
 }
 
-/// Writes the tables from the runs that have ended, and computes nothing.
 void gather_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& request) {
   const auto runs = runs_of(sweep, request, sweep.points().rows());
   const auto missing = missing_rows(sweep, runs, false);
@@ -263,8 +245,6 @@ void gather_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& requ
   });
 }
 
-/// Submits a Slurm job with the tasks that have rows to compute. `options` are further words of the
-/// command line that each task runs.
 void submit_sweep(const ParticlesSweep& sweep, const pipeline::ArrayRequest& request,
                   const std::vector<std::string>& options) {
   check_output_file(request.output);
@@ -286,8 +266,6 @@ void submit_sweep(const ParticlesSweep& sweep, const pipeline::ArrayRequest& req
   pipeline::submit(job, request);
 }
 
-/// The estimate of the computing time of a row [s]: the mean over the rows that have succeeded, or,
-/// if there are none, an extrapolation from first steps. Writes nothing.
 pipeline::DryRun dry_run(const ParticlesSweep& sweep, const std::string& output,
                          const StartFluidSolver& start_solver, const StopToken& stop) {
   const ParticlesRuns runs(sweep, output, VISCONTACT_VERSION, 1, false, {});

@@ -1,15 +1,10 @@
-// Checks a case before its table of forces is computed: the number of gaps, the parameters of the
-// models, and the gaps [L], > 0, that the motion reaches. A fault of the case throws
-// Error(kBadInput), a stop Error(kInterrupted). If the motion will reach gaps outside
-// tabulation.gaps later, the user only gets a warning. run_stages.cpp and simulate_stage.cpp call
-// these functions; run_checks.hpp says when an initial gap is refused. tabulation.gaps must not be
-// empty (not checked). A change must keep the checks quick, because `run` makes them before each
-// tabulation.
+// The number of gaps, the parameters of the models, and the gaps that the motion reaches.
 #include "viscontact/pipeline/simulate/run_checks.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <set>
 
 #include "viscontact/common/error.hpp"
@@ -45,6 +40,7 @@ void check_run(const case_file::Case& c, const std::vector<std::string>& models)
   const auto& request = case_file::required_fit(c);
   const auto& motion = case_file::required_motion(c);
   const auto exact = exact_drag(c);
+  assert(!gaps.empty());
   const std::size_t different = std::set(gaps.begin(), gaps.end()).size();
   const std::size_t terms =
       request.settings.basis.terms.size() - (request.settings.fix_leading ? 1 : 0);
@@ -77,7 +73,7 @@ void check_run(const case_file::Case& c, const std::vector<std::string>& models)
 
 void warn_of_gaps_outside(const case_file::Case& c, const std::vector<std::string>& models,
                           const StopToken& stop) {
-  constexpr double kMostSteps = 1e6;  // free choice; so many steps take about a second per model
+  constexpr double kMostSteps = 1e6;  // so many steps take about a second per model
   const auto& tabulation = case_file::required_tabulation(c);
   const auto& request = case_file::required_fit(c);
   reduced_model::Motion motion = case_file::required_motion(c);
@@ -86,6 +82,7 @@ void warn_of_gaps_outside(const case_file::Case& c, const std::vector<std::strin
   for (const auto& parameter : reduced_model::model_parameters())
     if (parameter.is_time_step && motion.end_time > kMostSteps * motion.parameter(parameter))
       return;
+  assert(!tabulation.gaps.empty());
   const auto [smallest, largest] = std::ranges::minmax(tabulation.gaps);
   const auto exact = exact_drag(c);
   std::string below, above;

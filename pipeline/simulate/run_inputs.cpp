@@ -1,10 +1,4 @@
-// Checks and writes the copies of a run's inputs in its folder, and makes the comment lines of
-// trajectories that identify these inputs. Hashes are SHA-256 in hexadecimal digits; there are no
-// other numbers. Error(kBadInput) is thrown if a copy would replace a file of the user, or if a
-// file cannot be read or written. A trajectory that cannot be read counts as one that was made from
-// other inputs. run_stages.cpp and simulate_stage.cpp call these functions. A change must keep the
-// order in which write_copies() writes (run_inputs.hpp says why). A change of the key or the value
-// of a comment makes `run` simulate again all cases, so neither is a free choice.
+// Checks and writes the copies of a run's inputs, and makes the comments that identify them.
 #include "viscontact/pipeline/simulate/run_inputs.hpp"
 
 #include <algorithm>
@@ -23,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Throws Error(kBadInput) if `copy` exists in a folder without a run and differs from `text` in
-/// more than the record of how it was made. `kind` names the kind of file in the message.
+/// more than the record of how it was made.
 void check_copy(const results::RunFolder& run, const fs::path& copy, const std::string& text,
                 std::string_view kind) {
   if (!fs::is_regular_file(copy) || holds_a_run(run)) return;
@@ -57,6 +51,8 @@ void check_fit_copy(const results::RunFolder& run, const std::string& fit_text) 
 
 void write_copies(const results::RunFolder& run, const case_file::Case& c,
                   const std::string& fit_text) {
+  // The folder comes first: if the run is interrupted below, holds_a_run() is true, so that the
+  // next run may replace the copies.
   make_folder(run.trajectories());
   write_file(run.case_file(), c.text);
   for (const auto& file : c.force_files) write_file(run.beside_case(file), read_file(file));
@@ -65,6 +61,7 @@ void write_copies(const results::RunFolder& run, const case_file::Case& c,
 
 namespace {
 
+// Another key or value of a comment makes `run` simulate all cases again.
 constexpr const char* kBelowKey = "drag below the fit";
 constexpr const char* kAboveKey = "drag above the fit";
 
@@ -105,7 +102,7 @@ bool is_simulated(const results::RunFolder& run, const std::string& model,
     // gaps; then the trajectory must lack the keys, too.
     return same(kBelowKey) && same(kAboveKey) &&
            std::ranges::all_of(identity, [&](const auto& line) { return same(line.first); });
-  } catch (const Error&) {  // the file is not a trajectory
+  } catch (const Error&) {
     return false;
   }
 }

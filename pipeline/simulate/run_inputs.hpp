@@ -1,10 +1,4 @@
-// Keeps the inputs of a run with its results. The inputs (case, files of sampled external forces,
-// fit of the drag) are copied into the run's folder, so that the folder alone repeats the run.
-// Comments of a trajectory say from which inputs it was made, so that `run` can decide whether it
-// is up to date. The only numbers here are hashes (SHA-256, in hexadecimal digits). The other files
-// of pipeline/ call these functions, which throw Error(kBadInput) if a file cannot be read or
-// written (except is_simulated()). A change must keep that a copy never replaces a file of the
-// user, and that the comments identify everything that alters a trajectory.
+// The inputs of a run that are kept with its results, so that the folder alone repeats the run.
 #pragma once
 
 #include <string>
@@ -16,38 +10,34 @@
 
 namespace viscontact::pipeline {
 
-/// True if Viscontact has simulated into this folder before: the sub-folder trajectories/ exists
-/// and contains a file that Viscontact wrote, or is empty because the run was interrupted. Throws
+/// True if Viscontact has simulated into this folder before: the sub-folder trajectories/ contains
+/// a file that Viscontact wrote, or is empty because the run was interrupted. Throws
 /// std::filesystem::filesystem_error if the sub-folder cannot be listed.
 bool holds_a_run(const results::RunFolder& run);
 
 /// Throws Error(kBadInput) if a copy of the case or of its force files would replace a different
-/// file of the same name in a folder without a run, because that file is the user's. In a folder
-/// with a run (holds_a_run()), that file is the copy that the earlier run made, and it may be
-/// replaced.
+/// file of the same name in a folder without a run, because that file is the user's, or if a file
+/// cannot be read.
 void check_case_copies(const results::RunFolder& run, const case_file::Case& c);
 
-/// Throws Error(kBadInput) if a copy of the fit, whose text is `fit_text`, would replace a
-/// different file fit.json in a folder without a run, because that file is the user's.
+/// Does what check_case_copies() does for the copy of the fit, fit.json.
 void check_fit_copy(const results::RunFolder& run, const std::string& fit_text);
 
 /// Makes the folder of trajectories, then writes the copies of the case, its force files and the
-/// fit. A change must keep this order: the run can be interrupted in this function, and
-/// holds_a_run() must then be true, so that the next run may replace the copies.
+/// fit. Throws Error(kBadInput) if a file cannot be read or written.
 void write_copies(const results::RunFolder& run, const case_file::Case& c,
                   const std::string& fit_text);
 
-/// The comment lines "# key: value" that identify the inputs of a trajectory: hashes of the case,
-/// of the fit (the text `fit_text`) and of the force files, the choice of the drag outside the
-/// fit's interval, the revision of the models and the version of Viscontact. Without force files
-/// there is no key `force`. If no formula for the drag below (or above) the interval was chosen,
-/// there is no key for that side.
+/// The comment lines that identify everything that alters a trajectory: hashes (SHA-256) of the
+/// case, of the fit and of the force files, the choice of the drag outside the fit's interval, the
+/// revision of the models and the version of Viscontact. Throws Error(kBadInput) if a force file
+/// cannot be read.
 CsvComments identity_of_trajectory(const case_file::Case& c, const std::string& fit_text,
                                    const lubrication::OutsideInterval& outside);
 
 /// True if the folder has a trajectory of the model with all comments of `identity`, and with no
 /// comment on the drag outside the fit's interval that `identity` lacks; other comments may differ.
-/// False if there is no trajectory or if it cannot be read. No Error is thrown.
+/// False if there is no trajectory or if it cannot be read.
 bool is_simulated(const results::RunFolder& run, const std::string& model,
                   const CsvComments& identity);
 

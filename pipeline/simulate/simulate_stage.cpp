@@ -1,10 +1,4 @@
-// Chooses the fit of the drag, runs the models of motion of a case and writes their results. Gaps
-// [L], >= 0, times [T] and velocities [L/T] are in the units of the case. A drag that is not given
-// and a wrong SOURCE_DATE_EPOCH are an Error(kWrongUsage). A wrong case or fit, and a file of the
-// user that would be replaced, are an Error(kBadInput), a stop an Error(kInterrupted). If models
-// fail, the error of the first of them is thrown after the results of the others are written.
-// pipeline/, app/ and python/ use this file. A change must keep the order of writing in
-// write_simulated().
+// Chooses the fit of the drag, runs the models of motion of a case and writes their results.
 #include "viscontact/pipeline/simulate/simulate_stage.hpp"
 
 #include <fmt/format.h>
@@ -29,13 +23,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The effect of the errors of the fit on the motion without inertia, as JSON: how uncertain the
-/// gap [L] is at times [T]. The text is empty if the fit is exact. It is also empty if this motion
-/// cannot be computed; then a warning says why. Throws Error(kInterrupted) at a stop.
+/// The text of uncertainty.json. It is empty if the fit is exact, or if the motion cannot be
+/// computed; then a warning says why. Throws Error(kInterrupted) at a stop.
 std::string uncertainty_of(const reduced_model::Motion& motion, const lubrication::Fit& fit,
                            const lubrication::OutsideInterval& outside) {
-  // Number of times at which the report shows how uncertain the gap is; any number >= 2 works, but
-  // docs/file-formats.md states this number.
+  // Number of times at which the report shows how uncertain the gap is; docs/file-formats.md states
+  // it.
   constexpr std::size_t kTimes = 81;
   if (lubrication::is_exact_plane(fit)) return "";
   try {
@@ -48,10 +41,9 @@ std::string uncertainty_of(const reduced_model::Motion& motion, const lubricatio
   }
 }
 
-/// The end of an error message, which says up to which gaps [L] a model would move outside the
-/// interval of the fit. For this estimate, the drag outside the interval is computed by the
-/// formulas of OutsideInterval::with_limits(). The text is empty if the model stays inside the
-/// interval, or if its motion cannot be computed with these formulas.
+/// The end of an error message, which says up to which gaps a model would move outside the interval
+/// of the fit, by the formulas of OutsideInterval::with_limits(). The text is empty if it would
+/// not, or if its motion cannot be computed with these formulas.
 std::string estimate_of_gaps(const reduced_model::ModelChoice& choice,
                              const reduced_model::Motion& motion, const lubrication::Fit& fit,
                              const lubrication::OutsideInterval& outside) {
@@ -75,9 +67,8 @@ std::string estimate_of_gaps(const reduced_model::ModelChoice& choice,
   return text;
 }
 
-/// The record of a model for which reduced_model::simulate() threw `error`. To an error of kind
-/// kBadInput the text of estimate_of_gaps() is added, because a gap outside the interval of the fit
-/// may be its cause.
+/// The record of a model that threw `error`. To an error of kind kBadInput estimate_of_gaps() is
+/// added, because a gap outside the interval of the fit may be its cause.
 results::FailedModel failure_of(const reduced_model::ModelChoice& choice, const Error& error,
                                 const reduced_model::Motion& motion, const lubrication::Fit& fit,
                                 const lubrication::OutsideInterval& outside) {
@@ -89,9 +80,8 @@ results::FailedModel failure_of(const reduced_model::ModelChoice& choice, const 
   return {choice.name, reason, error.kind(), {}};
 }
 
-/// Reads the fit and scales it to radius [L] and viscosity [M/(L T)] of the case. If the fit has
-/// another radius or viscosity, a message says so. Throws Error(kBadInput) if the text is no fit or
-/// the fit cannot be scaled.
+/// Reads the fit and scales it to the case. If it has another radius or viscosity, a message says
+/// so. Throws Error(kBadInput) if the text is no fit or the fit cannot be scaled.
 lubrication::Fit fit_of_text(const case_file::Case& c, const FitFile& file) {
   auto fit = lubrication::parse_fit(file.text, file.path.string());
   if (!equal_up_to_rounding(fit.viscosity, c.viscosity) ||
@@ -104,9 +94,8 @@ lubrication::Fit fit_of_text(const case_file::Case& c, const FitFile& file) {
   return case_file::fit_for(c, std::move(fit), file.path);
 }
 
-/// Adds comments to the trajectory that say how it was computed: `time_step` ([T] or words),
-/// `rows_computed` and `film_from_gamma_formula`. Drops rows if the case asks for fewer rows
-/// (motion.output_rows > 0).
+/// Adds comments that say how the trajectory was computed, and drops rows if the case asks for
+/// fewer.
 void finish(reduced_model::Trajectory& trajectory, const reduced_model::ModelChoice& choice,
             const reduced_model::Motion& motion, const lubrication::LubricationForce& force) {
   auto& comments = trajectory.provenance;
@@ -125,15 +114,12 @@ void finish(reduced_model::Trajectory& trajectory, const reduced_model::ModelCho
 
 }  // namespace
 
-/// The case file, then the files of external forces that its motion reads.
 std::vector<fs::path> files_of_motion(const case_file::Case& c) {
   std::vector<fs::path> files = {c.path};
   files.insert(files.end(), c.force_files.begin(), c.force_files.end());
   return files;
 }
 
-/// The names of the models to run: `asked`, or those of the case, or the default models. Unknown
-/// names are not refused here.
 std::vector<std::string> models_to_run(const case_file::Case& c, std::vector<std::string> asked) {
   if (asked.empty()) asked = c.models;
   if (asked.empty())
@@ -141,9 +127,6 @@ std::vector<std::string> models_to_run(const case_file::Case& c, std::vector<std
   return asked;
 }
 
-/// Runs the models, in the order of models_to_run(), and writes nothing. `outside` says which drag
-/// is used outside the interval of gaps of the fit. A model that fails does not stop the others; if
-/// all fail, the error of the first is thrown.
 Simulated simulate_case(const case_file::Case& c, const FitFile& fit_file,
                         const std::vector<std::string>& models,
                         const lubrication::OutsideInterval& outside, const StopToken& stop) {
@@ -189,10 +172,6 @@ Simulated simulate_case(const case_file::Case& c, const FitFile& fit_file,
   return simulated;
 }
 
-/// Writes the results into the folder of the run: first copies of case and fit, then
-/// uncertainty.json, then trajectories, then the record of failed models. All get the record
-/// `provenance`. Files of the user are not looked for. Throws Error(kBadInput) if a file cannot be
-/// written or removed.
 void write_simulated(const results::RunFolder& run, const case_file::Case& c,
                      const Simulated& simulated, const results::Provenance& provenance) {
   write_copies(run, c, simulated.fit_text);
@@ -200,8 +179,8 @@ void write_simulated(const results::RunFolder& run, const case_file::Case& c,
     remove_file(run.uncertainty());
   else
     results::write_output(run.uncertainty(), TextKind::kJson, simulated.uncertainty, provenance);
-  // The trajectories are written last, because `run` takes a trajectory as the sign that copies and
-  // uncertainty.json are written.
+  // Because `run` takes a trajectory as the sign that copies and uncertainty.json are written,
+  // trajectories follow them.
   for (const auto& trajectory : simulated.trajectories)
     results::write_output(run.trajectory(trajectory.model), TextKind::kHashComment,
                           reduced_model::write_trajectory(trajectory), provenance);
@@ -228,9 +207,6 @@ void write_simulated(const results::RunFolder& run, const case_file::Case& c,
   terminal::say("simulate: {} models", simulated.trajectories.size());
 }
 
-/// Path and text of the file fit.json that stands for the exact drag near a plane. It is not
-/// written here. If such a file exists and has the same numbers, its text is returned, so that the
-/// file keeps the time at which it was made.
 FitFile exact_fit_file(const case_file::Case& c, const results::RunFolder& run,
                        const results::Provenance& provenance) {
   const std::string text =
@@ -239,8 +215,6 @@ FitFile exact_fit_file(const case_file::Case& c, const results::RunFolder& run,
   return {run.fit(), results::output_text(run.fit(), TextKind::kJson, text, provenance)};
 }
 
-/// Chooses the fit (`request.fit`, that of the case, the exact drag, or fit.json in the folder),
-/// runs the models and writes their results.
 void simulate_stage(const case_file::Case& c, const SimulateRequest& request) {
   if (c.gravity.value_or(0) > 0)
     terminal::warn(

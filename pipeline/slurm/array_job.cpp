@@ -1,16 +1,10 @@
-// Makes an array job of the workload manager Slurm (array_job.hpp): its tasks, the script that each
-// task runs, and the calls of Slurm's programs squeue and sbatch. Each task runs `viscontact
-// COMMAND --task K/T`. T >= 1 is the number of tasks, at most 1000 unless the user gives the
-// number; K is the number of the task, from 0 to T - 1. None of these numbers is checked. A program
-// of Slurm that fails is an Error(kExternalProgram), a second job and a file that cannot be written
-// an Error(kBadInput), an open quotation mark an Error(kWrongUsage), a stop an Error(kInterrupted).
-// app/, particles/sweep and pipeline/tabulate use this file. A change must keep the name of the
-// job, because a second job for the same output is recognised by the name.
+// The tasks of an array job, their script, and the calls of Slurm's programs squeue and sbatch.
 #include "viscontact/pipeline/slurm/array_job.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
@@ -24,27 +18,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The setting MaxArraySize of Slurm is 1001 by default. The number of each task must be smaller
-// than this setting.
+// The number of a task must be smaller than MaxArraySize of Slurm, which is 1001 by default.
 constexpr std::size_t kMostTasks = 1000;
 
-/// The absolute path of the output, without a slash at its end.
+/// Without a slash at its end.
 fs::path absolute_output(const fs::path& output) {
   const fs::path whole = fs::absolute(output).lexically_normal();
   return whole.has_filename() ? whole : whole.parent_path();  // "folder/" becomes "folder"
 }
 
-/// The name of the job. The name depends on the path of the output only, so that
-/// refuse_second_job() finds an earlier job for the same output.
+/// The name depends on the path of the output only, so that refuse_second_job() finds an earlier
+/// job for the same output.
 std::string job_name(const fs::path& output) {
   constexpr std::size_t kDigits = 12;  // of the hash: 48 bits, enough to distinguish outputs
   return "viscontact-" + sha256(absolute_output(output).string()).substr(0, kDigits);
 }
 
-/// Runs a program of Slurm and returns its output without newlines at the end. `here` is the
-/// command of Viscontact that the message recommends in place of Slurm. Throws
-/// Error(kExternalProgram) if the program cannot be run or fails, and Error(kInterrupted) at a
-/// stop.
+/// Runs a program of Slurm and returns its output without newlines at the end. The message
+/// recommends the command `here` of Viscontact in place of Slurm. Throws Error(kExternalProgram) if
+/// the program cannot be run or fails, and Error(kInterrupted) at a stop.
 std::string ask_slurm(const std::vector<std::string>& command, const std::string& here,
                       const StopToken& stop) {
   auto result = run_process(command, {}, {}, {}, {}, stop);
@@ -64,10 +56,10 @@ std::string ask_slurm(const std::vector<std::string>& command, const std::string
   return result.output;
 }
 
-/// The numbers of the tasks, which must increase (not checked), as sbatch --array reads them, for
-/// example "0-3,7". Consecutive numbers are written as a range, because sbatch limits the length of
-/// this text.
+/// The numbers of the tasks as sbatch --array reads them, for example "0-3,7". Consecutive numbers
+/// are written as a range, because sbatch limits the length of this text.
 std::string array_of(const std::vector<std::size_t>& tasks) {
+  assert(std::ranges::is_sorted(tasks));
   std::string text;
   for (std::size_t first = 0, last = 0; first < tasks.size(); first = last + 1) {
     for (last = first; last + 1 < tasks.size() && tasks[last + 1] == tasks[last] + 1;) ++last;
@@ -77,8 +69,7 @@ std::string array_of(const std::vector<std::size_t>& tasks) {
   return text;
 }
 
-/// The text of the shell script of a task. The script runs this program on copies of the cases;
-/// the copies are written when the job is submitted.
+/// The shell script of a task, which runs this program on the copies of the cases.
 std::string task_script(const ArrayJob& job, const ArrayRequest& request) {
   std::vector<std::string> copies;
   for (const auto& [name, text] : job.copies)
@@ -91,8 +82,8 @@ std::string task_script(const ArrayJob& job, const ArrayRequest& request) {
       request.jobs.value_or(1), job.count);
 }
 
-/// The pattern for the names of the logs. sbatch replaces %A by the number of the job, %a by the
-/// number of the task, and %% by %.
+/// In the names of the logs, sbatch replaces %A by the number of the job, %a by the number of the
+/// task, and %% by %.
 std::string log_pattern(const fs::path& folder) {
   std::string pattern;
   for (const char character : folder.string())
@@ -100,7 +91,7 @@ std::string log_pattern(const fs::path& folder) {
   return pattern + "/%A_%a.log";
 }
 
-/// The command, for the user, that puts the results together after the job is over.
+/// Puts the results together after the job is over; for the user.
 std::string gather_command(const ArrayJob& job, const ArrayRequest& request) {
   return fmt::format("viscontact {}{} -o {}{} --gather", job.command, shell_arguments(job.cases),
                      shell_word(request.output.string()), shell_arguments(job.options));
@@ -108,19 +99,15 @@ std::string gather_command(const ArrayJob& job, const ArrayRequest& request) {
 
 }  // namespace
 
-/// The number of tasks: the number that the user gave (not checked), or one task for each row, but
-/// at most kMostTasks.
 std::size_t task_count(const ArrayRequest& request, std::size_t rows) {
+  assert(!request.tasks || *request.tasks >= 1);
   return request.tasks.value_or(std::min(rows, kMostTasks));
 }
 
-/// The folder OUTPUT.slurm, as an absolute path, for scripts, logs and copies of cases.
 fs::path slurm_folder(const fs::path& output) {
   return absolute_output(output).string() + ".slurm";
 }
 
-/// Throws Error(kBadInput) if Slurm has a job for this output that is waiting, running or
-/// suspended.
 void refuse_second_job(const ArrayJob& job, const ArrayRequest& request) {
   std::string jobs =
       ask_slurm({"squeue", "--noheader", "--format=%F", "--states=PENDING,RUNNING,SUSPENDED",
@@ -134,9 +121,8 @@ void refuse_second_job(const ArrayJob& job, const ArrayRequest& request) {
       job.is_running, number);
 }
 
-/// Writes the script and the copies of the cases, submits the job, and prints its number to
-/// standard output. If no task has rows to compute, only a message says so.
 void submit(const ArrayJob& job, const ArrayRequest& request) {
+  assert(std::ranges::all_of(job.tasks, [&](std::size_t task) { return task < job.count; }));
   const auto options = split_words(request.options);
   const std::string gather = gather_command(job, request);
   if (job.tasks.empty()) {

@@ -1,10 +1,5 @@
-// Submits the rows of a table, or of a sweep of particles, to the workload manager Slurm as one
-// array job, whose tasks each compute a share of the rows (docs/cluster.md). Rows and tasks are
-// numbered from 0; no number has a dimension, and none is checked. Error(kExternalProgram) is
-// thrown if Slurm is missing or refuses the job, Error(kBadInput) if there is a job for the same
-// output already. A change must keep that later edits of a case do not change a submitted job, and
-// the name of the job, by which a second job is recognised. app/, particles/sweep and
-// pipeline/tabulate call these functions.
+// Array jobs of the workload manager Slurm (docs/cluster.md), whose tasks each compute a share of
+// the rows of a table or of a sweep.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +15,7 @@ namespace viscontact::pipeline {
 
 /// The rows that one task computes: those whose number, from 0, modulo `count` is `number`.
 struct Share {
-  std::size_t number = 0,  ///< number of the task, from 0, < count
+  std::size_t number = 0,  ///< < count
       count = 1;           ///< number of tasks, >= 1; 1: all rows
 };
 
@@ -30,7 +25,7 @@ struct ArrayRequest {
   std::optional<std::size_t> tasks;  ///< number of tasks, >= 1; nothing: task_count() chooses it
   std::optional<int> jobs;           ///< rows that a task computes at once, >= 1; nothing: 1
   std::string options;               ///< further words for sbatch, quoted as in a shell; or empty
-  StopToken stop{};                  ///< a requested stop ends the wait for Slurm
+  StopToken stop{};                  ///< ends the wait for Slurm
 };
 
 /// What an array job computes.
@@ -39,34 +34,31 @@ struct ArrayJob {
   std::string is_running;  ///< words for messages after the output's name: "is being tabulated"
   std::string results;     ///< words for the output in messages: "the tables"
   std::vector<std::string> cases;  ///< paths of the case files
-  /// Names and contents of the copies of the cases, which the tasks run, so that later edits of the
-  /// cases do not change them.
+  /// Names and contents of the copies that the tasks run, so that cases may be edited.
   std::vector<std::pair<std::string, std::string>> copies;
   std::vector<std::string> options;  ///< further arguments of the command, each one word
-  std::size_t count = 1;             ///< number of tasks, >= 1
+  std::size_t count = 1;             ///< number of tasks
   std::vector<std::size_t> tasks;    ///< increasing numbers, < count, of tasks with rows to compute
 };
 
-/// The number of tasks. If the request names a number, it is returned (not checked). Otherwise
-/// there is one task for each of `rows`, but at most 1000, because Slurm allows task numbers up to
-/// 1000 by default; the number is 0 if `rows` is 0.
+/// The number of tasks that the request names, or one for each of `rows`, but at most 1000, because
+/// Slurm allows task numbers up to 1000 by default.
 std::size_t task_count(const ArrayRequest& request, std::size_t rows);
 
-/// The folder OUTPUT.slurm, as an absolute path, which has copies of the submitted cases, the
-/// script of a task and the logs of the tasks.
+/// OUTPUT.slurm, as an absolute path, with copies of the cases, the script and the logs of tasks.
 std::filesystem::path slurm_folder(const std::filesystem::path& output);
 
 /// Throws Error(kBadInput) if Slurm has a job for this output that is not over,
-/// Error(kExternalProgram) if Slurm cannot be asked, and Error(kInterrupted) if `request.stop`
-/// requests a stop. Must be called before the missing rows are listed, because a job that is not
-/// over can still compute some of them.
+/// Error(kExternalProgram) if Slurm cannot be asked, and Error(kInterrupted) at a stop. Must be
+/// called before the missing rows are listed, because a job that is not over can still compute some
+/// of them.
 void refuse_second_job(const ArrayJob& job, const ArrayRequest& request);
 
-/// Writes the folder slurm_folder(), submits the job and prints its number to standard output. If
-/// `job.tasks` is empty, nothing is written or submitted, and no number is printed. Throws
-/// Error(kExternalProgram) with the message of Slurm if Slurm is missing or refuses the job,
-/// Error(kBadInput) if a file cannot be written, Error(kWrongUsage) if a quotation mark in
-/// `request.options` is not closed, and Error(kInterrupted) if `request.stop` requests a stop.
+/// Writes the folder slurm_folder(), submits the job and prints its number to standard output; does
+/// nothing if `job.tasks` is empty. Throws Error(kExternalProgram) with the message of Slurm if
+/// Slurm is missing or refuses the job, Error(kBadInput) if a file cannot be written,
+/// Error(kWrongUsage) if a quotation mark in `request.options` is not closed, and
+/// Error(kInterrupted) at a stop.
 void submit(const ArrayJob& job, const ArrayRequest& request);
 
 }  // namespace viscontact::pipeline

@@ -1,16 +1,10 @@
-// Chooses the gaps, names the files and writes the pictures of a tabulation. Gaps [L], > 0, are in
-// the unit of the case; the tabulation has at least one gap (not checked). A number that is not a
-// gap of the case and a file of the user that would be replaced are an Error(kBadInput), a FreeFEM
-// or gnuplot that fails is an Error(kExternalProgram), a wrong VISCONTACT_FREEFEM_TIME_LIMIT an
-// Error(kWrongUsage), a stop an Error(kInterrupted). app/ uses this file. A change must keep the
-// seven digits of path_of(), to which kTolerance is matched. It must also keep that the markers of
-// kMesh, kFlow, kFilm and kVtu occur in the files that are written, because a file without its
-// marker is not replaced.
+// Chooses the gaps, names the files and writes the pictures of a tabulation.
 #include "viscontact/pipeline/tabulate/picture_stage.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <set>
 #include <string_view>
@@ -25,7 +19,7 @@
 namespace viscontact::pipeline {
 namespace {
 
-/// One of the files that are written for each gap.
+/// One of the files that are written for each gap. A file without its marker is not replaced.
 struct PictureFile {
   std::string_view end;     ///< end of the file's name
   std::string_view marker;  ///< text that every file of this kind contains
@@ -36,8 +30,7 @@ constexpr PictureFile kFlow{"_flow.svg", "<svg", "picture"};
 constexpr PictureFile kFilm{"_film.svg", "<svg", "picture"};
 constexpr PictureFile kVtu{".vtu", "<VTKFile", "VTK file"};
 
-/// The path of a file for one gap [L]. The name has seven digits of the gap, so that
-/// gaps_to_picture() (relative tolerance 1e-6) accepts the number in the name.
+/// Seven digits of the gap, so that gaps_to_picture() accepts the number in the name.
 std::filesystem::path path_of(const std::filesystem::path& folder, double gap,
                               const PictureFile& file) {
   return folder / fmt::format("gap_{:.7g}{}", gap, file.end);
@@ -45,18 +38,15 @@ std::filesystem::path path_of(const std::filesystem::path& folder, double gap,
 
 }  // namespace
 
-/// Throws Error(kBadInput) if a picture of these gaps would replace a file of the user or of
-/// another kind. Must be called before the long tabulation.
 void check_pictures(const std::vector<double>& gaps, const std::filesystem::path& folder) {
   for (const double gap : gaps)
     for (const auto& file : {kMesh, kFlow, kFilm, kVtu})
       results::refuse_other_kind(path_of(folder, gap, file), file.marker, file.kind);
 }
 
-/// The gaps of the tabulation that the numbers `asked` [L] mean, in the order of `asked`. If
-/// `asked` is empty, they are the smallest, the middle and the largest gap, each once, increasing.
 std::vector<double> gaps_to_picture(const freefem_axi::Tabulation& tabulation,
                                     const std::vector<double>& asked) {
+  assert(!tabulation.gaps.empty());
   constexpr double kTolerance = 1e-6;  // relative; names of files have seven digits of the gap
   auto sorted = tabulation.gaps;
   std::ranges::sort(sorted);
@@ -77,15 +67,11 @@ std::vector<double> gaps_to_picture(const freefem_axi::Tabulation& tabulation,
   return gaps;
 }
 
-/// The folder for the pictures of a table: table.plots for table.csv.
 std::filesystem::path picture_folder(const std::filesystem::path& table_path) {
   auto folder = table_path;
   return folder.replace_extension(".plots");
 }
 
-/// Solves the flow for each gap at the first reference velocity of the tabulation, and writes four
-/// files for it into `folder`. `motion` is the motion of the sphere, such as approach; `case_file`
-/// is the path of the case. After an error, files that are complete are kept.
 void picture_stage(const freefem_axi::Tabulation& tabulation, lubrication::MotionKind motion,
                    const std::vector<double>& gaps, const std::filesystem::path& folder,
                    const std::filesystem::path& case_file, const StopToken& stop) {

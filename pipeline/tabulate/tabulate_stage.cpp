@@ -1,18 +1,10 @@
-// Tabulates cases in one process, computes the rows of one task of a job on a cluster, or gathers
-// the rows of all tasks. Rows that fail do not stop the others; at the end an error names the rows
-// that are missing: Error(kExternalProgram) if some of them failed, else Error(kNotConverged). A
-// file that cannot be read or written is an Error(kBadInput), a wrong VISCONTACT_FREEFEM_TIME_LIMIT
-// an Error(kWrongUsage), a stop an Error(kInterrupted). Gaps [L], > 0, and velocities [L/T] of rows
-// are in the units of their case; `jobs` is at least 1 (not checked). The Share of a task are the
-// rows whose number modulo Share::count is Share::number. A companion of a table is a file with the
-// same rows and other columns. A change must keep that journals, files beside a table to which each
-// finished row is added, are removed only after the table is written. app/, pipeline/, python/,
-// rolling/ and swimmer/ use this file.
+// Computes rows and keeps those that succeed: journals are removed only after the table is written.
 #include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/on_one_line.hpp"
@@ -28,8 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Warns on the terminal of each finished row whose relative error estimate [1] exceeds the
-/// accuracy that the case asks for.
+/// Warns of each finished row whose error estimate exceeds the accuracy that the case asks for.
 void warn_of_unmet_accuracy(const freefem_axi::TablePlan& plan,
                             const freefem_axi::RowRecord& record) {
   for (const auto& point : plan.points) {
@@ -41,8 +32,8 @@ void warn_of_unmet_accuracy(const freefem_axi::TablePlan& plan,
   }
 }
 
-/// True if the table of this case exists and has all rows. Then a message says so, and journals
-/// that another process wrote after the table was finished are removed.
+/// True if the table has all rows. Then journals that another process wrote after the table was
+/// finished are removed.
 bool is_up_to_date(const CaseTable& one) {
   if (!freefem_axi::missing_points(one.plan.read(one.table), one.plan.points).empty()) return false;
   terminal::say("tabulate: {} is up to date", one.table.string());
@@ -52,9 +43,9 @@ bool is_up_to_date(const CaseTable& one) {
 }
 
 /// Writes the table and its companions from `record`, which must have all rows except those that
-/// failed (not checked). Returns the error that names the failed rows, or nothing if no row failed.
-/// The message ends with `remedy`, which says what the user can do. Throws such an error, and
-/// writes nothing, if all rows failed or if the table needs all its rows.
+/// failed. Returns the error that names the failed rows, or nothing if no row failed; its message
+/// ends with `remedy`. Throws such an error, and writes nothing, if all rows failed or if the table
+/// needs all its rows.
 RowFailure finish_table(const CaseTable& one, const freefem_axi::RowRecord& record,
                         const results::Provenance& provenance, const std::string& remedy) {
   const auto failures = freefem_axi::failures_of(record, one.plan.points);
@@ -81,13 +72,11 @@ RowFailure finish_table(const CaseTable& one, const freefem_axi::RowRecord& reco
       fmt::format("{} has the others and names the failed ones; {}", one.table.string(), remedy));
 }
 
-/// Shows the number of finished rows and the remaining time [s] on the terminal.
 void show_rows(const freefem_axi::TabulateProgress& progress) {
   terminal::show_progress(fmt::format("tabulate: {}/{} rows, {:.0f} s left", progress.rows_done,
                                       progress.rows, progress.seconds_left));
 }
 
-/// Says in words how many `points` (rows) there are, and how many of them are finished already.
 std::string rows_in_words(const CaseTable& one, const std::vector<freefem_axi::RowPoint>& points) {
   const auto missing =
       freefem_axi::missing_points(freefem_axi::read_row_record(one.table, one.plan), points);
@@ -96,10 +85,10 @@ std::string rows_in_words(const CaseTable& one, const std::vector<freefem_axi::R
                      kept > 0 ? fmt::format(" ({} of them already computed)", kept) : "");
 }
 
-/// Computes the missing rows of a table, at most `jobs` >= 1 at once, and writes the table. Returns
-/// and throws what finish_table() does; also throws Error(kExternalProgram) if FreeFEM cannot be
-/// run, and Error(kInterrupted) at a stop.
+/// Returns and throws what finish_table() does; also throws Error(kExternalProgram) if FreeFEM
+/// cannot be run, and Error(kInterrupted) at a stop.
 RowFailure tabulate_one(const CaseTable& one, int jobs, const StopToken& stop) {
+  assert(jobs >= 1);
   if (is_up_to_date(one)) return {};
   check_output_file(one.table);
   terminal::say("tabulate: {} on {} processes", rows_in_words(one, one.plan.points), jobs);
@@ -111,13 +100,13 @@ RowFailure tabulate_one(const CaseTable& one, int jobs, const StopToken& stop) {
                       "the same command tries them again");
 }
 
-/// Throws the error that says that the rows `missing`, at least one, are missing. It is an
-/// Error(kExternalProgram) if one of these rows has failed, else an Error(kNotConverged).
-/// `slurm_folder` is the folder of the logs of the job, which need not exist.
+/// Throws Error(kExternalProgram) if one of the rows `missing` has failed, else
+/// Error(kNotConverged).
 [[noreturn]] void throw_missing(const CaseTable& one, const freefem_axi::RowRecord& record,
                                 const std::vector<freefem_axi::RowPoint>& missing,
                                 const fs::path& slurm_folder) {
-  constexpr std::size_t kNamed = 3;  // rows that the message names, a free choice
+  assert(!missing.empty());
+  constexpr std::size_t kNamed = 3;  // rows that the message names
   std::vector<std::string> named;
   for (std::size_t i = 0; i < std::min(missing.size(), kNamed); ++i)
     named.push_back(one.plan.name_of(missing[i]));
@@ -134,8 +123,8 @@ RowFailure tabulate_one(const CaseTable& one, int jobs, const StopToken& stop) {
               fmt::join(reasons, "; "));
 }
 
-/// Writes a table from the rows that the tasks of a job have computed. Returns and throws what
-/// finish_table() does, and throws the error of throw_missing() if a row was not tried yet.
+/// Returns and throws what finish_table() does, and throws the error of throw_missing() if a row
+/// was not tried yet.
 RowFailure gather_one(const CaseTable& one, const fs::path& slurm_folder) {
   if (is_up_to_date(one)) return {};
   const auto record = freefem_axi::read_row_record(one.table, one.plan);
@@ -150,12 +139,11 @@ RowFailure gather_one(const CaseTable& one, const fs::path& slurm_folder) {
   return failure;
 }
 
-/// Calls `work` with the index of each table, from 0. An error of kind kExternalProgram or
-/// kNotConverged, which says that rows failed or are missing, does not stop the other tables. At
-/// the end one error states all these errors. If `work` returned all of them, every table is
-/// written, and this function returns the one error. If `work` threw one of them, this function
-/// throws the one error. An error of any other kind is passed on at once. A single table is not
-/// treated in this way: what `work` returns or throws is passed on. Throws Error(kInterrupted)
+/// Calls `work` with the index of each table. An error of kind kExternalProgram or kNotConverged,
+/// which says that rows failed or are missing, does not stop the other tables. At the end one error
+/// states all these errors: it is returned if `work` returned all of them, so that every table is
+/// written, and thrown if `work` threw one of them. An error of any other kind is passed on at
+/// once, and so is what `work` returns or throws for a single table. Throws Error(kInterrupted)
 /// between two tables at a stop.
 template <class Work>
 RowFailure for_each_table(const std::vector<CaseTable>& tables, const StopToken& stop,
@@ -190,8 +178,6 @@ RowFailure for_each_table(const std::vector<CaseTable>& tables, const StopToken&
 
 }  // namespace
 
-/// The table, at the path `table`, of the force on a sphere that approaches. Nothing is computed.
-/// Throws Error(kBadInput) if the case has no tabulation or asks for another motion.
 CaseTable case_table(const case_file::Case& c, const fs::path& table) {
   const auto& tabulation = case_file::required_tabulation(c);
   if (tabulation.motions != std::vector{lubrication::MotionKind::kApproach})
@@ -203,8 +189,6 @@ CaseTable case_table(const case_file::Case& c, const fs::path& table) {
   return case_tables(c.path, c.text, tabulation, [&](auto) { return table; }).front();
 }
 
-/// The tables of all motions of the tabulation. `path_of` gives the path of the table of a motion.
-/// Nothing is computed.
 std::vector<CaseTable> case_tables(const fs::path& case_path, const std::string& case_text,
                                    const freefem_axi::Tabulation& tabulation,
                                    const freefem_axi::TablePath& path_of) {
@@ -223,10 +207,9 @@ std::vector<CaseTable> case_tables(const fs::path& case_path, const std::string&
   return tables;
 }
 
-/// For each table the points of its rows that belong to the share. The rows of all tables are
-/// numbered in one sequence from 0; share.count is >= 1 (not checked).
 std::vector<std::vector<freefem_axi::RowPoint>> points_of(const std::vector<CaseTable>& tables,
                                                           const Share& share) {
+  assert(share.number < share.count);
   std::vector<std::vector<freefem_axi::RowPoint>> points;
   std::size_t row = 0;
   for (const auto& one : tables) {
@@ -237,17 +220,14 @@ std::vector<std::vector<freefem_axi::RowPoint>> points_of(const std::vector<Case
   return points;
 }
 
-/// Computes the missing rows of all tables and writes the tables. Returns the error that names the
-/// rows that failed, if every table is written nevertheless.
 RowFailure tabulate_stage(const std::vector<CaseTable>& tables, int jobs, const StopToken& stop) {
   return for_each_table(tables, stop,
                         [&](std::size_t i) { return tabulate_one(tables[i], jobs, stop); });
 }
 
-/// Computes the missing rows of a share and adds them to the journals of this task. Writes no
-/// table. Throws Error(kExternalProgram) at the end if rows failed.
 void share_stage(const std::vector<CaseTable>& tables, const Share& share, int jobs,
                  const StopToken& stop) {
+  assert(jobs >= 1);
   const freefem_axi::RowWorker worker = {freefem_axi::default_freefem(stop), jobs,
                                          freefem_axi::writer_name(share.number, share.count)};
   const auto points = points_of(tables, share);
@@ -265,7 +245,6 @@ void share_stage(const std::vector<CaseTable>& tables, const Share& share, int j
   if (failure) throw Error(*failure);
 }
 
-/// Writes the tables from finished rows, and computes nothing.
 RowFailure gather_stage(const std::vector<CaseTable>& tables, const fs::path& slurm_folder,
                         const StopToken& stop) {
   return for_each_table(tables, stop,
@@ -274,7 +253,7 @@ RowFailure gather_stage(const std::vector<CaseTable>& tables, const fs::path& sl
 
 namespace {
 
-/// The numbers of those of `count` >= 1 tasks that have rows to compute, from 0 and increasing.
+/// The numbers of those tasks that have rows to compute, increasing.
 std::vector<std::size_t> tasks_with_rows(const std::vector<CaseTable>& tables, std::size_t count) {
   std::vector<freefem_axi::RowRecord> records;
   records.reserve(tables.size());
@@ -294,8 +273,6 @@ std::vector<std::size_t> tasks_with_rows(const std::vector<CaseTable>& tables, s
 
 }  // namespace
 
-/// Submits the tasks that have rows to compute. `options` are further arguments of the command
-/// `tabulate` that each task runs.
 void submit_to_slurm(const std::vector<CaseTable>& tables, const ArrayRequest& request,
                      const std::vector<std::string>& options) {
   std::size_t rows = 0;

@@ -1,14 +1,9 @@
-// Computes the external force on the sphere, a sum of piecewise polynomials (polynomial.hpp) and
-// sinusoids, and finds the times at which the force changes its sign. Times [T] are >= 0 (not
-// checked), forces [M L/T^2], < 0 towards the wall, and impulses [M L/T] are in any consistent
-// units. An Error(kBadInput) is thrown for pieces that are missing or do not follow each other, an
-// angular frequency that is not > 0, and a fault of a file of samples. More than about 3e4 periods
-// in sign_changes() are an Error(kNotConverged). All models of one sphere, rolling/ and case_file/
-// use this file. A change must keep the formulas of the means and integrals, which lose no digits
-// by cancellation for short intervals and small arguments.
+// Piecewise polynomials (polynomial.hpp) and sinusoids, and the times at which their sum changes
+// its sign.
 #include "viscontact/reduced_model/external_force/external_force.hpp"
 
 #include <array>
+#include <cassert>
 #include <iterator>
 #include <numbers>
 #include <string>
@@ -22,20 +17,19 @@
 namespace viscontact::reduced_model {
 namespace {
 
-/// Number of samples in a period of the fastest sinusoid, in the search for changes of sign; a free
-/// choice. Two changes between two neighbouring samples are missed; more samples take longer.
+/// Number of samples in a period of the fastest sinusoid, in the search for changes of sign. Two
+/// changes between two neighbouring samples are missed; more samples take longer.
 constexpr int kSamplesPerPeriod = 32;
 
-/// The force of a sinusoid at `time` [M L/T^2].
 double sine(const ExternalForce::Sinusoid& s, double time) {
   return s.amplitude * std::sin(s.angular_frequency * time + s.phase);
 }
 
-/// sin(x)/x [1]; 1 for x = 0. For |x| < 1e-4 the first term of the series that is left out,
-/// x^4/120, is smaller than the rounding error of 1.
+/// sin(x)/x. For |x| < 1e-4 the first term of the series that is left out, x^4/120, is smaller than
+/// the rounding error of 1.
 double sinc(double x) { return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x; }
 
-/// x - sin(x) [1] without cancellation of digits for small x, by the series if |x| <= 1.
+/// x - sin(x) without cancellation of digits for small x, by the series if |x| <= 1.
 double argument_minus_sine(double x) {
   if (std::abs(x) > 1) return x - std::sin(x);
   double term = x, sum = 0;
@@ -46,15 +40,13 @@ double argument_minus_sine(double x) {
   return sum;
 }
 
-/// The mean of a sinusoid over the times from a to b >= a [M L/T^2].
+/// The mean of a sinusoid over the times from a to b >= a.
 double sine_mean(const ExternalForce::Sinusoid& s, double a, double b) {
   return sine(s, a + (b - a) / 2) * sinc(s.angular_frequency * (b - a) / 2);
 }
 
 }  // namespace
 
-/// Throws Error(kBadInput) if there are no pieces, and unless the ends of the pieces are > 0 and
-/// increase. The last piece never ends.
 ExternalForce::ExternalForce(const std::vector<Piece>& pieces) {
   if (pieces.empty())
     throw Error(ErrorKind::kBadInput, "external_force has no piece; it needs at least one");
@@ -73,7 +65,6 @@ ExternalForce::ExternalForce(const std::vector<Piece>& pieces) {
   sum_up();
 }
 
-/// Throws Error(kBadInput) if the angular frequency [1/T] is not > 0.
 ExternalForce ExternalForce::sinusoidal(const Sinusoid& sinusoid) {
   if (!(sinusoid.angular_frequency > 0))
     throw Error(ErrorKind::kBadInput, "angular_frequency is {}; it must be > 0",
@@ -83,9 +74,8 @@ ExternalForce ExternalForce::sinusoidal(const Sinusoid& sinusoid) {
   return force;
 }
 
-/// Adds another force. The pieces of the sum begin wherever a piece of one of the two forces
-/// begins.
 ExternalForce& ExternalForce::operator+=(const ExternalForce& other) {
+  // The pieces of the sum begin wherever a piece of one of the two forces begins.
   std::vector<double> starts;
   for (const auto* pieces : {&std::as_const(pieces_), &other.pieces_})
     for (const auto& piece : *pieces) starts.push_back(piece.from);
@@ -107,9 +97,8 @@ ExternalForce& ExternalForce::operator+=(const ExternalForce& other) {
   return *this;
 }
 
-/// Returns a force that has at the time t the value that this force has at t/factor; `factor` is >
-/// 0 [1] (not checked).
 ExternalForce ExternalForce::stretched(double factor) const {
+  assert(factor > 0);
   ExternalForce force = *this;
   for (auto& piece : force.pieces_) {
     piece.from *= factor;
@@ -124,8 +113,6 @@ ExternalForce ExternalForce::stretched(double factor) const {
   return force;
 }
 
-/// Leaves out pieces that are as short as rounding errors, and computes the impulses [M L/T] and
-/// their integrals [M L] from 0 to the beginning of each piece.
 void ExternalForce::sum_up() {
   // A piece as short as the rounding error of its time is left out. The piece before it then lasts
   // until the next piece begins.
@@ -143,13 +130,11 @@ void ExternalForce::sum_up() {
   }
 }
 
-/// The piece at `time`; where two pieces meet, the later one.
 const ExternalForce::Polynomial& ExternalForce::piece_at(double time) const {
   const auto next = std::ranges::upper_bound(pieces_, time, {}, &Polynomial::from);
   return next == pieces_.begin() ? pieces_.front() : *std::prev(next);
 }
 
-/// The force [M L/T^2] at `time`; at a jump, the value after it.
 double ExternalForce::value(double time) const {
   const auto& piece = piece_at(time);
   double value = polynomial::value(piece.coefficients, time - piece.from);
@@ -157,7 +142,6 @@ double ExternalForce::value(double time) const {
   return value;
 }
 
-/// The derivative of the force [M L/T^3] at `time`; at a jump or kink, the one after it.
 double ExternalForce::slope(double time) const {
   const auto& piece = piece_at(time);
   double slope = polynomial::slope(piece.coefficients, time - piece.from);
@@ -166,7 +150,6 @@ double ExternalForce::slope(double time) const {
   return slope;
 }
 
-/// The integral of the force from 0 to `time` [M L/T].
 double ExternalForce::impulse(double time) const {
   const auto& piece = piece_at(time);
   double impulse = piece.impulse + polynomial::integral(piece.coefficients, time - piece.from);
@@ -174,7 +157,6 @@ double ExternalForce::impulse(double time) const {
   return impulse;
 }
 
-/// The integral of impulse() from 0 to `time` [M L].
 double ExternalForce::impulse_integral(double time) const {
   const auto& piece = piece_at(time);
   const double tau = time - piece.from;
@@ -189,8 +171,8 @@ double ExternalForce::impulse_integral(double time) const {
   return total;
 }
 
-/// The mean of the force over the times from `from` to `to` > `from` [M L/T^2].
 double ExternalForce::mean(double from, double to) const {
+  assert(!(from > to));
   const auto* piece = &piece_at(from);
   const auto* last = &pieces_.back();
   double mean = 0;
@@ -208,7 +190,6 @@ double ExternalForce::mean(double from, double to) const {
   return mean;
 }
 
-/// The times [T] at which the force or its slope jumps, increasing.
 std::vector<double> ExternalForce::jumps() const {
   std::vector<double> times;
   for (std::size_t i = 1; i < pieces_.size(); ++i) {
@@ -222,8 +203,6 @@ std::vector<double> ExternalForce::jumps() const {
   return times;
 }
 
-/// The times [T] between 0 and `end` > 0 at which the force changes its sign, increasing. Throws
-/// Error(kNotConverged) if a sinusoid has too many periods until `end`.
 std::vector<double> ExternalForce::sign_changes(double end) const {
   std::vector<double> changes;
   double fastest = 0;
@@ -234,7 +213,7 @@ std::vector<double> ExternalForce::sign_changes(double end) const {
     if (sign != 0 && last_sign != 0 && sign != last_sign) changes.push_back(time);
     if (sign != 0) last_sign = sign;
   };
-  constexpr double kMostSamples = 1e6;  // a free choice; each sample takes about 50 ns
+  constexpr double kMostSamples = 1e6;  // each sample takes about 50 ns
   if (fastest * end / (2 * std::numbers::pi) * kSamplesPerPeriod > kMostSamples)
     throw Error(ErrorKind::kNotConverged,
                 "the external force has an angular frequency of {}, which makes more periods until "
@@ -280,8 +259,8 @@ std::vector<double> ExternalForce::sign_changes(double end) const {
   return changes;
 }
 
-/// Makes `piece`, a number from 0, the present piece of the walk.
 void ForceWalk::enter(std::size_t piece) {
+  assert(piece < force_.pieces_.size());
   const auto& pieces = force_.pieces_;
   piece_ = piece;
   end_ =
@@ -290,10 +269,6 @@ void ForceWalk::enter(std::size_t piece) {
   level_ = pieces[piece].coefficients.front();
 }
 
-/// Reads a force from a CSV file with the columns time [T] and force [M L/T^2]; the force is linear
-/// between the rows, and two rows of one time make a jump. Throws Error(kBadInput), with file and
-/// line, if the first time is not 0, times decrease, a time is in more than two rows, or a value is
-/// no number; with the file, if it cannot be read or ends before the time `end` [T].
 ExternalForce read_external_force(const std::filesystem::path& path, double end) {
   const std::array<std::string, 2> columns = {"time", "force"};
   const std::string file = path.string();

@@ -1,12 +1,9 @@
-// Declares the external force f_ext(t) [M L/T^2]: every force on the sphere except those of the
-// fluid and of contact, such as gravity, a push or a measured signal. Lengths, masses and times are
-// in any consistent units. All models of one sphere in reduced_model/, and rolling/, use it.
-// Error(kBadInput) is thrown if a piece or a file is wrong. Times must be >= 0, which is not
-// checked. A change must keep means and impulses exact, because the budgets of impulses and works
-// are balanced to round-off.
+// The external force f_ext(t): every force on the sphere except those of the fluid and of contact,
+// such as gravity, a push or a measured signal.
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -14,21 +11,19 @@
 
 namespace viscontact::reduced_model {
 
-/// True if two times > 0 [T] differ by at most four machine epsilons times the larger one, which is
-/// a rounding error, as between 0.1 + 0.2 and 0.3. The integrator CVODE cannot integrate over so
-/// short an interval.
+/// True if two times > 0 [T] differ by a rounding error, as 0.1 + 0.2 and 0.3 do. CVODE cannot
+/// integrate over so short an interval.
 inline bool are_one_time(double a, double b) {
   return std::abs(a - b) <=
          4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(a), std::abs(b));
 }
 
 /// f_ext(t) for t >= 0: a sum of piecewise polynomials and sinusoids. Means and impulses are closed
-/// forms, not quadrature. Times are not checked, and only the functions that say so throw.
+/// forms that lose no digits for short intervals, because budgets are balanced to round-off.
 class ExternalForce {
  public:
-  /// A polynomial on an interval of time. The first piece begins at 0, each other piece where the
-  /// piece before it ends. Let tau be the time since the beginning of the piece; then f_ext = value
-  /// + higher[0] tau + higher[1] tau^2 + ...
+  /// A polynomial from the end of the piece before it, or from 0: f_ext = value + higher[0] tau +
+  /// higher[1] tau^2 + ... with the time tau since the beginning of the piece.
   struct Piece {
     double until = 0;  ///< end of the piece [T], > its beginning; the last piece never ends
     /// Force at tau = 0 along the outward normal [M L/T^2]; < 0 towards the wall.
@@ -45,17 +40,16 @@ class ExternalForce {
   };
 
   /// Throws Error(kBadInput) if there is no piece, or unless Piece::until is > 0 and increases from
-  /// piece to piece. The `until` of the last piece is checked but not used. Forces are not checked.
+  /// piece to piece. The `until` of the last piece has no other effect.
   explicit ExternalForce(const std::vector<Piece>& pieces);
 
   /// The force of one sinusoid. Throws Error(kBadInput) if its angular frequency is not > 0.
   static ExternalForce sinusoidal(const Sinusoid& sinusoid);
 
-  /// Adds another force. Pieces that are as short as rounding errors of time (are_one_time()) are
-  /// left out.
+  /// Adds another force. Pieces that are as short as rounding errors of time are left out.
   ExternalForce& operator+=(const ExternalForce& other);
 
-  /// The same force stretched in time: f_ext(t/factor), factor > 0 (not checked).
+  /// The same force stretched in time: f_ext(t/factor), factor > 0.
   ExternalForce stretched(double factor) const;
 
   /// f_ext(t) [M L/T^2], t >= 0; at a jump, the value after it.
@@ -73,15 +67,13 @@ class ExternalForce {
   /// Mean of f_ext over [from, to] [M L/T^2], 0 <= from < to.
   double mean(double from, double to) const;
 
-  /// The times [T] > 0 at which f_ext or its slope jumps, in increasing order. are_one_time() is
-  /// false for any two of these times.
+  /// The times [T] > 0 at which f_ext or its slope jumps, increasing; no two are_one_time().
   std::vector<double> jumps() const;
 
-  /// The times [T] in (0, end), end > 0, at which f_ext changes its sign, by a jump or through 0,
-  /// in increasing order; the list is empty if there are no changes. Without sinusoids all changes
-  /// are found. With sinusoids two changes can be missed if they are closer to each other than 1/32
-  /// of the shortest period. Throws Error(kNotConverged) if the times from 0 to `end` contain more
-  /// than about 3e4 of the shortest periods.
+  /// The times [T] in (0, end) at which f_ext changes its sign, by a jump or through 0, increasing.
+  /// With sinusoids two changes can be missed if they are closer to each other than 1/32 of the
+  /// shortest period. Throws Error(kNotConverged) if the times from 0 to `end` contain more than
+  /// about 3e4 of the shortest periods.
   std::vector<double> sign_changes(double end) const;
 
  private:
@@ -93,27 +85,29 @@ class ExternalForce {
     double impulse = 0;           // int_0^from f [M L/T]
     double impulse_integral = 0;  // int_0^from of the impulse [M L]
   };
+  // At a jump, the later piece.
   const Polynomial& piece_at(double time) const;
+  // Leaves out pieces as short as rounding errors, and computes the members `impulse` and
+  // `impulse_integral` of the others.
   void sum_up();
 
   std::vector<Polynomial> pieces_;  // the first begins at 0
   std::vector<Sinusoid> sinusoids_;
 };
 
-/// Computes values and means of a force at times that do not decrease from call to call (not
-/// checked: an earlier time gives a wrong value). The functions of this class are faster than those
-/// of ExternalForce, because they do not search for the piece while the force is constant.
+/// Values and means of a force at times that do not decrease from call to call. The functions are
+/// faster than those of ExternalForce, because they search no piece while the force is constant.
 class ForceWalk {
  public:
   /// The walk begins at time 0. `force` must outlive the object.
   explicit ForceWalk(const ExternalForce& force) : force_(force) { enter(0); }
 
-  /// The force [M L/T^2] at `time` [T], >= 0.
+  /// The force at `time` [T].
   double value(double time) {
     go_to(time);
     return constant_ ? level_ : force_.value(time);
   }
-  /// The mean of the force from time `from` to time `to` > `from` [M L/T^2].
+  /// The mean of the force from time `from` to time `to` > `from`.
   double mean(double from, double to) {
     go_to(from);
     return constant_ && to <= end_ ? level_ : force_.mean(from, to);
@@ -122,6 +116,7 @@ class ForceWalk {
  private:
   void go_to(double time) {
     while (time >= end_) enter(piece_ + 1);
+    assert(!(time < force_.pieces_[piece_].from));
   }
   void enter(std::size_t piece);
 
@@ -131,11 +126,10 @@ class ForceWalk {
   bool constant_ = false;
 };
 
-/// Reads a sampled force from a CSV file with the columns time, force. The columns are in [T] and
-/// [M L/T^2]. The force is linear between the rows; two rows of the same time make a jump. Throws
-/// Error(kBadInput), with file and line, if a value is missing or not a finite number, the first
-/// time is not 0, times decrease, or a time is in more than two rows, and with the file, if it
-/// cannot be read or its last time is less than `end` [T], > 0.
+/// Reads a sampled force from a CSV file with the columns time [T] and force [M L/T^2]. The force
+/// is linear between the rows; two rows of the same time make a jump. Throws Error(kBadInput), with
+/// file and line, if a value is no finite number, the first time is not 0, times decrease, or a
+/// time is in more than two rows, and with the file, if it cannot be read or ends before `end` [T].
 ExternalForce read_external_force(const std::filesystem::path& path, double end);
 
 }  // namespace viscontact::reduced_model

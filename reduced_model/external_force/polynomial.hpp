@@ -1,9 +1,5 @@
-// Computes with polynomials c0 + c1 tau + c2 tau^2 + ..., which are given by their coefficients c0,
-// c1, ... in this order. There must be at least one coefficient. If tau has the unit U and the
-// values have the unit V, then c_k has the unit V/U^k. External forces (external_force.cpp) and the
-// states of the integrator CVODE within a step (inertial.cpp) are such polynomials. Nothing is
-// checked or thrown. A change must keep the order of operations, on which the last digits of
-// trajectories depend.
+// Polynomials c0 + c1 tau + c2 tau^2 + ..., given by at least one coefficient c0, c1, ... If tau
+// has the unit U and the values have the unit V, then c_k has the unit V/U^k.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +11,8 @@
 
 namespace viscontact::reduced_model::polynomial {
 
-/// The sum of weighted(c_k, k) tau^(k - first) for k >= first, by Horner's scheme.
+/// The sum of weighted(c_k, k) tau^(k - first) for k >= first. Another order of operations changes
+/// the last digits of trajectories.
 template <class Weighted>
 double horner(std::span<const double> coefficients, double tau, std::size_t first,
               const Weighted& weighted) {
@@ -71,8 +68,7 @@ inline std::vector<double> shifted(std::vector<double> coefficients, double shif
 
 /// The points [U] in (0, length), in increasing order, at which the derivative changes its sign,
 /// and some of the points at which the derivative only touches 0. The polynomial is monotone
-/// between two neighbouring points. The list is empty for a constant or linear polynomial. `length`
-/// is > 0 [U].
+/// between two neighbouring points.
 inline std::vector<double> turning_points(const std::vector<double>& coefficients, double length) {
   if (coefficients.size() < 3) return {};
   std::vector<double> derivative;

@@ -1,11 +1,4 @@
-// Calls the integrator CVODE of SUNDIALS 6 or 7 and checks all return codes (cvode.hpp). Times are
-// in [T]. A state and its derivative have `dimension` > 0 components of any dimensions; the
-// Jacobian has dimension x dimension entries, stored by columns. Lengths of spans and indices are
-// not checked. A return code that is an error, and more than 1e6 steps since the restart, become an
-// Error(kNotConverged). If an Error that the system of equations threw is the cause, this Error is
-// thrown instead. Too little memory is a std::bad_alloc. reduced_model/models and rolling/ use this
-// file. A change must keep that CVODE prints nothing, and that the file compiles with both versions
-// of SUNDIALS.
+// Calls of CVODE of SUNDIALS 6 or 7, and their return codes.
 #include "viscontact/reduced_model/integration/cvode.hpp"
 
 #include <cvode/cvode.h>
@@ -15,6 +8,7 @@
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cstdlib>
 #include <new>
 #include <sundials/sundials_context.hpp>
@@ -29,9 +23,8 @@ std::span<double> values(N_Vector vector) {
   return {N_VGetArrayPointer(vector), static_cast<std::size_t>(N_VGetLength(vector))};
 }
 
-/// Keeps SUNDIALS from printing its errors, because check() throws each of them as an Error.
 /// SUNDIALS 6 (Debian 12) has a file for the errors of each solver, and SUNDIALS 7 (Debian 13) has
-/// a list of error handlers in the context. Returns a code of SUNDIALS, < 0 if the call fails.
+/// a list of error handlers in the context.
 int print_no_errors([[maybe_unused]] SUNContext context, [[maybe_unused]] void* memory) {
 #if SUNDIALS_VERSION_MAJOR >= 7
   return SUNContext_ClearErrHandlers(context);
@@ -45,9 +38,9 @@ constexpr int kTryAgain = 1;
 
 }  // namespace
 
-/// The objects of SUNDIALS, each after the objects that it depends on, and the functions that CVODE
-/// calls. The argument `self` of these functions is the object of class Cvode. They return 0, or
-/// kTryAgain after an Error of the system. weights() sets each weight to 1/(allowed error).
+// The objects of SUNDIALS, each after the objects that it depends on, and the functions that CVODE
+// calls. The argument `self` of these functions is the object of class Cvode. They return 0, or
+// kTryAgain after an Error of the system. weights() sets each weight to 1/(allowed error).
 struct Cvode::Sundials {
   struct Deleters {
     void operator()(N_Vector object) const { N_VDestroy(object); }
@@ -80,10 +73,9 @@ struct Cvode::Sundials {
   void* memory = nullptr;
 };
 
-/// Starts at the time 0 from `state`, which has system.dimension components. Throws std::bad_alloc
-/// if there is too little memory.
 Cvode::Cvode(StiffSystem system, std::span<const double> state)
     : system_(std::move(system)), sundials_(std::make_unique<Sundials>(system_.dimension)) {
+  assert(system_.dimension > 0);
   const Sundials& s = *sundials_;
   if (!s.state || !s.interpolated || !s.matrix || !s.solver || s.memory == nullptr)
     throw std::bad_alloc();
@@ -109,20 +101,17 @@ Cvode::~Cvode() = default;
 
 std::span<const double> Cvode::state() const { return values(sundials_->state.get()); }
 
-/// Replaces the state; restart() must follow.
 void Cvode::set_state(std::span<const double> state) {
+  assert(state.size() == values(sundials_->state.get()).size());
   std::ranges::copy(state, values(sundials_->state.get()).begin());
 }
 
-/// Number of steps since the construction of the object.
 long Cvode::steps() const {
   long steps = 0;
   check(CVodeGetNumSteps(sundials_->memory, &steps), "CVodeGetNumSteps");
   return steps_before_restart_ + steps;
 }
 
-/// Starts again at `time` from the present state, and does not go beyond `stop_time` > `time`.
-/// `first_step` is the first step to try; with 0 CVODE chooses it.
 void Cvode::restart(double time, double stop_time, double first_step) {
   steps_before_restart_ = steps();
   time_ = time;
@@ -134,20 +123,17 @@ void Cvode::restart(double time, double stop_time, double first_step) {
   steps_since_restart_ = 0;
 }
 
-/// Makes one step of a length that CVODE chooses. Throws Error(kNotConverged) or the Error of the
-/// system if the step fails.
 void Cvode::step() {
   const double before = time_;
   int code = CVode(sundials_->memory, stop_time_, sundials_->state.get(), &time_, CV_ONE_STEP);
-  // The largest number of steps since the restart is a free choice. Without this limit, CVODE would
-  // make tiny steps for ever if the solution diverges.
+  // Without this limit, CVODE would make tiny steps for ever if the solution diverges.
   constexpr long kMostSteps = 1'000'000;
   if (code >= 0 && (!(time_ > before) || ++steps_since_restart_ > kMostSteps))
     code = CV_TOO_MUCH_WORK;
   if (code < 0 && system_error_) {
     // CVODE reports its own last failure only. The Error that the system threw is the cause if
     // CVODE has got no further since: the time that it reached may exceed the time of the Error by
-    // at most the fraction kNoWay, a free choice far above the rounding error of a time.
+    // at most the fraction kNoWay, far above the rounding error of a time.
     constexpr double kNoWay = 1e-9;
     double reached = 0;
     check(CVodeGetCurrentTime(sundials_->memory, &reached), "CVodeGetCurrentTime");
@@ -156,15 +142,14 @@ void Cvode::step() {
   check(code, "CVode");
 }
 
-/// Component `i`, from 0, of the state at a time within the last step; throws Error(kNotConverged)
-/// at another time.
 double Cvode::at(double time, std::size_t i) const {
+  assert(i < values(sundials_->state.get()).size());
   check(CVodeGetDky(sundials_->memory, time, 0, sundials_->interpolated.get()), "CVodeGetDky");
   return values(sundials_->interpolated.get())[i];
 }
 
-/// The coefficients of component `i` near time(), in powers of (t - time()), the constant first.
 std::vector<double> Cvode::expansion(std::size_t i) const {
+  assert(i < values(sundials_->state.get()).size());
   int order = 0;
   check(CVodeGetLastOrder(sundials_->memory, &order), "CVodeGetLastOrder");
   std::vector<double> coefficients;
@@ -177,7 +162,6 @@ std::vector<double> Cvode::expansion(std::size_t i) const {
   return coefficients;
 }
 
-/// Throws Error(kNotConverged), which names `call`, if `code` < 0 is an error of SUNDIALS.
 void Cvode::check(int code, const char* call) const {
   if (code >= 0) return;
   const std::unique_ptr<char, decltype(&std::free)> name(CVodeGetReturnFlagName(code), std::free);
@@ -187,7 +171,6 @@ void Cvode::check(int code, const char* call) const {
               time_, call, name.get(), system_.tolerance_key);
 }
 
-/// Stores the Error that the system has just thrown at `time`, and returns kTryAgain.
 int Cvode::keep_error(double time) {
   system_error_ = std::current_exception();
   system_error_time_ = time;

@@ -1,9 +1,5 @@
-// Declares a C++ interface to CVODE, the integrator of stiff equations of the library SUNDIALS
-// (Hindmarsh et al. 2005), for the models `inertial` and `inertial_rough` of reduced_model/models
-// and for rolling/. Times are in [T]; the components of a state may have any dimensions. Every
-// return code of SUNDIALS is checked in cvode.cpp; a failure throws Error(kNotConverged). Arguments
-// are not checked. A change must include no header of SUNDIALS here: the headers of Debian 13 need
-// those of MPI, which the tests and users of an installed Viscontact would then have to find.
+// The integrator of stiff equations CVODE of SUNDIALS (Hindmarsh et al. 2005). No header of
+// SUNDIALS is included here: those of Debian 13 need MPI, which users would have to find.
 #pragma once
 
 #include <exception>
@@ -18,23 +14,22 @@ namespace viscontact::reduced_model {
 /// A stiff system y' = f(t, y) with its Jacobian; y, f and the tolerances have `dimension`
 /// components. Each function may throw an Error, and nothing else, where it is not defined.
 struct StiffSystem {
-  int dimension = 0;  ///< number of components of y, > 0
-  /// Computes f(t, y).
+  int dimension = 0;  ///< > 0
+  /// The right side f(t, y).
   std::function<void(double time, std::span<const double> y, std::span<double> derivative)>
       derivative;
-  /// Computes the Jacobian, dimension x dimension, stored by columns: entry (i, j) = d f_i/d y_j.
+  /// The Jacobian, dimension x dimension, stored by columns: entry (i, j) = d f_i/d y_j.
   std::function<void(double time, std::span<const double> y, std::span<double> jacobian)> jacobian;
-  /// Computes the error that is allowed in a step, for each component of y, in its dimension, > 0;
-  /// `time` is the time at which the step begins [T].
+  /// The error > 0 that is allowed in a step, which begins at `time`, for each component of y.
   std::function<void(double time, std::span<const double> y, std::span<double> allowed)> tolerance;
   /// The key of the case file that sets the tolerance, for messages.
   std::string tolerance_key = "inertial.relative_tolerance";
 };
 
-/// An integration by backward differences (BDF) of variable order and step, with Newton's method
-/// and dense linear algebra. If the system throws an Error, CVODE tries a smaller step; if the
-/// Error persists, step() throws it. All functions that call SUNDIALS throw Error(kNotConverged) if
-/// it reports an error. Lengths of spans and indices of components are not checked.
+/// Backward differences (BDF) of variable order and step, with Newton's method and dense linear
+/// algebra. If the system throws an Error, CVODE tries a smaller step; if the Error persists,
+/// step() throws it. All functions that call SUNDIALS throw Error(kNotConverged) if it reports an
+/// error.
 class Cvode {
  public:
   /// Starts at time 0 from `state`, which has system.dimension components. restart() must be called
@@ -47,10 +42,9 @@ class Cvode {
   /// Replaces the state; restart() must follow.
   void set_state(std::span<const double> state);
 
-  /// Starts again at `time` [T] from the present state. The integrator does not evaluate the system
-  /// beyond `stop_time` > `time` [T], so that the system may change there. `first_step` > 0 is the
-  /// step to try first [T], for cases in which CVODE's own choice is much too short; 0 leaves the
-  /// choice to CVODE.
+  /// Starts again at `time` [T] from the present state. The system is not evaluated beyond
+  /// `stop_time` > `time`, so that it may change there. `first_step` > 0 is the step to try first,
+  /// where CVODE's own choice is much too short; 0 leaves the choice to CVODE.
   void restart(double time, double stop_time, double first_step = 0);
 
   /// Makes one step of a length that CVODE chooses, at most to the stop time. Throws
@@ -58,29 +52,27 @@ class Cvode {
   /// Error of the system.
   void step();
 
-  /// Component `i`, counted from 0, of the state at a time [T] within the last step, from the
-  /// polynomial by which CVODE interpolates. Throws Error(kNotConverged) at another time.
+  /// Component `i` of the state at a time within the last step, from the polynomial by which CVODE
+  /// interpolates. Throws Error(kNotConverged) at another time.
   double at(double time, std::size_t i = 0) const;
 
-  /// The 2 to 6 coefficients of the polynomial by which CVODE interpolates component `i`, in powers
-  /// of (t - time()), the constant first. If the state is needed at many times, the polynomial is
-  /// cheaper than calls of at().
+  /// The 2 to 6 coefficients of this polynomial in powers of (t - time()), the constant first. It
+  /// is cheaper than many calls of at().
   std::vector<double> expansion(std::size_t i = 0) const;
 
   /// Time that the integration has reached [T].
   double time() const { return time_; }
-  /// The state y at time(). The span is valid as long as this object; step() and set_state() change
-  /// its numbers.
+  /// The state y at time(); step() and set_state() change its numbers.
   std::span<const double> state() const;
-  long steps() const;  ///< number of steps since construction, >= 0
+  long steps() const;  ///< number of steps since construction
 
  private:
   struct Sundials;  // the objects of SUNDIALS, and the functions that it calls
 
-  /// Called when the system has thrown an Error: stores it, and returns the code that makes CVODE
-  /// try a smaller step.
+  // Stores the Error that the system has just thrown, and returns the code that makes CVODE try a
+  // smaller step.
   int keep_error(double time);
-  /// Throws Error(kNotConverged), which names `call`, if `code` of SUNDIALS is an error.
+  // Throws Error(kNotConverged), which names `call`, if `code` of SUNDIALS is an error.
   void check(int code, const char* call) const;
 
   StiffSystem system_;

@@ -1,15 +1,9 @@
-// Integrates ds/dt = (P - Gamma(q))/(m q) (inertial_equation.hpp) with CVODE. CVODE is restarted
-// where the external force jumps; rows are made at the required times and where the velocity
-// changes its sign. q is the gap, s = ln(q/radius) the unknown of CVODE, Gamma the primitive of the
-// resistance R, m the mass, P = m dq/dt + Gamma(q). Gaps [L], the mass [M] and the radius are > 0,
-// times [T] >= 0, P and Gamma are [M L/T], in any consistent units. A CVODE that gives up and, with
-// roughness, an external force with too many periods are an Error(kNotConverged). A gap outside the
-// fit, more than 1e8 rows and a start within the roughness are an Error(kBadInput), a stop an
-// Error(kInterrupted). models.cpp uses this file. A change of results must raise kModelsRevision
-// (trajectory.hpp).
+// CVODE restarts where the external force jumps; rows are made at the required times and where the
+// velocity changes its sign. The symbols are those of inertial_equation.hpp.
 #include "viscontact/reduced_model/models/inertial.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <utility>
@@ -37,18 +31,17 @@ class InertialRun {
         cvode_(equation_.system(now_), std::array{equation_.state_of(motion.initial_gap)}),
         times_(row_times(motion)),
         next_row_(times_.begin() + 1) {
-    // Memory for 16 more rows is for the times at which the velocity changes its sign; the number
-    // is a free choice.
+    // Memory for 16 more rows is for the times at which the velocity changes its sign.
     trajectory_.rows.reserve(times_.size() + 16);
     add_row(0,
             {motion.initial_gap, motion.initial_velocity, 0, force.resistance(motion.initial_gap)});
   }
 
-  /// Integrates to the end of the motion; may be called once only (not checked).
+  /// Integrates to the end of the motion; may be called once only.
   Trajectory run() {
+    assert(trajectory_.rows.size() == 1);
     auto stops = motion_.external_force.jumps();
-    // CVODE must also stop where the external force changes its sign, because the force may pull
-    // the sphere off the solids from there on.
+    // There the force may pull the sphere off the solids.
     if (solid_gap_ > 0) {
       std::ranges::copy(motion_.external_force.sign_changes(motion_.end_time),
                         std::back_inserter(stops));
@@ -109,9 +102,7 @@ class InertialRun {
 
   void restart(double first_step) { cvode_.restart(now_, stop_, first_step); }
 
-  /// Makes the rebound from the solids at the time now_: the velocity changes from u to -e u, with
-  /// the coefficient e of restitution. Then restarts CVODE, or lets the sphere rest until the next
-  /// stop.
+  /// Then restarts CVODE, or lets the sphere rest until the next stop.
   void strike_solids() {
     const double before = std::min(0.0, velocity_at_solids()), m = motion_.mass;
     if (!trajectory_.solid_contact_from)
@@ -120,8 +111,8 @@ class InertialRun {
     const double restitution = motion_.restitution();
     double after = -restitution * before;
     const double pull = motion_.external_force.value(now_);
-    // A flight that is shorter than this part of end_time counts as rest. The number is a free
-    // choice, which viscous_contact_exact.cpp repeats.
+    // A flight that is shorter than this part of end_time counts as rest. viscous_contact_exact.cpp
+    // has the same constant.
     constexpr double kShortestFlight = 1e-6;
     rests_ =
         !(after > 0) || (pull < 0 && 2 * m * after < -pull * kShortestFlight * motion_.end_time);
@@ -138,9 +129,7 @@ class InertialRun {
   }
 
   /// Records an impact at the time now_, with the velocities `before` < 0 and `after` >= 0 at the
-  /// solids. The velocity of approach is the largest one since the last rebound. That after the
-  /// impact is what the drag leaves on the way back to the gap of that velocity, (4.14). A sphere
-  /// that does not get back there does not rebound: its further impacts are not recorded.
+  /// solids, as simulate_inertial_rough() says.
   void add_rebound(double before, double after) {
     look_at_approach({solid_gap_, before, 0, 0});
     const double drag = (force_.impulse(fastest_.gap) - force_.impulse(solid_gap_)) / motion_.mass;
@@ -152,13 +141,11 @@ class InertialRun {
     if (leaving > 0) fastest_ = {solid_gap_, 0, 0, 0};
   }
 
-  /// Takes the state `at` for the one of fastest approach if it is faster than those before.
   void look_at_approach(const InertialInstant& at) {
     if (at.velocity < fastest_.velocity) fastest_ = at;
   }
 
-  /// Ends the motion in the last step of CVODE, at the time at which the sphere reaches the wall
-  /// opposite.
+  /// Ends the motion in the last step of CVODE, when the sphere reaches the wall opposite.
   void end_at_wall() {
     const double end = bisect_first_true(
         now_, cvode_.time(), [&](double t) { return equation_.gap_of(cvode_.at(t)) >= last_gap_; });
@@ -169,21 +156,18 @@ class InertialRun {
     ended_ = true;
   }
 
-  /// The velocity (P - Gamma)/m [L/T] at the gap of the solids.
   double velocity_at_solids() const {
     return (equation_.momentum(now_) - force_.impulse(solid_gap_)) / motion_.mass;
   }
 
-  /// True if the external force pulls the sphere off the solids. The force has one sign until the
-  /// next stop. If the result is true, rests_ becomes false.
+  /// The force has one sign until the next stop; if it is a pull, the sphere no longer rests.
   bool leaves_solids() {
     if (!(motion_.external_force.mean(now_, stop_) > 0)) return false;
     rests_ = false;
     return true;
   }
 
-  /// Lets the sphere rest on the solids until the time `stop` [T], and adds the rows until then.
-  /// The solids carry the external force.
+  /// The sphere rests on the solids until the time `stop`, and the solids carry the external force.
   void rest_until(double stop) {
     const double carried =
         motion_.external_force.impulse(stop) - motion_.external_force.impulse(now_);
@@ -196,9 +180,8 @@ class InertialRun {
     now_ = last_stop_ = stop;
   }
 
-  /// The budget of impulses [M L/T] and works [M L^2/T^2]. The work of the external force is the
-  /// sum over the rows of the mean force times the change of the gap. Its error is of second order
-  /// in the spacing of the rows. The work of the film is chosen so that the energy is balanced.
+  /// The work of the external force is the sum over the rows of the mean force times the change of
+  /// the gap; that of the film is chosen so that the energy is balanced.
   MomentumEnergyBudget budget() const {
     MomentumEnergyBudget budget;
     const auto& rows = trajectory_.rows;
@@ -214,7 +197,7 @@ class InertialRun {
     return budget;
   }
 
-  /// Makes one step of CVODE. Returns false if the step failed and CVODE was restarted.
+  /// Returns false if the step failed and CVODE was restarted.
   bool step() {
     try {
       cvode_.step();
@@ -233,7 +216,6 @@ class InertialRun {
     }
   }
 
-  /// The state of the sphere at the time t [T] with the unknown s [1].
   InertialInstant instant_of(double t, double s) const {
     // At the stop time the external force has jumped, but the velocity has not. Therefore the force
     // is taken just before this time.
@@ -241,12 +223,11 @@ class InertialRun {
     return equation_.instant(t, equation_.gap_of(s), force_time);
   }
 
-  /// Adds the rows of the last step of CVODE until the time `end` [T], at most the end of this
-  /// step; `now` is the state at the time `end`. If the velocity changes its sign, there is a row
-  /// at the time of the change.
+  /// Until the time `end` in the last step of CVODE, at which the state is `now`. If the velocity
+  /// changes its sign, there is a row at the time of the change.
   void add_rows_of_step(double end, const InertialInstant& now) {
     // If the step has more rows than this, the expansion of s in powers of the time takes less time
-    // than at() for each row. The number is a free choice.
+    // than at() for each row.
     constexpr std::ptrdiff_t kManyRows = 8;
     const bool many = times_.end() - next_row_ > kManyRows && *(next_row_ + kManyRows) < end;
     const std::vector<double> expansion = many ? cvode_.expansion() : std::vector<double>();
@@ -274,7 +255,6 @@ class InertialRun {
     }
   }
 
-  /// Adds a row at the time t [T] with the state `at`; its drag is -R times the velocity.
   void add_row(double t, const InertialInstant& at) {
     trajectory_.rows.push_back(
         {t, at.gap, at.velocity, -at.resistance * at.velocity, motion_.external_force.value(t)});
@@ -304,13 +284,10 @@ class InertialRun {
 
 }  // namespace
 
-/// Computes the motion of a sphere and a wall whose solids never touch.
 Trajectory simulate_inertial(const Motion& motion, const lubrication::LubricationForce& force) {
   return InertialRun(motion, force, 0).run();
 }
 
-/// Throws Error(kBadInput) unless the initial gap is greater than both heights of roughness
-/// together.
 void check_start_outside_roughness(const Motion& motion) {
   const double solid_gap = motion.roughness[0] + motion.roughness[1];
   if (!(motion.initial_gap > solid_gap))
@@ -320,8 +297,6 @@ void check_start_outside_roughness(const Motion& motion) {
         motion.initial_gap, solid_gap);
 }
 
-/// Computes the motion with solids that touch and rebound at the gap that equals both heights of
-/// roughness together. Without roughness the result is that of simulate_inertial().
 Trajectory simulate_inertial_rough(const Motion& motion,
                                    const lubrication::LubricationForce& force) {
   check_start_outside_roughness(motion);

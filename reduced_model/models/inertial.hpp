@@ -1,10 +1,5 @@
-// Declares the models `inertial`, with which all others are compared, and `inertial_rough`: the
-// motion of the sphere with its inertia and the whole drag, integrated by CVODE (cvode.hpp). q is
-// the gap, u = dq/dt the velocity, m the mass, R(q) the resistance, f_ext the external force.
-// Lengths, masses and times are in any consistent units. models.cpp lists the models.
-// Error(kBadInput) is thrown if the gap leaves the interval of the fit, Error(kNotConverged) if the
-// integration fails, Error(kInterrupted) at a stop. The motion must be one that case files allow
-// (not checked). A change of results must raise kModelsRevision (trajectory.hpp).
+// The models `inertial`, with which all others are compared, and `inertial_rough`: the motion with
+// inertia and the whole drag by CVODE, physics.md (4.1), (4.14), in any consistent units.
 #pragma once
 
 #include <array>
@@ -15,8 +10,7 @@
 
 namespace viscontact::reduced_model {
 
-/// Relative tolerance of the gap [1], 1e-13 to 1e-2. Its default 1e-9 is a free choice; a change
-/// alters results and computing times of cases without the key.
+/// Of the gap.
 inline constexpr ModelParameter kRelativeTolerance = {
     "inertial.relative_tolerance",
     "relative tolerance of the gap in inertial",
@@ -29,37 +23,31 @@ inline constexpr ModelParameter kRelativeTolerance = {
 inline constexpr std::array kInertialParameters = {kReferenceTimeStep, kRelativeTolerance};
 
 /// Integrates m du/dt = f_ext - R(q) u, dq/dt = u (physics.md (4.1)) with CVODE, in the form of
-/// inertial_equation.hpp.
+/// inertial_equation.hpp, for the gap q, the mass m, the resistance R and the external force f_ext.
 ///
 /// The unknown is s = ln(q/r), with the radius r. The equation is stiff, because the film damps at
 /// the rate R/m; errors of s decay in the film and do not add up. The first integral of the
-/// equation holds by construction, so that it cannot be used to check this model. Tests check it by
-/// exact states (data/reference/limit_case_states.csv) and by an integration of (4.1) in extended
-/// precision.
+/// equation holds by construction, so that it cannot be used to check this model.
 ///
 /// CVODE stops and restarts where f_ext or its slope jumps. The rows are at the multiples of
 /// reference.time_step, at the jumps, and where u = 0 (the extrema of q). The error of s that is
-/// allowed in a step is 0.1 inertial.relative_tolerance, and in free flight 3e-5
-/// inertial.relative_tolerance, because the film damps errors too slowly there. If the film would
-/// stop a fall at the time t within 1e-12 t, which no step can resolve, the gap is set to the
-/// smallest gap of that fall at once.
+/// allowed in a step is 0.1 inertial.relative_tolerance, and in free flight 3e-5 times this
+/// tolerance, because the film damps errors too slowly there. If the film would stop a fall at the
+/// time t within 1e-12 t, which no step can resolve, the gap is set to the smallest gap at once.
 ///
 /// Throws Error(kNotConverged) if CVODE gives up or the film gets too thin for a double,
-/// Error(kBadInput) if the gap goes below or above the interval of `force`, if there would be more
-/// than 1e8 rows or if a parameter has no value, and Error(kInterrupted) if `motion.stop` requests
-/// a stop.
+/// Error(kBadInput) if the gap leaves the interval of `force`, if there would be more than 1e8 rows
+/// or if a parameter has no value, and Error(kInterrupted) at a stop.
 Trajectory simulate_inertial(const Motion& motion, const lubrication::LubricationForce& force);
 
 /// The parameters of simulate_inertial_rough().
 inline constexpr std::array kInertialRoughParameters = {kReferenceTimeStep, kRelativeTolerance,
                                                         kRestitution};
 
-/// Computes the motion of simulate_inertial(), but with solids that touch at the gap r1 + r2, where
-/// r1 and r2 [L] are the heights of the roughness of the sphere and of its neighbour. At this gap
-/// the velocity u becomes -e_d u (4.14), where e_d is the restitution. If e_d = 0, or if a flight
-/// without drag would last less than 1e-6 end_time (a free choice that viscous_contact_exact.cpp
-/// shares), the sphere rests on the solids until the force pulls it. Without roughness the result
-/// is that of simulate_inertial().
+/// The motion of simulate_inertial(), but with solids that touch at the gap r1 + r2, the heights of
+/// the roughness. There the velocity u becomes -e_d u (4.14), where e_d is the restitution. If e_d
+/// = 0, or if a flight without drag would last less than 1e-6 end_time, the sphere rests on the
+/// solids until the force pulls it. Without roughness the result is that of simulate_inertial().
 ///
 /// The velocity of approach in Trajectory::rebounds is the largest one towards the solids since the
 /// last rebound. The velocity after the impact is the one that the sphere would have without an
@@ -71,8 +59,8 @@ inline constexpr std::array kInertialRoughParameters = {kReferenceTimeStep, kRel
 Trajectory simulate_inertial_rough(const Motion& motion,
                                    const lubrication::LubricationForce& force);
 
-/// Throws Error(kBadInput) unless the initial gap is greater than the height r1 + r2 [L] of the
-/// roughness of both surfaces (Motion::roughness).
+/// Throws Error(kBadInput) unless the initial gap is greater than the heights of the roughness r1 +
+/// r2.
 void check_start_outside_roughness(const Motion& motion);
 
 }  // namespace viscontact::reduced_model

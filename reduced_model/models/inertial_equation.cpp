@@ -1,29 +1,23 @@
-// Computes the equation ds/dt = (P - Gamma(q))/(m q), (S) of inertial_equation.hpp, for s =
-// ln(q/r), the tolerances of its integration, and the velocity that belongs to a state. q is the
-// gap, r the radius, m the mass, Gamma the primitive of the resistance R, P = m dq/dt + Gamma(q).
-// Gaps [L], m [M] and R [M/T] are > 0, times [T] from 0 to end_time (not checked); P, which
-// momentum() returns, and Gamma are [M L/T]; all are in any consistent units. A gap outside the fit
-// is an Error(kBadInput) of LubricationForce, a film too thin for a double an Error(kNotConverged).
-// inertial.cpp and rolling/ use this file. A change of results must raise kModelsRevision
-// (trajectory.hpp). inertial.hpp repeats kShare and the product of kShare and kFlightShare.
+// Equation (S), the tolerances of its integration, and the velocity that belongs to a state.
 #include "viscontact/reduced_model/models/inertial_equation.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <span>
 
 namespace viscontact::reduced_model {
 
-/// `relative_tolerance` > 0 is the relative tolerance of the gap [1]. `motion` and `force` must
-/// outlive the object.
 InertialEquation::InertialEquation(const Motion& motion, const lubrication::LubricationForce& force,
                                    double relative_tolerance)
     : motion_(motion),
       force_(force),
       relative_tolerance_(relative_tolerance),
       momentum_at_start_(motion.mass * motion.initial_velocity +
-                         force.impulse(motion.initial_gap)) {}
+                         force.impulse(motion.initial_gap)) {
+  assert(motion.mass > 0 && relative_tolerance > 0);
+}
 
 double InertialEquation::gap_of(double s) const {
   return std::min(force_.radius() * std::exp(s), std::nextafter(force_.largest_gap(), 0.0));
@@ -31,18 +25,14 @@ double InertialEquation::gap_of(double s) const {
 
 double InertialEquation::state_of(double gap) const { return std::log(gap / force_.radius()); }
 
-/// Returns P(t) [M L/T].
 double InertialEquation::momentum(double t) const {
   return momentum_at_start_ + motion_.external_force.impulse(t);
 }
 
-/// Returns ds/dt [1/T] at the time t [T] and the gap `gap` [L].
 double InertialEquation::slope(double t, double gap) const {
   return (momentum(t) - force_.impulse(gap)) / (motion_.mass * gap);
 }
 
-/// The equation, its derivative by s [1/T] and the error of s that is allowed in a step [1], for
-/// CVODE. `step_begin` is the time at which the present step begins; it is read at each call.
 StiffSystem InertialEquation::system(const double& step_begin) const {
   StiffSystem system;
   system.dimension = 1;
@@ -61,12 +51,11 @@ StiffSystem InertialEquation::system(const double& step_begin) const {
   // have the fraction kShare of the tolerance of the user, because the errors of earlier steps add
   // to its error. In free flight the film damps errors so slowly that they do not decay before the
   // motion ends. Moreover, a landing, in which ln q changes fast, multiplies errors. Therefore, a
-  // step in free flight may only have the fraction kFlightShare of the error of other steps. Both
-  // fractions are free choices.
+  // step in free flight may only have the fraction kFlightShare of the error of other steps.
+  // simulate_inertial() states kShare and the product of both.
   system.tolerance = [this](double t, std::span<const double> y, std::span<double> allowed) {
     constexpr double kShare = 0.1, kFlightShare = 3e-4;
-    // If the motion lasts more than this many damping times, a free choice, errors decay before the
-    // motion ends.
+    // If the motion lasts more than this many damping times, errors decay before it ends.
     constexpr double kManyDampings = 10;
     constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
     const double q = gap_of(y[0]);
@@ -77,8 +66,6 @@ StiffSystem InertialEquation::system(const double& step_begin) const {
   return system;
 }
 
-/// Returns the gap [L], the velocity [L/T] with its error bound [L/T], and the resistance [M/T] at
-/// the time t [T]. `force_time` [T] is t, or just before t if the external force jumps at t.
 InertialInstant InertialEquation::instant(double t, double gap, double force_time) const {
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
   const double m = motion_.mass, q = gap;
@@ -90,7 +77,6 @@ InertialInstant InertialEquation::instant(double t, double gap, double force_tim
                                 m;
   // If m times the velocity is more than kMuchInertia times R q, and the velocity from the momentum
   // has at least three exact digits, this velocity is more exact than that from the balance below.
-  // Both limits are free choices.
   constexpr double kMuchInertia = 1e-2;
   if (m * std::abs(by_momentum) > kMuchInertia * resistance * q &&
       std::abs(by_momentum) > 1e3 * momentum_error)
@@ -105,32 +91,22 @@ InertialInstant InertialEquation::instant(double t, double gap, double force_tim
   const double correction = -m / resistance * rate;
   const double neglected =
       std::abs(correction) * std::min(1.0, std::abs(correction) / std::abs(balance));
-  // The value from the balance is taken only if both values agree within four times the error bound
-  // of the value from the momentum. The number four is a free choice.
   if (neglected < momentum_error &&
       std::abs(balance + correction - by_momentum) < 4 * momentum_error)
     return {q, balance + correction, neglected, resistance};
   return {q, by_momentum, momentum_error, resistance};
 }
 
-/// Returns the first step [T] that CVODE should try after a restart at the time t, or 0 if CVODE
-/// should choose this step. The result is > 0 if the damping time m/R is less than kTimeResolution
-/// t, which is too short to be resolved.
 double InertialEquation::first_step(double t, double gap) const {
   const double step = kTimeResolution * t;
   return motion_.mass < step * force_.resistance(gap) ? step : 0;
 }
 
-/// Returns the state s [1] near that of `gap` [L] in which the drag balances the external force,
-/// and which has the momentum P(t).
 double InertialEquation::balanced_state(double t, double gap) const {
   const double inertia = motion_.mass * instant(t, gap, t).velocity;
   return state_of(force_.gap_of_impulse(momentum(t) - inertia));
 }
 
-/// True if the rest of the fall from the state `now`, and the damping time m/R at the end of the
-/// fall, are shorter than kTimeResolution t, which no step can resolve. Then `film` is set to the
-/// gap [L] at which the fall ends.
 bool InertialEquation::lands_at_once(double t, const InertialInstant& now, double& film) const {
   if (!(-now.velocity * kTimeResolution * t > now.gap)) return false;
   film = force_.gap_of_impulse(momentum(t));

@@ -1,20 +1,5 @@
-// Declares the equation of motion of the sphere with its inertia, in the form of its first integral
-// (physics.md (4.1), (4.2)). q is the gap, r the radius, m the mass, u the velocity, R the
-// resistance, Gamma the primitive of R, f_ext the external force; the index 0 marks values at the
-// start. Lengths, masses and times are in any consistent units. Error(kBadInput) is thrown if a gap
-// is outside the interval of the force; times are not checked. The models `inertial` and
-// `inertial_rough` integrate the equation; rolling/ does so for the motion along the normal of the
-// plane.
-//
-//     m d^2q/dt^2 = -R(q) dq/dt + f_ext(t)                                           (M)
-//     m u + Gamma(q) = P(t) := m u0 + Gamma(q0) + int_0^t f_ext,   u = dq/dt         (I)
-//     ds/dt = (P(t) - Gamma(q))/(m q),   q = r e^s                                   (S)
-//
-// (I) is exact, because dGamma/dq = R. With (I), (M) becomes the equation (S) of first order for
-// the unknown s = ln(q/r). A change must keep that gaps are > 0 whatever the error of s, that P is
-// continuous where f_ext jumps, and that s contains the radius r, which makes the error weights of
-// CVODE, and so its steps, independent of the unit of length. A change of results must raise
-// kModelsRevision.
+// The equation of motion of the sphere with its inertia in the form of its first integral,
+// physics.md (4.1) and (4.2).
 #pragma once
 
 #include "viscontact/lubrication/lubrication_force.hpp"
@@ -23,7 +8,7 @@
 
 namespace viscontact::reduced_model {
 
-/// The state of the sphere at one time.
+/// The state of the sphere at one time, in any consistent units.
 struct InertialInstant {
   double gap;             ///< q [L], > 0
   double velocity;        ///< u [L/T]
@@ -31,27 +16,31 @@ struct InertialInstant {
   double resistance;      ///< R(q) [M/T], > 0
 };
 
-/// Equation (S) and the quantities that follow from a solution of it. Motion and force must outlive
-/// the object. Every function of a gap but state_of() throws Error(kBadInput) if the gap is outside
-/// the interval of the force, and so does the constructor for the initial gap. Times [T] are in [0,
-/// end_time], which is not checked.
+/// The first integral of the motion and what follows from it. q is the gap, r the radius, m the
+/// mass, u the velocity, R the resistance, Gamma its primitive, f_ext the external force; the index
+/// 0 marks values at the start:
+///
+///     m u + Gamma(q) = P(t) := m u0 + Gamma(q0) + int_0^t f_ext,   u = dq/dt         (I)
+///     ds/dt = (P(t) - Gamma(q))/(m q),   q = r e^s                                   (S)
+///
+/// The unknown s keeps gaps > 0 whatever its error. It contains r, so that the error weights of
+/// CVODE do not depend on the unit of length. Motion and force must outlive the object. Every
+/// function of a gap but state_of() throws Error(kBadInput) if the gap is outside the interval of
+/// the force, and so does the constructor for the initial gap.
 class InertialEquation {
  public:
-  /// The equation for the sphere of `motion` under the drag `force`; `relative_tolerance` > 0 is
-  /// the relative tolerance of the gap [1].
+  /// `relative_tolerance` > 0 is the relative tolerance of the gap [1].
   InertialEquation(const Motion& motion, const lubrication::LubricationForce& force,
                    double relative_tolerance);
 
   double gap_of(double s) const;      ///< q = r e^s [L], for s [1]; below a second wall
   double state_of(double gap) const;  ///< s = ln(q/r), for q > 0 [1]
   double momentum(double t) const;    ///< P(t) [M L/T]
-  /// Adds an impulse [M L/T] to P, such as the impulse of an impact, or of solids that carried the
-  /// external force.
+  /// Adds an impulse to P, such as that of an impact.
   void add_impulse(double impulse) { momentum_at_start_ += impulse; }
 
-  /// Equation (S), its Jacobian and its tolerances, for CVODE. `step_begin` is the time [T] at
-  /// which the present step of CVODE begins; the system reads it at each call, so it must outlive
-  /// the system.
+  /// Equation (S), its Jacobian and its tolerances, for CVODE. The system reads `step_begin`, the
+  /// time at which the present step of CVODE begins, at each call.
   StiffSystem system(const double& step_begin) const;
 
   /// The state of the sphere at time t [T] and gap q.
@@ -64,20 +53,19 @@ class InertialEquation {
   /// jump.
   InertialInstant instant(double t, double gap, double force_time) const;
 
-  /// The first step [T] that CVODE should try after a restart at time t and gap q; 0 leaves the
-  /// choice to CVODE. It is positive if the damping time m/R is below kTimeResolution t, so that
-  /// the velocity follows a jump of f_ext at once.
+  /// The first step that CVODE should try after a restart; 0 leaves the choice to CVODE. It is
+  /// positive if the damping time m/R is below kTimeResolution t, so that the velocity follows a
+  /// jump of f_ext at once.
   double first_step(double t, double gap) const;
 
-  /// The state s [1] near the state of `gap` [L] in which drag and force at time t are balanced. It
-  /// obeys (I) exactly. If no gap of the force obeys (I), throws Error(kBadInput), or
-  /// Error(kNotConverged) if the gap is too small for a double.
+  /// The state near that of `gap` in which drag and force at time t are balanced. It obeys (I)
+  /// exactly. If no gap of the force does, throws Error(kBadInput), or Error(kNotConverged) if the
+  /// gap is too small for a double.
   double balanced_state(double t, double gap) const;
 
   /// True if the rest of a fall, and the damping time m/R at its end, are below kTimeResolution t.
-  /// `film` [L] is then set to the gap Gamma^{-1}(P(t)), at which the velocity is 0 by (I); if the
-  /// result is false, `film` has no meaning. If the force has no such gap, throws Error(kBadInput),
-  /// or Error(kNotConverged) if the gap is too small for a double.
+  /// Then `film` is the gap Gamma^{-1}(P(t)), at which the velocity is 0 by (I). Throws the errors
+  /// of balanced_state().
   bool lands_at_once(double t, const InertialInstant& now, double& film) const;
 
   /// The smallest ratio of a step to the time t that CVODE is asked to resolve, far above the
@@ -85,6 +73,7 @@ class InertialEquation {
   static constexpr double kTimeResolution = 1e-12;
 
  private:
+  // ds/dt at the time t and this gap [1/T].
   double slope(double t, double gap) const;
 
   const Motion& motion_;

@@ -1,17 +1,11 @@
-// Lists the models of motion of a sphere and the suffixes of their names, runs a model, and
-// computes the budget of models that resolve the whole drag, and the gaps that a model reaches.
-// Gaps [L], >= 0, velocities [L/T], times [T], forces [M L/T^2], impulses [M L/T] and works [M
-// L^2/T^2] are in any consistent units; masses and time steps > 0 are not checked. An unknown name
-// is an Error(kBadInput), a result that is not finite an Error(kNotConverged), a stop an
-// Error(kInterrupted); the errors of the models are thrown, too. pipeline/, sweep/, results/,
-// report/, case_file/, app/ and python/ use this file. A change must keep the names, which files of
-// users contain, and the order, which decides on the colours of the report.
+// The table of models. Their order decides on the colours of the report.
 #include "viscontact/reduced_model/models/models.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <iterator>
@@ -117,11 +111,11 @@ constexpr std::array kModels = {
 };
 
 /// The budget of a model that resolves the whole drag; the drag counts as the force of the film.
-/// `rows` has at least one row. `inertia` is false for a model without inertia, whose momentum is
-/// 0. Between two rows, the impulse of the film is the change of momentum minus the impulse of the
-/// external force. The work of the film is this impulse times the mean of both velocities.
+/// Between two rows, the impulse of the film is the change of momentum minus the impulse of the
+/// external force. Its work is this impulse times the mean of both velocities.
 MomentumEnergyBudget budget_of_drag(const std::vector<TrajectoryRow>& rows, const Motion& motion,
                                     bool inertia) {
+  assert(!rows.empty());
   MomentumEnergyBudget budget;
   const double m = inertia ? motion.mass : 0;
   for (std::size_t i = 1; i < rows.size(); ++i) {
@@ -149,7 +143,6 @@ void check_start_below_wall(const Motion& motion, const lubrication::Lubrication
                 motion.initial_gap, force.largest_gap());
 }
 
-/// Sets the Reynolds and Stokes numbers of the trajectory.
 void set_regime(const ModelChoice& choice, const Motion& motion,
                 const lubrication::LubricationForce& force, Trajectory& trajectory) {
   if (!choice.model->fluid) return;
@@ -169,8 +162,9 @@ void set_regime(const ModelChoice& choice, const Motion& motion,
 }
 
 /// Throws Error(kNotConverged) if a number of the trajectory is not finite, or if times do not
-/// increase. The trajectory must have a budget and a row (not checked).
+/// increase.
 void check_finite(const Trajectory& trajectory) {
+  assert(trajectory.budget && !trajectory.rows.empty());
   const auto refuse = [](double time) {
     throw Error(ErrorKind::kNotConverged,
                 "a number of the motion leaves the range of a double at time {:.6g}", time);
@@ -189,7 +183,6 @@ void check_finite(const Trajectory& trajectory) {
     if (!(trajectory.rows[i].time > trajectory.rows[i - 1].time)) refuse(trajectory.rows[i].time);
 }
 
-/// The models for which a member of the type bool is true, in the order of the list.
 std::vector<Model> models_with(bool Model::*property) {
   std::vector<Model> models;
   std::ranges::copy_if(kModels, std::back_inserter(models), property);
@@ -214,14 +207,11 @@ std::string usual_reference() {
   return std::string(std::ranges::find(kModels, true, &Model::usual_reference)->name);
 }
 
-/// The reference among models of these names: the usual one if it is among them or if there are no
-/// names, otherwise the first.
 std::string reference_of(const std::vector<std::string>& names) {
   const std::string usual = usual_reference();
   return names.empty() || std::ranges::find(names, usual) != names.end() ? usual : names.front();
 }
 
-/// The parameters of all models, each key once, in the order of the models.
 std::vector<ModelParameter> model_parameters() {
   std::vector<ModelParameter> all;
   for (const auto& model : kModels)
@@ -231,7 +221,6 @@ std::vector<ModelParameter> model_parameters() {
   return all;
 }
 
-/// The sections of a case with these parameters and the roughness, each once.
 std::vector<std::string_view> model_sections() {
   std::vector<std::string_view> sections;
   const auto add = [&](std::string_view section) {
@@ -242,8 +231,6 @@ std::vector<std::string_view> model_sections() {
   return sections;
 }
 
-/// The model with this name, which may have suffixes; nothing if there is none, or if the suffix
-/// kSmoothSuffix follows the name of a model without contact.
 std::optional<ModelChoice> known_model(std::string_view name) {
   ModelChoice choice{std::string(name)};
   const auto take = [&](std::string_view suffix) {
@@ -261,15 +248,13 @@ std::optional<ModelChoice> known_model(std::string_view name) {
   return choice;
 }
 
-/// Throws Error(kBadInput), which lists the names, if there is no such model.
 ModelChoice find_model(std::string_view name) {
   if (const auto choice = known_model(name)) return *choice;
   return {std::string(name), &require_named(kModels, name, "model")};  // throws
 }
 
-/// False if the number of a case at `key`, such as "sphere.mass", cannot change the results of the
-/// model.
 bool depends_on(const ModelChoice& choice, std::string_view key) {
+  assert(choice.model != nullptr);
   key = key.substr(0, key.find('['));
   const Model& model = *choice.model;
   if (key == "sphere.mass" || key == "motion.initial_velocity") return model.inertia;
@@ -295,16 +280,16 @@ Motion motion_of(const ModelChoice& choice, const Motion& motion) {
 
 ContactModel contact_model_of(const ModelChoice& choice, const Motion& motion,
                               const lubrication::LubricationForce& force) {
+  assert(choice.model != nullptr && choice.model->contact != nullptr);
   return choice.model->contact(motion_of(choice, motion), force);
 }
 
 std::string description_of(const ModelChoice& choice) {
+  assert(choice.model != nullptr);
   return fmt::format("{}{}{}", choice.model->description, choice.exact_drag ? ", exact drag" : "",
                      choice.smooth ? ", smooth" : "");
 }
 
-/// A copy of `force`, or the exact drag near a plane with the same viscosity and radius, as the
-/// choice says.
 lubrication::LubricationForce drag_of(const ModelChoice& choice,
                                       const lubrication::LubricationForce& force) {
   return choice.exact_drag
@@ -313,10 +298,9 @@ lubrication::LubricationForce drag_of(const ModelChoice& choice,
              : force;
 }
 
-/// Throws the Error(kBadInput) that simulate() would throw for the time step, the start and the
-/// roughness of the motion; runs nothing.
 void check_model(const ModelChoice& choice, const Motion& motion,
                  const lubrication::LubricationForce& force) {
+  assert(choice.model != nullptr);
   with_place("model " + choice.name, [&] {
     for (const auto& parameter : choice.model->parameters)
       if (parameter.is_time_step) (void)step_count(motion.end_time, motion.parameter(parameter));
@@ -328,8 +312,7 @@ void check_model(const ModelChoice& choice, const Motion& motion,
 
 namespace {
 
-/// When the gaps are first reached; by a contact model, if it is in contact, with the film that its
-/// gamma stands for.
+/// When the gaps are first reached; a contact model has the film that its gamma stands for.
 std::vector<GapTime> gap_times_of(const std::vector<TrajectoryRow>& rows,
                                   const std::vector<double>& gaps,
                                   const std::optional<ContactModel>& contact) {
@@ -349,10 +332,9 @@ std::vector<GapTime> gap_times_of(const std::vector<TrajectoryRow>& rows,
 
 }  // namespace
 
-/// Runs a model and adds its name, its budget and the computing time [s]. Messages of errors begin
-/// with the name of the model.
 Trajectory simulate(const ModelChoice& choice, const Motion& motion,
                     const lubrication::LubricationForce& force) {
+  assert(choice.model != nullptr);
   const auto start = std::chrono::steady_clock::now();
   Trajectory trajectory;
   with_place("model " + choice.name, [&] {
@@ -378,8 +360,6 @@ Trajectory simulate(const ModelChoice& choice, const Motion& motion,
   return trajectory;
 }
 
-/// The smallest and the largest gap [L] at which the model evaluates the whole drag; nothing if it
-/// evaluates no drag or the motion cannot be computed. Throws Error(kInterrupted) at a stop.
 std::optional<ReachedGaps> reached_gaps(const ModelChoice& choice, const Motion& motion,
                                         const lubrication::LubricationForce& force) {
   try {

@@ -1,10 +1,5 @@
-// Declares the table of models of motion of one sphere, the function that runs a model, and the
-// gaps that a model reaches. Error(kBadInput) is thrown if a name is unknown or a model refuses a
-// motion. The functions that return lists and descriptions throw nothing. A new model needs its own
-// source and a row at the end of the table in models.cpp (docs/extending.md); commands, help,
-// sweeps and the report read that table. Lengths, masses and times are in any consistent units. A
-// change must keep the names of models, which users' case files contain; their descriptions are
-// free choices.
+// The models of motion of one sphere by name (physics.md, section 4), and the function that runs
+// one. A new model is a source of its own and a row of the table in models.cpp.
 #pragma once
 
 #include <optional>
@@ -21,38 +16,36 @@
 
 namespace viscontact::reduced_model {
 
-/// A model of motion, with what the program must know about it.
+/// A model of motion.
 struct Model {
-  std::string_view name;         ///< name that users type; its trajectory file is NAME.csv
-  std::string_view description;  ///< description in one line, for --help and legends
-  /// Computes the trajectory from the motion and the drag; null for a contact model that
-  /// run_contact_model() runs.
+  std::string_view name;         ///< what users type; its trajectory file is NAME.csv
+  std::string_view description;  ///< one line, for --help and legends
+  /// Null for a contact model that run_contact_model() runs.
   Trajectory (*simulate)(const Motion&, const lubrication::LubricationForce&);
-  /// Makes the contact model (contact_model.hpp); null if this is not a contact model.
+  /// Null if this is not a contact model.
   MakeContactModel contact = nullptr;
-  /// True if the model runs when a case names no models.
+  /// Whether it runs when a case names no models.
   bool by_default = true;
-  /// True if the motion depends on the mass.
+  /// Whether the motion depends on the mass.
   bool inertia = true;
-  /// True if the motion depends on the drag of the fluid.
+  /// Whether the motion depends on the drag of the fluid.
   bool fluid = true;
   /// The parameters that the model reads. In the motion of a case each of them has a value; without
   /// one, the model throws Error(kBadInput), but a missing kRestitution counts as 0.
   std::span<const ModelParameter> parameters;
-  /// The parameter that is the model's time step; null if it has no fixed step.
+  /// The model's time step; null if it has no fixed step.
   const ModelParameter* time_step = nullptr;
   /// What trajectory files state as the time step if the model has no fixed one.
   std::string_view steps = "variable";
-  /// True if a sweep runs it when its case and its command name no models.
+  /// Whether a sweep runs it when its case and its command name no models.
   bool in_sweeps = false;
-  /// True for the one model that others are compared with when a user names no reference.
+  /// True for one model.
   bool usual_reference = false;
-  /// Throws Error(kBadInput) for a motion that `simulate` would refuse; null if the model refuses
-  /// no motion.
+  /// Throws Error(kBadInput) for a motion that `simulate` would refuse; null: it refuses none.
   void (*check)(const Motion&) = nullptr;
 };
 
-/// All models. The place of a model in this list decides on the colour of its lines in the report.
+/// The place of a model in this list decides on the colour of its lines in the report.
 std::span<const Model> all_models();
 
 /// The models that run when a case names none.
@@ -64,43 +57,37 @@ std::vector<Model> models_on_request();
 /// The models that a sweep runs when a user names none.
 std::vector<Model> sweep_models();
 
-/// The name of the model that others are compared with when a user names no reference.
+/// Others are compared with this model when a user names no reference.
 std::string usual_reference();
 
-/// The reference among models of these names: the usual one if it is among them or if there are no
-/// names, otherwise the first.
+/// The usual reference if it is among these names or if there are none, otherwise the first name.
 std::string reference_of(const std::vector<std::string>& names);
 
 /// The parameters of all models, each key once, in the order of the models.
 std::vector<ModelParameter> model_parameters();
 
-/// The sections of a case that contain model_parameters() and the roughness, each once, in the
-/// order of the models.
+/// The sections of a case with model_parameters() and the roughness, each once.
 std::vector<std::string_view> model_sections();
 
-/// Suffix of the name of a model that runs with the exact drag (lubrication/plane_drag.hpp) in
-/// place of the fit, as in inertial_brenner.
+/// Suffix of a model that runs with the exact drag (lubrication/plane_drag.hpp) in place of the
+/// fit.
 inline constexpr std::string_view kExactDragSuffix = "_brenner";
 
-/// Suffix of the name of a contact model that runs with smooth surfaces, whatever the roughness of
-/// the case, as in viscous_contact_smooth.
+/// Suffix of a contact model that runs with smooth surfaces, whatever the roughness of the case.
 inline constexpr std::string_view kSmoothSuffix = "_smooth";
 
 /// A model, the drag and the surfaces that it runs with.
 struct ModelChoice {
-  /// Name of the model with its suffixes.
-  std::string name;
-  const Model* model = nullptr;  ///< the model; never null in a result of known_model()
+  std::string name;              ///< with its suffixes
+  const Model* model = nullptr;  ///< never null in a result of known_model()
   bool exact_drag = false;       ///< whether the exact drag replaces the fit (kExactDragSuffix)
   bool smooth = false;           ///< whether the roughness of the case is ignored (kSmoothSuffix)
 };
 
-/// The model with this name, which may have suffixes; nothing if there is none, or if _smooth
-/// follows the name of a model without contact.
+/// The model with this name, which may have suffixes; nothing if there is none.
 std::optional<ModelChoice> known_model(std::string_view name);
 
-/// The result of known_model(). Throws Error(kBadInput), which lists the names of all models, if
-/// there is no such model.
+/// The same. Throws Error(kBadInput), which lists the names, if there is no such model.
 ModelChoice find_model(std::string_view name);
 
 /// False if the number of the case at this key, such as "viscous_contact.roughness[0]", cannot
@@ -108,52 +95,48 @@ ModelChoice find_model(std::string_view name);
 /// that belong neither to [fluid], [sphere] and the roughness nor to a parameter of a model.
 bool depends_on(const ModelChoice& choice, std::string_view key);
 
-/// The drag for the model: a copy of `force`, or the exact drag near a plane of the same viscosity
-/// and radius if `choice.exact_drag` is true.
+/// A copy of `force`, or the exact drag near a plane of the same viscosity and radius.
 lubrication::LubricationForce drag_of(const ModelChoice& choice,
                                       const lubrication::LubricationForce& force);
 
-/// The motion for the model: a copy of `motion`, with roughness 0 if `choice.smooth` is true.
+/// A copy of `motion`, with roughness 0 if `choice.smooth` is true.
 Motion motion_of(const ModelChoice& choice, const Motion& motion);
 
-/// The contact model that the choice, which must be of a contact model (not checked), makes of
-/// motion_of(choice, motion) and `force`. `force` must outlive the result, which refers to it.
-/// Throws Error(kBadInput) if the model refuses the motion or the force.
+/// The contact model that the choice, which must be of one, makes of motion_of(choice, motion) and
+/// `force`. `force` must outlive the result, which refers to it.
 ContactModel contact_model_of(const ModelChoice& choice, const Motion& motion,
                               const lubrication::LubricationForce& force);
 
-/// The description of the model and of its suffixes, a line for legends.
+/// One line for legends.
 std::string description_of(const ModelChoice& choice);
 
 /// Checks a motion without running the model. Throws the Error(kBadInput) that simulate() would
 /// throw if a time step has no value or makes more than 1e8 steps, if the model refuses the motion
 /// (Model::check), or if a contact model refuses the initial gap, the roughness or the fit. Gaps
-/// that the motion reaches later are not checked. Of `force`, only its interval of gaps and its
+/// that the motion reaches later do not matter. Of `force`, only its interval of gaps and its
 /// coefficient k of 1/q decide whether an error is thrown.
 void check_model(const ModelChoice& choice, const Motion& motion,
                  const lubrication::LubricationForce& force);
 
 /// Runs a model and fills in the name of the trajectory, its budget and the computing time. The
-/// messages of all Errors begin with the name of the model. Throws the errors of the model, such as
-/// Error(kBadInput) if the gap leaves the interval of `force`, Error(kNotConverged) if a number of
-/// the motion is not finite or times do not increase, and Error(kInterrupted) if `motion.stop`
-/// requests a stop.
+/// messages of all Errors begin with the name of the model. Throws the errors of the model,
+/// Error(kNotConverged) if a number of the motion is not finite or times do not increase, and
+/// Error(kInterrupted) at a stop.
 Trajectory simulate(const ModelChoice& choice, const Motion& motion,
                     const lubrication::LubricationForce& force);
 
-/// The smallest and the largest gap [L] at which a model evaluates the whole drag in a motion.
+/// The gaps at which a model evaluates the whole drag in a motion [L].
 struct ReachedGaps {
-  /// Smallest gap [L], > 0; nothing for a model that evaluates no drag in a thin film.
+  /// Nothing for a model that evaluates no drag in a thin film.
   std::optional<double> smallest;
-  double largest = 0;  ///< largest gap [L], >= 0
+  double largest = 0;  ///< [L]
 };
 
-/// Runs the model with `force`. The force must be defined for every gap > 0, so that it must be the
-/// exact drag, or a fit with formulas below and above its interval; otherwise a motion that leaves
-/// the interval gives no result. If a contact model makes contact at a threshold gap, `smallest` is
-/// the film thickness that it computes from gamma (TrajectoryRow::gamma), because the drag at these
-/// gaps determines that thickness. Returns nothing if the model evaluates no drag, or if the motion
-/// cannot be computed. Throws Error(kInterrupted) if `motion.stop` requests a stop.
+/// Runs the model with `force`, which must be the exact drag, or a fit with formulas below and
+/// above its interval: a motion that leaves the interval gives no result. If a contact model makes
+/// contact at a threshold gap, `smallest` is the film thickness that it computes from gamma,
+/// because the drag at these gaps determines it. Returns nothing if the model evaluates no drag, or
+/// if the motion cannot be computed. Throws Error(kInterrupted) at a stop.
 std::optional<ReachedGaps> reached_gaps(const ModelChoice& choice, const Motion& motion,
                                         const lubrication::LubricationForce& force);
 

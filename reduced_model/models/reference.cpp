@@ -1,9 +1,4 @@
-// The loop over time of the model `reference`, and the rows of `reference_exact` (reference.hpp).
-// Gaps [L], > 0, velocities [L/T], times [T] and forces [M L/T^2], < 0 towards the wall, are in any
-// consistent units. A step through the wall throws Error(kNotConverged). A gap outside the interval
-// of the fit, a parameter without a value and more than 1e8 steps throw Error(kBadInput). A
-// requested stop throws Error(kInterrupted). models.cpp uses this file. A change of results must
-// raise kModelsRevision (trajectory.hpp).
+// Steps of (4.3) and rows of (4.2), docs/physics.md.
 #include "viscontact/reduced_model/models/reference.hpp"
 
 #include <algorithm>
@@ -12,10 +7,6 @@
 
 namespace viscontact::reduced_model {
 
-/// Explicit Euler with the time step h [T] > 0, which is the parameter reference.time_step. Each
-/// row has a time t, the gap q at t, the velocity u, the lubrication force -f and the external
-/// force f, which is its mean over the step that begins at t. The rows are those of the times 0, h,
-/// 2 h and so on, and of the end time.
 Trajectory simulate_reference(const Motion& motion, const lubrication::LubricationForce& force) {
   const double h = motion.parameter(kReferenceTimeStep);
   const double end = motion.end_time;
@@ -52,11 +43,6 @@ Trajectory simulate_reference(const Motion& motion, const lubrication::Lubricati
   return trajectory;
 }
 
-/// The solution without inertia, whose drag balances the external force at each time. The impulse
-/// Gamma(q) of `force` [M L/T] is the primitive of the resistance over the gap q. It grows by the
-/// impulse of the external force, and the gap follows from it. The rows have the same quantities as
-/// those of simulate_reference(), but f is the external force at the time of the row. Their times
-/// are those of row_times().
 Trajectory simulate_reference_exact(const Motion& motion,
                                     const lubrication::LubricationForce& force) {
   Trajectory trajectory;

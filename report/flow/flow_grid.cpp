@@ -1,14 +1,9 @@
-// Interpolates a flow at the points of a grid (flow_grid.hpp). Places [L], velocities [L/T] and
-// pressures [M/(L T^2)] are in the units of the case. A grid has at least 2 rows and columns, and
-// lists have a number for each point of the grid or for each node of the mesh (not checked). A
-// triangle of the mesh has six nodes. To decide whether it contains a point, it is replaced by four
-// straight triangles between its nodes; the value at the point then is that of the quadratic shape
-// functions. A point in no triangle gets NaN. Nothing is thrown. flow_plots.cpp, stream_lines.cpp
-// and particles/picture use this file. A change must keep the numbering of nodes (corners 0, 1 and
-// 2, then the middles of the sides 01, 12 and 20) and of points (row by row from the bottom).
+// A point is in a triangle of six nodes if it is in one of the four straight triangles between
+// them; its value is that of the quadratic shape functions.
 #include "viscontact/report/flow/flow_grid.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -18,22 +13,21 @@ namespace {
 
 constexpr double kNoFlow = std::numeric_limits<double>::quiet_NaN();
 
-/// Coordinates [1] of the six nodes in the reference triangle with corners (0, 0), (1, 0), (0, 1).
+/// Coordinates [1] of the six nodes (corners 0, 1 and 2, then the middles of the sides 01, 12 and
+/// 20) in the reference triangle with corners (0, 0), (1, 0), (0, 1).
 constexpr std::array<std::array<double, 2>, 6> kReference = {
     {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}}};
 /// The four straight triangles between the six nodes, each as three indices of nodes.
 constexpr std::array<std::array<std::size_t, 3>, 4> kFour = {
     {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
 
-/// The values [1] of the quadratic shape functions of the six nodes at the point (a, b) [1] of the
-/// reference triangle.
+/// The quadratic shape functions [1] of the six nodes at the point (a, b).
 std::array<double, 6> shape_functions(double a, double b) {
   const double c = 1 - a - b;
   return {c * (2 * c - 1), a * (2 * a - 1), b * (2 * b - 1), 4 * c * a, 4 * a * b, 4 * b * c};
 }
 
-/// The distances [L] by which the mesh and its copies are shifted along one axis: -period, 0 and
-/// period. If `period` is 0, there are no copies.
+/// The shifts [L] of the mesh and its copies along one axis; there are no copies if `period` is 0.
 std::vector<double> shifts(double period) {
   return period > 0 ? std::vector<double>{-period, 0, period} : std::vector<double>{0};
 }
@@ -51,9 +45,8 @@ void for_each_pixel(const std::array<double, 3>& x, const std::array<double, 3>&
   // A barycentric coordinate may be this far below 0, and the range of pixels is wider by this
   // share of a pixel, so that a centre on a side is in at least one triangle in spite of round-off.
   constexpr double kSlack = 1e-9;
-  // Returns the index of the first pixel whose centre is from `low` to `high` [L] in a row or
-  // column of `count` pixels, and the index after the last such pixel. The row or column begins at
-  // `start`, and a pixel has the length `step` [L].
+  // The first pixel whose centre is from `low` to `high` [L] in a row or column of `count` pixels
+  // of the length `step` [L] from `start` on, and the index after the last such pixel.
   const auto range = [](double low, double high, double start, double step, std::size_t count) {
     const auto clamp = [&](double place) {
       return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(count)));
@@ -79,12 +72,12 @@ void for_each_pixel(const std::array<double, 3>& x, const std::array<double, 3>&
 }
 
 /// Calls visit(point, nodes, shape, shift) for each point of the grid that is in a triangle of the
-/// mesh or of a copy of the mesh. `point` is the index of the point, `shift` the shift of the copy
-/// along x and y [L], and `shape` has the values of the shape functions of the triangle's six
-/// `nodes` at the point. A point on a side of two triangles is visited for both.
+/// mesh or of a copy that is shifted by `shift` [L]; `shape` has the shape functions of the
+/// triangle's six `nodes` at the point. A point on a side of two triangles is visited for both.
 template <class Visit>
 void for_each_point(const QuadraticMesh& mesh, const Grid& grid, const FlowPeriods& periods,
                     const Visit& visit) {
+  assert(grid.columns >= 2 && grid.rows >= 2);
   const auto window = grid.pixel_window();
   const auto shifts_x = shifts(periods.lengths[0]), shifts_y = shifts(periods.lengths[1]);
   for (const auto& nodes : mesh.triangles)
@@ -111,10 +104,8 @@ void for_each_point(const QuadraticMesh& mesh, const Grid& grid, const FlowPerio
 
 }  // namespace
 
-/// A grid of the window [L] with about `points` points, which are nearly as far apart along x as
-/// along y.
 Grid grid_of(const Window& window, std::size_t points) {
-  static constexpr double kMost = 1200;  // a free choice; a screen cannot show longer rows
+  static constexpr double kMost = 1200;  // a screen cannot show longer rows
   const auto wanted = static_cast<double>(points);
   const double columns = std::sqrt(wanted * window.width() / window.height());
   const auto count = [](double n) {
@@ -123,10 +114,9 @@ Grid grid_of(const Window& window, std::size_t points) {
   return {window, count(columns), count(wanted / columns)};
 }
 
-/// The velocity and the pressure at each point of the grid. `periods` has the lengths after which
-/// the flow repeats itself [L], or 0, and the mean gradient of the velocity [1/T]; one period
-/// further the velocity is larger by this gradient times the period.
 FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid, const FlowPeriods& periods) {
+  assert(flow.velocity_x.size() == flow.x.size() && flow.velocity_y.size() == flow.x.size());
+  assert(flow.pressure.size() == flow.x.size());
   FlowOnGrid found;
   for (auto* field : {&found.velocity_x, &found.velocity_y, &found.pressure})
     field->assign(grid.size(), kNoFlow);
@@ -147,9 +137,9 @@ FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid, const FlowPerio
   return found;
 }
 
-/// The field at each point of the grid. `values` are its values at the nodes, in any unit.
 std::vector<double> field_on_grid(const QuadraticMesh& mesh, const std::vector<double>& values,
                                   const Grid& grid) {
+  assert(values.size() == mesh.x.size());
   std::vector<double> found(grid.size(), kNoFlow);
   for_each_point(mesh, grid, {},
                  [&](std::size_t point, const auto& nodes, const auto& shape, const auto&) {
@@ -160,9 +150,8 @@ std::vector<double> field_on_grid(const QuadraticMesh& mesh, const std::vector<d
   return found;
 }
 
-/// Replaces each NaN by the mean of those of its at most eight neighbours on the grid that were
-/// numbers before the call. `values` has rows of `columns` >= 1 numbers.
 void fill_next_to_known(std::vector<double>& values, std::size_t columns) {
+  assert(columns >= 1 && values.size() % columns == 0);
   const auto inner = values;
   const auto rows = values.size() / columns;
   for (std::size_t row = 0; row < rows; ++row)

@@ -1,10 +1,4 @@
-// Interpolates a flow from the nodes of a finite-element mesh to the points of a regular grid, from
-// which still pictures and HTML pages draw it. Lengths [L], masses [M] and times [T] are in the
-// units of the case. flow_plots.cpp, stream_lines.cpp and particles/picture use this file. A change
-// must keep the order of the points: row by row from the bottom, each row from the left. A list
-// must have one number for each point of the grid, or for each node of the mesh. Nothing is checked
-// or thrown; a list that is too short is read beyond its end. The limit of 1200 points in a row is
-// a free choice.
+// Interpolates a flow from the nodes of a finite-element mesh to the points of a regular grid.
 #pragma once
 
 #include <array>
@@ -15,18 +9,19 @@
 
 namespace viscontact::report {
 
-/// A rectangle whose sides are parallel to the axes.
+/// A rectangle whose sides are parallel to the axes, of positive width and height.
 struct Window {
   double left = 0, right = 0, bottom = 0, top = 0;  ///< places of its sides [L]
-  double width() const { return right - left; }     ///< [L], > 0
-  double height() const { return top - bottom; }    ///< [L], > 0
-  bool operator==(const Window&) const = default;   ///< whether all sides are equal
+  double width() const { return right - left; }     ///< [L]
+  double height() const { return top - bottom; }    ///< [L]
+  bool operator==(const Window&) const = default;
 };
 
-/// Evenly spaced points that fill a window; the outermost points are on its sides.
+/// Evenly spaced points that fill a window; the outermost points are on its sides. In lists they
+/// stand row by row from the bottom, each row from the left.
 struct Grid {
-  Window window;                      ///< the rectangle of the points [L]
-  std::size_t columns = 2, rows = 2;  ///< numbers of points, >= 2
+  Window window;
+  std::size_t columns = 2, rows = 2;  ///< at least 2
 
   double step_x() const { return window.width() / static_cast<double>(columns - 1); }  ///< [L]
   double step_y() const { return window.height() / static_cast<double>(rows - 1); }    ///< [L]
@@ -35,8 +30,8 @@ struct Grid {
     return window.left + static_cast<double>(column) * step_x();
   }
   double y(std::size_t row) const { return window.bottom + static_cast<double>(row) * step_y(); }
-  std::size_t size() const { return columns * rows; }  ///< number of points
-  bool operator==(const Grid&) const = default;        ///< whether all points are equal
+  std::size_t size() const { return columns * rows; }
+  bool operator==(const Grid&) const = default;
   /// The window [L] that pixels fill if the points are their centres.
   Window pixel_window() const {
     return {window.left - step_x() / 2, window.right + step_x() / 2, window.bottom - step_y() / 2,
@@ -44,9 +39,8 @@ struct Grid {
   }
 };
 
-/// A grid of the window, of width and height > 0, with about `points` >= 1 points, nearly as far
-/// apart along x as along y. A row or column has from 2 to 1200 points, because a longer row could
-/// not be seen on a screen.
+/// A grid with about `points` >= 1 points, nearly as far apart along x as along y. A row or column
+/// has from 2 to 1200 points, because a longer row could not be seen on a screen.
 Grid grid_of(const Window& window, std::size_t points);
 
 /// Velocity [L/T] and pressure [M/(L T^2)] at the points of a grid; NaN at a point that is in no
@@ -64,20 +58,20 @@ struct FlowPeriods {
   std::array<double, 4> gradient{};
 };
 
-/// Interpolates the flow at the points of the grid by the shape functions of the mesh's quadratic
-/// triangles. `flow` (common/vtk/flow_vtk.hpp) has the velocity [L/T] and the pressure [M/(L T^2)]
-/// at the six nodes of each triangle. Points in copies of the triangles, one period further on
-/// either side, get values as well, because a triangle may lie outside of the cell that `periods`
-/// repeats.
+/// Interpolates the flow by the shape functions of the mesh's quadratic triangles, at whose six
+/// nodes `flow` (common/vtk/flow_vtk.hpp) is given. Points in copies of the triangles, one period
+/// further on either side, get values as well, because a triangle may lie outside of the cell that
+/// `periods` repeats.
 FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid, const FlowPeriods& periods = {});
 
-/// Interpolates a field, which has `values` in any unit at the nodes of the mesh, at the points of
-/// the grid; NaN where the mesh has no triangle.
+/// Interpolates a field, which has `values` in any unit at the nodes of the mesh; NaN where the
+/// mesh has no triangle.
 std::vector<double> field_on_grid(const QuadraticMesh& mesh, const std::vector<double>& values,
                                   const Grid& grid);
 
-/// Replaces each NaN by the mean of its neighbours on the grid (up to eight) that are numbers. A
-/// NaN without such a neighbour stays. `values` has `columns` >= 1 numbers in each row of the grid.
+/// Replaces each NaN by the mean of those of its at most eight neighbours on the grid that were
+/// numbers before the call. A NaN without such a neighbour stays. `values` has rows of `columns` >=
+/// 1 numbers.
 void fill_next_to_known(std::vector<double>& values, std::size_t columns);
 
 }  // namespace viscontact::report

@@ -1,17 +1,12 @@
-// Draws the pictures of a row of a table of lubrication forces on a sphere. The flow was computed
-// in the half-plane of the distance rho from the axis and the height z; pictures also show its
-// mirror image. Radius and gap [L], > 0, velocities [L/T] or angular velocities [1/T], not 0, and
-// pressures [M/(L T^2)] are in the units of the case and are not checked. Sizes on the picture are
-// in pixels; sizes, ratios and numbers of lines without a reason are free choices. A gnuplot that
-// is missing, fails or takes ten minutes throws Error(kExternalProgram), and a requested stop
-// throws Error(kInterrupted). pipeline/tabulate uses this file. A change must keep that the title
-// says so if heights are drawn larger than widths, and that each result is the text of one SVG.
+// The flow was computed in the half-plane of the distance rho from the axis and the height z;
+// pictures also show its mirror image. Sizes on the picture are in pixels.
 #include "viscontact/report/flow/flow_plots.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -30,7 +25,6 @@
 namespace viscontact::report {
 namespace {
 
-/// The part of the plane that a picture shows [L], and its size in the picture.
 struct PlotView {
   Window window;
   double plot_width = 0, plot_height = 0;  // [pixels]
@@ -43,7 +37,7 @@ constexpr double kPlotWidth = 640;
 constexpr double kTallestPlot = 640;
 constexpr double kStretchedPlot = 360;
 
-/// A view of the window [L] with equal scales on both axes, as large as the limits above allow.
+/// A view with equal scales on both axes, as large as the limits above allow.
 PlotView unstretched(const Window& window) {
   const double scale = std::min(kPlotWidth / window.width(), kTallestPlot / window.height());
   return {window, window.width() * scale, window.height() * scale};
@@ -54,8 +48,7 @@ double sphere_bottom(double radius, double gap, double rho) {
   return gap + radius - std::sqrt(std::max(0.0, radius * radius - rho * rho));
 }
 
-/// The lines [L] without the points that are less than a pixel away from the last point that was
-/// kept. The ends of each line are kept.
+/// Leaves out points less than a pixel away from the last one, except the ends of each line.
 std::vector<Polyline> thinned(const std::vector<Polyline>& lines, const PlotView& view) {
   const double x_scale = view.plot_width / view.window.width();
   const double y_scale = view.plot_height / view.window.height();
@@ -72,11 +65,12 @@ std::vector<Polyline> thinned(const std::vector<Polyline>& lines, const PlotView
   return result;
 }
 
-/// Adds a side of a triangle to `lines` [L], unless it is to the right of the window [L], above it
-/// or below it. The side is the parabola through its ends (nodes side[0] and side[1]) and its
-/// middle (node side[2]), drawn as `pieces` >= 1 straight pieces.
+/// Adds a side of a triangle to `lines` [L], unless it is to the right of the window, above it or
+/// below it. The side is the parabola through its ends (nodes side[0] and side[1]) and its middle
+/// (node side[2]), drawn as `pieces` >= 1 straight pieces.
 void add_side(std::vector<Polyline>& lines, const QuadraticMesh& mesh, const Window& window,
               const std::array<std::size_t, 3>& side, int pieces) {
+  assert(pieces >= 1);
   const auto at = [&](std::size_t place) {
     return std::array<double, 2>{mesh.x[side.at(place)], mesh.y[side.at(place)]};
   };
@@ -94,8 +88,8 @@ void add_side(std::vector<Polyline>& lines, const QuadraticMesh& mesh, const Win
   lines.push_back(std::move(line));
 }
 
-/// A view of the sphere and the fluid around it: the whole fluid if it extends at most 6 radii from
-/// the axis and is at most 12 radii high, else the part within 3.2 radii of the sphere's centre.
+/// The whole fluid if it extends at most 6 radii from the axis and is at most 12 radii high, else
+/// the part within 3.2 radii of the sphere's centre.
 PlotView surroundings(const QuadraticMesh& mesh, double radius, double gap) {
   constexpr double kReach = 3.2, kWhole = 6, kMargin = 0.15;  // in radii
   const Window fluid{0, std::ranges::max(mesh.x), std::min(0.0, std::ranges::min(mesh.y)),
@@ -119,8 +113,9 @@ constexpr double kGapReach = 2.5;
 /// kGapReach, but at most 0.9 radii, and at least half of its height. Heights are stretched if the
 /// gap would be too flat at equal scales.
 PlotView gap_view(const QuadraticMesh& mesh, double radius, double gap, double reach = kGapReach) {
+  assert(radius > 0 && gap > 0);
   constexpr double kOfSphere = 0.9;  // largest half width of the view over the radius
-  constexpr double kMargin = 0.08;   // margin above and below the gap, over the height of the gap
+  constexpr double kMargin = 0.08;   // above and below the gap, over the height of the gap
   constexpr double kFlattest = 0.4;  // least height over width of a view with equal scales
   const double half = std::min(reach * std::sqrt(2 * gap * radius), kOfSphere * radius);
   const double top = sphere_bottom(radius, gap, half);
@@ -129,15 +124,14 @@ PlotView gap_view(const QuadraticMesh& mesh, double radius, double gap, double r
     if (mesh.x[i] < half && mesh.y[i] > -top) bottom = std::min(bottom, mesh.y[i]);
   const double margin = kMargin * (top - bottom);
   Window window{-half, half, bottom - margin, top + margin};
-  const double widest = std::max(half, window.height() / 2);  // a view is at least as wide as high
+  const double widest = std::max(half, window.height() / 2);
   window.left = -widest;
   window.right = widest;
   if (window.height() > kFlattest * window.width()) return unstretched(window);
   return {window, kPlotWidth, kStretchedPlot};
 }
 
-/// The lines [L] and their mirror images at rho < 0 as one curve, in which a NaN separates two
-/// lines. `style` is in gnuplot's syntax.
+/// The lines and their mirror images at rho < 0 as one curve, in which a NaN separates two lines.
 Curve mirrored(const std::string& legend, const std::string& style,
                const std::vector<Polyline>& lines) {
   Curve curve{legend, style, {}};
@@ -149,7 +143,6 @@ Curve mirrored(const std::string& legend, const std::string& style,
   return curve;
 }
 
-/// The sides of all triangles near the window, each once, as `pieces` straight pieces.
 std::vector<Polyline> sides(const QuadraticMesh& mesh, const Window& window, int pieces) {
   // Two triangles share a side, which is stored once, under the number of its middle node.
   std::map<std::int32_t, std::array<std::size_t, 3>> by_middle;
@@ -163,13 +156,10 @@ std::vector<Polyline> sides(const QuadraticMesh& mesh, const Window& window, int
   return lines;
 }
 
-/// The curves for the sphere of this radius [L], which is a filled surface, and for walls and
-/// surfaces without shear stress, which are lines.
 std::vector<Curve> outlines(const freefem_axi::RowPicture& picture, const PlotView& view,
                             double radius) {
   const double gap = picture.gap;
   const auto& window = view.window;
-  // Numbers of straight pieces of a side of a triangle, and of the visible part of the sphere.
   constexpr int kPieces = 6, kSamples = 200;
   std::vector<Polyline> walls, shear_free;
   for (const auto& edge : picture.boundary) {
@@ -178,7 +168,6 @@ std::vector<Curve> outlines(const freefem_axi::RowPicture& picture, const PlotVi
       add_side(edge.kind == freefem_axi::BoundaryKind::kShearFree ? shear_free : walls,
                picture.flow, window, edge.nodes, kPieces);
   }
-  // The part of the sphere in the window, closed along the upper side of the window.
   Curve sphere{
       "", "filledcurves closed fillcolor rgb '#8c8c8c' fillstyle solid border rgb '#000000'", {}};
   const double half = window.right < radius ? std::asin(window.right / radius) : std::numbers::pi;
@@ -203,14 +192,13 @@ std::vector<Curve> outlines(const freefem_axi::RowPicture& picture, const PlotVi
 
 // Margins of the drawing around the plot [pixels].
 constexpr double kLeft = 110, kAbove = 66, kBelow = 106;
-constexpr double kColourBar = 165;  // margin at the right with the numbers of the colours
+constexpr double kColourBar = 165;  // at the right, with the numbers of the colours
 constexpr double kNoColourBar = 30;
 
-/// gnuplot's command for an arrow on the visible part of the sphere; it points upwards if the
-/// velocity of the sphere is > 0. `radius` and `window` are in [L].
+/// gnuplot's command for an arrow on the visible part of the sphere, upwards for a velocity > 0.
 std::string velocity_arrow(const freefem_axi::RowPicture& row, double radius,
                            const Window& window) {
-  constexpr double kLength = 0.4;  // length of the arrow over the height of the visible part
+  constexpr double kLength = 0.4;  // over the height of the visible part
   const double top = std::min(row.gap + 2 * radius, window.top);
   const double middle = (row.gap + top) / 2;
   const double half = std::copysign(kLength / 2 * (top - row.gap), row.reference_velocity);
@@ -219,8 +207,7 @@ std::string velocity_arrow(const freefem_axi::RowPicture& row, double radius,
       middle - half, middle + half);
 }
 
-/// gnuplot's commands for the axes and margins of a picture of the size `width` x `height` [pixels]
-/// with the margins `right` and `below` [pixels].
+/// gnuplot's commands for the axes and margins of a picture; all sizes in [pixels].
 std::vector<std::string> layout(const PlotView& view, double right, double below, double width,
                                 double height) {
   return {"unset grid", "set border linewidth 1 back", "set tics out nomirror",
@@ -246,9 +233,7 @@ std::string motion_in_words(lubrication::MotionKind motion) {
                                        : ", spinning at angular velocity";
 }
 
-/// A panel with a title and labels, but without curves. The title has the words `what`, the gap and
-/// radius [L], the velocity and the geometry, and says how many times heights are stretched if that
-/// is more than 1.05 times.
+/// The title says how many times heights are stretched if that is more than 1.05 times.
 Panel empty_panel(const std::string& what, const freefem_axi::RowPicture& picture,
                   const freefem_axi::Tabulation& tabulation, const PlotView& view) {
   constexpr double kVisible = 1.05;
@@ -265,8 +250,7 @@ Panel empty_panel(const std::string& what, const freefem_axi::RowPicture& pictur
   return panel;
 }
 
-/// Adds the layout to the panel, draws it with gnuplot and returns the SVG. `right` is the margin
-/// at the right [pixels]. The margin below grows by 20 pixels for every two entries of the legend.
+/// The SVG. The margin below grows by 20 pixels for every two entries of the legend.
 std::string draw(Panel panel, const PlotView& view, double right, const StopToken& stop) {
   constexpr double kLegendRow = 20;
   const auto legends =
@@ -282,17 +266,16 @@ std::string draw(Panel panel, const PlotView& view, double right, const StopToke
                   static_cast<int>(std::lround(height)), stop);
 }
 
-/// The flow in a view, on a grid of the half-plane. Each point of the grid is the centre of a cell
-/// of one colour; the cells are so small that they are hardly seen.
+/// The flow on a grid of the half-plane whose points are the centres of cells of one colour.
 struct ViewedFlow {
   PlotView view;
   Grid grid;
   FlowOnGrid flow;
 };
 
-/// The grid of the points at the centres of the cells, for the right half (rho > 0) of the view.
+/// The grid of the right half (rho > 0) of the view.
 Grid grid_of_view(const PlotView& view) {
-  // Size of a cell [pixels], a free choice. gnuplot's time is proportional to the number of cells.
+  // Size of a cell [pixels]. gnuplot's time is proportional to the number of cells.
   constexpr double kCell = 1.5;
   const auto columns = static_cast<std::size_t>(view.plot_width / 2 / kCell);
   const auto rows = static_cast<std::size_t>(view.plot_height / kCell);
@@ -304,14 +287,12 @@ Grid grid_of_view(const PlotView& view) {
           rows};
 }
 
-/// The view with its grid and the flow at the points of the grid.
 ViewedFlow flow_in(const PlotView& view, const FlowField& flow) {
   const auto grid = grid_of_view(view);
   return {view, grid, flow_on_grid(flow, grid)};
 }
 
-/// The values at the points of the grid, in any unit, and their mirror images at the left of the
-/// axis, as a field of colours in the view. NaN stands for a point outside the fluid.
+/// The values and their mirror images at the left of the axis; NaN outside the fluid.
 ColourField colour_field(std::vector<double> values, const Grid& grid, const PlotView& view) {
   // The boundary of the fluid may cross a cell whose centre is outside the fluid.
   fill_next_to_known(values, grid.columns);
@@ -328,8 +309,7 @@ ColourField colour_field(std::vector<double> values, const Grid& grid, const Plo
   return field;
 }
 
-/// The smallest and the largest of the `values`, in any unit, at the nodes of the mesh that are in
-/// the window; infinity and -infinity if no node is in it.
+/// The extremes at the nodes in the window; infinity and -infinity if no node is in it.
 std::pair<double, double> extremes(const QuadraticMesh& mesh, const std::vector<double>& values,
                                    const Window& window) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -341,10 +321,8 @@ std::pair<double, double> extremes(const QuadraticMesh& mesh, const std::vector<
   return {low, high};
 }
 
-/// The streamlines around an approaching sphere with this radius and gap [L], > 0. The curve is
-/// empty if there are no streamlines.
 Curve streamlines(const ViewedFlow& viewed, double radius, double gap) {
-  constexpr int kLines = 14;  // about this number of lines on each side of the axis, a free choice
+  constexpr int kLines = 14;  // about this number of lines on each side of the axis
   const auto& grid = viewed.grid;
   std::vector<char> is_sphere(grid.size());
   for (std::size_t i = 0; i < is_sphere.size(); ++i)
@@ -361,8 +339,7 @@ Curve streamlines(const ViewedFlow& viewed, double radius, double gap) {
                   "lines linewidth 1 linecolor rgb '#202020'", thinned(drawn, viewed.view));
 }
 
-/// Draws the pressure as colours and the streamlines over it. `what` is the beginning of the title,
-/// and `pressure` [M/(L T^2)] the field whose colours `colours` decides. Returns the SVG.
+/// `what` is the beginning of the title; `colours` decides the colours of `pressure`.
 std::string plot_pressure_and_streamlines(const std::string& what,
                                           const freefem_axi::RowPicture& picture,
                                           const freefem_axi::Tabulation& tabulation,
@@ -386,7 +363,7 @@ std::string plot_pressure_and_streamlines(const std::string& what,
 Curve velocity_arrows(const ViewedFlow& viewed, double fastest) {
   const auto& view = viewed.view;
   constexpr std::size_t kColumns = 24;
-  // The length of an arrow's head over that of the arrow, and half the angle of the head [rad].
+  // Length of an arrow's head over that of the arrow, and half the angle of the head [rad].
   constexpr double kHead = 0.35, kAngle = 0.45;
   const auto rows = static_cast<std::size_t>(
       std::lround(std::max(2.0, kColumns * view.plot_height / view.plot_width)));
@@ -407,8 +384,7 @@ Curve velocity_arrows(const ViewedFlow& viewed, double fastest) {
                                                 static_cast<double>(u_field.columns));
     const double u = u_field.values.at(pixel), w = w_field.values.at(pixel);
     if (!std::isfinite(u)) continue;
-    // The length of an arrow, in cells, is proportional to the square root of the speed, so that
-    // slow flow can be seen.
+    // The length is proportional to the square root of the speed, so that slow flow can be seen.
     const double speed = std::hypot(u, w);
     const double length = 0.9 * std::sqrt(speed / fastest);
     const double dx = length * u / speed, dy = length * (x < 0 ? -w : w) / speed;
@@ -431,9 +407,6 @@ Curve velocity_arrows(const ViewedFlow& viewed, double fastest) {
 
 }  // namespace
 
-/// The SVG of the flow around a sphere that slides, rolls or spins: colours show the speed [L/T]
-/// and arrows the direction. For a spin, colours show the size of the azimuthal velocity [L/T],
-/// without arrows. `in_gap` chooses the view of the gap instead of that of the whole sphere.
 std::string plot_motion(const freefem_axi::RowPicture& picture,
                         const freefem_axi::Tabulation& tabulation, bool in_gap,
                         const StopToken& stop) {
@@ -458,11 +431,9 @@ std::string plot_motion(const freefem_axi::RowPicture& picture,
   return draw(panel, view, kColourBar, stop);
 }
 
-/// The SVG of the finest mesh in the gap and, over it, of the coarsest mesh, for any motion.
 std::string plot_mesh(const freefem_axi::RowPicture& picture,
                       const freefem_axi::Tabulation& tabulation, const StopToken& stop) {
-  // A side of the coarsest mesh is drawn in this number of straight pieces. A side of the finest
-  // mesh is at most a quarter as long and has a quarter of the pieces.
+  // A side of the finest mesh is at most a quarter as long and has a quarter of the pieces.
   constexpr int kPieces = 8;
   constexpr std::size_t kMostSides = 3500;  // if there are more, the view is made narrower
   double reach = kGapReach;
@@ -490,7 +461,6 @@ std::string plot_mesh(const freefem_axi::RowPicture& picture,
   return draw(panel, view, kNoColourBar, stop);
 }
 
-/// The SVG of the flow around an approaching sphere, with the pressure as colours and streamlines.
 std::string plot_flow(const freefem_axi::RowPicture& picture,
                       const freefem_axi::Tabulation& tabulation, const StopToken& stop) {
   const auto& flow = picture.flow;
@@ -499,9 +469,9 @@ std::string plot_flow(const freefem_axi::RowPicture& picture,
   const auto pressure = colour_field(viewed.flow.pressure, viewed.grid, view);
   const double usual =
       tabulation.viscosity * std::abs(picture.reference_velocity) / tabulation.radius;
-  // The pressure mu |u0|/r [M/(L T^2)], > 0, is the scale of pressures far from a narrow gap, where
-  // mu is the viscosity, u0 the velocity and r the radius. If the extremes of the picture are much
-  // larger, the scale of colours is linear below about this pressure and logarithmic above it.
+  // The pressure mu |u0|/r [M/(L T^2)], with the viscosity mu, the velocity u0 and the radius r, is
+  // the scale of pressures far from a narrow gap. If the extremes of the picture are much larger,
+  // the scale of colours is linear below about this pressure and logarithmic above it.
   auto colours = robust_colours(pressure.values, usual);
   // A thin film may contain no centre of a cell. Therefore the extremes in the words of the scale
   // are those at the nodes of the mesh.
@@ -510,8 +480,6 @@ std::string plot_flow(const freefem_axi::RowPicture& picture,
                                        colours, stop);
 }
 
-/// The SVG of the flow of an approaching sphere in the gap, with the pressure and streamlines. The
-/// scale of colours is linear.
 std::string plot_gap_flow(const freefem_axi::RowPicture& picture,
                           const freefem_axi::Tabulation& tabulation, const StopToken& stop) {
   const auto viewed = flow_in(gap_view(picture.flow, tabulation.radius, picture.gap), picture.flow);

@@ -1,10 +1,4 @@
-// Pictures of one row of a table of lubrication forces: the mesh in the gap between sphere and
-// wall, the flow around the sphere and the flow in the gap. Lengths, masses and times are in the
-// units of the case: gap and radius [L], > 0, velocity [L/T] or angular velocity [1/T], not 0, and
-// pressure [M/(L T^2)]; none of them is checked. `tabulate --plot` makes the pictures
-// (pipeline/tabulate/picture_stage.cpp). A gnuplot that is missing or fails throws
-// Error(kExternalProgram). A change must keep that each function returns one complete SVG; sizes,
-// colours and numbers of lines in flow_plots.cpp are free choices.
+// Pictures of one row of a table of lubrication forces, in the units of the case.
 #pragma once
 
 #include <string>
@@ -15,8 +9,8 @@
 namespace viscontact::report {
 
 // `picture` must be the flow of a row of the table that `tabulation` describes, with the motion
-// that the function needs; neither is checked. The flow was computed in the half-plane of the
-// distance from the axis and the height; each drawing also shows its mirror image. If the gap is
+// that the function needs: gap and radius > 0 [L], velocity [L/T] or angular velocity [1/T] not 0.
+// Each drawing also shows the mirror image of the half-plane of the computation. If the gap is
 // thin, heights are stretched, and the title says so. Each function returns the text of an SVG and
 // throws Error(kExternalProgram) if gnuplot is missing, fails or takes ten minutes, and
 // Error(kInterrupted) if `stop` requests a stop.
@@ -32,16 +26,14 @@ std::string plot_mesh(const freefem_axi::RowPicture& picture,
 std::string plot_flow(const freefem_axi::RowPicture& picture,
                       const freefem_axi::Tabulation& tabulation, const StopToken& stop = {});
 
-/// The flow of an approaching sphere in the gap, with the pressure as colours and with streamlines
-/// between which equal amounts flow.
+/// The same in the gap, with a linear scale of colours.
 std::string plot_gap_flow(const freefem_axi::RowPicture& picture,
                           const freefem_axi::Tabulation& tabulation, const StopToken& stop = {});
 
 /// The flow of a sphere that slides, rolls or spins, in the plane through the axis and the
 /// direction of motion. Colours show the speed and arrows the direction. If the sphere spins, the
-/// colours show the size of the velocity about the axis, and there are no arrows. If `in_gap` is
-/// true, the picture shows the gap only; otherwise it shows the same part of the fluid as
-/// plot_flow().
+/// colours show the size of the velocity about the axis, and there are no arrows. The picture shows
+/// the gap only, or without `in_gap` the same part of the fluid as plot_flow().
 std::string plot_motion(const freefem_axi::RowPicture& picture,
                         const freefem_axi::Tabulation& tabulation, bool in_gap,
                         const StopToken& stop = {});

@@ -1,15 +1,10 @@
-// Solves for the stream function on a grid, follows its level lines, and simplifies them
-// (stream_lines.hpp). Places [L], velocities [L/T] and the stream function psi are in the units of
-// the case; psi is in [L^2/T], or in [L^3/T] if the flow is symmetric about an axis. Lists have one
-// number for each point of the grid, NaN where there is no fluid (not checked). The least squares
-// have an equation for each two neighbouring points. The equation of two points that are not both
-// in the fluid has a small weight, so that the matrix is never singular and the fluid may consist
-// of several regions. Nothing is thrown. flow_plots.cpp and particles/picture draw the lines. A
-// change must keep the equal steps of psi between lines.
+// The least squares for psi have an equation for each two neighbouring points. That of two points
+// that are not both in the fluid has a small weight, so that the matrix is never singular.
 #include "viscontact/report/flow/stream_lines.hpp"
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
@@ -60,8 +55,7 @@ Polyline simplified(const Polyline& line, double tolerance) {
   return kept;
 }
 
-/// The field with these values, in any unit, at the points of the grid. It has two triangles for
-/// each cell of the grid whose four corners have numbers as values.
+/// The field has two triangles for each cell of the grid whose four corners have numbers as values.
 LinearField field_on(const Grid& grid, const std::vector<double>& values) {
   LinearField field;
   field.values = values;
@@ -79,7 +73,6 @@ LinearField field_on(const Grid& grid, const std::vector<double>& values) {
   return field;
 }
 
-/// The index of the point of the grid that is nearest to `place` [L].
 std::size_t nearest_point(const Grid& grid, const Polyline::value_type& place) {
   const auto nearest = [](double steps, std::size_t count) {
     return static_cast<std::size_t>(
@@ -89,7 +82,6 @@ std::size_t nearest_point(const Grid& grid, const Polyline::value_type& place) {
          nearest((place.first - grid.window.left) / grid.step_x(), grid.columns);
 }
 
-/// The length of the line [L].
 double length_of(const Polyline& line) {
   double length = 0;
   for (std::size_t i = 1; i < line.size(); ++i)
@@ -97,17 +89,16 @@ double length_of(const Polyline& line) {
   return length;
 }
 
-/// Orders the points of the line [L], which has at least two, in the direction of the flow,
-/// simplifies the line, and gives it an arrow. The line gets no arrow if it is short, or if each
-/// place that is tried is in a particle (is_body is 1) or near an arrow of another line. `arrows`
-/// has the places [L] of the arrows of the other lines; the new place is added to it.
+/// The line, which has at least two points, in the direction of the flow, simplified, and with an
+/// arrow. The line gets no arrow if it is short, or if each place that is tried is in a particle
+/// (is_body is 1) or near one of `arrows`, those of other lines, to which the new place is added.
 StreamLine directed(Polyline line, const Grid& grid, const FlowOnGrid& flow,
                     const std::vector<char>& is_body, Polyline& arrows) {
-  // The least length of a line with an arrow, and the least distance of two arrows, both over the
-  // longer side of the window. Both are free choices.
+  assert(line.size() >= 2);
+  // Least length of a line with an arrow and distance of arrows, over the longer side of the
+  // window.
   constexpr double kShort = 0.12, kApart = 0.14;
-  // The places on the line, as shares of the number of its points, at which an arrow is tried and
-  // at which the direction of the flow is compared with that of the line.
+  // Shares of the points at which an arrow is tried and the directions of line and flow compared.
   constexpr std::array<double, 9> kPlaces = {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9};
   const auto at = [&](double share) {
     return static_cast<std::size_t>(share * static_cast<double>(line.size() - 1));
@@ -140,7 +131,7 @@ StreamLine directed(Polyline line, const Grid& grid, const FlowOnGrid& flow,
       }
   // The parts before and after the arrow are simplified separately, so that the arrow stays at a
   // point of the line.
-  const double tolerance = 0.1 * std::min(grid.step_x(), grid.step_y());  // [L]; a free choice
+  const double tolerance = 0.1 * std::min(grid.step_x(), grid.step_y());  // [L]
   const auto middle = line.begin() + static_cast<std::ptrdiff_t>(arrow);
   result.points = simplified({line.begin(), middle + 1}, tolerance);
   if (arrow > 0) result.arrow = static_cast<int>(result.points.size()) - 1;
@@ -151,9 +142,8 @@ StreamLine directed(Polyline line, const Grid& grid, const FlowOnGrid& flow,
 
 }  // namespace
 
-/// The lines [L] on which the field equals `level`, in the unit of the field, in no certain order.
-/// The first and the last point of a closed line are equal.
 std::vector<Polyline> level_lines(const LinearField& field, double level) {
+  assert(field.values.size() == field.points.size());
   // The points of a level line are its crossings with sides of triangles. Each crossing has at most
   // two neighbours on the line, one in each triangle at the side.
   struct Crossing {
@@ -220,14 +210,12 @@ struct StreamLines::Equations {
   std::vector<char> is_fluid;
   bool is_analysed = false;
 
-  /// Weight [1] of the equation between two neighbouring points. The small weight is a free choice.
+  /// Weight [1] of the equation between two neighbouring points.
   static double weight(bool both_in_fluid) { return both_in_fluid ? 1 : 1e-5; }
 
-  /// Factorises the matrix for the points in the fluid; `points` has 1 for a point in the fluid and
-  /// 0 for another one. If the matrix was factorised before for nearly the same points, the earlier
-  /// factor is kept.
+  /// Factorises the matrix for these points, unless it was factorised before for nearly the same.
   void prepare(const Grid& grid, std::vector<char> points) {
-    constexpr double kNearly = 0.005;  // largest share of points that may differ, a free choice
+    constexpr double kNearly = 0.005;  // largest share of points that may differ
     if (is_fluid.size() == points.size()) {
       std::size_t different = 0;
       for (std::size_t i = 0; i < points.size(); ++i) different += points[i] != is_fluid[i] ? 1 : 0;
@@ -250,8 +238,7 @@ struct StreamLines::Equations {
     factor.factorize(matrix);
   }
 
-  /// Calls visit(a, b, is_horizontal) for each two neighbours in a row or a column of the grid; a
-  /// and b are their indices.
+  /// Calls visit(a, b, is_horizontal) for the indices of each two neighbours in a row or a column.
   template <class Visit>
   static void for_each_side(const Grid& grid, const Visit& visit) {
     for (std::size_t row = 0; row < grid.rows; ++row)
@@ -264,14 +251,14 @@ struct StreamLines::Equations {
 };
 
 StreamLines::StreamLines(const Grid& grid, bool has_axis)
-    : grid_(grid), has_axis_(has_axis), equations_(std::make_unique<Equations>()) {}
+    : grid_(grid), has_axis_(has_axis), equations_(std::make_unique<Equations>()) {
+  assert(!has_axis || grid.x(0) >= 0);
+}
 StreamLines::~StreamLines() = default;
 StreamLines::StreamLines(StreamLines&&) noexcept = default;
 
-/// psi at each point of the grid, by least squares from its differences between neighbouring
-/// points, which follow from the velocity [L/T]. NaN at points that are neither in the fluid nor
-/// next to it.
 std::vector<double> StreamLines::stream_function(const FlowOnGrid& flow) {
+  assert(flow.velocity_x.size() == grid_.size() && flow.velocity_y.size() == grid_.size());
   auto u = flow.velocity_x, v = flow.velocity_y;
   std::vector<char> points(u.size());
   for (std::size_t i = 0; i < u.size(); ++i) points[i] = std::isnan(u[i]) ? 0 : 1;
@@ -298,10 +285,8 @@ std::vector<double> StreamLines::stream_function(const FlowOnGrid& flow) {
   return values;
 }
 
-/// The streamlines at `count` > 0 values of psi in equal steps between its extremes outside the
-/// particles. `is_body` is 1 for each point of the grid in a particle, else 0. The set is empty if
-/// psi is constant. A level line of at most two points is left out.
 StreamLineSet StreamLines::of(const FlowOnGrid& flow, const std::vector<char>& is_body, int count) {
+  assert(is_body.size() == grid_.size() && count > 0);
   const auto psi = stream_function(flow);
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t i = 0; i < psi.size(); ++i)

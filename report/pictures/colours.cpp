@@ -1,17 +1,11 @@
-// Interpolates colours between the nodes of a scale, and chooses the ends, numbers and words of
-// scales. Pressures [M/(L T^2)] and speeds [L/T] are in the units of the case. A share is a place
-// on a scale, 0 at its lower end and 1 at its upper one. PressureColours has the ends `low` <
-// `high` of a scale, the `smallest` and `largest` of all pressures, and `linear_below`, the
-// pressure up to which the scale is linear (0: everywhere). Nothing is checked or thrown. Used by
-// the pictures and pages of report/, rolling/, swimmer/ and particles/picture. gnuplot gets
-// PressureColours::at(pressure) in place of the pressure, so a change of at() must agree with the
-// commands of settings(). Colours of nodes, limits and numbers of ticks are free choices, as long
-// as colour-blind readers can tell the colours apart.
+// Colours between the nodes of a scale; ends, numbers and words of scales. Colour-blind readers
+// must be able to tell the colours apart.
 #include "viscontact/report/pictures/colours.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -20,7 +14,7 @@ namespace viscontact::report {
 namespace {
 
 struct ColourNode {
-  double place;               ///< position on the scale [1]
+  double place;               ///< on the scale [1]
   std::array<double, 3> rgb;  ///< red, green, blue from 0 to 255
 };
 
@@ -37,10 +31,10 @@ std::string colour_between(const std::vector<ColourNode>& nodes, double place) {
   return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
 }
 
-/// `colours` >= 2 colours at evenly spaced shares from 0 to 1. colour(share) must return the colour
-/// at a share.
+/// `colours` >= 2 colours at evenly spaced shares from 0 to 1; colour(share) is that at a share.
 template <class Colour>
 std::vector<std::string> evenly_spaced(int colours, const Colour& colour) {
+  assert(colours >= 2);
   std::vector<std::string> all;
   for (int c = 0; c < colours; ++c) all.push_back(colour(static_cast<double>(c) / (colours - 1)));
   return all;
@@ -82,6 +76,7 @@ std::string short_number(double value) {
 
 /// The smallest number >= `value` > 0 that is 1, 2 or 5 times a power of ten.
 double rounded_up(double value) {
+  assert(value > 0);
   const double decade = std::pow(10, std::floor(std::log10(value)));
   for (const double mantissa : {1.0, 2.0, 5.0})
     if (value <= mantissa * decade) return mantissa * decade;
@@ -121,9 +116,8 @@ std::string film_colour(double share) {
   return colour_between(kViridis, share);
 }
 
-/// The scale of gamma, minus the impulse that a film has absorbed [M L/T], from `lowest` < 0 on the
-/// left to 0, with `colours` >= 2 colours and the title `words`. Nothing is checked.
 ColourScale film_scale(double lowest, int colours, const std::string& words) {
+  assert(lowest < 0);
   ColourScale scale{words, evenly_spaced(colours, film_colour), {}};
   std::ranges::reverse(scale.colours);
   for (const auto& [share, text] : round_ticks(-lowest))
@@ -131,8 +125,6 @@ ColourScale film_scale(double lowest, int colours, const std::string& words) {
   return scale;
 }
 
-/// The colour of a contact by its friction over the largest friction of Coulomb's law, from 0 (no
-/// friction, grey) to 1 (sliding, orange).
 std::string friction_colour(double share) {
   static const std::vector<ColourNode> kGreyToOrange = {{0, {90, 90, 90}}, {1, {213, 94, 0}}};
   return colour_between(kGreyToOrange, share);
@@ -152,6 +144,7 @@ std::string speed_colour(double share) {
 }
 
 ColourScale speed_scale(double top, int colours, const std::string& unit) {
+  assert(!(top < 0));
   return {"speed of the fluid [" + unit + "]", evenly_spaced(colours, speed_colour),
           round_ticks(top)};
 }
@@ -167,7 +160,7 @@ std::string PressureColours::colour_at(double place) const {
 std::vector<std::pair<double, std::string>> PressureColours::ticks() const {
   std::vector<std::pair<double, std::string>> ticks;
   if (!(linear_below > 0)) {
-    constexpr double kAbout = 5;  // about how many intervals
+    constexpr double kAbout = 5;  // number of intervals
     const double step = rounded_up((high - low) / kAbout);
     for (double n = std::ceil(low / step - 1e-9); n <= high / step + 1e-9; ++n)
       ticks.emplace_back(n * step, short_number(n == 0 ? 0 : n * step));
@@ -246,15 +239,12 @@ PressureColours proportional_colours(const std::vector<double>& pressures) {
   return widened({sorted.front(), sorted.back(), sorted.front(), sorted.back(), 0});
 }
 
-/// A scale for the pressures `pixels` of all pixels of a picture [M/(L T^2)], of which a few may be
-/// much larger than all others; pressures that are not finite do not count. `usual` >= 0 is a
-/// pressure of the size that most pixels have; with 0 the scale stays linear.
 PressureColours robust_colours(const std::vector<double>& pixels, double usual) {
+  assert(!(usual < 0));
   constexpr double kBeyond = 0.005;  // share of the pixels that may be beyond each end
   // The upper end is cut if the largest pressure is more than kMuchFarther times the pressure above
   // which a share of kBeyond of the pixels lies, and the lower end in the same way. The scale is
-  // logarithmic beyond `usual` if an end is cut, or is more than kLogarithmic times `usual`. All
-  // three limits are free choices.
+  // logarithmic beyond `usual` if an end is cut, or is more than kLogarithmic times `usual`.
   constexpr double kMuchFarther = 3, kLogarithmic = 10;
   const auto sorted = sorted_finite(pixels);
   const auto few = static_cast<std::size_t>(kBeyond * static_cast<double>(sorted.size()));

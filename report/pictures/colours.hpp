@@ -1,10 +1,5 @@
-// The colours of curves, and scales of colours for gamma, friction, speeds and pressures. gamma is
-// minus the impulse that the film of a contact has absorbed [M L/T]; for discs in a fluid it is an
-// impulse per length [M/T]. The pages and pictures of report/, rolling/, swimmer/ and particles/
-// use these colours. The colours are free choices, but a change must keep that colour-blind readers
-// can tell them apart. Nothing is checked or thrown. A share is a place on a scale, from 0 to 1
-// [1]; a share below 0 or above 1 gets the colour of the nearer end. No number may be NaN, except
-// in lists of pressures.
+// The colours of curves, and scales of colours for gamma, friction, speeds and pressures. A share
+// is a place on a scale [1]; below 0 or above 1 it gets the colour of the nearer end.
 #pragma once
 
 #include <array>
@@ -24,16 +19,15 @@ inline constexpr const char* kBlue = "#0072B2";
 inline constexpr const char* kVermilion = "#D55E00";
 inline constexpr const char* kReddishPurple = "#CC79A7";
 
-/// The colours of curves. A page gives each of its curves a place in this list, from the first on,
-/// and draws it in this colour in all its pictures, so that readers find it again. Colour-blind
-/// readers can tell the first seven apart. The first two can also be seen on a map, which is a
-/// picture that shows values as colours.
+/// The colours of curves. A page draws each of its curves in the same colour in all its pictures.
+/// Colour-blind readers can tell the first seven apart. The first two can also be seen on a map,
+/// which is a picture that shows values as colours.
 inline constexpr auto kCurveColours = std::to_array<const char*>(
     {kSkyBlue,  kVermilion, kBluishGreen, kReddishPurple, kBlue,     kOrange,   kBlack,
      "#7F7F7F", "#8C564B",  "#17BECF",    "#6A3D9A",      "#B5BD00", "#E31A1C", "#1F3B73",
      "#33A02C", "#F781BF",  "#A65628",    "#00A08A",      "#FDBF6F", "#5B5EA6", "#C0C0C0"});
 
-/// The colour "#rrggbb" at a place >= 0 in kCurveColours, which begins again after its end.
+/// The colour at a place in kCurveColours, which begins again after its end.
 constexpr const char* curve_colour(std::size_t place) {
   return kCurveColours[place % kCurveColours.size()];
 }
@@ -46,6 +40,7 @@ struct ColourScale {
 };
 
 /// The colour "#rrggbb" for share = gamma/(lowest gamma), from 0 (light yellow) to 1 (dark violet).
+/// gamma is minus the impulse that the film of a contact has absorbed.
 std::string film_colour(double share);
 
 /// The scale of gamma from `lowest` < 0 (left) to 0, with `colours` >= 2 colours and with `words`
@@ -59,8 +54,7 @@ inline constexpr const char* kSlidingColour = "#d55e00";   ///< for contacts tha
 /// (kTouchingColour) to 1 (kSlidingColour).
 std::string friction_colour(double share);
 
-/// The scale of friction_colour() from 0 to 1, with `colours` >= 2 colours and with `words` as
-/// ColourScale::words.
+/// The scale of friction_colour() from 0 to 1, with `colours` >= 2 colours.
 ColourScale friction_scale(int colours, const std::string& words);
 
 /// The colour "#rrggbb" for share = speed/(speed at the end of the scale), from 0 (nearly white) to
@@ -71,7 +65,6 @@ std::string speed_colour(double share);
 /// `unit` is that of `top` in words.
 ColourScale speed_scale(double top, int colours, const std::string& unit = "length/time");
 
-/// The colour of streamlines.
 inline constexpr const char* kStreamLineColour = "#12233f";
 
 /// A scale of colours for pressures: blue below 0, white at 0 and red above 0. The position of a
@@ -80,12 +73,12 @@ inline constexpr const char* kStreamLineColour = "#12233f";
 /// beyond an end of the scale have the colour of that end.
 struct PressureColours {
   double low = 0, high = 0;          ///< the ends of the scale [M/(L T^2)], low < high
-  double smallest = 0, largest = 0;  ///< smallest and largest of all pressures [M/(L T^2)]
+  double smallest = 0, largest = 0;  ///< of all pressures [M/(L T^2)]
   /// The pressure up to which the scale is linear [M/(L T^2)], >= 0; 0: it is linear everywhere.
   double linear_below = 0;
 
   /// The position of a pressure [M/(L T^2)] on the scale: that pressure, or with linear_below > 0 a
-  /// number [1]. gnuplot gets positions as the values of a field.
+  /// number [1]. gnuplot gets positions as the values of a field, which settings() must fit.
   double at(double pressure) const;
 
   /// The colour "#rrggbb" at a position `place`, a result of at().
@@ -99,8 +92,7 @@ struct PressureColours {
   /// `unit` is that of the pressure in words. A number that would touch another is left out.
   ColourScale scale(int colours, const std::string& unit = "viscosity/time") const;
 
-  /// The share [1] of a pressure: 0 at `low`, 1 at `high`, and below 0 or above 1 for a pressure
-  /// outside these ends.
+  /// 0 at `low`, 1 at `high`, and below 0 or above 1 for a pressure outside these ends.
   double share_of(double pressure) const;
 
   /// Commands of gnuplot for the palette, range, numbers and words of the scale. Its words give the
@@ -115,12 +107,11 @@ PressureColours proportional_colours(const std::vector<double>& pressures);
 
 /// A scale for the pressures of pixels [M/(L T^2)], of which a few may be much larger than all
 /// others. Pressures that are not finite do not count. The highest 0.5 % are cut off if the largest
-/// of the other 99.5 % is > 0 and less than a third of the largest pressure: the scale then ends at
-/// the largest of the others, rounded up. In the same way the lowest 0.5 % are cut off if the
-/// smallest of the others is < 0. If an end is cut, or if an end is more than ten times the
-/// pressure `usual` >= 0, the scale is linear below the power of ten nearest to `usual` and
-/// logarithmic beyond it; if `usual` is 0, the scale stays linear. If no pressure is finite, also
-/// in an empty list, the scale reaches from -1 to 1. The limits are free choices.
+/// of the others is > 0 and less than a third of the largest pressure: the scale then ends at the
+/// largest of the others, rounded up; likewise the lowest 0.5 % below 0. If an end is cut, or is
+/// more than ten times the pressure `usual` >= 0, the scale is linear below the power of ten
+/// nearest to `usual` and logarithmic beyond it; if `usual` is 0, the scale stays linear. If no
+/// pressure is finite, the scale reaches from -1 to 1.
 PressureColours robust_colours(const std::vector<double>& pixels, double usual);
 
 }  // namespace viscontact::report

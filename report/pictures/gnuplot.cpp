@@ -1,15 +1,11 @@
-// Writes gnuplot's commands and data, runs gnuplot and reads its picture, for report/ and swimmer/.
-// A gnuplot that is missing, fails or hangs throws Error(kExternalProgram), a requested stop throws
-// Error(kInterrupted), and a system without free sockets std::system_error. Sizes are in pixels,
-// but those of a PDF in points (1/72 inch). Width and height are > 0, and a field of colours has at
-// least 2 columns and rows (not checked). Values have no units here. A value that is not finite
-// interrupts a curve; in a field it makes its cell transparent. Texts of the user must pass through
-// quoted_for_gnuplot(), because gnuplot can run commands of the shell.
+// Texts of the user must pass through quoted_for_gnuplot(), because gnuplot can run commands of the
+// shell.
 #include "viscontact/report/pictures/gnuplot.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <iterator>
@@ -20,8 +16,7 @@
 namespace viscontact::report {
 namespace {
 
-/// gnuplot's data block `name` with the points of the curve, one in each line. An empty line
-/// interrupts the curve.
+/// The block has one point in each line; an empty line interrupts the curve.
 std::string data_block(const std::string& name, const Curve& curve) {
   std::string text = fmt::format("${} << END_OF_CURVE\n", name);
   for (const auto& [x, y] : curve.points)
@@ -32,12 +27,14 @@ std::string data_block(const std::string& name, const Curve& curve) {
   return text + "END_OF_CURVE\n";
 }
 
-// The value of a transparent cell, because gnuplot warns of missing values in a matrix. A cell with
-// this or a larger value is transparent, too.
+// gnuplot warns of missing values in a matrix, so a cell with this or a larger value is
+// transparent.
 constexpr double kTransparent = 1e99;
 
-/// gnuplot's data block `name` with the values of the field, row by row from the bottom.
+/// The block has the values row by row from the bottom.
 std::string data_block(const std::string& name, const ColourField& field) {
+  assert(field.columns >= 2 && field.rows >= 2);
+  assert(field.values.size() == field.columns * field.rows);
   std::string text = fmt::format("${} << END_OF_FIELD\n", name);
   for (std::size_t i = 0; i < field.values.size(); ++i) {
     const double value = field.values[i];
@@ -48,9 +45,9 @@ std::string data_block(const std::string& name, const ColourField& field) {
   return text + "END_OF_FIELD\n";
 }
 
-/// gnuplot's command that draws the field in the block `name`; the cells fill the rectangle of the
-/// field exactly.
+/// The cells fill the rectangle of the field exactly.
 std::string plot_of(const std::string& name, const ColourField& field) {
+  assert(field.left < field.right && field.bottom < field.top);
   const double width = (field.right - field.left) / static_cast<double>(field.columns);
   const double height = (field.top - field.bottom) / static_cast<double>(field.rows);
   return fmt::format(
@@ -59,9 +56,8 @@ std::string plot_of(const std::string& name, const ColourField& field) {
       name, field.left + width / 2, width, field.bottom + height / 2, height, kTransparent);
 }
 
-/// The last 300 characters of a program's output.
 std::string last_part(const std::string& output) {
-  constexpr std::size_t kLength = 300;  // a free choice
+  constexpr std::size_t kLength = 300;
   return output.size() <= kLength ? output : output.substr(output.size() - kLength);
 }
 
@@ -81,8 +77,6 @@ std::string number_format(std::string_view axis, const std::vector<double>& valu
                      axis == "x" ? "set rmargin 5\n" : "");
 }
 
-/// gnuplot's data and commands for the panel with this index, counted from 0. A curve without
-/// points is left out.
 std::string panel_script(const Panel& panel, std::size_t index) {
   std::string script;
   for (std::size_t i = 0; i < panel.curves.size(); ++i)
@@ -120,8 +114,8 @@ std::string panel_script(const Panel& panel, std::size_t index) {
   return script + plots + "\n";
 }
 
-/// gnuplot's command that sets its output to a kind of picture, with a font size in the unit of
-/// `width`. Letters, lines and points have the same size relative to the picture in all kinds.
+/// `font_size` is in the unit of `width`. Letters, lines and points have the same size relative to
+/// the picture in all kinds.
 std::string terminal_of(TextKind kind, double font_size, int width, int height) {
   const auto common =
       fmt::format("noenhanced font 'sans-serif,{:g}' background 'white'", font_size);
@@ -135,13 +129,12 @@ std::string terminal_of(TextKind kind, double font_size, int width, int height) 
   return fmt::format("set terminal svg size {},{} dynamic {}", width, height, common);
 }
 
-/// The texts with which a picture begins and ends in the output of gnuplot. Warnings of gnuplot
-/// follow after the end.
+/// The texts with which a picture begins and ends in the output of gnuplot, whose warnings follow.
 struct PictureMarks {
   std::string begin, end;
 };
 
-/// The marks of a kind of picture; those of an SVG if the kind is neither PDF nor PNG.
+/// The marks are those of an SVG if the kind is neither PDF nor PNG.
 PictureMarks marks_of(TextKind kind) {
   if (kind == TextKind::kPdf) return {"%PDF-", "%%EOF"};
   if (kind == TextKind::kPng) return {"\x89PNG", "IEND\xae\x42\x60\x82"};  // with its checksum
@@ -150,7 +143,6 @@ PictureMarks marks_of(TextKind kind) {
 
 }  // namespace
 
-/// The text as a string of gnuplot, with quotes. gnuplot executes nothing in it as a command.
 std::string quoted_for_gnuplot(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
@@ -172,11 +164,9 @@ std::string draw_svg(const std::vector<Panel>& panels, int width, int height,
   return draw_picture({}, panels, width, height, stop);
 }
 
-/// Draws the panels one below the other and returns the picture, or the script with its data if the
-/// format is TextKind::kHashComment, for which gnuplot is not run. `width` and `height` are the
-/// size [pixels]; format.width > 0 replaces `width`, and the height changes in proportion.
 std::string draw_picture(const results::PictureFormat& format, const std::vector<Panel>& panels,
                          int width, int height, const StopToken& stop) {
+  assert(width > 0 && height > 0);
   const auto kind = format.kind;
   if (format.width > 0) {
     height = std::max(1, height * format.width / width);
@@ -191,11 +181,10 @@ std::string draw_picture(const results::PictureFormat& format, const std::vector
   if (panels.size() > 1) script += "unset multiplot\n";
   if (kind == TextKind::kHashComment)
     return "# gnuplot script by Viscontact, with its data: gnuplot FILE > PICTURE.svg\n" + script;
-  // A picture takes about one second. If gnuplot needs ten minutes, it hangs. The limit is a free
-  // choice.
+  // A picture takes about one second. If gnuplot needs ten minutes, it hangs.
   constexpr std::chrono::seconds kLongest = std::chrono::minutes(10);
   // gnuplot reads standard input byte by byte, but a file in blocks. If the script is long, blocks
-  // save more time than the process `cat` takes. The limit is a free choice.
+  // save more time than the process `cat` takes.
   constexpr std::size_t kLong = 200'000;  // bytes
   const std::string gnuplot = script.size() > kLong ? "cat | gnuplot /dev/stdin" : "gnuplot";
   // This shell command puts gnuplot's warnings after the picture. Without it they could stand in
@@ -208,7 +197,7 @@ std::string draw_picture(const results::PictureFormat& format, const std::vector
   if (result.timed_out)
     throw Error(ErrorKind::kExternalProgram, "gnuplot had not ended after {} s and was stopped",
                 kLongest.count());
-  constexpr int kCannotBeRun = 126, kNotFound = 127;  // exit codes of the shell
+  constexpr int kCannotBeRun = 126, kNotFound = 127;  // of the shell
   if (!result.started || result.exit_status == kNotFound || result.exit_status == kCannotBeRun)
     throw GnuplotMissing(
         ErrorKind::kExternalProgram,

@@ -1,4 +1,4 @@
-// The pictures of a folder as PDF files, by rsvg-convert (librsvg).
+// Runs rsvg-convert.
 #include "viscontact/report/pictures/pdf.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What an axis of a sweep's picture shows, in words, with its unit.
+// Dimensions of keys and columns by their names.
 #include "viscontact/report/pictures/sweep_axes.hpp"
 
 #include <fmt/format.h>

@@ -1,16 +1,12 @@
-// Reads the columns to draw from a sweep's CSV file and draws them. Values are in the units of the
-// case; a value that is missing or not a number is not drawn. Sizes are in pixels; heights and
-// margins are free choices. A file that cannot be read, a column that is missing or has no number,
-// and a map with fewer than two values along an axis throw Error(kBadInput). A missing or failing
-// gnuplot throws Error(kExternalProgram), and a requested stop throws Error(kInterrupted). The
-// command `sweep` (app/commands/sweep/) uses this file. Files larger than the memory must be read
-// row by row. kMean and kError must be the ends of names in particles/case/particles_study.cpp.
+// Reads the columns to draw from a sweep's CSV file row by row, because it may be larger than the
+// memory, and draws them.
 #include "viscontact/report/pictures/sweep_plot.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -30,8 +26,7 @@ namespace {
 
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-/// Reads a sweep's CSV file row by row, after the lines of its head that begin with "#" and the
-/// line with the names of its columns.
+/// Reads row by row, after the lines of the head with "#" and the line with the names of columns.
 class SweepRows {
  public:
   explicit SweepRows(const std::filesystem::path& path) : path_(path), file_(path) {
@@ -42,14 +37,13 @@ class SweepRows {
     names_ = csv_fields(line);
   }
 
-  /// The index of a column, and the index of the column by which it is divided, if there is one.
+  /// The indices of a column and of the column by which it is divided, if there is one.
   struct Place {
     std::size_t column;
     std::optional<std::size_t> divisor;
   };
-  /// The indices for `name`, which is "COLUMN" or "COLUMN/KEY"; the name of the column in the file
-  /// is COLUMN followed by `ending`. Throws Error(kBadInput), which lists the columns, if the file
-  /// has no such column.
+  /// `name` is "COLUMN" or "COLUMN/KEY"; the column in the file is COLUMN followed by `ending`.
+  /// Throws Error(kBadInput), which lists the columns, if the file has no such column.
   Place find(const std::string& name, const std::string& ending = "") const {
     const auto slash = name.find('/');
     if (slash == std::string::npos) return {index_of(name + ending), {}};
@@ -78,7 +72,6 @@ class SweepRows {
     return column < fields_.size() ? parse_number(fields_[column]).value_or(kNoValue) : kNoValue;
   }
 
-  /// The index of the column `name`. Throws Error(kBadInput) if there is no such column.
   std::size_t index_of(const std::string& name) const {
     const auto found = std::ranges::find(names_, name);
     if (found == names_.end())
@@ -93,8 +86,8 @@ class SweepRows {
   std::vector<std::string> names_, fields_;
 };
 
-/// True if all finite values are > 0 and span a decade or more, a free choice. The axis then is
-/// logarithmic, because a linear axis would show little of the small values.
+/// True if all finite values are > 0 and span a decade or more. The axis then is logarithmic,
+/// because a linear axis would show little of the small values.
 bool is_logarithmic(const std::vector<double>& values) {
   double low = std::numeric_limits<double>::infinity(), high = 0;
   for (const double value : values) {
@@ -105,10 +98,10 @@ bool is_logarithmic(const std::vector<double>& values) {
   return low > 0 && high >= 10 * low;
 }
 
-constexpr int kSweepWidth = 860;                                     // [pixels], a free choice
-constexpr const char *kMean = ".mean", *kError = ".standard_error";  // ends of names of columns
+constexpr int kSweepWidth = 860;  // [pixels]
+constexpr const char *kMean = ".mean",
+                     *kError = ".standard_error";  // as in particles/case/particles_study.cpp
 
-/// Throws Error(kBadInput) if none of the values is finite.
 void check_has_value(const std::filesystem::path& path, const std::vector<double>& values,
                      bool one_column) {
   if (std::ranges::none_of(values, [](double v) { return std::isfinite(v); }))
@@ -117,9 +110,8 @@ void check_has_value(const std::filesystem::path& path, const std::vector<double
                                : "has no value to draw in the columns that were asked for");
 }
 
-/// The picture of the columns as lines over the key plot.x. There is a group of lines, one for each
-/// column, for each combination of values of the keys plot.others. If the file has means, each
-/// point has a bar of one standard error to both sides.
+/// Draws lines, one for each column, for each combination of values of the keys plot.others. If the
+/// file has means, each point has a bar of one standard error to both sides.
 std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
                        const results::PictureFormat& format, const StopToken& stop) {
   SweepRows rows(path);
@@ -206,16 +198,14 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
   return draw_picture(format, {panel}, kSweepWidth, 520, stop);
 }
 
-// The value that an axis shows, and the label of the axis. A logarithmic axis shows decimal
-// logarithms.
+// A logarithmic axis shows decimal logarithms.
 double scaled(double value, bool logarithmic) { return logarithmic ? std::log10(value) : value; }
 
 std::string label(const std::string& name, const Units& units, bool logarithmic) {
   return fmt::format("{}{}", logarithmic ? "log10 " : "", axis_label(name, units));
 }
 
-/// An axis of a map, with the values of its key in the unit of the key. `low` and `high` are the
-/// ends of the axis: values or, if the axis is logarithmic, decimal logarithms.
+/// `low` and `high` are the ends: values or, if the axis is logarithmic, decimal logarithms.
 struct MapAxis {
   std::set<double> values;
   bool logarithmic = false;
@@ -224,6 +214,7 @@ struct MapAxis {
 
 /// The axis of these values, at least two. It extends beyond both ends by half the mean step.
 MapAxis axis_of(const std::set<double>& values) {
+  assert(values.size() >= 2);
   const bool logarithmic = is_logarithmic({values.begin(), values.end()});
   const double first = scaled(*values.begin(), logarithmic);
   const double last = scaled(*values.rbegin(), logarithmic);
@@ -233,8 +224,8 @@ MapAxis axis_of(const std::set<double>& values) {
 
 /// For each pixel along the axis, the nearest value, so that uneven steps of values are seen.
 std::vector<double> values_of_pixels(const MapAxis& axis) {
-  // Some programs smooth a picture of few pixels. With eight pixels for each value, a free choice,
-  // edges stay sharp.
+  // Some programs smooth a picture of few pixels. With eight pixels for each value, edges stay
+  // sharp.
   const auto pixels = 8 * axis.values.size();
   std::vector<double> found;
   for (std::size_t i = 0; i < pixels; ++i) {
@@ -248,12 +239,12 @@ std::vector<double> values_of_pixels(const MapAxis& axis) {
 }
 
 /// Commands of gnuplot for the colours of values, or of their decimal logarithms, from `low` to
-/// `high`. If values of both signs occur, and the smaller extreme is more than a tenth (a free
-/// choice) of the larger one in size, the colours show the sign.
+/// `high`. The colours show the sign if values of both signs occur, and the smaller extreme is more
+/// than a tenth of the larger one in size.
 std::vector<std::string> map_colours(double low, double high) {
   const double reach = std::max(-low, high);
   if (low < -reach / 10 && high > reach / 10)
-    // Values of both signs: from blue over grey at 0 to red (Moreland 2009).
+    // From blue over grey at 0 to red (Moreland 2009).
     return {"set palette defined (-1 '#3b4cc0', 0 '#dddddd', 1 '#b40426')",
             fmt::format("set cbrange [{}:{}]", -reach, reach)};
   // The lightness of this scale (cividis, Nunez et al. 2018) increases from end to end, so that
@@ -263,8 +254,8 @@ std::vector<std::string> map_colours(double low, double high) {
       "'#fee838')"};
 }
 
-/// The picture of a map over the keys plot.x and plot.y, whose colours show the first of
-/// plot.columns. Throws Error(kBadInput) if one of the two keys has fewer than two values.
+/// The colours of the map show the first of plot.columns. Throws Error(kBadInput) if one of the two
+/// keys has fewer than two values.
 std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot,
                      const results::PictureFormat& format, const StopToken& stop) {
   SweepRows rows(path);
@@ -319,9 +310,9 @@ std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot,
 
 }  // namespace
 
-/// The picture as text in `format`: lines if plot.y is empty, else a map.
 std::string plot_sweep(const std::filesystem::path& sweep_file, const SweepPlot& plot,
                        const results::PictureFormat& format, const StopToken& stop) {
+  assert(!plot.columns.empty());
   return plot.y.empty() ? plot_lines(sweep_file, plot, format, stop)
                         : plot_map(sweep_file, plot, format, stop);
 }

@@ -1,8 +1,4 @@
-// Draws the results of a sweep, which varies keys of a case, from the sweep's CSV file. Values are
-// in the units of the case. The command `sweep` (app/commands/sweep/) calls this file for --plot. A
-// column that does not exist, or a file without a number to draw, throws Error(kBadInput). A change
-// must keep that the CSV file is read row by row, because it may be larger than the memory; colours
-// and the sizes of the picture are free choices.
+// Draws the results of a sweep, which varies keys of a case, from its CSV file.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +15,7 @@ namespace viscontact::report {
 struct SweepPlot {
   std::string x;                     ///< varied key on the horizontal axis
   std::string y;                     ///< key on the vertical axis of a map; empty: lines over x
-  std::vector<std::string> columns;  ///< at least one (not checked); a map shows the first only
+  std::vector<std::string> columns;  ///< at least one; a map shows the first only
   /// The other varied keys that have several values. Lines are drawn for each combination of these
   /// values. A map ignores them.
   std::vector<std::string> others{};

@@ -1,11 +1,4 @@
-// Reads the sections of a case of a rolling sphere, and applies the defaults. Lengths [L], masses
-// [M] and times [T] are > 0, but the roughness [L] may be 0. Velocities [L/T], forces [M L/T^2] and
-// torques [M L^2/T^2] have any sign. All are in the units of the case. A wrong value throws
-// Error(kBadInput), which names the line and the key; a fit that is not that of a plane throws an
-// Error(kBadInput) that names the file. rolling/, app/ and python/ use this file. Functions named
-// ..._keys declare the keys of a section and read them into their last arguments. A change must
-// keep keys and defaults, because users have written cases with them, and docs/case-file.md, which
-// repeats them.
+// Functions named ..._keys declare the keys of a section and read them into their last arguments.
 #include "viscontact/rolling/case/rolling_case.hpp"
 
 #include <algorithm>
@@ -23,19 +16,18 @@ namespace {
 using lubrication::MotionKind;
 
 /// The keys from which the force of the motion is computed: two components of a force [M L/T^2], or
-/// the weight less the buoyancy [M L/T^2] and the angle of the plane [rad], which falls towards +x
-/// if the angle is > 0.
+/// the weight less the buoyancy [M L/T^2] and the angle of the plane [rad], > 0 if it falls towards
+/// +x.
 struct WeightKeys {
   std::vector<double> force;
   double weight = 0, incline = 0;
   double gravity = 0;  // [L/T^2]
 };
 
-/// Declares the keys force, weight, gravity and incline of the section [rolling] and reads them
-/// into `given`. `mass` [M] is the mass of the sphere minus the mass of the fluid that it
-/// displaces. Throws Error(kBadInput) unless exactly one of force, weight and gravity is given.
+/// Declares force, weight, gravity and incline. `mass` [M] is the mass of the sphere minus the mass
+/// of the fluid that it displaces.
 void weight_keys(case_file::Keys& keys, WeightKeys& given, double mass) {
-  // The limit is a little more than a right angle, a free choice.
+  // A little more than a right angle.
   constexpr Allowed kAngle = {[](double v) { return std::abs(v) <= 1.6; },
                               "of radians from -1.6 to 1.6"};
   constexpr std::array kOneOf = {"force", "weight", "gravity"};
@@ -70,8 +62,8 @@ void weight_keys(case_file::Keys& keys, WeightKeys& given, double mass) {
                given.force.size());
 }
 
-/// Reads the names of models into `models`. Throws Error(kBadInput) for a name that is no model and
-/// for a name that is given twice.
+/// Reads the names of models. Throws Error(kBadInput) for an unknown name and for one that is given
+/// twice.
 void read_rolling_models(const case_file::TomlSection& section, std::string_view key,
                          std::vector<std::string>& models) {
   const auto all = rolling_models();
@@ -84,9 +76,6 @@ void read_rolling_models(const case_file::TomlSection& section, std::string_view
   }
 }
 
-/// Declares the keys of the section [rolling]: initial gap [L], velocities [L/T], angular velocity
-/// [1/T], force [M L/T^2], torque [M L^2/T^2], roughness [L], friction [1], end time and time step
-/// [T], and the models that are run.
 void rolling_keys(case_file::Keys& keys, RollingCase& c) {
   auto& motion = c.motion;
   keys.required("initial_gap", case_file::number(motion.initial_gap, kPositive),
@@ -126,8 +115,6 @@ void rolling_keys(case_file::Keys& keys, RollingCase& c) {
                 {"the models that are run", "all"});
 }
 
-/// Throws Error(kBadInput) unless roughness < radius, roughness <= initial gap and time step <= end
-/// time.
 void check_rolling(const case_file::TomlSection& section, const RollingCase& c) {
   const auto& motion = c.motion;
   section.require(motion.roughness < c.radius, "roughness",
@@ -140,8 +127,6 @@ void check_rolling(const case_file::TomlSection& section, const RollingCase& c) 
                   "is {}; it must be at most end_time, {}", motion.time_step, motion.end_time);
 }
 
-/// Throws Error(kBadInput) for another neighbour than a plane, or if a motion is missing that
-/// rolling needs.
 void check_tabulation(const case_file::TomlSection& section,
                       const freefem_axi::Tabulation& tabulation) {
   section.require(tabulation.geometry == freefem_axi::default_geometry().name, "geometry",
@@ -152,8 +137,6 @@ void check_tabulation(const case_file::TomlSection& section,
                     to_string(motion));
 }
 
-/// Declares the keys of [sphere]: radius [L], density or mass, and moment of inertia [M L^2], which
-/// is that of a homogeneous sphere if it is not given.
 void rolling_sphere_keys(case_file::Keys& keys, RollingCase& c) {
   double density = 0;
   case_file::sphere_keys(keys, c.radius, density, c.motion.mass, true);
@@ -162,7 +145,6 @@ void rolling_sphere_keys(case_file::Keys& keys, RollingCase& c) {
                 {"about an axis through the centre", "2 m r²/5"});
 }
 
-/// Declares the key of [fit]: the path of a fit, relative to the folder of the case.
 void pair_fit_keys(case_file::Keys& keys, RollingCase& c) {
   std::string file;
   keys.required("file", case_file::file_name(file),
@@ -178,8 +160,6 @@ void rolling_sweep_keys(case_file::Keys& keys, case_file::SweepRequest& sweep) {
 
 }  // namespace
 
-/// Reads all sections of the case. Throws Error(kBadInput) unless exactly one of [tabulation] and
-/// [fit] is there.
 void read_root(const case_file::TomlSection& root, RollingCase& c) {
   case_file::read_title_and_units(root, c);
   for (const auto& model : rolling_models()) c.models.emplace_back(model.name);
@@ -206,8 +186,6 @@ RollingCase read_rolling_case(const std::filesystem::path& path) {
   return case_file::read_case_file<RollingCase>(path);
 }
 
-/// The fit, scaled to the radius [L] and the viscosity [M/(L T)] of the case. `file` is its path,
-/// for messages.
 motions::PairFit fit_for(const RollingCase& c, motions::PairFit fit,
                          const std::filesystem::path& file) {
   if (!fit.geometry.empty() && fit.geometry != freefem_axi::default_geometry().name)
@@ -216,8 +194,6 @@ motions::PairFit fit_for(const RollingCase& c, motions::PairFit fit,
   return motions::scaled_to(std::move(fit), c.viscosity, c.radius);
 }
 
-/// The tables of the keys of those sections that differ from other kinds of cases, for
-/// docs/case-file.md.
 std::vector<case_file::KeyTable> tables_of_rolling_case() {
   return {case_file::describe_keys("[sphere] of a rolling sphere", rolling_sphere_keys),
           case_file::describe_keys("[rolling]", rolling_keys),

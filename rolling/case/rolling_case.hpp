@@ -1,8 +1,4 @@
-// Reads the case file of a sphere that moves along a plane in a viscous fluid and turns (TOML,
-// docs/case-file.md). Lengths, masses and times are in any consistent units. rolling_case.cpp
-// declares the keys, their ranges and their defaults. rolling/, app/ and python/ use this file. A
-// fault of a case throws Error(kBadInput), which names the file and, if the fault belongs to a line
-// or a key, the line and the key. A change must keep accepting the cases that users have written.
+// The case of a sphere that moves along a plane in a viscous fluid and turns (docs/case-file.md).
 #pragma once
 
 #include <filesystem>
@@ -18,7 +14,8 @@
 
 namespace viscontact::rolling {
 
-/// Content of a case file of a sphere that rolls along a plane.
+/// A case of a sphere that rolls along a plane. Lengths, masses and times are in any consistent
+/// units.
 struct RollingCase {
   std::string title;         ///< a title for pages; may be empty
   Units units{};             ///< units of the numbers, in words for pages; may be empty
@@ -38,16 +35,16 @@ struct RollingCase {
   std::optional<std::filesystem::path> fit;
   /// What the section [sweep] asks for; nothing if the case has no such section.
   std::optional<case_file::SweepRequest> sweep;
-  std::string text;            ///< content of the file
-  std::filesystem::path path;  ///< the case file
+  std::string text;
+  std::filesystem::path path;
 };
 
-/// Reads and checks a case file. Throws Error(kBadInput) that names the file, the line, the key,
-/// the value and what is allowed. The file of a fit is not read.
+/// Reads a case file. Throws Error(kBadInput) that names the file, the line, the key, the value and
+/// what is allowed. The file of a fit is not read.
 RollingCase read_rolling_case(const std::filesystem::path& path);
 
-/// Reads a case from the root table of its file, for case_file/case_template.hpp. Throws the errors
-/// of read_rolling_case().
+/// Reads a case from the root table of its file. Throws the errors of read_rolling_case(), and
+/// Error(kBadInput) unless exactly one of [tabulation] and [fit] is there.
 void read_root(const case_file::TomlSection& root, RollingCase& c);
 
 /// Returns `fit`, scaled to radius and viscosity of the case. Messages name `file`, from which the
@@ -56,8 +53,8 @@ void read_root(const case_file::TomlSection& root, RollingCase& c);
 motions::PairFit fit_for(const RollingCase& c, motions::PairFit fit,
                          const std::filesystem::path& file);
 
-/// The tables in docs/case-file.md with the keys of those sections that only this kind of case has,
-/// or that have other keys in this kind of case: [sphere], [rolling], [fit] and [sweep].
+/// The tables in docs/case-file.md with the keys of those sections that differ from other kinds of
+/// cases: [sphere], [rolling], [fit] and [sweep].
 std::vector<case_file::KeyTable> tables_of_rolling_case();
 
 }  // namespace viscontact::rolling

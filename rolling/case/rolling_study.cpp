@@ -1,11 +1,4 @@
-// Computes the motions of a sweep of a rolling sphere (rolling_study.hpp). Gaps and positions [L],
-// angles in radians, velocities and slip [L/T], angular velocities [1/T] and times [T] are in the
-// units of the case; contact is 0 without solid contact, 1 if the solids roll, 2 if they slide.
-// app/ (command `sweep`) uses this file. A key that cannot be varied and an unknown model throw
-// Error(kWrongUsage), a wrong case or fit throws Error(kBadInput), and a requested stop throws
-// Error(kInterrupted); a model that fails leaves its columns empty. A change must keep the names of
-// the columns, which users' scripts read and which add_rolling_end() repeats, and refuse_useless()
-// in agreement with the keys that each model uses.
+// Each row of the sweep computes the motions of its case anew, with the same fit.
 #include "viscontact/rolling/case/rolling_study.hpp"
 
 #include <fmt/format.h>
@@ -22,14 +15,12 @@
 namespace viscontact::rolling {
 namespace {
 
-// The columns of each model, after "MODEL.". `slip` is the velocity of the lowest point of the
-// sphere relative to the plane, and `contact_time` the time at which the solids first touch.
+// The columns of each model, after "MODEL.", which add_rolling_end() fills.
 constexpr std::array kRollingColumns = {"gap",   "smallest_gap", "position",
                                         "angle", "velocity",     "angular_velocity",
                                         "slip",  "contact",      "contact_time"};
 
-/// Throws Error(kWrongUsage) unless the key is one of [rolling] or of those that change the motion
-/// but not the tables from which the fit is made.
+/// Throws Error(kWrongUsage) unless one fit serves all values of the key.
 void check_rolling_key(const std::string& key) {
   constexpr std::array kOther = {"fluid.viscosity", "fluid.density",  "sphere.radius",
                                  "sphere.mass",     "sphere.density", "sphere.moment_of_inertia"};
@@ -40,7 +31,6 @@ void check_rolling_key(const std::string& key) {
               key, fmt::join(kOther, ", "));
 }
 
-/// Throws Error(kWrongUsage) if there is no model of this name.
 void check_rolling_model(const std::string& model) {
   const auto& all = rolling_models();
   if (find_named(all, model) == nullptr)
@@ -48,7 +38,7 @@ void check_rolling_model(const std::string& model) {
                 model, names_of(all));
 }
 
-/// Throws Error(kWrongUsage) if none of the models depends on a key of the case.
+/// Throws Error(kWrongUsage) if none of the models depends on the key.
 void refuse_useless(const RollingCase& c, const std::string& key,
                     const std::vector<std::string>& models) {
   const bool is_of_solids = key == "rolling.roughness" || key == "rolling.friction";
@@ -67,8 +57,6 @@ void refuse_useless(const RollingCase& c, const std::string& key,
                 key, fmt::join(models, ", "));
 }
 
-/// Adds the state of the sphere at the end of its motion by this model to the row. A missing
-/// contact_time gives an empty field.
 void add_rolling_end(const std::string& model, const RollingEnd& end, sweep::RowResults& results) {
   const auto put = [&](const char* column, double value) {
     results.values[fmt::format("{}.{}", model, column)] = value;
@@ -84,8 +72,8 @@ void add_rolling_end(const std::string& model, const RollingEnd& end, sweep::Row
   if (end.contact_time) put("contact_time", *end.contact_time);
 }
 
-/// Adds the results of all models of the plan to the row, for the case `c` at one point, with the
-/// fit scaled to it. The message of a model that fails becomes the failure of the row.
+/// Adds the results of all models of the plan to the row of the case `c`. The message of a model
+/// that fails becomes the failure of the row.
 void roll_models(const RollingPlan& plan, RollingCase c, const motions::PairFit& fit,
                  const StopToken& stop, sweep::RowResults& results) {
   c.motion.stop = stop;
@@ -101,7 +89,6 @@ void roll_models(const RollingPlan& plan, RollingCase c, const motions::PairFit&
 
 }  // namespace
 
-/// The plan that the sections [sweep] and [fit] of the case ask for, without models.
 RollingPlan planned_rolling(const RollingCase& c) {
   const auto request = c.sweep.value_or(case_file::SweepRequest{});
   RollingPlan plan;
@@ -112,9 +99,6 @@ RollingPlan planned_rolling(const RollingCase& c) {
   return plan;
 }
 
-/// The study of the plan: its points, the columns of its results and the function that computes a
-/// row. `version` is the version of Viscontact, for the head of the file. The first and the last
-/// point must give valid cases.
 sweep::Study rolling_study(RollingPlan plan, const std::string& version) {
   const case_file::CaseTemplate<RollingCase> cases(plan.case_path);
   if (plan.models.empty()) plan.models = cases.with({}).models;

@@ -1,10 +1,4 @@
-// The sweep of a sphere that moves along a plane and turns: it varies keys of a case, and a row has
-// the state of the sphere in each model at the end of the motion. All rows use one fit of the drag
-// of the sphere near the plane. Lengths, masses and times are in the units of the case. The command
-// `sweep` calls this file. A wrong case or fit throws Error(kBadInput), and a wrong choice of what
-// varies throws Error(kWrongUsage), both before a row is computed. If a model fails, nothing is
-// thrown: its columns are empty, and the column `failure` says why. A change must keep the names of
-// the columns, which users' scripts read.
+// A sweep over the motions of a sphere along a plane, with one fit of the drag.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +15,7 @@ struct RollingPlan {
   std::filesystem::path case_path;  ///< the case whose keys are varied
   /// Fit of the drag (motions::PairFit), which is scaled to each point.
   std::filesystem::path fit_path;
-  sweep::Points points;             ///< the points, with at least one variation; `draws` is 0
+  sweep::Points points;             ///< with at least one variation; `draws` is 0
   std::vector<std::string> models;  ///< names of rolling_models(); empty: those of the case
 };
 
@@ -33,9 +27,9 @@ RollingPlan planned_rolling(const RollingCase& c);
 /// The study of a plan. Its results are, for each model, MODEL.gap [L], MODEL.smallest_gap [L],
 /// MODEL.position [L], MODEL.angle [radians], MODEL.velocity [L/T], MODEL.angular_velocity [1/T],
 /// MODEL.slip [L/T], MODEL.contact (0: no solid contact, 1: rolling, 2: sliding) and
-/// MODEL.contact_time [T] (empty if the solids never touch), which RollingEnd defines. The results
-/// of a model that fails are empty. `version` is the version of Viscontact, for the head of the
-/// file.
+/// MODEL.contact_time [T] (empty if the solids never touch), which RollingEnd defines. A model that
+/// fails leaves its columns empty, and the column `failure` says why. `version` is the version of
+/// Viscontact, for the head of the file.
 ///
 /// Reads the case and the fit. Throws Error(kBadInput) if one of them cannot be read, if the first
 /// or the last point gives no valid case, or if the fit is not that of a sphere above a plane.

@@ -1,9 +1,4 @@
-// Makes the pictures and the page of a rolling sphere. Gaps [L], > 0, times [T], velocities [L/T]
-// and forces [M L/T^2] are in the units of the case. Each trajectory has a row (not checked). A
-// gnuplot that fails throws Error(kExternalProgram); a file that cannot be written, or a file of
-// the user that would be replaced, throws Error(kBadInput); a requested stop throws
-// Error(kInterrupted). rolling_stage.cpp uses this file. A change must list every picture in
-// kRollingPictures, which decides which files in plots/ may be replaced or removed.
+// Pictures and tables of the motions by all models.
 #include "viscontact/rolling/job/rolling_page.hpp"
 
 #include <fmt/format.h>
@@ -19,15 +14,14 @@
 namespace viscontact::rolling {
 namespace {
 
-/// Index of the colour of a model: the place of the model among all models, so that its colour is
-/// the same in all runs.
+/// The index of the colour of a model, which is the same in all runs.
 std::size_t place_of(const std::string& model) {
   const auto& models = rolling_models();
   const auto found = std::ranges::find(models, model, [](const auto& m) { return m.name; });
   return static_cast<std::size_t>(found - models.begin());
 }
 
-/// A plot with a curve of `value` of each row over time for each model. `label` names the vertical
+/// A plot of `value` of each row over time with a curve for each model. `label` names the vertical
 /// axis with its unit.
 template <class Value>
 report::Plot plot_of(const RollingResults& results, const std::string& name,
@@ -40,10 +34,9 @@ report::Plot plot_of(const RollingResults& results, const std::string& name,
     for (const auto& row : rows) curve.points.emplace_back(row.time, value(row));
     panel.curves.push_back(curve);
   }
-  return {name, 400, {panel}};  // the height in pixels is a free choice
+  return {name, 400, {panel}};
 }
 
-/// What the solids do, in one word.
 const char* contact_in_words(SolidContact contact) {
   switch (contact) {
     case SolidContact::kRolling:
@@ -57,8 +50,7 @@ const char* contact_in_words(SolidContact contact) {
 }
 
 /// The table (HTML) of the state of each model at the end of the motion. Its column "slip over
-/// velocity" [1] has the slip divided by the velocity of the sphere relative to the plane; the
-/// field is empty if the sphere does not move along the plane.
+/// velocity" is empty if the sphere does not move along the plane.
 std::string end_table(const RollingResults& results) {
   std::string rows =
       "<tr><th>model</th><th>gap [L]</th><th>velocity [L/T]</th><th>angular velocity [1/T]</th>"
@@ -83,7 +75,6 @@ std::string end_table(const RollingResults& results) {
   return report::table_of(rows);
 }
 
-/// The table (HTML) of the parameters of the case with their dimensions.
 std::string parameters_of_rolling(const RollingResults& results) {
   const auto& m = results.c.motion;
   const auto row = [](const char* name, double value) {
@@ -99,7 +90,6 @@ std::string parameters_of_rolling(const RollingResults& results) {
       row("coefficient of friction", m.friction));
 }
 
-/// Plots of gap, velocities, slip and friction over time, with a curve for each model.
 std::vector<report::Plot> rolling_plots(const RollingResults& results) {
   const double radius = results.c.radius, plane = results.c.motion.plane_velocity;
   const auto& units = results.c.units;
@@ -126,8 +116,8 @@ std::vector<report::Plot> rolling_plots(const RollingResults& results) {
 
 namespace {
 
-/// m |dq/dt|/|gamma_min| [1], with the largest |dq/dt| of the rows, of the model of viscous contact if
-/// the solids touch; otherwise nothing.
+/// m |dq/dt|/|gamma_min| [1] of the model of viscous contact, with the largest |dq/dt| of the rows;
+/// nothing for other models and if the solids do not touch.
 std::optional<double> film_of(const RollingCase& c, const std::string& model,
                               const RollingTrajectory& rows) {
   const auto& motion = c.motion;
@@ -184,7 +174,6 @@ std::vector<std::string> rolling_warnings(const RollingResults& results) {
   return warnings;
 }
 
-/// Writes report.html and the pictures in plots/ into `folder`.
 void write_rolling_report(const RollingResults& results, const std::filesystem::path& folder,
                           const results::Provenance& provenance, const StopToken& stop) {
   const auto& units = results.c.units;

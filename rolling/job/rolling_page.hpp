@@ -1,9 +1,4 @@
-// Writes the report of a sphere that moves along a plane and turns: a page with pictures and
-// tables. Gaps [L], times [T], velocities [L/T] and forces [M L/T^2] are in the units of the case.
-// rolling_stage.cpp calls this file. A gnuplot that fails throws Error(kExternalProgram), and a
-// file that cannot be written throws Error(kBadInput); a missing gnuplot is only a warning. A
-// change must keep the names of the pictures, so that the pictures of earlier runs are replaced.
-// Colours and sizes in rolling_page.cpp are free choices.
+// The report of a rolling sphere: a page with pictures and tables.
 #pragma once
 
 #include <array>
@@ -22,10 +17,9 @@
 
 namespace viscontact::rolling {
 
-/// What a run has computed.
 struct RollingResults {
-  RollingCase c;         ///< the case
-  motions::PairFit fit;  ///< fit of the drag, scaled to radius and viscosity of the case
+  RollingCase c;
+  motions::PairFit fit;  ///< scaled to radius and viscosity of the case
   /// For each model that did not fail, its name and its trajectory, which has at least one row.
   std::vector<std::pair<std::string, RollingTrajectory>> trajectories;
   std::vector<results::FailedModel> failed;  ///< models without a trajectory
@@ -38,17 +32,17 @@ double stokes_of(const RollingCase& c, const RollingEnd& end);
 std::optional<double> reynolds_of(const RollingCase& c, const RollingEnd& end);
 
 /// A sentence for each model whose Reynolds number is too large for Stokes flow, whose motion ends
-/// at the wall opposite, or whose gap gets below the smallest gap of the fit, where the formula of
-/// the fit is continued although no row of a table supports it. The list is empty if there is no
-/// such model.
+/// at the wall opposite, or whose gap gets below the smallest gap of the fit, where no row of a
+/// table supports the formula of the fit.
 std::vector<std::string> rolling_warnings(const RollingResults& results);
 
-/// The names of all pictures that the report can have. A picture is stored in plots/NAME.svg.
+/// The names of all pictures that the report can have. A picture is stored in plots/NAME.svg; only
+/// these files are replaced or removed.
 inline constexpr auto kRollingPictures =
     std::to_array<std::string_view>({"gap", "velocity", "rotation", "slip", "friction"});
 
 /// Writes report.html and plots/NAME.svg into `folder`. `provenance` says how the results were
-/// made. If gnuplot is missing, the page has no still pictures, and a warning says so. Throws
+/// made. Without gnuplot the page has no still pictures, and a warning says so. Throws
 /// Error(kExternalProgram) if gnuplot fails, after the page is written without still pictures;
 /// Error(kBadInput) if a file cannot be written or a file of the user would be replaced;
 /// Error(kWrongUsage) if the environment variable SOURCE_DATE_EPOCH is not a time; and

@@ -1,18 +1,12 @@
-// Runs the stages of a rolling sphere one after the other (rolling_stage.hpp): tables of the drag,
-// the fit of the drag, the motion by each model, and the page. Gaps [L], > 0, times [T], velocities
-// [L/T], forces [M L/T^2] and angles in radians are in the units of the case. app/ uses this file.
-// A wrong case, or a file of the user that would be replaced, throws Error(kBadInput). A FreeFEM or
-// gnuplot that fails throws Error(kExternalProgram), and a requested stop throws
-// Error(kInterrupted). A model that fails is reported at the end, and the results of the other
-// models are still written. A change must keep the order of kColumns and kColumnNames, the numbers
-// of SolidContact (0: none, 1: rolling, 2: sliding), and the keys and columns in
-// docs/file-formats.md.
+// Runs the stages one after the other. The texts in check_rolling_files() must be those that the
+// files contain, because files are recognized by them.
 #include "viscontact/rolling/job/rolling_stage.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 
 #include "viscontact/common/equal_up_to_rounding.hpp"
 #include "viscontact/common/error.hpp"
@@ -34,7 +28,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The paths of the files in the folder of the results.
 struct RollingFolder {
   fs::path path;
   fs::path table(lubrication::MotionKind motion) const {
@@ -45,8 +38,7 @@ struct RollingFolder {
   fs::path trajectory(std::string_view model) const { return path / fmt::format("{}.csv", model); }
 };
 
-/// Throws Error(kBadInput) if a file of the results would replace a file that Viscontact did not
-/// write.
+/// Throws Error(kBadInput) if the results would replace a file that Viscontact did not write.
 void check_rolling_files(const RollingFolder& folder) {
   for (const auto& motion : lubrication::all_motions())
     results::refuse_other_kind(folder.table(motion.kind), "# case: ", "table");
@@ -59,7 +51,7 @@ void check_rolling_files(const RollingFolder& folder) {
 }
 
 /// Computes the tables in the folder and fits them, unless the case names a fit. If rows of a table
-/// fail, `failure` is set to the error that names these rows.
+/// fail, `failure` becomes the error that names them.
 void make_fit(const RollingCase& c, const RollingFolder& folder, const RollingRequest& request,
               pipeline::RowFailure& failure) {
   if (c.fit) return;
@@ -73,15 +65,12 @@ void make_fit(const RollingCase& c, const RollingFolder& folder, const RollingRe
   });
 }
 
-/// The fit that the case names, or else the fit in the folder, scaled to the radius and the
-/// viscosity of the case. Throws Error(kBadInput) if the fit cannot be read or is not that of a
-/// plane.
+/// The fit that the case names, or else the fit in the folder, scaled to the case.
 motions::PairFit fit_of(const RollingCase& c, const RollingFolder& folder) {
   const auto file = c.fit.value_or(folder.fit());
   return fit_for(c, motions::read_pair_fit(file), file);
 }
 
-/// Tells the user if the fit of the case was made for a sphere of another radius.
 void tell_of_scaling(const RollingCase& c) {
   if (!c.fit) return;
   const auto fit = motions::read_pair_fit(*c.fit);
@@ -92,9 +81,7 @@ void tell_of_scaling(const RollingCase& c) {
         fit.radius, fit.viscosity, c.radius, c.viscosity);
 }
 
-/// The columns of a trajectory except the last one, `contact`: time [T], gap and position [L],
-/// angle [rad], velocities [L/T], angular velocity [1/T], and forces of the solids [M L/T^2] away
-/// from the plane and along it.
+/// The columns of a trajectory except the last one, `contact`, in the order of kColumnNames.
 constexpr std::array<double RollingRow::*, 9> kColumns = {&RollingRow::time,
                                                           &RollingRow::gap,
                                                           &RollingRow::position,
@@ -115,8 +102,7 @@ const std::array<std::string, kColumns.size() + 1> kColumnNames = {"time",
                                                                    "friction_force",
                                                                    "contact"};
 
-/// The text of MODEL.csv: a head, the names of the columns, and a row of numbers for each row of
-/// the trajectory.
+/// The text of MODEL.csv (docs/file-formats.md).
 std::string trajectory_csv(const std::string& model, const RollingTrajectory& trajectory) {
   std::string text = write_csv_comments({{"viscontact", "rolling sphere"},
                                          {"model", model},
@@ -129,8 +115,6 @@ std::string trajectory_csv(const std::string& model, const RollingTrajectory& tr
   return text;
 }
 
-/// Reads the file MODEL.csv of an earlier run. Throws Error(kBadInput) if a number is missing, if
-/// there are no rows, or if a state of contact is not 0, 1 or 2.
 RollingTrajectory read_trajectory(const fs::path& path) {
   RollingTrajectory trajectory;
   for (const auto& [fields, line] : read_csv(path, kColumnNames, kColumnNames.size()).rows) {
@@ -147,9 +131,7 @@ RollingTrajectory read_trajectory(const fs::path& path) {
   return trajectory;
 }
 
-/// The text of rolling.json: for each model the state at the end of the motion, with the units of
-/// the trajectory, and the warnings and failed models. `contact_time` [T] is null if the solids
-/// never touch.
+/// The text of rolling.json (docs/file-formats.md).
 std::string rolling_json(const RollingResults& results) {
   Json json = {{"kind", "rolling"}, {"title", results.c.title}};
   for (const auto& [model, rows] : results.trajectories) {
@@ -206,13 +188,11 @@ bool write_trajectories(const RollingFolder& folder, const RollingResults& resul
   return wrote;
 }
 
-/// Tells the user the gap [L], velocity [L/T] and angular velocity [1/T] at the end of a motion.
 void say_end(const std::string& model, const RollingRow& last) {
   terminal::say("rolling: {} ends at the gap {:.6g}, velocity {:.6g}, angular velocity {:.6g}",
                 model, last.gap, last.velocity, last.angular_velocity);
 }
 
-/// Tells the user the largest Stokes and Reynolds numbers of all models.
 void say_regime(const RollingResults& results) {
   double stokes = 0;
   std::optional<double> reynolds;
@@ -229,10 +209,8 @@ void say_regime(const RollingResults& results) {
 
 }  // namespace
 
-/// Runs all stages, into request.folder. Files that are up to date are left as they are. Errors of
-/// rows of the tables or of models are thrown at the end, after the results of the others are
-/// written.
 void run_rolling(const RollingRequest& request) {
+  assert(request.jobs >= 1);
   RollingResults results;
   results.c = read_rolling_case(request.case_file);
   const RollingFolder folder{request.folder};
@@ -267,8 +245,6 @@ void run_rolling(const RollingRequest& request) {
   if (rows_failed) throw Error(*rows_failed);
 }
 
-/// Writes the page again from the files in the folder `path`. Throws Error(kBadInput) if a file is
-/// missing or wrong.
 void report_rolling(const fs::path& path, const StopToken& stop) {
   const RollingFolder folder{path};
   auto files = results::given_inputs(folder.results());

@@ -1,11 +1,4 @@
-// Reads the case of a swimmer (swimmer_case.hpp): its spheres and arms (distances of the centres of
-// neighbouring spheres), and strokes given by corners, an ellipse or a file of samples. Radii and
-// gaps [L], viscosity [M/(L T)] and periods [T] are > 0 and in the units of the case; an arm [L] is
-// greater than the sum of both radii. A wrong value throws Error(kBadInput), which names its line.
-// swimmer/, app/ and python/ use this file. Functions named ..._keys declare the keys of a section
-// and read them into their last arguments. A change must keep that users' cases are accepted, the
-// arms of a table bit for bit, because finished rows of the table are found by their gaps, and the
-// order in which keys are read, because some of them depend on those before.
+// Functions named ..._keys declare the keys of a section and read them into their last arguments.
 #include "viscontact/swimmer/case/swimmer_case.hpp"
 
 #include <algorithm>
@@ -18,8 +11,7 @@
 namespace viscontact::swimmer {
 namespace {
 
-/// Reads the radii [L]. Throws Error(kBadInput) unless there are kFewestSpheres to kMostSpheres of
-/// them, all > 0 and none more than 100 times another.
+/// Throws Error(kBadInput) unless there are kFewestSpheres to kMostSpheres radii [L].
 void read_radii(const case_file::TomlSection& section, std::string_view key,
                 std::vector<double>& radii) {
   radii = section.numbers(key, kPositive);
@@ -27,7 +19,6 @@ void read_radii(const case_file::TomlSection& section, std::string_view key,
                   "has {} numbers; it must have {} to {}", radii.size(), kFewestSpheres,
                   kMostSpheres);
   // With a larger ratio the mesh around the small sphere has more elements than FreeFEM can number.
-  // The limit is therefore not a free choice.
   constexpr double kLargestRatio = 100;
   const auto [smallest, largest] = std::ranges::minmax(radii);
   section.require(largest <= kLargestRatio * smallest, key,
@@ -35,13 +26,12 @@ void read_radii(const case_file::TomlSection& section, std::string_view key,
                   kLargestRatio);
 }
 
-/// What the case asks for: `count` lengths of an arm in the table [L], from `from` to `to`.
+/// `count` lengths of an arm in the table [L], from `from` to `to`.
 struct ArmGrid {
   double from = 0, to = 0;
   int count = 0;
 };
 
-/// Declares the keys from, to and count of the lengths of an arm.
 void arm_keys(case_file::Keys& keys, ArmGrid& grid) {
   keys.required("from", case_file::number(grid.from, kPositive),
                 {"the shortest arm, greater than the sum of both radii, so that the gap is at "
@@ -51,8 +41,9 @@ void arm_keys(case_file::Keys& keys, ArmGrid& grid) {
   keys.required("count", case_file::count(grid.count, 3, 200), {"the number of arms between them"});
 }
 
-/// The gaps between the surfaces of spheres k and k + 1 in the table [L], rising; spheres are
-/// counted from 0. Throws Error(kBadInput) if a length of an arm is out of range.
+/// The gaps between the surfaces of spheres k and k + 1 in the table [L], rising; k counts from 0.
+/// Finished rows of a table are found by their gaps, so that the gaps must stay the same bit for
+/// bit.
 std::vector<double> read_arm_gaps(const case_file::TomlSection& section,
                                   const std::vector<double>& radii, std::size_t k) {
   const double both_radii = radii[k] + radii[k + 1];
@@ -79,15 +70,13 @@ std::vector<double> read_arm_gaps(const case_file::TomlSection& section,
   return gaps;
 }
 
-/// The number of rows of the table, which is the product of the numbers of gaps.
 double rows_of(const SwimmerCase& c) {
   double rows = 1;
   for (const auto& gaps : c.gaps) rows *= static_cast<double>(gaps.size());
   return rows;
 }
 
-/// Reads `arms`, which is one table for all arms or an array with a table for each arm. Throws
-/// Error(kBadInput) if the number of tables is wrong or if there are more rows than kMostRows.
+/// Reads `arms`, which is one table for all arms or an array with a table for each arm.
 void read_grid(const case_file::TomlSection& section, std::string_view key, SwimmerCase& c) {
   const auto& radii = c.spheres.radii;
   const std::size_t arms = radii.size() - 1;
@@ -98,17 +87,15 @@ void read_grid(const case_file::TomlSection& section, std::string_view key, Swim
                   "has {} tables; it must have {}, one for each arm, or be one table for all arms",
                   tables.size(), arms);
   for (std::size_t k = 0; k < arms; ++k) c.gaps.push_back(read_arm_gaps(tables[k], radii, k));
-  // The limit is a free choice. A row takes 2 to 17 s, as in data/tables/three_spheres.csv, so that
-  // so many rows take days.
+  // A row takes 2 to 17 s, as in data/tables/three_spheres.csv, so that so many rows take days.
   constexpr double kMostRows = 100000;
   section.require(rows_of(c) <= kMostRows, key,
                   "makes a table of {} rows; at most {} are allowed, so take a smaller count",
                   rows_of(c), kMostRows);
 }
 
-/// Reads `table`, a file with a table of resistance matrices, which is scaled to the radii and the
-/// viscosity of the case. Throws Error(kBadInput) if the table cannot be read, has another number
-/// of spheres or other ratios of radii, or if the case also has keys for a new table.
+/// Reads `table`, a file with a table of resistance matrices, and scales it to the radii and the
+/// viscosity of the case.
 void read_given_table(const case_file::TomlSection& section, std::string_view key, SwimmerCase& c) {
   for (const auto* other : {"arms", "relative_accuracy"})
     section.require(!section.has(other), other, "must be left out, because `table` gives a table");
@@ -122,7 +109,6 @@ void read_given_table(const case_file::TomlSection& section, std::string_view ke
   c.gaps = gap_grid(c.table);
 }
 
-/// Declares the keys radius and height [L] of a tube.
 void tube_keys(case_file::Keys& keys, Tube& tube) {
   keys.required("radius", case_file::number(tube.radius, kPositive), {"radius of the tube"});
   keys.optional("height", case_file::number(tube.height, kPositive),
@@ -130,7 +116,7 @@ void tube_keys(case_file::Keys& keys, Tube& tube) {
 }
 
 /// Reads `container`, which is "unbounded" or { radius, height } [L]; without a height it is a long
-/// tube. Throws Error(kBadInput) if the tube is too narrow, too wide or too short for the swimmer.
+/// tube.
 void read_tube(const case_file::TomlSection& section, std::string_view key, SwimmerCase& c) {
   if (section.is_text(key)) {
     section.require(section.text(key) == "unbounded", key,
@@ -161,8 +147,6 @@ void read_tube(const case_file::TomlSection& section, std::string_view key, Swim
                   *tube.height, longest, kWidest);
 }
 
-/// Declares the keys of [swimmer]: the radii [L], the table or the arms and the relative accuracy
-/// [1] of a new table, and the container.
 void swimmer_keys(case_file::Keys& keys, SwimmerCase& c) {
   keys.required("radii", case_file::custom("2 to 10 numbers > 0", read_radii, c.spheres.radii),
                 {"radii in the order of the line; the largest is at most 100 times the smallest"});
@@ -192,13 +176,11 @@ void swimmer_keys(case_file::Keys& keys, SwimmerCase& c) {
                c.table.container, around);
 }
 
-/// What is wrong with the length `arm` [L] of arm k, counted from 0, if the length is outside the
-/// table; empty if it is inside.
+/// What is wrong with the length `arm` [L] of arm k, counted from 0; empty if it is in the table.
 std::string fault_of_arm(double arm, std::size_t k, const SwimmerCase& c) {
   const double both_radii = c.spheres.radii[k] + c.spheres.radii[k + 1];
   const double from = c.gaps[k].front() + both_radii, to = c.gaps[k].back() + both_radii;
-  // A relative length. An arm is a gap plus two radii, which may be rounded. resistance_fit.cpp has
-  // the same number.
+  // A relative length, as in resistance_fit.cpp, because an arm, a gap plus two radii, is rounded.
   constexpr double kRounding = 1e-12;
   if (arm >= from * (1 - kRounding) && arm <= to * (1 + kRounding)) return "";
   if (!(arm > both_radii))
@@ -212,8 +194,7 @@ std::string fault_of_arm(double arm, std::size_t k, const SwimmerCase& c) {
       k + 1, arm, from, to);
 }
 
-/// Reads a number for each arm into `place`, or one number for all arms. Throws Error(kBadInput) if
-/// their number is not that of the arms, or if `allowed` refuses one of them.
+/// Reads a number for each arm into `place`, or one number for all arms.
 void read_arms(const case_file::TomlSection& section, std::string_view key, Eigen::VectorXd& place,
                const SwimmerCase& c, const Allowed& allowed) {
   const auto arms = static_cast<Eigen::Index>(c.gaps.size());
@@ -234,9 +215,8 @@ void check_arms(const case_file::TomlSection& section, std::string_view key,
       section.fail(key, fault);
 }
 
-/// Reads a stroke from a CSV file with the columns time [T], x1, x2, ... [L], of which the last row
-/// closes the loop. Throws Error(kBadInput) for fewer than 3 rows and, with the line, for an empty
-/// field, a time that is not greater than that of the row above, or an arm outside the table.
+/// Reads a stroke from a CSV file with the columns time [T], x1, x2, ... [L]. The argument without
+/// a name is the period, which the file itself gives.
 void read_samples(const case_file::TomlSection& section, std::string_view key, double,
                   SwimmerCase& c) {
   section.require(!section.has("period"), "period",
@@ -273,9 +253,7 @@ void read_samples(const case_file::TomlSection& section, std::string_view key, d
   c.stroke = with_place(file, [&] { return sampled_stroke(times, samples); });
 }
 
-/// Reads the corners of a stroke that takes the time `period` [T]. A corner has a number for each
-/// arm [L]. Throws Error(kBadInput) for fewer than two corners, equal neighbours, or arms outside
-/// the table.
+/// Reads the corners of a stroke that takes the time `period` [T].
 void read_corners(const case_file::TomlSection& section, std::string_view key, double period,
                   SwimmerCase& c) {
   const auto rows = section.rows(key, c.gaps.size(), kPositive);
@@ -301,8 +279,8 @@ struct Ellipse {
   Eigen::VectorXd centre, semi_axes, phases;
 };
 
-/// Reads `phase` [rad]: one number if there are two arms, or a list with a number for each arm
-/// except the first, whose phase is 0.
+/// Reads `phase` [rad]: one number if there are two arms, or a list without the phase of the first
+/// arm, which is 0.
 void read_phases(const case_file::TomlSection& section, std::string_view key,
                  Eigen::VectorXd& phases) {
   const auto arms = static_cast<std::size_t>(phases.size());
@@ -334,8 +312,6 @@ void ellipse_keys(case_file::Keys& keys, Ellipse& ellipse, const SwimmerCase& c)
       {"of the second arm to the last, in radians; one arm has none"});
 }
 
-/// Reads an elliptic stroke that takes the time `period` [T]. Throws Error(kBadInput) if no arm
-/// moves or an arm leaves the table.
 void read_ellipse(const case_file::TomlSection& section, std::string_view key, double period,
                   SwimmerCase& c) {
   const auto table = section.section(key);
@@ -348,7 +324,6 @@ void read_ellipse(const case_file::TomlSection& section, std::string_view key, d
   c.stroke = elliptic_stroke(centre, semi_axes, phases, period);
 }
 
-/// Declares the keys of [stroke]: the period [T], and the corners, the ellipse or the file.
 void stroke_keys(case_file::Keys& keys, SwimmerCase& c) {
   const int kinds = static_cast<int>(keys.has("corners")) + static_cast<int>(keys.has("ellipse")) +
                     static_cast<int>(keys.has("file"));
@@ -373,8 +348,6 @@ void stroke_keys(case_file::Keys& keys, SwimmerCase& c) {
   if (c.stroke) c.optimal_period = c.stroke->period;
 }
 
-/// Declares the keys of [optimal]: the displacement [L], not 0, the shape `through` [L], the period
-/// [T] and the number of polynomials of each arm.
 void optimal_keys(case_file::Keys& keys, SwimmerCase& c) {
   auto& request = c.optimal.emplace();
   keys.required("displacement", case_file::number(request.displacement, kNotZero),
@@ -410,7 +383,6 @@ void optimal_keys(case_file::Keys& keys, SwimmerCase& c) {
 
 }  // namespace
 
-/// Reads all sections of the case. The sections [stroke] and [optimal] may be missing.
 void read_root(const case_file::TomlSection& root, SwimmerCase& c) {
   case_file::read_title_and_units(root, c);
   case_file::read_keys(root.section("fluid"), case_file::viscosity_keys, c.spheres.viscosity);
@@ -420,7 +392,6 @@ void read_root(const case_file::TomlSection& root, SwimmerCase& c) {
   root.finish();
 }
 
-/// The tables of the keys of all sections, for docs/case-file.md.
 std::vector<case_file::KeyTable> tables_of_swimmer_case() {
   return {case_file::describe_keys("[swimmer]", swimmer_keys),
           case_file::describe_keys("swimmer.arms", arm_keys),

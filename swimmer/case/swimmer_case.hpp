@@ -1,9 +1,4 @@
-// Reads the case file of a swimmer (TOML, docs/case-file.md): spheres on a line, the table of their
-// resistance matrices (forces per velocity), and the strokes that are computed with this table.
-// Lengths, masses and times are in any consistent units. swimmer_case.cpp declares the keys, their
-// ranges and their defaults. swimmer/, app/ and python/ use this file. A fault of a case throws
-// Error(kBadInput), which names the file and, if the fault belongs to a line or a key, the line and
-// the key. A change must keep accepting the cases that users have written.
+// The case of a swimmer: spheres on a line and their strokes (docs/case-file.md).
 #pragma once
 
 #include <Eigen/Core>
@@ -20,8 +15,8 @@
 
 namespace viscontact::swimmer {
 
-/// Content of a case file of a swimmer: spheres on a line, connected by arms that change their
-/// lengths.
+/// A case of spheres on a line, connected by arms that change their lengths. Lengths, masses and
+/// times are in any consistent units.
 struct SwimmerCase {
   std::string title;  ///< a title for pages; may be empty
   Units units{};      ///< units of the numbers, in words for pages; may be empty
@@ -38,21 +33,20 @@ struct SwimmerCase {
   std::optional<Stroke> stroke;
   /// What the stroke of least energy must achieve; nothing if the file has no section [optimal].
   std::optional<OptimalStrokeRequest> optimal;
-  double optimal_period = 1;                        ///< period of the optimal stroke [T], > 0
-  std::string text;                                 ///< content of the file
-  std::filesystem::path path;                       ///< the case file
-  std::vector<std::filesystem::path> stroke_files;  ///< files from which the stroke was read
+  double optimal_period = 1;  ///< period of the optimal stroke [T], > 0
+  std::string text;
+  std::filesystem::path path;
+  std::vector<std::filesystem::path> stroke_files;
 };
 
-/// Reads and checks a case file, and the files of a table and a stroke that it names. Throws
-/// Error(kBadInput) that names the file, the line, the key, the value and what is allowed.
+/// Reads a case file, and the files of a table and a stroke that it names. Throws Error(kBadInput)
+/// that names the file, the line, the key, the value and what is allowed.
 SwimmerCase read_swimmer_case(const std::filesystem::path& path);
 
-/// Reads a case from the root table of its file, for case_file/case_template.hpp. Throws the errors
-/// of read_swimmer_case().
+/// Reads a case from the root table of its file. Throws the errors of read_swimmer_case().
 void read_root(const case_file::TomlSection& root, SwimmerCase& c);
 
-/// The case file and the files of tables and strokes that it names. Throws nothing.
+/// The case file and the files of tables and strokes that it names.
 std::vector<std::filesystem::path> files_of(const SwimmerCase& c);
 
 /// The tables in docs/case-file.md with the keys of each section.

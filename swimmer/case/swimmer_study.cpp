@@ -1,11 +1,4 @@
-// Computes the strokes of a sweep of a swimmer, which is a line of spheres that changes its arms
-// (swimmer_study.hpp). Displacements [L] and energies [M L^2/T^2], each in one period, are in the
-// units of the case; the efficiency is [1]. app/ (command `sweep`) uses this file. A key that
-// cannot be varied and a case without a stroke throw Error(kWrongUsage), a wrong case or fit throws
-// Error(kBadInput), and a requested stop throws Error(kInterrupted); a stroke that fails leaves its
-// columns empty. A change must keep the names of the columns, which users' scripts read and which
-// add_sums() repeats. It must also put everything that determines the rows into the head, so that
-// rows of another sweep are not kept.
+// Each row of the sweep computes the strokes of its case anew, with the same fit.
 #include "viscontact/swimmer/case/swimmer_study.hpp"
 
 #include <utility>
@@ -24,9 +17,7 @@ namespace {
 constexpr std::string_view kSwimmerResults[] = {"displacement", "energy",
                                                 "energy_at_constant_power", "efficiency"};
 
-/// Adds the sums of a stroke over a period to the row, in the columns with this prefix.
-/// `energy_at_constant_power` [M L^2/T^2] is the energy of the same loop in the same period if it
-/// is run at constant power.
+/// Adds the sums of a stroke over a period to the columns with this prefix.
 void add_sums(const std::string& prefix, const SwimSums& sums, sweep::RowResults& results) {
   results.values[prefix + "displacement"] = sums.displacement;
   results.values[prefix + "energy"] = sums.energy;
@@ -34,8 +25,7 @@ void add_sums(const std::string& prefix, const SwimSums& sums, sweep::RowResults
   results.values[prefix + "efficiency"] = sums.efficiency;
 }
 
-/// Throws Error(kWrongUsage) unless the key is the viscosity or one of [stroke] or [optimal]; other
-/// keys would need another fit.
+/// Throws Error(kWrongUsage) unless one fit serves all values of the key.
 void check_swimmer_key(const std::string& key) {
   if (key.starts_with("stroke.") || key.starts_with("optimal.") || key == "fluid.viscosity") return;
   throw Error(ErrorKind::kWrongUsage,
@@ -44,8 +34,7 @@ void check_swimmer_key(const std::string& key) {
               key);
 }
 
-/// The results of a row: those of the stroke that the case gives, and those of the stroke of least
-/// energy if the case asks for it. A stroke that fails leaves its columns empty.
+/// The results of a row. A stroke that fails leaves its columns empty.
 sweep::RowResults swim_strokes(const SwimmerCase& c, ResistanceFit fit, const StopToken& stop) {
   sweep::RowResults results;
   const Swimmer swimmer(scaled_to(std::move(fit), c.spheres.viscosity, c.spheres.radii));
@@ -62,9 +51,6 @@ sweep::RowResults swim_strokes(const SwimmerCase& c, ResistanceFit fit, const St
 
 }  // namespace
 
-/// The study of the case at `case_path`: its points, the columns of its results and the function
-/// that computes a row. `fit` is the fit of the resistance matrices, which is scaled to each point;
-/// `version` is the version of Viscontact, for the head of the file.
 sweep::Study swimmer_study(const std::filesystem::path& case_path, sweep::Points points,
                            const ResistanceFit& fit, const std::string& version) {
   const case_file::CaseTemplate<SwimmerCase> cases(case_path);
@@ -91,6 +77,7 @@ sweep::Study swimmer_study(const std::filesystem::path& case_path, sweep::Points
   for (const auto result : kSwimmerResults)
     if (last.optimal) study.results.push_back("optimal." + std::string(result));
   std::string identity = sweep::text_of(points);
+  // `identity` must hold all that determines the rows, so that rows of another sweep are not kept.
   const auto files = files_of(last);  // the first is the case, whose hash the head has
   for (std::size_t i = 1; i < files.size(); ++i) identity += read_file(files[i]);
   study.comments =

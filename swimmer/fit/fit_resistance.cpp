@@ -1,14 +1,9 @@
-// Subtracts the lubrication R_lub between neighbouring spheres from each resistance matrix R of a
-// table, and takes the logarithm S of the rest: R = mu (R_lub + l exp S), with the viscosity mu and
-// the largest radius l (resistance_fit.hpp). The fit is the polynomial through the S of all rows.
-// Gaps and radii [L], > 0, the viscosity [M/(L T)], > 0, and R [M/T] are in the units of the table;
-// R_lub is [L], S and errors are [1]. Fewer than three values of a gap, rows that are missing or
-// occur twice, and a matrix that is not positive definite throw Error(kBadInput). swimmer/job and
-// python/ use this file. A change must keep the random signs of change_by_estimates(), on which the
-// error estimates depend.
+// The fit is the polynomial through S of all rows, where R = mu (R_lub + l exp S) with the
+// viscosity mu, the largest radius l and the lubrication R_lub between neighbours.
 #include "viscontact/swimmer/fit/fit_resistance.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -26,8 +21,7 @@ using Eigen::MatrixXd;
 
 constexpr std::size_t kFewestNodes = 3;  // so that two nodes remain if one is left out
 
-/// The nodes of the polynomials: for each gap, its values in the table [L], rising. Throws
-/// Error(kBadInput) if a gap has fewer than three values.
+/// The nodes of the polynomials: for each gap, its values in the table [L], rising.
 std::vector<std::vector<double>> nodes_of(const ResistanceTable& table) {
   auto nodes = gap_grid(table);
   for (std::size_t k = 0; k < nodes.size(); ++k)
@@ -39,8 +33,8 @@ std::vector<std::vector<double>> nodes_of(const ResistanceTable& table) {
   return nodes;
 }
 
-/// The rows of the table in the order of ResistanceFit::logarithms, in which the last gap changes
-/// fastest. Throws Error(kBadInput) if a combination of gaps is missing or occurs twice.
+/// The rows of the table in the order of ResistanceFit::logarithms. Throws Error(kBadInput) if a
+/// combination of gaps is missing or occurs twice.
 std::vector<ResistanceRow> sorted_rows(const ResistanceTable& table,
                                        const std::vector<std::vector<double>>& nodes) {
   std::map<std::vector<double>, ResistanceRow> rows;
@@ -56,8 +50,8 @@ std::vector<ResistanceRow> sorted_rows(const ResistanceTable& table,
   return sorted;
 }
 
-/// S, the logarithm of the matrix R/(mu l) - R_lub/l, where R_lub has `terms` terms, from 0 to
-/// kLubricationTerms. Nothing if this matrix is not positive definite.
+/// S = log(R/(mu l) - R_lub/l) with `terms` terms in R_lub. Nothing if the argument of the
+/// logarithm is not positive definite.
 std::optional<MatrixXd> logarithm_of(const ResistanceRow& row, const ResistanceTable& table,
                                      int terms) {
   const double unit_length = std::ranges::max(table.radii);
@@ -112,8 +106,8 @@ void change_by_estimates(ResistanceRow& row, SplitMix64& random) {
     }
 }
 
-/// The barycentric weights of the nodes of gap k, one for each node. The variable of the
-/// polynomials is the inverse distance of centres 1/(gap + a + b) [1/L] with the radii a and b.
+/// The barycentric weights of the nodes of gap k. The variable of the polynomials is the inverse
+/// distance of centres [1/L].
 Eigen::VectorXd weights_of(const ResistanceFit& fit, std::size_t k) {
   Eigen::VectorXd inverse(static_cast<Index>(fit.gaps[k].size()));
   for (std::size_t i = 0; i < fit.gaps[k].size(); ++i)
@@ -121,8 +115,8 @@ Eigen::VectorXd weights_of(const ResistanceFit& fit, std::size_t k) {
   return barycentric_weights(inverse);
 }
 
-/// Calls `use` with the indices of the matrices S of the nodes on each line of the grid along gap
-/// k, in the order of the nodes. On such a line only gap k changes.
+/// Calls `use` with the indices of the matrices S on each line of the grid along gap k, on which
+/// only gap k changes.
 template <class Use>
 void for_each_line(const ResistanceFit& fit, std::size_t k, const Use& use) {
   std::size_t inner = 1;
@@ -146,9 +140,9 @@ MatrixXd weighted_sum(const ResistanceFit& fit, const Eigen::VectorXd& weights,
   return sum;
 }
 
-/// Sets the residual of the fit [1] and its leave-one-out errors [1], which are the errors with
-/// which the other rows on a line predict a row. The polynomial through all nodes of a line except
-/// node i has at node i the value S_i - (sum_j w_j S_j)/w_i, with the barycentric weights w.
+/// Sets the residual of the fit and its leave-one-out errors. The polynomial through all nodes of a
+/// line except node i has at node i the value S_i - (sum_j w_j S_j)/w_i, with the barycentric
+/// weights w.
 void measure_errors(ResistanceFit& fit, const ResistanceTable& table,
                     const std::vector<ResistanceRow>& rows) {
   const std::size_t spheres = fit.radii.size();
@@ -199,10 +193,8 @@ std::optional<ResistanceFit> fit_with(const ResistanceTable& table, int terms,
 
 }  // namespace
 
-/// The fit with the number of terms of lubrication, from 0 to kLubricationTerms, whose largest
-/// leave-one-out error is the smallest. Throws Error(kBadInput) if no number of terms gives
-/// positive definite matrices.
 ResistanceFit fit_resistance(const ResistanceTable& table) {
+  assert(table.radii.size() >= 2);
   const auto rows = sorted_rows(table, nodes_of(table));
   std::optional<ResistanceFit> best;
   for (int terms = 0; terms <= kLubricationTerms; ++terms) {
@@ -216,10 +208,8 @@ ResistanceFit fit_resistance(const ResistanceTable& table) {
   return *best;
 }
 
-/// Fits with which the results of a swimmer are computed again to estimate their errors: for each
-/// gap a fit with a polynomial of one degree less, and at most 16 fits of tables whose entries are
-/// changed by their error estimates. `fit` must be fit_resistance(table) (not checked).
 PerturbedFits perturbed_fits(const ResistanceTable& table, const ResistanceFit& fit) {
+  assert(fit.radii == table.radii && !fit.logarithms.empty());
   PerturbedFits perturbed;
   // With the barycentric weights w, S - w (w.S)/(w.w) is the least-squares polynomial of one degree
   // less, because on the nodes w is orthogonal to all polynomials of that degree.
@@ -233,16 +223,15 @@ PerturbedFits perturbed_fits(const ResistanceTable& table, const ResistanceFit& 
     });
     perturbed.lower_degrees.push_back(std::move(lower));
   }
-  // Each draw changes the table with other random signs. 16 draws, a free choice, give the root
-  // mean square of a result's change to about a fifth (1/sqrt(32)).
+  // Each draw has its own random signs. 16 draws give the root mean square of a result's change to
+  // about a fifth (1/sqrt(32)).
   constexpr std::uint64_t kDraws = 16;
   const auto rows = sorted_rows(table, fit.gaps);
   for (std::uint64_t draw = 0; draw < kDraws; ++draw) {
     SplitMix64 random(draw);
     auto changed = rows;
     for (auto& row : changed) change_by_estimates(row, random);
-    // Errors as large as an eigenvalue make the matrix indefinite; then there is no fit, and this
-    // draw is left out.
+    // Errors as large as an eigenvalue make the matrix indefinite, so that there is no fit.
     if (auto fitted = fit_with(table, fit.lubrication_terms, changed))
       perturbed.table_errors.push_back(std::move(*fitted));
   }

@@ -1,9 +1,5 @@
-// Fits the resistance matrices [M/T] of spheres on a line, given in a table, by a function of the
-// gaps [L] (ResistanceFit), and makes perturbed fits, from which the results of a swimmer get their
-// error estimates. Lengths, masses and times are in the units of the table. A table that lacks a
-// combination of its gaps, or has a matrix that is not positive definite, throws Error(kBadInput).
-// swimmer/job and python/ call this file. A change must keep that the fit meets every row of the
-// table; the number of 16 draws is a free choice, but changes the error estimates.
+// Fits the resistance matrices of spheres on a line by a function of their gaps (docs/physics.md
+// (7.2)).
 #pragma once
 
 #include <vector>
@@ -13,12 +9,12 @@
 
 namespace viscontact::swimmer {
 
-/// The fit that interpolates all rows of the table. It has 0 to 3 lubrication terms: of those
-/// numbers for which each matrix minus its lubrication is positive definite, it has the number with
-/// the smallest ResistanceFit::largest_left_one_out_error. Throws Error(kBadInput) if the rows are
-/// not all combinations of at least three values of each gap, each combination once, or if a matrix
-/// is not positive definite. The table must have at least two radii (not checked). The members
-/// `table_sha256` and `versions` of the result are empty.
+/// The fit that interpolates all rows of the table, which has at least two radii. Of 0 to 3
+/// lubrication terms it has the number with the smallest ResistanceFit::largest_left_one_out_error,
+/// among those for which each matrix minus its lubrication is positive definite. Throws
+/// Error(kBadInput) if the rows are not all combinations of at least three values of each gap, each
+/// combination once, or if a matrix is not positive definite. The members `table_sha256` and
+/// `versions` of the result are empty.
 ResistanceFit fit_resistance(const ResistanceTable& table);
 
 /// Fits with which a result of a swimmer, such as its displacement, is computed again. The changes
@@ -33,9 +29,10 @@ struct PerturbedFits {
   std::vector<ResistanceFit> table_errors;
 };
 
-/// The perturbed fits of a table; `fit` must be fit_resistance(table) (not checked). The random
-/// signs are the same in each call. A fit of `table_errors` is left out if its changed table has a
-/// matrix that is not positive definite after the lubrication is subtracted.
+/// The perturbed fits of a table for `fit` = fit_resistance(table). The random signs are the same
+/// in each call, so that error estimates can be repeated. A fit of `table_errors` is left out if
+/// its changed table has a matrix that is not positive definite after the lubrication is
+/// subtracted.
 PerturbedFits perturbed_fits(const ResistanceTable& table, const ResistanceFit& fit);
 
 }  // namespace viscontact::swimmer

@@ -1,17 +1,11 @@
-// Makes the page of a swimmer: tables, curves over time, and the loops of strokes in the plane of
-// two arms, over a map of the displacement per area [1/L] (displacement_curl). Arms and positions
-// [L], times [T], power [M L^2/T^3] and forces [M L/T^2] are in the units of the case; a stroke has
-// a period > 0 and at least one row (not checked). Heights and widths of pictures, in pixels, are
-// free choices. A gnuplot that fails throws Error(kExternalProgram); a file that cannot be written,
-// or a file of the user that would be replaced, throws Error(kBadInput); a requested stop throws
-// Error(kInterrupted). swimmer_stage.cpp uses this file. A change must list every picture in
-// kSwimmerPictures, which decides which files in plots/ may be replaced or removed.
+// Shows the loops of strokes in the plane of two arms over a map of displacement_curl().
 #include "viscontact/swimmer/job/swimmer_page.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -35,8 +29,8 @@ std::size_t place_after_spheres(const SwimmerResults& results) {
   return first_sphere(results) + results.c.spheres.radii.size();
 }
 
-/// The decimal logarithm of the size of the displacement per area [1/L] of a small loop, over the
-/// plane of the two arms [L], for all pairs of arms of the table.
+/// The decimal logarithm of |displacement_curl()| [1/L], for all pairs of the two arms in the
+/// table.
 report::ColourField curl_field(const Swimmer& swimmer) {
   constexpr std::size_t kPixels = 200;  // along each axis; a smooth field needs no more
   const auto [left, right] = swimmer.arm_interval(0);
@@ -52,21 +46,18 @@ report::ColourField curl_field(const Swimmer& swimmer) {
   return field;
 }
 
-/// The path of a stroke in the plane of the first two arms [L].
 Points loop_of(const StrokeResult& stroke) {
   Points points;
   for (const auto& row : stroke.rows) points.emplace_back(row.arms[0], row.arms[1]);
   return points;
 }
 
-/// A stroke as the page shows it.
 struct ShownStroke {
   std::string name;
   const char* colour;
   const StrokeResult* result;
 };
 
-/// The strokes that there are: the given stroke and the optimal stroke.
 std::vector<ShownStroke> strokes_of(const SwimmerResults& results) {
   std::vector<ShownStroke> strokes;
   if (results.stroke)
@@ -76,8 +67,7 @@ std::vector<ShownStroke> strokes_of(const SwimmerResults& results) {
   return strokes;
 }
 
-/// A panel with a curve over time for each stroke. Time is divided by the period, so that strokes
-/// can be compared.
+/// A panel with a curve over time / period for each stroke, so that strokes can be compared.
 template <class Value>
 report::PlotPanel panel_of_strokes(const SwimmerResults& results, const std::string& title,
                                    const std::string& label, const Value& value) {
@@ -91,8 +81,8 @@ report::PlotPanel panel_of_strokes(const SwimmerResults& results, const std::str
   return panel;
 }
 
-/// A plot with one panel for each stroke. A panel has a curve over time [T] for each component of
-/// the vector `values` of a row. `place` is the index of the first component's colour.
+/// A plot with one panel for each stroke, in which a curve over time [T] belongs to each component
+/// of the vector `values` of a row. `place` is the index of the first component's colour.
 template <class Values>
 report::Plot plot_of_components(const SwimmerResults& results, const std::string& name,
                                 const std::string& title, const std::string& label,
@@ -119,10 +109,11 @@ report::Plot plot_of_components(const SwimmerResults& results, const std::string
   return plot;
 }
 
-/// A plot over the number of polynomials: the energy relative to the energy with the most
-/// polynomials, minus 1 [1], and the residual of Euler and Lagrange's equation [1]. `place` is the
-/// index of the first curve's colour. `steps` must not be empty (not checked).
+/// A plot over the number of polynomials: the energy relative to that with the most polynomials,
+/// minus 1, and the residual of Euler and Lagrange's equation. `place` is the index of the first
+/// curve's colour.
 report::Plot plot_convergence(const std::vector<OptimalStrokeStep>& steps, std::size_t place) {
+  assert(!steps.empty());
   report::PlotPanel panel{"Convergence of the optimal stroke",
                           {"polynomials for each arm"},
                           {"relative difference", true},
@@ -145,9 +136,9 @@ report::Plot plot_convergence(const std::vector<OptimalStrokeStep>& steps, std::
   return {"convergence", 400, {panel}};
 }
 
-/// The distance of tics on an axis whose ends are `range` > 0 apart. It is 1, 2 or 5 times a power
-/// of ten, and at most seven tics are on the axis. gnuplot's own tics are so close that their
-/// numbers overlap if they have many digits.
+/// The distance of tics on an axis whose ends are `range` > 0 apart: 1, 2 or 5 times a power of
+/// ten, with at most seven tics. gnuplot's own tics are so close that numbers with many digits
+/// overlap.
 double tic_step(double range) {
   const double least = range / 6;
   const double power = std::pow(10, std::floor(std::log10(least)));
@@ -156,8 +147,7 @@ double tic_step(double range) {
   return 10 * power;
 }
 
-/// The SVG of the loops in the plane of the two arms [L], over a map of the displacement per area
-/// [1/L] of a small loop at each point.
+/// The SVG of the loops over the map of curl_field().
 std::string draw_loops(const SwimmerResults& results, const StopToken& stop) {
   const Swimmer swimmer(results.fit);
   const auto length = results.c.units.in_brackets(0, 1, 0);
@@ -187,9 +177,6 @@ std::string draw_loops(const SwimmerResults& results, const StopToken& stop) {
   return report::draw_svg({panel}, 760, 700, stop);
 }
 
-/// Plots of the position of the middle sphere [L], the power [M L^2/T^3], the arms [L] and the
-/// forces [M L/T^2] over time for all strokes, and of the convergence of the optimal stroke. The
-/// list is empty if there is no stroke.
 std::vector<report::Plot> swimmer_plots(const SwimmerResults& results) {
   std::vector<report::Plot> plots;
   if (strokes_of(results).empty()) return plots;
@@ -219,7 +206,7 @@ std::string with_error(double value, double error) {
   return fmt::format("{:.9g} &plusmn; {:.1g}", value, error);
 }
 
-/// The table (HTML) of displacement, energy and efficiency, with a column for each stroke.
+/// The table (HTML) of the sums, with a column for each stroke.
 std::string strokes_table(const SwimmerResults& results) {
   const auto strokes = strokes_of(results);
   std::string head = "<tr><th></th>";
@@ -261,8 +248,7 @@ std::string search_words(const SwimmerResults& results) {
       last.euler_lagrange_residual);
 }
 
-/// The table (HTML) of the error estimates of the table of resistance matrices and of its fit, all
-/// relative [1].
+/// The table (HTML) of relative errors of the resistance matrices and of their fit.
 std::string fit_table_of(const SwimmerResults& results) {
   const auto& fit = results.fit;
   double estimate = 0;
@@ -281,7 +267,6 @@ std::string fit_table_of(const SwimmerResults& results) {
                         fmt::format("{:.2g}", fit.rms_left_one_out_error)));
 }
 
-/// The table (HTML) of the viscosity, radii, surroundings and arms of the case.
 std::string parameters_of(const SwimmerResults& results) {
   const auto& spheres = results.c.spheres;
   std::string radii;
@@ -301,7 +286,6 @@ std::string parameters_of(const SwimmerResults& results) {
   return report::table_of(rows);
 }
 
-/// A paragraph (HTML) with links to the files of the folder.
 std::string files_words(const SwimmerResults& results) {
   std::string text =
       "<p>Files of this folder: <a href=\"table.csv\">table.csv</a>, <a "
@@ -324,13 +308,13 @@ std::string loops_section(const report::Report& report) {
 
 }  // namespace
 
-/// Writes report.html and the pictures in plots/ into `folder`. The loops are drawn only if there
-/// are two arms and gnuplot did not fail.
 void write_swimmer_report(const SwimmerResults& results, const std::filesystem::path& folder,
                           const results::Provenance& provenance, const StopToken& stop) {
+  assert(!results.stroke || !results.stroke->rows.empty());
   const auto& units = results.c.units;
   report::Report report(folder, kSwimmerPictures);
   report.draw(swimmer_plots(results), stop);
+  // The map needs a plane of two arms.
   if (report.is_drawn() && results.c.gaps.size() == 2)
     report.add_picture("loops", draw_loops(results, stop));
   report.write(

@@ -1,9 +1,4 @@
-// Writes the report of a swimmer (spheres on a line that change their distances): a page with
-// pictures and tables. Lengths, masses and times are in the units of the case. swimmer_stage.cpp
-// calls this file. A gnuplot that fails throws Error(kExternalProgram), and a file that cannot be
-// written throws Error(kBadInput); a missing gnuplot is only a warning. A change must keep the
-// names of the pictures, so that the pictures of earlier runs are replaced. Colours and sizes in
-// swimmer_page.cpp are free choices.
+// The report of a swimmer: a page with pictures and tables.
 #pragma once
 
 #include <array>
@@ -23,35 +18,34 @@
 
 namespace viscontact::swimmer {
 
-/// A stroke, which is a closed path of the distances, with its results.
 struct StrokeResult {
-  double period = 0;          ///< [T], > 0
-  SwimSums sums;              ///< displacement, energy and efficiency of a period
-  SwimErrors errors;          ///< estimates of the errors of `sums`
+  double period = 0;  ///< [T], > 0
+  SwimSums sums;
+  SwimErrors errors;
   std::vector<SwimRow> rows;  ///< state at times of one period, in order of time, at least one
 };
 
-/// What a run of a swimmer has computed.
 struct SwimmerResults {
-  SwimmerCase c;                        ///< the case
-  ResistanceTable table;                ///< resistance matrices of the spheres of the case
-  ResistanceFit fit;                    ///< fit of the table
+  SwimmerCase c;
+  ResistanceTable table;  ///< scaled to the spheres of the case
+  ResistanceFit fit;
   std::optional<StrokeResult> stroke;   ///< result of the section [stroke] of the case, if any
   std::optional<StrokeResult> optimal;  ///< result of the section [optimal] of the case, if any
   /// How the search for the stroke of least energy converged, with energies in the period of the
-  /// case. It must have an element if there is an optimal stroke (not checked), else it is empty.
+  /// case. It has an element if there is an optimal stroke, else it is empty.
   std::vector<OptimalStrokeStep> convergence;
   /// Derivative of the least energy by the displacement [M L/T^2] in the period of the case; 0
   /// without an optimal stroke.
   double energy_per_displacement = 0;
 };
 
-/// The names of all pictures that the report can have. A picture is stored in plots/NAME.svg.
+/// The names of all pictures that the report can have. A picture is stored in plots/NAME.svg; only
+/// these files are replaced or removed.
 inline constexpr auto kSwimmerPictures = std::to_array<std::string_view>(
     {"loops", "position", "power", "arms", "forces", "convergence"});
 
 /// Writes report.html and plots/NAME.svg into `folder`. `provenance` says how the results were
-/// made. If gnuplot is missing, the page has no still pictures, and a warning says so. Throws
+/// made. Without gnuplot the page has no still pictures, and a warning says so. Throws
 /// Error(kExternalProgram) if gnuplot fails, Error(kBadInput) if a file cannot be written or a file
 /// of the user would be replaced, Error(kWrongUsage) if the environment variable SOURCE_DATE_EPOCH
 /// is not a time, and Error(kInterrupted) if `stop` requests a stop.

@@ -1,16 +1,10 @@
-// Runs the stages of a swimmer one after the other (swimmer_stage.hpp): the table of resistance
-// matrices, the fit of the table, the strokes, and the page. Times and periods [T], arms and
-// displacements [L], forces [M L/T^2], power [M L^2/T^3] and energies [M L^2/T^2] are in the units
-// of the case. A wrong case, or a file of the user that would be replaced, throws Error(kBadInput).
-// A FreeFEM or gnuplot that fails throws Error(kExternalProgram), a stroke whose sums or search do
-// not converge throws Error(kNotConverged), and a requested stop throws Error(kInterrupted). app/
-// and python/ use this file. A change must keep the texts in check_files(), which the files
-// contain, and the keys of swimmer.json and the columns of stroke.csv, which are in
-// docs/file-formats.md.
+// Runs the stages one after the other. The texts in check_files() must be those that the files
+// contain, because files are recognized by them.
 #include "viscontact/swimmer/job/swimmer_stage.hpp"
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <optional>
 #include <span>
 
@@ -32,7 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The paths of the files in the folder of the results.
 struct SwimmerFolder {
   fs::path path;
   fs::path table() const { return path / "table.csv"; }
@@ -42,8 +35,7 @@ struct SwimmerFolder {
   fs::path optimal() const { return path / "optimal_stroke.csv"; }
 };
 
-/// Throws Error(kBadInput) if a file of the results would replace a file that Viscontact did not
-/// write.
+/// Throws Error(kBadInput) if the results would replace a file that Viscontact did not write.
 void check_files(const SwimmerFolder& folder) {
   results::refuse_other_kind(folder.table(), "# viscontact: resistance table",
                              "table of resistance matrices");
@@ -54,7 +46,6 @@ void check_files(const SwimmerFolder& folder) {
   (void)report::Report(folder.path, kSwimmerPictures);  // throws for a file of the user
 }
 
-/// Fits the table and writes fit.json, unless that file has the same content already.
 ResistanceFit fit_table(const SwimmerFolder& folder, const ResistanceTable& table,
                         const results::Provenance& provenance) {
   auto fit = with_place(folder.table().string(), [&] { return fit_resistance(table); });
@@ -70,12 +61,9 @@ ResistanceFit fit_table(const SwimmerFolder& folder, const ResistanceTable& tabl
   return fit;
 }
 
-/// The sums of a stroke over its period, their error estimates, and its rows. `multiplier` [M
-/// L/T^2] is the derivative of the least energy by the displacement if the stroke is optimal, and 0
-/// if it is not.
+/// The sums of a stroke, their error estimates and its rows. `multiplier` is that of swim_errors().
 StrokeResult result_of(const SwimmerResults& results, const Stroke& stroke, double multiplier) {
-  // stroke.csv has about this number of rows, a free choice that is enough for smooth curves.
-  constexpr int kIntervals = 400;
+  constexpr int kIntervals = 400;  // about the rows of stroke.csv, enough for smooth curves
   const Swimmer swimmer(results.fit);
   const auto sums = swim_sums(swimmer, stroke);
   const auto perturbed = perturbed_fits(results.table, results.fit);
@@ -84,10 +72,9 @@ StrokeResult result_of(const SwimmerResults& results, const Stroke& stroke, doub
           swim_rows(swimmer, stroke, kIntervals)};
 }
 
-/// The text of the file of a stroke, which must have a row (not checked): a head, the names of the
-/// columns, and for each row time, arms x1, x2, ..., position of the middle sphere, force of each
-/// sphere on the fluid, and power.
+/// The text of stroke.csv or optimal_stroke.csv (docs/file-formats.md).
 std::string stroke_csv(const StrokeResult& stroke) {
+  assert(!stroke.rows.empty());
   const auto& first = stroke.rows.front();
   std::string text = write_csv_comments(
       {{"viscontact", "stroke of a swimmer"}, {"rows", std::to_string(stroke.rows.size())}});
@@ -106,7 +93,6 @@ std::string stroke_csv(const StrokeResult& stroke) {
   return text;
 }
 
-/// The sums of a stroke with their error estimates, as an object of swimmer.json.
 Json json_of(const StrokeResult& stroke) {
   return {{"displacement", stroke.sums.displacement},
           {"displacement_error_estimate", stroke.errors.displacement},
@@ -117,13 +103,13 @@ Json json_of(const StrokeResult& stroke) {
           {"period", stroke.period}};
 }
 
-/// The text of swimmer.json: the sums of the given stroke, in "optimal" those of the optimal stroke
-/// with the steps of its search, and the errors of the fit [1].
+/// The text of swimmer.json (docs/file-formats.md).
 std::string results_json(const SwimmerResults& results) {
   Json json = {{"kind", "swimmer"}, {"title", results.c.title}};
   if (results.stroke) json.update(json_of(*results.stroke));
   if (results.optimal) {
     auto& optimal = json["optimal"] = json_of(*results.optimal);
+    assert(!results.convergence.empty());
     const auto& last = results.convergence.back();
     optimal["polynomials"] = last.polynomials;
     optimal["euler_lagrange_residual"] = last.euler_lagrange_residual;
@@ -138,7 +124,6 @@ std::string results_json(const SwimmerResults& results) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-/// Computes the given and the optimal stroke of the case, if it has them.
 void compute_strokes(SwimmerResults& results, const StopToken& stop) {
   const std::string place = results.c.path.string();
   if (results.c.stroke)
@@ -159,8 +144,8 @@ void compute_strokes(SwimmerResults& results, const StopToken& stop) {
   terminal::clear_progress();
 }
 
-/// Writes the file of a stroke unless the file is up to date. If there is no stroke, removes the
-/// file of an earlier run. Returns true if the file was written.
+/// Writes the file of a stroke unless it is up to date, or, if there is no stroke, removes the file
+/// of an earlier run. Returns true if the file was written.
 bool write_stroke(const fs::path& path, const std::optional<StrokeResult>& stroke,
                   const results::Provenance& provenance) {
   if (stroke)
@@ -170,7 +155,7 @@ bool write_stroke(const fs::path& path, const std::optional<StrokeResult>& strok
 }
 
 /// Reads the stroke that json_of() and stroke_csv() wrote for a swimmer with `spheres` >= 2
-/// spheres. Throws Error(kBadInput) if the CSV file lacks a column or a number, or has no rows.
+/// spheres.
 StrokeResult read_stroke(const Json& json, const fs::path& path, std::size_t spheres) {
   StrokeResult stroke{json.at("period"),
                       {json.at("displacement"), json.at("energy"),
@@ -195,8 +180,6 @@ StrokeResult read_stroke(const Json& json, const fs::path& path, std::size_t sph
   return stroke;
 }
 
-/// Reads the results of a run of the case from the folder. Throws Error(kBadInput) if a file is
-/// missing or wrong.
 SwimmerResults read_results(const SwimmerFolder& folder, const fs::path& case_file) {
   SwimmerResults results;
   results.c = read_swimmer_case(case_file);
@@ -215,7 +198,6 @@ SwimmerResults read_results(const SwimmerFolder& folder, const fs::path& case_fi
   return results;
 }
 
-/// Tells the user the displacement [L], the energy [M L^2/T^2] and the efficiency [1] of a stroke.
 void tell(const std::string& name, const StrokeResult& stroke) {
   terminal::say(
       "{}: displacement {:.9g} (error estimate {:.1g}), energy {:.9g} ({:.1g}), efficiency {:.4g}",
@@ -225,8 +207,6 @@ void tell(const std::string& name, const StrokeResult& stroke) {
 
 }  // namespace
 
-/// The table of the case, to be computed and written to `table`. Throws Error(kBadInput) if the
-/// case names a table.
 pipeline::CaseTable case_table(const SwimmerCase& c, const fs::path& table) {
   if (c.table_file)
     throw_bad_input({c.path.string()},
@@ -234,9 +214,8 @@ pipeline::CaseTable case_table(const SwimmerCase& c, const fs::path& table) {
   return {c.path, c.text, table, resistance_table_plan(c.spheres, c.gaps), {}, {}};
 }
 
-/// Runs all stages and writes the files of the results into request.folder. Files that are up to
-/// date are left as they are.
 void run_swimmer(const SwimmerRequest& request) {
+  assert(request.jobs >= 1);
   SwimmerResults results;
   results.c = read_swimmer_case(request.case_file);
   const SwimmerFolder folder{request.folder};
@@ -270,7 +249,6 @@ void run_swimmer(const SwimmerRequest& request) {
   if (request.json) fmt::print("{}", json);
 }
 
-/// Writes the page again from the files in the folder `path`.
 void report_swimmer(const fs::path& path, const StopToken& stop) {
   const SwimmerFolder folder{path};
   auto files = results::given_inputs(folder.results());

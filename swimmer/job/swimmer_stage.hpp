@@ -1,8 +1,4 @@
-// The command `swimmer`: it makes the table of resistance matrices of spheres on a line, its fit,
-// strokes of a swimmer made of these spheres, and the report. Lengths [L], masses [M] and times [T]
-// are in the units of the case. app/ and python/ call this file. Wrong inputs throw
-// Error(kBadInput) before anything is written, and a stop throws Error(kInterrupted). A change must
-// keep the names of files, keys and columns, which users' scripts read.
+// The command `swimmer`: table and fit of resistance matrices, strokes, and report.
 #pragma once
 
 #include <filesystem>
@@ -14,15 +10,13 @@
 
 namespace viscontact::swimmer {
 
-/// The plan by which the table of resistance matrices of a case is computed and written to the path
-/// `table`. Throws Error(kBadInput) if the case names the file of a table, so that there is none to
-/// compute.
+/// The plan of the table of resistance matrices of a case, to be written to the path `table`.
+/// Throws Error(kBadInput) if the case names the file of a table, so that there is none to compute.
 pipeline::CaseTable case_table(const SwimmerCase& c, const std::filesystem::path& table);
 
-/// The options of the command `swimmer`.
 struct SwimmerRequest {
   std::string case_file, folder;  ///< path of the case, and of the folder for the results
-  int jobs = 1;                   ///< FreeFEM processes at once, >= 1 (not checked)
+  int jobs = 1;                   ///< FreeFEM processes at once, >= 1
   bool json = false;              ///< true: print swimmer.json to standard output
   StopToken stop{};               ///< a stop throws Error(kInterrupted); finished files are kept
 };
@@ -30,11 +24,11 @@ struct SwimmerRequest {
 /// Writes table.csv, fit.json, stroke.csv, optimal_stroke.csv, swimmer.json and the report into the
 /// folder (docs/file-formats.md). A table or fit that was made from the same inputs is kept, and
 /// rows that an interrupted call has finished are not computed again. Throws Error(kBadInput)
-/// before anything is written if the case is wrong or a file of the user would be replaced. Throws
+/// before anything is written if the case is wrong or a file of the user would be replaced, later
+/// if the table cannot be fitted, a stroke leaves the table or a file cannot be written. Throws
 /// Error(kExternalProgram) if FreeFEM cannot be run, a row of the table fails or gnuplot fails;
-/// Error(kBadInput) if the table cannot be fitted, a stroke leaves the table or a file cannot be
-/// written; Error(kNotConverged) if the integrals over the time of a stroke or the search for the
-/// stroke of least energy do not converge; and Error(kInterrupted) after a stop.
+/// Error(kNotConverged) if the integrals over the time of a stroke or the search for the stroke of
+/// least energy do not converge; and Error(kInterrupted) after a stop.
 void run_swimmer(const SwimmerRequest& request);
 
 /// Writes the report again from the files that run_swimmer() wrote into `folder`, and from the

@@ -1,14 +1,8 @@
-// Evaluates the lubrication of pairs of spheres on a line, and their resistance matrix R = mu
-// (R_lub + l exp(S)), with its derivatives by the gaps (resistance_fit.hpp). mu is the viscosity, l
-// the largest radius, R_lub the known lubrication, and S the polynomial of the fit. Radii and gaps
-// [L] are > 0, and there is one gap less than spheres (not checked). R [M/T] and R_lub [L] are in
-// the units of the fit; S is [1]. The lubrication has 0 to kLubricationTerms terms (not checked).
-// Gaps outside the table throw Error(kBadInput). shape_mechanics.cpp and swimmer/fit use this file.
-// A change must keep that the slopes are the derivatives of R, and the formula of the lubrication,
-// because files of fits contain only S.
+// R = mu (R_lub + l exp(S)) and its derivatives by the gaps.
 #include "viscontact/swimmer/resistance/resistance_fit.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/matrices/decompositions.hpp"
@@ -16,8 +10,8 @@
 namespace viscontact::swimmer {
 namespace {
 
-/// The coefficients g1, g2, g3 of pair_lubrication() for the ratio of radii `beta` > 0 [1] (Jeffrey
-/// & Onishi 1984).
+/// The coefficients g1, g2, g3 of pair_lubrication() for the ratio of radii `beta` [1] (Jeffrey &
+/// Onishi 1984).
 std::array<double, kLubricationTerms> coefficients(double beta) {
   const double sum3 = std::pow(1 + beta, 3);
   return {2 * beta * beta / sum3, beta * (1 + 7 * beta + beta * beta) / (5 * sum3),
@@ -25,8 +19,7 @@ std::array<double, kLubricationTerms> coefficients(double beta) {
               (42 * sum3)};
 }
 
-/// Adds the resistance of spheres k and k + 1 against a change of their gap to the matrix of all
-/// spheres, in the unit of the matrix. Spheres are counted from 0.
+/// Adds the resistance of spheres k and k + 1, from 0, against a change of their gap.
 void add_pair(Eigen::MatrixXd& matrix, std::size_t k, double resistance) {
   const auto i = static_cast<Eigen::Index>(k);
   matrix(i, i) += resistance;
@@ -37,9 +30,8 @@ void add_pair(Eigen::MatrixXd& matrix, std::size_t k, double resistance) {
 
 }  // namespace
 
-/// The first `terms` terms of the lubrication [L] of two spheres of radii a and b [L] > 0 at this
-/// gap [L] > 0: their resistance against a change of the gap, divided by the viscosity.
 double pair_lubrication(double a, double b, double gap, int terms) {
+  assert(a > 0 && b > 0 && gap > 0 && terms >= 0 && terms <= kLubricationTerms);
   const auto g = coefficients(b / a);
   const double xi = 2 * gap / (a + b), logarithm = std::log1p(1 / xi);
   const std::array<double, kLubricationTerms> values = {1 / xi, logarithm, xi * logarithm};
@@ -49,8 +41,8 @@ double pair_lubrication(double a, double b, double gap, int terms) {
   return 6 * std::numbers::pi * a * sum;
 }
 
-/// The derivative of pair_lubrication() by the gap [1].
 double pair_lubrication_slope(double a, double b, double gap, int terms) {
+  assert(a > 0 && b > 0 && gap > 0 && terms >= 0 && terms <= kLubricationTerms);
   const auto g = coefficients(b / a);
   const double xi = 2 * gap / (a + b), logarithm = std::log1p(1 / xi);
   const std::array<double, kLubricationTerms> slopes = {-1 / (xi * xi), -1 / (xi * (1 + xi)),
@@ -61,10 +53,9 @@ double pair_lubrication_slope(double a, double b, double gap, int terms) {
   return 6 * std::numbers::pi * a * sum * 2 / (a + b);
 }
 
-/// R_lub [L], with a row and a column for each sphere. Only neighbours resist a change of their
-/// gap.
 Eigen::MatrixXd lubrication_matrix(std::span<const double> radii, std::span<const double> gaps,
                                    int terms) {
+  assert(gaps.size() + 1 == radii.size());
   const auto spheres = static_cast<Eigen::Index>(radii.size());
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(spheres, spheres);
   for (std::size_t k = 0; k < gaps.size(); ++k) {
@@ -75,8 +66,7 @@ Eigen::MatrixXd lubrication_matrix(std::span<const double> radii, std::span<cons
 
 namespace {
 
-/// The nodes of the polynomials: for each gap, the inverse distances of the centres [1/L] at its
-/// nodes.
+/// The nodes of the polynomials: for each gap, the inverse distances of the centres [1/L].
 std::vector<Eigen::VectorXd> inverse_distances(const ResistanceFit& fit) {
   std::vector<Eigen::VectorXd> nodes;
   for (std::size_t k = 0; k < fit.gaps.size(); ++k) {
@@ -89,8 +79,8 @@ std::vector<Eigen::VectorXd> inverse_distances(const ResistanceFit& fit) {
 }
 
 /// The entries on and above the diagonal of each matrix, row by row; column m belongs to matrix m.
-/// All matrices have the same size, and there is at least one (not checked).
 Eigen::MatrixXd columns_of(const std::vector<Eigen::MatrixXd>& matrices) {
+  assert(!matrices.empty());
   const auto spheres = matrices.front().rows();
   Eigen::MatrixXd columns(spheres * (spheres + 1) / 2, static_cast<Eigen::Index>(matrices.size()));
   for (std::size_t m = 0; m < matrices.size(); ++m) {
@@ -102,8 +92,7 @@ Eigen::MatrixXd columns_of(const std::vector<Eigen::MatrixXd>& matrices) {
   return columns;
 }
 
-/// The symmetric matrix of this number of spheres with these entries on and above its diagonal, row
-/// by row.
+/// The symmetric matrix with these entries on and above its diagonal, row by row.
 Eigen::MatrixXd symmetric_matrix(const Eigen::VectorXd& entries, Eigen::Index spheres) {
   Eigen::MatrixXd matrix(spheres, spheres);
   Eigen::Index row = 0;
@@ -112,8 +101,8 @@ Eigen::MatrixXd symmetric_matrix(const Eigen::VectorXd& entries, Eigen::Index sp
   return matrix;
 }
 
-/// The divided difference (exp a - exp b)/(a - b) of the exponential function, which is exp a for a
-/// = b. If |a - b| < 2e-4, the first two terms of the series of sinh are exact to round-off.
+/// The divided difference (exp a - exp b)/(a - b), which is exp a for a = b. If |a - b| < 2e-4, the
+/// first two terms of the series of sinh are exact to round-off.
 double divided_difference_of_exp(double a, double b) {
   const double half = (a - b) / 2;
   const double ratio = std::abs(half) < 1e-4 ? 1 + half * half / 6 : std::sinh(half) / half;
@@ -122,18 +111,18 @@ double divided_difference_of_exp(double a, double b) {
 
 }  // namespace
 
-/// Prepares the evaluation of `fit`, whose lists have the sizes of ResistanceFit (not checked).
 FittedResistance::FittedResistance(const ResistanceFit& fit)
     : viscosity_(fit.viscosity),
       radii_(fit.radii),
       lubrication_terms_(fit.lubrication_terms),
       unit_length_(std::ranges::max(fit.radii)),
       logarithm_(inverse_distances(fit), columns_of(fit.logarithms)) {
+  assert(fit.gaps.size() + 1 == fit.radii.size());
   for (const auto& gaps : fit.gaps) intervals_.push_back({gaps.front(), gaps.back()});
 }
 
-/// True if each of the gaps [L] is in the interval of its nodes; false if one of them is NaN.
 bool FittedResistance::contains(std::span<const double> gaps) const {
+  assert(gaps.size() <= intervals_.size());
   // A relative difference that is allowed because gaps are rounded differences of arms and radii.
   // swimmer_case.cpp has the same number.
   constexpr double kRounding = 1e-12;
@@ -144,9 +133,8 @@ bool FittedResistance::contains(std::span<const double> gaps) const {
   return true;
 }
 
-/// R [M/T] and its derivatives by the gaps [M/(L T)] at these gaps [L]. Throws Error(kBadInput) if
-/// a gap is outside the table.
 ResistanceWithSlopes FittedResistance::operator()(std::span<const double> gaps) const {
+  assert(gaps.size() == intervals_.size());
   if (!contains(gaps))
     for (std::size_t k = 0; k < gaps.size(); ++k)
       if (!contains(gaps.first(k + 1)))

@@ -1,12 +1,7 @@
-// Reads and writes the file of a ResistanceFit (JSON, docs/file-formats.md), which is a fit of the
-// resistance matrices of spheres on a line, and scales a fit to other spheres. The viscosity [M/(L
-// T)] and the radii and gaps [L] are > 0 and in the units of the table; the logarithms of the
-// matrices, and relative errors, >= 0, are [1]. Every fault of a file throws Error(kBadInput),
-// which names line and key; radii of other ratios throw Error(kBadInput), too. resistance_fit.hpp
-// declares the functions; swimmer/job and swimmer/case use them. A change must keep earlier files
-// readable, and the text "resistance fit", for which swimmer_stage.cpp searches.
+// The file of a ResistanceFit (JSON, docs/file-formats.md), and the scaling of a fit.
 
 #include <algorithm>
+#include <cassert>
 #include <functional>
 
 #include "viscontact/common/files/file.hpp"
@@ -26,8 +21,7 @@ void check_positive(const JsonFields& json, const std::string& key,
     if (!(number > 0)) json.fail(key, "contains {}; each number must be > 0", number);
 }
 
-/// Throws Error(kBadInput) unless fit.gaps has a list of at least two rising numbers > 0 for each
-/// gap, that is for each two neighbouring spheres.
+/// Throws Error(kBadInput) unless fit.gaps has at least two rising numbers > 0 for each gap.
 void check_gaps(const JsonFields& json, const ResistanceFit& fit) {
   for (const auto& nodes : fit.gaps) {
     check_positive(json, "gaps", nodes);
@@ -39,10 +33,8 @@ void check_gaps(const JsonFields& json, const ResistanceFit& fit) {
               fit.gaps.size(), fit.radii.size() - 1);
 }
 
-/// Writes or reads the key `logarithms`. It has the entries on and above the diagonal of each
-/// matrix of ResistanceFit::logarithms [1], row by row, because the matrices are symmetric. Throws
-/// Error(kBadInput) if a matrix, or the number of matrices, does not have the size that belongs to
-/// the radii and gaps.
+/// Writes or reads the key `logarithms`: the entries on and above the diagonal of each matrix of
+/// ResistanceFit::logarithms, row by row.
 void logarithms(JsonFields& json, ResistanceFit& fit) {
   const std::size_t spheres = fit.radii.size();
   std::vector<std::vector<double>> all;
@@ -71,8 +63,6 @@ void logarithms(JsonFields& json, ResistanceFit& fit) {
 
 }  // namespace
 
-/// Writes or reads all keys of the file. The largest value of `lubrication_terms` is
-/// kLubricationTerms.
 void fields_of(JsonFields& json, ResistanceFit& fit) {
   json.constant("viscontact", "resistance fit");
   json("viscosity", fit.viscosity, kPositive);
@@ -100,13 +90,12 @@ void fields_of(JsonFields& json, ResistanceFit& fit) {
   json.foreign_object("provenance");
 }
 
-/// The fit for spheres of these radii [L] and this viscosity [M/(L T)] > 0: gaps grow with the
-/// radii, while S, the logarithm of the scaled matrices, stays the same. Throws Error(kBadInput) if
-/// the radii have other ratios than those of `fit`.
 ResistanceFit scaled_to(ResistanceFit fit, double viscosity, const std::vector<double>& radii) {
+  assert(viscosity > 0);
   const double ratio = ratio_of_radii(radii, fit.radii, "fit");
   fit.viscosity = viscosity;
   if (radii == fit.radii) return fit;
+  // Gaps grow with the radii; S, the logarithm of the scaled matrices, stays the same.
   for (auto& nodes : fit.gaps)
     for (auto& gap : nodes) gap *= ratio;
   fit.radii = radii;

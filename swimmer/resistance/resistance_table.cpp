@@ -1,16 +1,10 @@
-// Reads, writes and scales a table of resistance matrices R of spheres on a line
-// (resistance_table.hpp, docs/file-formats.md). R_ij [M/T] is the force of sphere i on the fluid
-// per velocity of sphere j. Gaps and radii [L] and the viscosity [M/(L T)] are > 0; all are in the
-// units of the table. Error estimates are relative [1], >= 0. Indices of spheres are counted from 0
-// and not checked. A fault of a file, a matrix that is not positive definite, and radii of other
-// ratios throw Error(kBadInput). The other folders of swimmer/ and python/ use this file. A change
-// must keep the names of the columns, which published tables have, and the order of the entries,
-// which is that of the lines that collinear_spheres.edp writes.
+// Reads, writes and scales a table of resistance matrices (docs/file-formats.md).
 #include "viscontact/swimmer/resistance/resistance_table.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 
 #include "viscontact/common/equal_up_to_rounding.hpp"
 #include "viscontact/common/matrices/decompositions.hpp"
@@ -24,23 +18,20 @@ using lubrication::Column;
 using lubrication::IfAbsent;
 using lubrication::TableHead;
 
-/// The numbers of two spheres in the name of a column: "12", or "9_10" if one of them has two
-/// digits. The arguments i and j count from 0; the numbers in the name count from 1.
+/// The numbers of two spheres, counted from 1, in the name of a column: "12", or "9_10" if one of
+/// them has two digits. The arguments i and j count from 0.
 std::string pair_name(std::size_t i, std::size_t j) {
   return fmt::format("{}{}{}", i + 1, std::max(i, j) >= 9 ? "_" : "", j + 1);
 }
 
 }  // namespace
 
-/// The index of R_ij in the list R11, R12, ..., R1N, R22, ..., RNN of the entries of N = `spheres`
-/// spheres.
 std::size_t entry_position(std::size_t i, std::size_t j, std::size_t spheres) {
+  assert(i < spheres && j < spheres);
   const auto [row, column] = std::minmax(i, j);
   return row * spheres - row * (row + 1) / 2 + column;
 }
 
-/// The symmetric matrix R [M/T] of a row. Throws std::out_of_range if the row has fewer entries
-/// than the matrix needs.
 Eigen::MatrixXd matrix_of(const ResistanceRow& row, std::size_t spheres) {
   const auto size = static_cast<Eigen::Index>(spheres);
   Eigen::MatrixXd matrix(size, size);
@@ -51,11 +42,10 @@ Eigen::MatrixXd matrix_of(const ResistanceRow& row, std::size_t spheres) {
   return matrix;
 }
 
-/// The columns of a table: the gaps gap12, gap23, ... [L], the entries R11, R12, ... [M/T], their
-/// relative error estimates [1], the largest of these, the degrees of freedom, the seconds [s], and
-/// the order of convergence in the mesh size. Each column points to its number in `row`.
 std::vector<Column> columns_of(const TableHead& head, ResistanceRow& row) {
   const std::size_t spheres = head.radii.size();
+  assert(row.gaps.size() + 1 == spheres && row.entries.size() == entry_count(spheres));
+  assert(row.relative_error_estimates.size() == row.entries.size());
   std::vector<Column> columns, estimates;
   for (std::size_t i = 0; i + 1 < spheres; ++i)
     columns.push_back({"gap" + pair_name(i, i + 1), &row.gaps[i], IfAbsent::kRefused, kPositive});
@@ -75,8 +65,8 @@ std::vector<Column> columns_of(const TableHead& head, ResistanceRow& row) {
   return columns;
 }
 
-/// Gives the lists of the row the lengths that belong to the number of radii in the head.
 void prepare(const TableHead& head, ResistanceRow& row) {
+  assert(!head.radii.empty());
   row.gaps.resize(head.radii.size() - 1);
   row.entries.resize(entry_count(head.radii.size()));
   row.relative_error_estimates.resize(row.entries.size());
@@ -101,9 +91,8 @@ ResistanceTable read_resistance_table(const std::filesystem::path& path) {
   return lubrication::read_table<ResistanceRow>(path);
 }
 
-/// For each gap of neighbours, in the order of the spheres, its values in the table [L], rising and
-/// without repetition.
 std::vector<std::vector<double>> gap_grid(const ResistanceTable& table) {
+  assert(!table.radii.empty());
   std::vector<std::vector<double>> grid(table.radii.size() - 1);
   for (std::size_t k = 0; k < grid.size(); ++k) {
     for (const auto& row : table.rows) grid[k].push_back(row.gaps[k]);
@@ -114,11 +103,9 @@ std::vector<std::vector<double>> gap_grid(const ResistanceTable& table) {
   return grid;
 }
 
-/// The ratio [1] of each radius to the radius of the same sphere in `other`. Throws
-/// Error(kBadInput) unless this ratio is the same for all spheres. In the message, `what` is the
-/// word for the thing that has the radii `other`.
 double ratio_of_radii(const std::vector<double>& radii, const std::vector<double>& other,
                       std::string_view what) {
+  assert(!radii.empty() && !other.empty());
   const double ratio = radii.front() / other.front();
   const bool has_ratio = std::ranges::equal(radii, other, [&](double one, double of_other) {
     return equal_up_to_rounding(one, ratio * of_other);
@@ -131,10 +118,9 @@ double ratio_of_radii(const std::vector<double>& radii, const std::vector<double
   return ratio;
 }
 
-/// The table for spheres of these radii [L] and this viscosity [M/(L T)] > 0: gaps grow with the
-/// radii, and entries with the radii and the viscosity.
 ResistanceTable scaled_to(ResistanceTable table, double viscosity,
                           const std::vector<double>& radii) {
+  assert(viscosity > 0);
   const double ratio = ratio_of_radii(radii, table.radii, "table");
   const double factor = viscosity / table.viscosity * ratio;
   table.viscosity = viscosity;
@@ -149,6 +135,7 @@ ResistanceTable scaled_to(ResistanceTable table, double viscosity,
 }
 
 std::string write_resistance_table(const ResistanceTable& table) {
+  assert(!table.rows.empty());
   return lubrication::write_table(table);
 }
 

@@ -1,8 +1,5 @@
-// The table of resistance matrices [M/T] of rigid spheres on a line, over the gaps [L] between them
-// (docs/physics.md, section 7). Lengths, masses and times are in the units of the table.
-// swimmer/tabulation writes the table, and the other folders of swimmer/ and python/ read it. A
-// wrong value, row or file throws Error(kBadInput); indices and sizes are not checked. A change
-// must keep the names of the columns, which published tables have, and the order of the entries.
+// The table of resistance matrices of rigid spheres on a line, over the gaps between them
+// (docs/physics.md, section 7).
 #pragma once
 
 #include <Eigen/Core>
@@ -22,47 +19,42 @@ namespace viscontact::swimmer {
 struct ResistanceRow {
   static constexpr bool kIsOfLine = true;  ///< says that the head of the table has several radii
   std::vector<double> gaps;  ///< gaps[i]: gap between the surfaces of spheres i and i + 1 [L], > 0
-  /// The entries R_ij [M/T] with i <= j: R11, R12, ..., R1N, R22, ..., RNN. R is symmetric and
-  /// positive definite.
+  /// The entries R_ij [M/T] with i <= j: R11, R12, ..., R1N, R22, ..., RNN, the order in which
+  /// collinear_spheres.edp writes them. R is symmetric and positive definite.
   std::vector<double> entries;
-  /// Estimates of the errors of the entries, divided by the entry [1], >= 0. If |R_ij| < 1e-3
-  /// sqrt(R_ii R_jj), the error of R_ij is divided by 1e-3 sqrt(R_ii R_jj) in place of R_ij.
+  /// Estimates of the errors of the entries, divided by the entry [1]. If |R_ij| < 1e-3 sqrt(R_ii
+  /// R_jj), the error of R_ij is divided by 1e-3 sqrt(R_ii R_jj) in place of R_ij.
   std::vector<double> relative_error_estimates;
   double degrees_of_freedom = 0;  ///< unknowns on the finest mesh, >= 0; 0: not known
   double seconds = 0;             ///< computing time of the row on a clock [s]; 0: not known
   /// Order of convergence in the mesh size [1], observed in the entry with the largest error
   /// estimate. It is 4 in theory, and 0 if it was not observed.
   double observed_order = 0;
-  double relative_error_estimate = 0;  ///< largest of relative_error_estimates [1], >= 0
+  double relative_error_estimate = 0;  ///< largest of relative_error_estimates [1]
 };
 
 using lubrication::kFewestSpheres;
 using lubrication::kMostSpheres;
-/// A table of resistance matrices.
 using ResistanceTable = lubrication::Table<ResistanceRow>;
 
-/// Position of R_ij in ResistanceRow::entries of `spheres` spheres; i and j, below `spheres` (not
-/// checked), count from 0, in any order.
+/// Position of R_ij in ResistanceRow::entries of `spheres` spheres; i and j count from 0, in any
+/// order.
 std::size_t entry_position(std::size_t i, std::size_t j, std::size_t spheres);
 
-/// The number of entries on and above the diagonal of the matrix of `spheres` spheres.
 inline std::size_t entry_count(std::size_t spheres) { return spheres * (spheres + 1) / 2; }
 
-/// The symmetric matrix R [M/T] of a row for `spheres` spheres. Throws std::out_of_range if the row
-/// has fewer entries.
+/// The symmetric matrix R [M/T] of a row. Throws std::out_of_range if the row has too few entries.
 Eigen::MatrixXd matrix_of(const ResistanceRow& row, std::size_t spheres);
 
 /// The columns of a row: gap12, gap23, ..., R11, R12, ..., R11_relative_error_estimate, ...,
 /// relative_error_estimate, degrees_of_freedom, seconds and observed_order. Each column points to
-/// its number in `row`, which must have the sizes that prepare() sets (not checked). In a name the
-/// numbers of two spheres are separated by "_" if one of them is 10.
+/// its number in `row`, which must have the sizes that prepare() sets. In a name the numbers of two
+/// spheres are separated by "_" if one of them is 10.
 std::vector<lubrication::Column> columns_of(const lubrication::TableHead& head, ResistanceRow& row);
 
-/// Gives the vectors of a row the sizes that belong to the number of radii in the head, at least
-/// one (not checked).
+/// Gives the vectors of a row the sizes that belong to the number of radii in the head.
 void prepare(const lubrication::TableHead& head, ResistanceRow& row);
 
-/// Sets row.relative_error_estimate to the largest of the error estimates of the entries.
 void complete(const lubrication::TableHead& head, ResistanceRow& row);
 
 /// Throws Error(kBadInput), which names the file and line of `here`, if the matrix of the row is
@@ -77,26 +69,24 @@ double largest_estimate(const ResistanceRow& row);
 /// finite or out of range, or if a matrix is not positive definite.
 ResistanceTable read_resistance_table(const std::filesystem::path& path);
 
-/// The gaps of each pair of neighbours in the table [L], > 0, rising, without repetition; empty
-/// lists if the table has no rows.
+/// The gaps of each pair of neighbours in the table [L], rising, without repetition.
 std::vector<std::vector<double>> gap_grid(const ResistanceTable& table);
 
-/// The ratio [1] of `radii` to `other`, two lists of radii [L], > 0: radii = ratio other. Throws
-/// Error(kBadInput) if `radii` is not a multiple of `other` up to rounding, or if the lists differ
-/// in length. No list may be empty (not checked). `what` is the word in the message for the thing
-/// that has the radii `other`: "table" or "fit".
+/// The ratio [1] of the radii [L]: radii = ratio other. Throws Error(kBadInput) if `radii` is not a
+/// multiple of `other` up to rounding, or if the lists differ in length. `what` is the word in the
+/// message for the thing that has the radii `other`: "table" or "fit".
 double ratio_of_radii(const std::vector<double>& radii, const std::vector<double>& other,
                       std::string_view what);
 
-/// The table for spheres of other radii r' [L] > 0, in a fluid of another viscosity mu' [M/(L T)] >
-/// 0. A Stokes flow has no length of its own: if r are the radii, mu the viscosity and R(q) the
-/// matrix at the gaps q of `table`, and r' = ratio r, the matrix at the gaps ratio q is (mu'/mu)
-/// ratio R(q). The container grows with the spheres, and `case_hash` becomes empty. Throws
+/// The table for spheres of other radii r' [L], in a fluid of another viscosity mu' [M/(L T)]. A
+/// Stokes flow has no length of its own: if r are the radii, mu the viscosity and R(q) the matrix
+/// at the gaps q of `table`, and r' = ratio r, the matrix at the gaps ratio q is (mu'/mu) ratio
+/// R(q). The container grows with the spheres, and `case_hash` becomes empty. Throws
 /// Error(kBadInput) if r' is not a multiple of r.
 ResistanceTable scaled_to(ResistanceTable table, double viscosity,
                           const std::vector<double>& radii);
 
-/// The text of the file (CSV). `table` must have at least one row (not checked).
+/// The text of the file (CSV) of a table with at least one row.
 std::string write_resistance_table(const ResistanceTable& table);
 
 }  // namespace viscontact::swimmer

@@ -1,18 +1,14 @@
-// Interpolates values on a grid of nodes by polynomials in several variables, with the barycentric
-// formula (tensor_polynomial.hpp). Numbers have any dimension. There is a list of nodes, all
-// different, for each variable, and a column of values for each combination of nodes; from one
-// combination to the next the node of the last variable changes first. A point has a number for
-// each variable. Nothing is checked or thrown. resistance_fit.cpp and swimmer/fit use this file. A
-// change must keep that the polynomial has exactly the given values at the nodes.
+// The barycentric formula in each variable.
 #include "viscontact/swimmer/resistance/tensor_polynomial.hpp"
 
+#include <cassert>
 #include <cmath>
 
 namespace viscontact::swimmer {
 namespace {
 
 /// The matrix that maps the values at the nodes to the derivatives at the nodes (Berrut & Trefethen
-/// 2004, section 9.3). Each of its rows has the sum 0. `weights` are barycentric_weights(nodes).
+/// 2004, section 9.3). `weights` are barycentric_weights(nodes).
 Eigen::MatrixXd differentiation_matrix(const Eigen::VectorXd& nodes,
                                        const Eigen::VectorXd& weights) {
   const auto count = nodes.size();
@@ -27,7 +23,7 @@ Eigen::MatrixXd differentiation_matrix(const Eigen::VectorXd& nodes,
 }
 
 /// The values at x, one for each node, of the polynomials that are 1 at this node and 0 at all
-/// other nodes. Their sum is 1.
+/// other nodes.
 Eigen::VectorXd basis_at(double x, const Eigen::VectorXd& nodes, const Eigen::VectorXd& weights) {
   Eigen::VectorXd basis(nodes.size());
   for (Eigen::Index i = 0; i < nodes.size(); ++i) {
@@ -38,8 +34,7 @@ Eigen::VectorXd basis_at(double x, const Eigen::VectorXd& nodes, const Eigen::Ve
 }
 
 /// The derivatives by variable k, at all combinations of nodes, of the polynomial with these
-/// `values` at them. `matrix` is the differentiation matrix of variable k; `values` and the result
-/// have a column for each combination.
+/// `values` at them. `matrix` is the differentiation matrix of variable k.
 Eigen::MatrixXd derivative_by(std::size_t k, const std::vector<Eigen::VectorXd>& nodes,
                               const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& values) {
   // A combination of nodes has the number (outer * nodes[k].size() + i) * inner + rest.
@@ -57,8 +52,8 @@ Eigen::MatrixXd derivative_by(std::size_t k, const std::vector<Eigen::VectorXd>&
 
 }  // namespace
 
-/// The barycentric weights of the nodes, whose largest size is 1.
 Eigen::VectorXd barycentric_weights(const Eigen::VectorXd& nodes) {
+  assert(nodes.size() > 0);
   // With logarithms the products do not underflow if there are many nodes.
   Eigen::VectorXd logarithms = Eigen::VectorXd::Zero(nodes.size()), signs = logarithms;
   for (Eigen::Index j = 0; j < nodes.size(); ++j) {
@@ -72,7 +67,6 @@ Eigen::VectorXd barycentric_weights(const Eigen::VectorXd& nodes) {
   return signs.array() * (logarithms.array() - logarithms.maxCoeff()).exp();
 }
 
-/// Prepares the interpolation of `values`, which has a column for each combination of nodes.
 TensorPolynomial::TensorPolynomial(const std::vector<Eigen::VectorXd>& nodes,
                                    const Eigen::MatrixXd& values)
     : nodes_(nodes), size_(values.rows()) {
@@ -86,9 +80,8 @@ TensorPolynomial::TensorPolynomial(const std::vector<Eigen::VectorXd>& nodes,
   }
 }
 
-/// The values at the point in the first column, and their derivatives by the variables in the
-/// columns after it.
 Eigen::MatrixXd TensorPolynomial::operator()(std::span<const double> point) const {
+  assert(point.size() == nodes_.size());
   Eigen::VectorXd basis = Eigen::VectorXd::Ones(1);
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     const auto factor = basis_at(point[k], nodes_[k], weights_[k]);

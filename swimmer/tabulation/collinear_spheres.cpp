@@ -1,16 +1,9 @@
-// Computes the resistance matrix of spheres on a line by the FreeFEM script collinear_spheres.edp
-// and reads its answer. There are 2 to 10 spheres; their radii and the gaps between them [L], of
-// which there is one less, are > 0 and in the unit of the case. The relative accuracy [1] is > 0
-// and less than 1. The script refuses numbers that are not > 0. It computes with viscosity 1, so
-// that its matrix is multiplied by the viscosity of the case. A FreeFEM that fails, refuses a
-// number or exceeds its time limit throws Error(kExternalProgram), and a requested stop throws
-// Error(kInterrupted). swimmer/case, swimmer/job and resistance_table_plan.cpp use this file. A
-// change must keep the arguments and the lines that are read in agreement with the script, and the
-// words of surroundings_in_words(), in which lubrication/scaling.cpp finds the lengths.
+// Runs the script collinear_spheres.edp and reads its answer. The script computes with viscosity 1.
 #include "viscontact/swimmer/tabulation/collinear_spheres.hpp"
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <chrono>
 #include <sstream>
 
@@ -20,8 +13,7 @@
 namespace viscontact::swimmer {
 namespace {
 
-/// The arguments of the script: "-name" and "value" in turn, for the container, the accuracy, the
-/// radii and the gaps [L].
+/// The arguments of the script: "-name" and "value" in turn.
 std::vector<std::string> arguments_of(const CollinearSpheres& spheres,
                                       const std::vector<double>& gaps) {
   const Tube tube = spheres.tube.value_or(Tube{});  // radius 0: unbounded
@@ -41,8 +33,8 @@ std::vector<std::string> arguments_of(const CollinearSpheres& spheres,
 }
 
 /// Reads the lines "viscontact-entry I J VALUE ESTIMATE" of the script's output into `row`, in
-/// their order; VALUE times `viscosity` [M/(L T)] is the entry [M/T], and ESTIMATE its relative
-/// error estimate [1]. False if an entry is missing or is not a number, or if there are too many.
+/// their order; VALUE times `viscosity` [M/(L T)] is the entry [M/T]. False if an entry is missing
+/// or is not a number, or if there are too many.
 bool read_entries(const std::string& output, double viscosity, ResistanceRow& row) {
   std::istringstream lines(output);
   std::size_t found = 0;
@@ -62,8 +54,6 @@ bool read_entries(const std::string& output, double viscosity, ResistanceRow& ro
 
 }  // namespace
 
-/// What surrounds the spheres, in words: "unbounded", "tube of radius R", or "closed cylinder,
-/// radius R, height H" with the lengths R and H [L].
 std::string surroundings_in_words(const CollinearSpheres& spheres) {
   if (!spheres.tube) return "unbounded";
   if (!spheres.tube->height)
@@ -72,10 +62,9 @@ std::string surroundings_in_words(const CollinearSpheres& spheres) {
                      format_number(*spheres.tube->height));
 }
 
-/// The row of the table at these gaps [L]: the entries of the matrix [M/T], their error estimates
-/// [1], the unknowns on the finest mesh, the observed order of convergence and the time [s].
 ResistanceRow solve_resistance(const freefem_axi::FreeFem& freefem, const CollinearSpheres& spheres,
                                const std::vector<double>& gaps) {
+  assert(gaps.size() + 1 == spheres.radii.size());
   const auto start = std::chrono::steady_clock::now();
   const auto result =
       freefem_axi::run_freefem(freefem, "collinear_spheres.edp", arguments_of(spheres, gaps));

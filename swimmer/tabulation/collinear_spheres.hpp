@@ -1,10 +1,5 @@
-// Rigid spheres on a line in a viscous fluid: the inputs of a table of their resistance matrices,
-// and the computation of a row of the table by FreeFEM (docs/physics.md, section 7). A resistance
-// matrix R [M/T] maps the velocities of the spheres along the line to their forces on the fluid.
-// Lengths, masses and times are in any consistent units. app/ and the other folders of swimmer/ use
-// this file. Only the FreeFEM script checks numbers. If FreeFEM fails, also because the script
-// refuses a number, Error(kExternalProgram) is thrown. A change must keep the words of
-// surroundings_in_words(), because lubrication/scaling.hpp finds the lengths in these words.
+// Spheres on a line in a viscous fluid: the inputs of a table of their resistance matrices, and its
+// computation by FreeFEM (docs/physics.md, section 7).
 #pragma once
 
 #include <optional>
@@ -24,7 +19,6 @@ struct Tube {
   std::optional<double> height{};
 };
 
-/// The inputs of a table of resistance matrices R.
 struct CollinearSpheres {
   double viscosity = 0;        ///< mu [M/(L T)], > 0
   std::vector<double> radii;   ///< radii along the line [L], 2 to 10 of them, > 0
@@ -35,21 +29,20 @@ struct CollinearSpheres {
 };
 
 /// What surrounds the spheres, in words: "unbounded", "tube of radius 3", or "closed cylinder,
-/// radius 3, height 40".
+/// radius 3, height 40". lubrication/scaling.hpp finds the lengths in these words.
 std::string surroundings_in_words(const CollinearSpheres& spheres);
 
-/// Computes the row of the table at these gaps [L], > 0, whose number is one less than that of
-/// spheres. Throws Error(kExternalProgram) with the last lines of FreeFEM's output if FreeFEM
-/// fails, also because an argument is out of range, or exceeds its time limit (freefem.row_limit);
-/// Error(kInterrupted) if freefem.stop requests a stop.
+/// Computes the row of the table at these gaps [L] between neighbours. Throws
+/// Error(kExternalProgram) with the last lines of FreeFEM's output if FreeFEM fails, also because
+/// an argument is out of range, or exceeds its time limit (freefem.row_limit); Error(kInterrupted)
+/// if freefem.stop requests a stop.
 ResistanceRow solve_resistance(const freefem_axi::FreeFem& freefem, const CollinearSpheres& spheres,
                                const std::vector<double>& gaps);
 
-/// The plan of the table of all combinations of gaps. grid[k] has the gaps between spheres k and k
-/// + 1 [L], > 0 and rising (not checked). The point of a row (TablePlan) is the list of its gaps.
-/// If the radii and `grid` are the same in reverse order, only one of each two mirrored rows of the
-/// table is computed, and the other one is its reflection. TablePlan::solve throws the errors of
-/// solve_resistance().
+/// The plan of the table of all combinations of gaps. grid[k] has the rising gaps between spheres k
+/// and k + 1 [L]. The point of a row (TablePlan) is the list of its gaps. If the radii and `grid`
+/// are the same in reverse order, only one of each two mirrored rows of the table is computed, and
+/// the other one is its reflection. TablePlan::solve throws the errors of solve_resistance().
 freefem_axi::TablePlan resistance_table_plan(const CollinearSpheres& spheres,
                                              const std::vector<std::vector<double>>& grid);
 

@@ -1,12 +1,8 @@
-// Makes the plan of a table of resistance matrices of spheres on a line, which says how the rows
-// are computed, written and read (TablePlan). Gaps [L] are > 0 and rise in each list; there is one
-// radius [L] more than lists; all are in the unit of the case (not checked). collinear_spheres.hpp
-// declares the function. A row that FreeFEM cannot compute throws Error(kExternalProgram), and a
-// requested stop throws Error(kInterrupted). swimmer/job uses this file. A change of the text of
-// inputs_of() makes every earlier table out of date.
+// How the rows of a table of resistance matrices are computed, written and read (TablePlan).
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "viscontact/common/text/number.hpp"
@@ -23,20 +19,18 @@ using Grid = std::vector<std::vector<double>>;
 // changes their results; tables of another revision are then computed again.
 constexpr int kMatrixMethod = 1;
 
-/// True if the spheres and the gaps of the grid are the same in the opposite order.
 bool is_mirror_image(const CollinearSpheres& spheres, const Grid& grid) {
   return std::ranges::equal(spheres.radii,
                             std::vector(spheres.radii.rbegin(), spheres.radii.rend())) &&
          std::ranges::equal(grid, Grid(grid.rbegin(), grid.rend()));
 }
 
-/// The gaps in the opposite order.
 freefem_axi::RowPoint reflected(freefem_axi::RowPoint gaps) {
   std::ranges::reverse(gaps);
   return gaps;
 }
 
-/// The row of the same spheres in the opposite order: its gaps and its matrix are reflected.
+/// The row of the same spheres in the opposite order.
 ResistanceRow reflected(const ResistanceRow& row) {
   const std::size_t spheres = row.gaps.size() + 1;
   ResistanceRow other = row;
@@ -51,7 +45,6 @@ ResistanceRow reflected(const ResistanceRow& row) {
   return other;
 }
 
-/// All combinations of gaps; the last gap changes fastest.
 std::vector<freefem_axi::RowPoint> all_points(const Grid& grid) {
   std::vector<freefem_axi::RowPoint> points = {{}};
   for (const auto& gaps : grid) {
@@ -66,8 +59,7 @@ std::vector<freefem_axi::RowPoint> all_points(const Grid& grid) {
   return points;
 }
 
-/// A text that contains everything that the rows depend on. A table is computed again if this text
-/// has changed.
+/// A text with everything that the rows depend on. A table is computed again if it has changed.
 std::string inputs_of(const CollinearSpheres& spheres, const Grid& grid) {
   std::string text = fmt::format("collinear spheres; {}; {} {} {};", surroundings_in_words(spheres),
                                  format_number(spheres.viscosity),
@@ -91,10 +83,8 @@ double typical_seconds_of(const CollinearSpheres& spheres) {
 
 }  // namespace
 
-/// The plan of the table of all combinations of the gaps. If the spheres are their own mirror
-/// image, only one of each two mirrored rows is computed, and the other row is the reflection of
-/// this row.
 freefem_axi::TablePlan resistance_table_plan(const CollinearSpheres& spheres, const Grid& grid) {
+  assert(grid.size() + 1 == spheres.radii.size());
   freefem_axi::PlanParts<ResistanceRow> parts;
   auto& planned = parts.rows.emplace_back();
   planned.head.viscosity = spheres.viscosity;

@@ -21,7 +21,6 @@ inline void put_text(const std::filesystem::path& path, std::string_view text) {
   if (!file) throw std::runtime_error("cannot write " + path.string());
 }
 
-/// Makes a file executable for its owner.
 inline void make_executable(const std::filesystem::path& path) {
   std::filesystem::permissions(path, std::filesystem::perms::owner_exec,
                                std::filesystem::perm_options::add);

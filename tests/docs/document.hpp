@@ -26,7 +26,6 @@ std::vector<Block> blocks_of(const std::filesystem::path& page);
 /// The lines of a page, where those of fenced blocks are empty.
 std::vector<std::string> prose_of(const std::filesystem::path& page);
 
-/// The numbers in a line.
 std::vector<double> numbers_in(const std::string& line);
 
 /// The first difference, in words, between an output and the `promised` output of a page; empty if

@@ -1,6 +1,5 @@
 // Each command of the gallery in docs/README.md succeeds. The cases whose computation takes minutes
-// are made shorter or coarser first; each such change must find what it changes. Commands that
-// stand on pages whose tests run them (tutorials_test.cpp) are not run again.
+// are made shorter or coarser first; commands that tutorials_test.cpp runs are left out.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,6 +1,5 @@
-// Particles in a fluid that FreeFEM solves, for tests and benchmarks: one placement and its
-// answers. Lengths, masses and times are in one unit each; the viscosity is 1 unless a test says
-// otherwise.
+// Particles in a fluid that FreeFEM solves: one placement and its answers. Lengths, masses and
+// times are in one unit each; the viscosity is 1 unless a test says otherwise.
 #pragma once
 
 #include <array>

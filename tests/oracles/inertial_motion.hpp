@@ -1,6 +1,5 @@
 // The motion of a sphere with inertia, docs/physics.md (4.1), to more digits than a double has.
-// Tests compare the model `inertial` with it; no code is shared. Lengths, masses and times are in
-// one unit each.
+// Lengths, masses and times are in one unit each.
 #pragma once
 
 #include <array>

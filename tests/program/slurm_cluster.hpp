@@ -1,6 +1,5 @@
-// A Slurm cluster of two nodes on the machine that runs the tests, by the script
-// tests/program/tabulate/slurm_cluster. All tests of a program share it, because it takes seconds
-// to start and to stop.
+// A Slurm cluster of two nodes on this machine (tests/program/tabulate/slurm_cluster). All tests of
+// a program share it, because it takes seconds to start and to stop.
 #pragma once
 
 #include <gtest/gtest.h>

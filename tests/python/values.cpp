@@ -1,11 +1,5 @@
 // Prints numbers that the libraries compute, as hexadecimal floating-point numbers, which keep all
 // bits. The tests of the Python module compare them with its own.
-//
-//   python_values fit FILE GAP...            for each gap: R, Gamma
-//   python_values pair FILE GAP...           for each gap: the entries
-//   python_values simulate CASE FIT MODEL    for each row: time, gap, velocity
-//   python_values rolling CASE MODEL         for each row: time, gap, position, angular velocity
-//   python_values particles CASE STEPS       for each particle: position, velocity after the steps
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -23,6 +17,14 @@
 
 namespace viscontact {
 namespace {
+
+// The words of the command line:
+//
+//   python_values fit FILE GAP...            for each gap: R, Gamma
+//   python_values pair FILE GAP...           for each gap: the entries
+//   python_values simulate CASE FIT MODEL    for each row: time, gap, velocity
+//   python_values rolling CASE MODEL         for each row: time, gap, position, angular velocity
+//   python_values particles CASE STEPS       for each particle: position, velocity after the steps
 
 void print(std::initializer_list<double> numbers) {
   for (const double number : numbers) std::printf("%a ", number);

@@ -81,7 +81,6 @@ Motion motion_in(const Units& units, const Push& push) {
 
 constexpr Push kPushes[] = {{20, 0, 200}, {1e-3, 0, 200}, {500, -2, 50}};
 
-/// A column of a trajectory and its unit.
 struct Column {
   const char* name;
   double unit;

@@ -1,6 +1,5 @@
-// SIGKILL at any moment: outputs are absent or whole, and the same command then finishes with the
-// numbers of an undisturbed run. The suite kills a few times; scripts/kill_test kills
-// VISCONTACT_KILLS times, with FreeFEM itself (VISCONTACT_KILL_FREEFEM).
+// SIGKILL at any moment: outputs are absent or whole, and the same command then finishes. The suite
+// kills a few times; scripts/kill_test kills VISCONTACT_KILLS times (VISCONTACT_KILL_FREEFEM).
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <signal.h>

@@ -1,6 +1,5 @@
 // Little memory, played by the shell's limit on the size of a process: the work is done, or refused
-// in a line. Limits from too little to begin to enough. The memory of a run of particles does not
-// grow with its steps.
+// in a line. The memory of a run of particles does not grow with its steps.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -19,7 +19,6 @@ std::filesystem::path data(const std::string& name);
 std::string study_text(const std::string& name,
                        const std::vector<std::pair<std::string, std::string>>& changes);
 
-/// The sweep that a case asks for.
 SpherePlan plan_of(const std::filesystem::path& path);
 
 SpherePlan shipped(const std::string& name);

@@ -1,11 +1,4 @@
-// The command `sweep` (docs/command-line.md), which main.cpp adds. This file declares the options
-// of the command and chooses what its picture shows. Numbers have the units of the case. There are
-// at most 1e12 --samples and 1e9 --draws, at least 1 of each if the option is given. A wrong option
-// is an Error(kWrongUsage); a wrong case or fit, and an output that is a file of another kind, are
-// an Error(kBadInput). A row that fails is no error, but Error(kNotConverged) is thrown if all rows
-// failed or rows are missing for --gather. A failure of gnuplot or Slurm is an
-// Error(kExternalProgram), and Ctrl-C is an Error(kInterrupted). A change must keep that an option
-// of the command line takes precedence over the section [sweep] of the case.
+// `sweep`: its options, and what its picture shows.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,8 +26,7 @@
 namespace viscontact::app {
 namespace {
 
-/// Adds --plot, --width, --font-size, --x, --y and --column to `command`. CLI11 stores their values
-/// in `o`, which must outlive `command`.
+/// Adds the options that set the picture in `o`, which must outlive `command`.
 void add_picture_options(CLI::App& command, SweepOptions& o) {
   add_picture(command, o.plot,
               "picture to write (SVG, PDF, PNG or gnuplot's script, .gp): lines over one key, or a "
@@ -48,13 +40,11 @@ void add_picture_options(CLI::App& command, SweepOptions& o) {
       ->delimiter(',');
 }
 
-/// What to draw: the keys of the axes x and y (an empty y asks for lines over x, any other y for a
-/// map in colours), the names of the columns, and the keys of which each value has a line of its
-/// own. An option of the command line decides first. If the option is missing, the section [sweep]
-/// of the case decides, provided that the sweep has the keys and columns that the section names.
-/// Otherwise the first varied keys are the axes, and the columns are s.columns, the default of the
-/// kind of case. Throws Error(kWrongUsage) if no key is varied, or if a map of random samples was
-/// asked for.
+/// What to draw: axes (without y lines over x, otherwise a map in colours), columns, and the keys
+/// of which each value has a line of its own. An option of the command line decides first, then the
+/// section [sweep] of the case, provided that the sweep has the keys and columns that the section
+/// names. Otherwise the first varied keys are the axes, and the columns are s.columns. Throws
+/// Error(kWrongUsage) if no key is varied, or if a map of random samples was asked for.
 report::SweepPlot picture_of(const SweepOptions& o, const CaseStudy& s) {
   const auto& request = s.request;
   const auto& points = s.study.points;
@@ -128,7 +118,7 @@ void check_columns(const report::SweepPlot& picture, const sweep::Study& study) 
   auto lines = static_cast<double>(picture.columns.size());
   for (const auto& v : points.variations)
     if (std::ranges::count(picture.others, v.key) > 0) lines *= static_cast<double>(v.count);
-  constexpr double kMostLines = 14;  // a free limit: each of the 7 colours twice
+  constexpr double kMostLines = 14;  // each of the 7 colours twice
   if (picture.y.empty() && lines > kMostLines)
     throw Error(ErrorKind::kWrongUsage,
                 "the plot would have {} lines over {}; at most {} are allowed, so draw a map with "
@@ -141,8 +131,8 @@ void check_columns(const report::SweepPlot& picture, const sweep::Study& study) 
   }
 }
 
-/// The picture that --plot asks for, or nothing without --plot. Called before rows are computed,
-/// because it throws the errors of picture_of() and check_columns().
+/// The picture that --plot asks for, if any. Called before rows are computed, because it throws the
+/// errors of picture_of() and check_columns().
 std::optional<report::SweepPlot> checked_picture(const SweepOptions& o, const CaseStudy& s) {
   if (o.plot.path.empty()) return {};
   auto picture = picture_of(o, s);
@@ -151,9 +141,7 @@ std::optional<report::SweepPlot> checked_picture(const SweepOptions& o, const Ca
 }
 
 /// Draws `picture` into the file of --plot, from the CSV `file`, which contains the rows of the
-/// sweep, or their means over random arrangements of particles. Throws Error(kExternalProgram) if
-/// gnuplot fails, Error(kBadInput) if a file cannot be read or written, and Error(kInterrupted)
-/// after Ctrl-C.
+/// sweep, or their means over random arrangements of particles.
 void draw(const SweepOptions& o, const CaseStudy& s, const report::SweepPlot& picture,
           const std::filesystem::path& file) {
   const auto format = o.plot.format();
@@ -162,8 +150,6 @@ void draw(const SweepOptions& o, const CaseStudy& s, const report::SweepPlot& pi
                         results::provenance_of(results::Inputs{s.files, {file}}));
 }
 
-/// The command for a case of many particles: computes, submits or collects the rows, and then draws
-/// the picture if --plot is given. Throws the errors of sweep_many_particles() and draw().
 void run_particles_sweep(const SweepOptions& o) {
   const auto sweep = sweep_of_particles(o);
   const auto s = study_of_particles(sweep);
@@ -175,9 +161,8 @@ void run_particles_sweep(const SweepOptions& o) {
                               : std::filesystem::path(o.output));
 }
 
-/// Computes the rows of a study into the file of --output, and then draws the picture if --plot is
-/// given. With --dry-run nothing is computed, and the time that the rows would take is printed.
-/// Throws Error(kNotConverged) if all rows failed, and the errors of draw().
+/// Computes the rows of a study, and then draws the picture. Throws Error(kNotConverged) if all
+/// rows failed. With --dry-run only the time that the rows would take is printed.
 void run_study(const SweepOptions& o, const CaseStudy& s) {
   const auto picture = checked_picture(o, s);
   if (o.dry_run) {
@@ -190,8 +175,6 @@ void run_study(const SweepOptions& o, const CaseStudy& s) {
   if (picture) draw(o, s, *picture, o.output);
 }
 
-/// The command `sweep` for a case of any kind. Throws Error(kWrongUsage) for wrong options and
-/// Error(kBadInput) for files that must not be replaced, before a row is computed.
 void run_sweep(const SweepOptions& o) {
   check_array_options(o.array);
   // A name that is no model of any kind of case is refused before the case is read.
@@ -218,8 +201,6 @@ void run_sweep(const SweepOptions& o) {
 
 }  // namespace
 
-/// Adds the command `sweep` to `app`. Its options are stored in an object that the command keeps
-/// alive.
 void add_sweep(CLI::App& app) {
   auto* command = app.add_subcommand(
       "sweep",
@@ -236,7 +217,7 @@ void add_sweep(CLI::App& app) {
             "sphere.mass, motion.external_force[0].value; several --vary make a grid")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  // The limit is kMostPoints of sweep/variation.cpp; the limit of --draws below is a free choice.
+  // The limit is kMostPoints of sweep/variation.cpp.
   add_value(*command, "--samples", o->samples, "N",
             "number of random points in the ranges, in place of the grid")
       ->check(whole_number(1, 1000000000000));

@@ -1,10 +1,5 @@
-// The options of `sweep`, and one function for each kind of case that turns options into a study. A
-// study consists of the points of the sweep and of the function that computes the row of a point; a
-// point gives a value to each varied key of the case. Numbers are in the units of the case. Wrong
-// options throw Error(kWrongUsage), wrong files Error(kBadInput), both before a row is computed. A
-// row that fails is no error unless all rows fail. Used by sweep_command.cpp and sweep_studies.cpp.
-// docs/command-line.md describes the options; a change must keep their names. Their upper limits
-// are free choices that catch mistyped numbers.
+// The options of `sweep`, and one function for each kind of case that turns them into a study.
+// Options of the command line take precedence over the section [sweep] of the case.
 #pragma once
 
 #include <cstdint>
@@ -21,36 +16,35 @@ namespace viscontact::app {
 
 /// The values of the options, each named after its option. An empty text or list, or 0 for samples
 /// and draws, means that the option was not given; the section [sweep] of the case or a default
-/// then decides. The members case_file and output are never empty, because CLI11 requires them.
+/// then decides. CLI11 requires case_file and output.
 struct SweepOptions {
-  std::string case_file,          ///< path of the case
+  std::string case_file,
       fit,                        ///< path of a fit file
       output,                     ///< path of the CSV file of the rows
       reference,                  ///< name of the model with which the others are compared
       x, y;                       ///< keys of the horizontal and vertical axis of the picture
   std::vector<std::string> vary,  ///< "KEY=RANGE" each (sweep/variation.hpp)
-      models,                     ///< names of models
-      columns;                    ///< columns of the rows that are drawn
-  results::PictureRequest plot;   ///< the picture; without a path: none
-  std::uint64_t samples = 0,      ///< number of random points, <= 1e12
-      seed = 1,                   ///< seed of the random points; any 64-bit number
-      draws = 0;                  ///< random arrangements of particles at a point, <= 1e9
-  int jobs = default_jobs();      ///< number of rows at once, from 1 to 1024
-  ArrayOptions array;             ///< how the rows are divided among the jobs of a cluster
-  bool dry_run = false,           ///< true: says how long the rows take, computes none
-      json = false,               ///< true: --dry-run prints JSON
-      keep_runs = false;          ///< true: keeps the files of runs of particles
+      models,
+      columns;                   ///< columns of the rows that are drawn
+  results::PictureRequest plot;  ///< without a path: none
+  std::uint64_t samples = 0,     ///< number of random points, <= 1e12
+      seed = 1,                  ///< of the random points; any 64-bit number
+      draws = 0;                 ///< random arrangements of particles at a point, <= 1e9
+  int jobs = default_jobs();     ///< number of rows at once, from 1 to 1024
+  ArrayOptions array;            ///< how the rows are divided among the jobs of a cluster
+  bool dry_run = false,          ///< says how long the rows take, computes none
+      json = false,              ///< --dry-run prints JSON
+      keep_runs = false;         ///< keeps the files of runs of particles
   const CLI::Option* jobs_option = nullptr;  ///< CLI11's object; count() 0: not given
 };
 
-/// The study of a case with the options of SweepOptions, and what the files and messages of the
-/// sweep need.
+/// The study of a case with the options, and what the files and messages of the sweep need.
 struct CaseStudy {
-  sweep::Study study{};                        ///< points, and how rows are computed
+  sweep::Study study{};
   std::vector<std::filesystem::path> files{};  ///< the inputs, which the output records
   std::string part{};                          ///< what may fail in a row: "model", "stroke", "run"
   case_file::SweepRequest request{};           ///< the section [sweep] of the case
-  std::vector<std::string> columns{};  ///< columns that are drawn if nothing else is asked for
+  std::vector<std::string> columns{};          ///< drawn if nothing else is asked for
 };
 
 /// Each of these functions makes the study of the case o.case_file, which must be of the kind in

@@ -1,12 +1,5 @@
-// Turns the options of `sweep` into a study (points, and the function that computes the row of a
-// point), for each kind of case; used by sweep_command.cpp. Options of the command line decide; for
-// those that are missing, the section [sweep] of the case decides, which the case of a swimmer does
-// not have. Numbers have the units of the case; samples are at most 1e12, draws (random
-// arrangements of particles at a point) at most 1e9, and 0 means "not given". A wrong option is an
-// Error(kWrongUsage), and a wrong case, fit or output file is an Error(kBadInput).
-// sweep_many_particles() throws Error(kNotConverged) if all rows failed or if rows are missing for
-// --gather, Error(kExternalProgram) if Slurm fails, and Error(kInterrupted) after Ctrl-C. A change
-// must keep the texts such as "# viscontact: sweep", because the output files begin with them.
+// The output files begin with the texts such as "# viscontact: sweep", by which they are
+// recognised.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,9 +23,8 @@
 namespace viscontact::app {
 namespace {
 
-/// Replaces those members of `points` for which an option is given: the varied keys (--vary) and
-/// the number of random samples (--samples). The seed (--seed) is always replaced, because it
-/// always has a value. Throws Error(kWrongUsage) for a wrong --vary.
+/// Replaces those members of `points` for which an option is given: the varied keys (--vary), the
+/// number of random samples (--samples), and the seed (--seed), which always has a value.
 void set_points(const SweepOptions& o, sweep::Points& points) {
   if (!o.vary.empty()) {
     points.variations.clear();
@@ -51,9 +43,6 @@ bool is_for_particles(const SweepOptions& o) {
          o.draws > 0;
 }
 
-/// The plan of a sweep of one sphere: the fit, the points, the models and the reference model, with
-/// which the others are compared. Throws Error(kBadInput) if the fit cannot be read, and the error
-/// of set_points().
 sweep::SpherePlan sphere_plan(const SweepOptions& o, const case_file::Case& c) {
   sweep::SpherePlan plan = sweep::planned_sphere(c);
   if (!o.fit.empty()) plan.fit = lubrication::read_fit(o.fit);
@@ -70,11 +59,6 @@ sweep::SpherePlan sphere_plan(const SweepOptions& o, const case_file::Case& c) {
 
 }  // namespace
 
-/// The study of a case of one sphere; each row compares the models. In the result, `files` are the
-/// inputs, which the output names, `part` is what may fail in a row, `request` is the section
-/// [sweep], and `columns` are drawn if nothing else is asked for. Throws Error(kWrongUsage) for an
-/// option of particles, an unknown model, a wrong --vary, or if there is no fit; and
-/// Error(kBadInput) if case or fit is wrong, or if o.output is a file of another kind.
 CaseStudy study_of_sphere(const SweepOptions& o) {
   check_models("--models", o.models);
   if (is_for_particles(o))
@@ -100,9 +84,6 @@ CaseStudy study_of_sphere(const SweepOptions& o) {
   return s;
 }
 
-/// The study of a case of a swimmer, which needs --fit. Throws Error(kWrongUsage) if --fit is
-/// missing, or for options that this kind of case does not have; and Error(kBadInput) as
-/// study_of_sphere() does.
 CaseStudy study_of_swimmer(const SweepOptions& o) {
   if (is_for_particles(o) || !o.models.empty() || !o.reference.empty())
     throw Error(ErrorKind::kWrongUsage,
@@ -127,8 +108,6 @@ CaseStudy study_of_swimmer(const SweepOptions& o) {
   return s;
 }
 
-/// The study of a case of a rolling sphere. The case or --fit names the file of the fit. Throws as
-/// study_of_swimmer() does.
 CaseStudy study_of_rolling_sphere(const SweepOptions& o) {
   if (is_for_particles(o) || !o.reference.empty())
     throw Error(ErrorKind::kWrongUsage,
@@ -153,10 +132,6 @@ CaseStudy study_of_rolling_sphere(const SweepOptions& o) {
   return s;
 }
 
-/// The points of a sweep of a case of many particles. Throws Error(kWrongUsage) for options that
-/// this kind of case does not have, for a wrong --vary, and if nothing is varied; and
-/// Error(kBadInput) if the case is wrong, or if o.output, or the table of means beside it, is a
-/// file of another kind.
 particles::ParticlesSweep sweep_of_particles(const SweepOptions& o) {
   if (!o.models.empty() || !o.reference.empty() || !o.fit.empty())
     throw Error(ErrorKind::kWrongUsage,
@@ -177,8 +152,6 @@ particles::ParticlesSweep sweep_of_particles(const SweepOptions& o) {
   return {o.case_file, std::move(points)};
 }
 
-/// The study of the rows of `sweep` for a picture only: it cannot compute rows. Throws
-/// Error(kBadInput) if the case is wrong.
 CaseStudy study_of_particles(const particles::ParticlesSweep& sweep) {
   const auto c = particles::read_particles_case(sweep.case_path());
   CaseStudy s{.study = sweep.study(VISCONTACT_VERSION, {}),
@@ -190,9 +163,6 @@ CaseStudy study_of_particles(const particles::ParticlesSweep& sweep) {
   return s;
 }
 
-/// Computes all rows here, or those of one task (--task), submits them to a cluster (--launcher
-/// slurm), or collects finished rows (--gather). With --dry-run it only prints how long the rows
-/// take.
 void sweep_many_particles(const SweepOptions& o, const particles::ParticlesSweep& sweep) {
   const particles::ParticlesSweepRequest request{
       o.output, o.jobs, o.keep_runs, freefem_flow::start_fluid_solver, interrupt_token()};

@@ -1,15 +1,8 @@
-// Makes the loop over time of the contact models (contact_model.hpp). It makes the steps of
-// contact_step.hpp and rebound.hpp, adds up the impulses and works, and finds when contact begins
-// and ends. gamma [M L/T], <= 0, is minus the impulse that the film in the contact has absorbed.
-// Gaps [L] are at least the gap of contact, which is >= 0, velocities are [L/T], the mass [M] and
-// the time step [T] are > 0, in any consistent units; the model is not checked. More than 1e8 steps
-// and a time step without a value are an Error(kBadInput), a stop an Error(kInterrupted); the
-// errors of the drag are thrown, too. models.cpp uses this file. A change must keep the budget of
-// impulses and works balanced to rounding errors. A change of results must raise kModelsRevision
-// (trajectory.hpp).
+// The steps of contact_step.hpp and rebound.hpp, their budget, and when contact begins and ends.
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -25,25 +18,23 @@ namespace viscontact::reduced_model {
 namespace {
 
 /// A ResolvedDrag as functions of the distance D [L], the gap less the gap of contact, in the form
-/// that contact_step() needs (NoDrag in contact_step.hpp). Impulses and momenta are [M L/T]; a drag
-/// that is not defined at a gap throws its own error.
+/// of NoDrag (contact_step.hpp).
 class DragAtDistance {
  public:
   static constexpr bool kResolved = true;
 
   DragAtDistance(const ResolvedDrag& drag, double contact_gap)
-      : drag_(drag), contact_gap_(contact_gap) {}
+      : drag_(drag), contact_gap_(contact_gap) {
+    assert(contact_gap >= 0);
+  }
 
-  /// Minus the impulse of the drag on the sphere [M L/T] while the distance changes from `from` to
-  /// `to` [L]; > 0 if the distance grows.
   double impulse(double from, double to) const {
     return from == to ? 0 : drag_.impulse(contact_gap_ + to) - drag_.impulse(contact_gap_ + from);
   }
 
-  /// The velocity [L/T] at the end of a step that begins at `distance` >= 0 with the momentum
-  /// `momentum` [M L/T], which includes the impulse of the external force; the drag acts in the
-  /// step. The distance at the end is >= 0.
+  /// The distance at the end of the step is >= 0.
   double velocity(const ContactSetting& setting, double distance, double momentum) const {
+    assert(!(distance < 0));
     // With the mass m, the length h of the step, the distance D at its beginning and a primitive
     // Gamma_res of the resistance, the velocity v solves m v + Gamma_res(D + h v) - Gamma_res(D) =
     // momentum. The left side increases with v, so that the root is between 0 and the velocity
@@ -61,8 +52,7 @@ class DragAtDistance {
                        setting.mass + setting.step * drag_.resistance(contact_gap_ + distance +
                                                                       setting.step * v));
     };
-    // A change of the velocity that is smaller than this is within the rounding error of the
-    // velocity, and does not change the next gap.
+    // A change of the velocity that is within its rounding error does not change the next gap.
     const auto settled = [](double v, double next) {
       constexpr double kRoundOff = 4 * std::numeric_limits<double>::epsilon();
       return std::abs(next - v) <= kRoundOff * std::abs(next);
@@ -76,17 +66,15 @@ class DragAtDistance {
   double contact_gap_;
 };
 
-/// The times of a step [T]. The step lasts from `begin` to `end`, and the external force acts in it
-/// by the impulse of the force from `kick_begin` to `kick_end`. The latter two times differ from
-/// `begin` and `end` only if the model is staggered (ContactModel::is_staggered).
+/// A step from `begin` to `end` [T], in which the external force acts by its impulse from
+/// `kick_begin` to `kick_end`. The latter differ from the former only if the model is staggered.
 struct StepTimes {
   double begin = 0, end = 0, kick_begin = 0, kick_end = 0;
 };
 
-/// Adds a step to the budget of impulses [M L/T] and works [M L^2/T^2]; `push` [M L/T] is the
-/// impulse of the external force. The work of each impulse is the impulse times the mean of the
-/// velocities before and after the step, so that the works add up to the change of kinetic energy
-/// exactly.
+/// Adds a step to the budget; `push` is the impulse of the external force. The work of each impulse
+/// is the impulse times the mean of the velocities before and after the step, so that the works add
+/// up to the change of kinetic energy exactly.
 void add_to(MomentumEnergyBudget& budget, double velocity_before, double push,
             const ContactStep& step) {
   const double velocity = (velocity_before + step.state.velocity) / 2;
@@ -108,8 +96,6 @@ class ContactClock {
  public:
   explicit ContactClock(double mass) : mass_(mass) {}
 
-  /// Takes a step of contact_step.hpp into account, with the state `before` it and the impulse
-  /// `push` [M L/T] of the external force in it.
   void look_at(const StepTimes& times, const ContactState& before, double push,
                const ContactStep& step) {
     if (std::exchange(is_struck_, false)) return;
@@ -141,7 +127,6 @@ class ContactClock {
     (*interval_)[1] = touching_ ? times.end : times.begin + step.last_impact;
     is_struck_ = true;
   }
-  /// The times at which contact begins first and ends last; nothing without contact.
   std::optional<std::array<double, 2>> interval() const { return interval_; }
 
  private:
@@ -150,10 +135,9 @@ class ContactClock {
   bool touching_ = false, is_struck_ = false;
 };
 
-/// The time [T] at which the solids touch, and the velocity [L/T], <= 0, with which they do, in the
-/// first step in which they carry a load. Before this step gamma is above model.gamma_min.
-/// `landing` [T] is the time at which contact began; `push` [M L/T] is the impulse of the external
-/// force.
+/// The first touch of the solids, in the first step in which they carry a load. Before this step
+/// gamma is above model.gamma_min. Contact began at the time `landing`; `push` is the impulse of
+/// the external force.
 SolidTouch touch_in(const ContactModel& model, double mass, double landing, const StepTimes& times,
                     const ContactState& before, double push, const ContactStep& step) {
   // If gamma was 0 before, the sphere landed in this step: the film takes a part of its momentum,
@@ -166,8 +150,8 @@ SolidTouch touch_in(const ContactModel& model, double mass, double landing, cons
           push / (duration * model.solid_resistance)};
 }
 
-/// The state after the impulse `push` [M L/T] of the external force at one instant, at which the
-/// gap does not change, and the impulses of film and solids [M L/T].
+/// The state after the impulse `push` of the external force at one instant, at which the gap does
+/// not change, and the impulses of film and solids.
 ContactStep kicked(const ContactState& state, double push, const ContactSetting& setting) {
   ContactStep step{state};
   const double momentum = setting.mass * state.velocity + push;
@@ -183,20 +167,19 @@ ContactStep kicked(const ContactState& state, double push, const ContactSetting&
   return step;
 }
 
-/// A step of rebound.hpp in the form of contact_step.hpp, which rows of the trajectory need.
 ContactStep as_contact_step(const ReboundStep& step) {
   return {step.state, step.budget.film_impulse, step.budget.drag_impulse,
           step.budget.solid_impulse};
 }
 
 /// Makes the steps from the start to the end. Calls `rebound(times, step)` for each step with
-/// impacts, `kick(velocity before, push, step)` for each other impulse `push` [M L/T] of the
-/// external force, and `add(times, setting, state before, push, step, state at the end)` after each
-/// step. `turns` are the times [T] at which the force changes its sign, increasing. In a staggered
-/// model the impulses before and after such a time act one after the other. The reason is that the
-/// solids carry the impulse before such a time, and must not give this impulse back to the sphere
-/// afterwards. The motion ends early in a step in which the sphere reaches the wall opposite; the
-/// row of this step has the time of that. Returns the end of the last step [T].
+/// impacts, `kick(velocity before, push, step)` for each other impulse `push` of the external
+/// force, and `add(times, setting, state before, push, step, state at the end)` after each step.
+/// `turns` are the times at which the force changes its sign, increasing. In a staggered model the
+/// impulses before and after such a time act one after the other, because the solids carry the
+/// impulse before it, and must not give this impulse back to the sphere afterwards. In a step in
+/// which the sphere reaches the wall opposite, the motion ends early, and the row has the time of
+/// that. Returns the end of the last step.
 template <class Drag, class Rebounding, class Kick, class Add>
 double run_steps(const Motion& motion, const ContactModel& model, const Drag& drag,
                  std::span<const double> turns, const Rebounding& rebound, const Kick& kick,
@@ -272,8 +255,8 @@ double run_steps(const Motion& motion, const ContactModel& model, const Drag& dr
   return end;
 }
 
-/// The times [T] at which the force changes its sign. The list is empty if there are too many of
-/// them to find; then the lowest gamma is taken from the ends of the steps only.
+/// The times at which the force changes its sign; none if there are too many of them to find, so
+/// that the lowest gamma is taken from the ends of the steps only.
 std::vector<double> turns_of(const Motion& motion) {
   try {
     return motion.external_force.sign_changes(motion.end_time);
@@ -284,10 +267,9 @@ std::vector<double> turns_of(const Motion& motion) {
 
 }  // namespace
 
-/// Runs the model from time 0 to motion.end_time, with the restitution of the motion. The
-/// trajectory has a row for the start and one for the end of each step; forces in a row are means
-/// over the step [M L/T^2]. motion.initial_gap must be at least model.contact_gap (not checked).
 Trajectory run_contact_model(const Motion& motion, ContactModel model) {
+  assert(motion.initial_gap >= model.contact_gap && model.gamma_min <= 0);
+  assert(!(model.is_staggered && model.drag));
   model.restitution = motion.restitution();
   Trajectory trajectory;
   trajectory.steps = step_count(motion.end_time, motion.parameter(kContactTimeStep));
@@ -318,8 +300,7 @@ Trajectory run_contact_model(const Motion& motion, ContactModel model) {
           touch_in(model, motion.mass, clock.interval().value()[0], times, before, push, step);
     is_rebound = false;
     lowest_gamma = std::min(lowest_gamma, end.gamma);
-    // If contact lasts through a step in which the force changes its sign, gamma is lowest at that
-    // time.
+    // In contact, gamma is lowest where the force changes its sign within the step.
     const double begin = times.kick_begin;
     for (; turn != turns.end() && *turn < times.kick_end; ++turn)
       if (*turn > begin && before.gamma < 0 && step.state.gamma < 0)

@@ -1,20 +1,14 @@
-// Computes one time step of viscous contact of a sphere (physics.md (4.5) to (4.7)). m is the mass,
-// u the velocity, D the gap less the gap at which contact begins, h the length of the step, and f
-// the external force. The film of fluid in the contact absorbs the impulse -gamma >= 0 when the
-// sphere lands, and gives this impulse back before the sphere is released. Gamma_res(D) is the
-// primitive of the resistance that the model resolves, so that a difference of two of its values is
-// the impulse of the drag. The index n marks values at the end of step n, where f^n is the mean of
-// f over the step after it. Lengths, masses and times are in any consistent units. All contact
-// models with a time step, and rolling/, use it. Nothing is checked; only the drag throws Errors. A
-// change must keep m u + Gamma_res(D) + gamma - int f dt constant to round-off while no solid is
-// loaded.
+// One time step of viscous contact of a sphere, physics.md (4.5) to (4.7), in any consistent units.
+// D is the gap less the gap at which contact begins, m the mass, u the velocity.
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 
 namespace viscontact::reduced_model {
 
-/// The state of the sphere, with the memory gamma of the film.
+/// The state of the sphere, with the memory gamma of the film, which absorbs the impulse -gamma
+/// when the sphere lands, and gives it back before the sphere is released.
 struct ContactState {
   double gap = 0;       ///< D [L]; 0 in contact
   double velocity = 0;  ///< u [L/T]
@@ -23,38 +17,39 @@ struct ContactState {
 
 /// The constants of all steps of one length.
 struct ContactSetting {
-  /// Sets the members; the ranges of the arguments are those of `mass`, `gamma_min` and `step`.
+  /// The arguments are the members.
   ContactSetting(double mass_, double gamma_min_, double step_)
-      : mass(mass_), gamma_min(gamma_min_), step(step_), per_mass(1 / mass_), per_step(1 / step_) {}
+      : mass(mass_), gamma_min(gamma_min_), step(step_), per_mass(1 / mass_), per_step(1 / step_) {
+    assert(mass_ > 0 && gamma_min_ <= 0 && step_ > 0);
+  }
   double mass;  ///< m [M], > 0
   /// Value of gamma at which the solids touch [M L/T], <= 0; -infinity without solid contact.
   double gamma_min;
   double step;      ///< h [T], > 0
-  double per_mass,  ///< 1/m [1/M]; it is stored because a division is slow
-      per_step;     ///< 1/h [1/T]; it is stored for the same reason
+  double per_mass,  ///< 1/m [1/M], stored because a division is slow
+      per_step;     ///< 1/h [1/T]
 };
 
 /// The state at the end of a step, and the impulses [M L/T] that the sphere received in it.
 struct ContactStep {
-  /// The state at the end of the step.
+  /// At the end of the step.
   ContactState state;
   /// Impulse of the film, gamma^n - gamma^{n+1}; < 0 while the film pulls the sphere to the wall.
   double film = 0;
-  double drag = 0;   ///< impulse of the resolved drag; 0 if the model resolves none
+  double drag = 0;   ///< impulse of the resolved drag
   double solid = 0;  ///< impulse of the solid contact, >= 0
 };
 
-/// The drag of a model that resolves no drag. Each type `Drag` for contact_step() must have the
-/// members of this one.
+/// Each type `Drag` for contact_step() must have the members of this one.
 struct NoDrag {
-  /// False, because there is no resolved drag.
+  /// Whether the model resolves a drag.
   static constexpr bool kResolved = false;
   /// The velocity v [L/T] with m v + Gamma_res(D + h v) - Gamma_res(D) = momentum [M L/T], where D
-  /// + h v >= 0. The second argument is D [L], >= 0.
+  /// + h v >= 0. Gamma_res is the primitive of the resolved resistance; the second argument is D.
   static double velocity(const ContactSetting& setting, double, double momentum) {
     return momentum * setting.per_mass;
   }
-  /// Gamma_res(to) - Gamma_res(from) [M L/T], for two values `from`, `to` of D [L].
+  /// Gamma_res(to) - Gamma_res(from) [M L/T], for two values of D.
   static double impulse(double, double) { return 0; }
 };
 
@@ -80,9 +75,10 @@ struct NoDrag {
 template <class Drag>
 ContactStep contact_step(const ContactState& state, double push, const ContactSetting& setting,
                          const Drag& drag) {
+  assert(!(state.gap < 0) && !(state.gamma > 0));
   const double momentum = setting.mass * state.velocity + push;
-  // Impulse of the drag in the step, computed as the change of the momentum, because a difference
-  // of two values of Gamma_res would contain the rounding errors of both gaps.
+  // The impulse of the drag in the step is the change of the momentum, because a difference of two
+  // values of Gamma_res would contain the rounding errors of both gaps.
   const auto drag_impulse_of_step = [&](double velocity, double before) {
     return Drag::kResolved ? setting.mass * velocity - before : 0.0;
   };

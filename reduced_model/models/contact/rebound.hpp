@@ -1,14 +1,9 @@
-// Computes rebounds of the sphere from the solid wall through the film of fluid (physics.md (4.12),
-// (4.13)), for contact_model.cpp and viscous_contact_exact.cpp. m is the mass, u the velocity,
-// gamma minus the impulse that the film has absorbed, gamma_min the value of gamma at which the
-// solids touch, D the gap less the gap of contact, h the length of a step; u+ and gamma+ are the
-// values of u and gamma after an impact. Lengths, masses and times are in any consistent units.
-// Nothing is checked, and only the drag throws errors. A change must keep that an impact takes
-// place at its time within a step; otherwise heights of rebounds do not converge as h tends to 0. A
-// change of results must raise kModelsRevision (trajectory.hpp).
+// Rebounds of the sphere from the solid wall through the film, physics.md (4.12), (4.13). An impact
+// takes place at its time within a step, without which heights of rebounds do not converge.
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -20,31 +15,31 @@
 
 namespace viscontact::reduced_model {
 
-/// What an impact does to the sphere: momenta and impulses [M L/T].
+/// What an impact does to the sphere with the mass m and the velocity u: momenta and impulses [M
+/// L/T]. gamma is minus the impulse that the film has absorbed.
 struct Impact {
-  double momentum = 0;       ///< momentum m u+ after the impact, >= 0; 0 if the sphere stays
+  double momentum = 0;       ///< m u+ after the impact, >= 0; 0 if the sphere stays
   double gamma = 0;          ///< gamma+ after the impact, <= 0; 0 if the sphere leaves the film
-  double lowest_gamma = 0;   ///< lowest value of gamma in the impact, <= 0
+  double lowest_gamma = 0;   ///< in the impact, <= 0
   double solid_impulse = 0;  ///< impulse that the solids took up in the compression, s >= 0
   /// Impulse that the solids gave back, >= 0: e_d s with the restitution e_d, or less if the sphere
   /// stays.
   double restitution = 0;
 };
 
-/// The impact of a sphere with the momentum `momentum` = m u < 0 on a film with gamma = 0 (4.12).
-/// The film takes the momentum until gamma = gamma_min; the solids take the rest s, and give back
-/// the impulse e_d s (Poisson's law). The sphere must then pull the film open, which takes the
-/// impulse that the film has absorbed:
+/// The impact of a sphere with `momentum` = m u < 0 on a film with gamma = 0 (4.12). The film takes
+/// the momentum until gamma = gamma_min; the solids take the rest s, and give back the impulse e_d
+/// s (Poisson's law). The sphere must then pull the film open:
 ///
 ///     s = max(-m u + gamma_min, 0),   m u+ = max(gamma_c + e_d s, 0),
 ///     gamma+ = min(gamma_c + e_d s, 0),
 ///
 /// where gamma_c = m u + s is gamma at the end of the compression. `gamma_min` <= 0 may be
-/// -infinity; `restitution` = e_d is 0 to 1 [1]. If m u+ is below `least` >= 0 [M L/T], the sphere
-/// stays, and the solids give back less by the impulse m u+, so that the infinitely many bounces of
-/// a sphere without a film end.
+/// -infinity; `restitution` = e_d is 0 to 1. If m u+ is below `least` >= 0, the sphere stays, so
+/// that the infinitely many bounces of a sphere without a film end.
 inline Impact impact_through_film(double momentum, double gamma_min, double restitution,
                                   double least) {
+  assert(gamma_min <= 0 && least >= 0 && 0 <= restitution && restitution <= 1);
   Impact impact;
   impact.lowest_gamma = std::max(momentum, gamma_min);
   impact.solid_impulse = impact.lowest_gamma - momentum;
@@ -56,8 +51,7 @@ inline Impact impact_through_film(double momentum, double gamma_min, double rest
   return impact;
 }
 
-/// Adds the impulses and works of an impact with the velocity `velocity` < 0 [L/T] of a sphere of
-/// mass `mass` [M] > 0 to the budget. The work of each impulse is the impulse times half of
+/// Adds an impact with `velocity` < 0. The work of each impulse is the impulse times half of
 /// `velocity` in the compression, and times half the velocity after the impact in the restitution,
 /// so that film and solids share the energy as they share the impulse.
 inline void add_impact(MomentumEnergyBudget& budget, double mass, double velocity,
@@ -70,21 +64,22 @@ inline void add_impact(MomentumEnergyBudget& budget, double mass, double velocit
   budget.solid_work += impact.solid_impulse * velocity / 2 + impact.restitution * leaving / 2;
 }
 
-/// A step with impacts, and what happened in it.
+/// A step with impacts; times count from its beginning.
 struct ReboundStep {
-  ContactState state;             ///< state at the end of the step
-  std::vector<Rebound> rebounds;  ///< impacts on the solids; times count from the step's beginning
+  ContactState state;             ///< at the end of the step
+  std::vector<Rebound> rebounds;  ///< impacts on the solids
   /// Impulses and works in the step, without the impulse of the external force.
   MomentumEnergyBudget budget;
-  double lowest_gamma = 0;   ///< lowest gamma in the step [M L/T], <= 0
-  double first_impact = -1;  ///< time of the first impact from the step's beginning [T], or -1
-  double last_impact = -1;   ///< time of the last impact from the step's beginning [T], or -1
+  double lowest_gamma = 0;   ///< in the step [M L/T], <= 0
+  double first_impact = -1;  ///< time of the first impact [T], or -1
+  double last_impact = -1;   ///< time of the last impact [T], or -1
 };
 
 /// The first time t [T], 0 < t <= `end`, at which D + w t + a t^2/2 falls through 0; infinity if
-/// there is no such time. D = `gap` >= 0 [L], w = `velocity` [L/T] and a = `acceleration` [L/T^2]
-/// are the values at time 0; if D = 0, w must be > 0.
+/// there is no such time. D = `gap` >= 0 [L], w = `velocity` and a = `acceleration` are the values
+/// at time 0. If D = 0 and w < 0, the time is 0.
 inline double time_of_fall(double gap, double velocity, double acceleration, double end) {
+  assert(!(gap < 0));
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const double discriminant = velocity * velocity - 2 * acceleration * gap;
   if (discriminant < 0) return kNever;
@@ -99,14 +94,13 @@ inline double time_of_fall(double gap, double velocity, double acceleration, dou
   return time <= end ? time : kNever;
 }
 
-/// Makes the impact of a sphere with the velocity `velocity` < 0 [L/T] at the time `time` [T] from
-/// the beginning of a step, and records the impact in `step`. `acceleration` [L/T^2] is the
-/// external force divided by m, `restitution` = e_d is 0 to 1. Returns the velocity u+ >= 0 [L/T]
-/// after the impact; 0 if the sphere stays.
+/// Records the impact of a sphere with `velocity` < 0 at `time` from the beginning of a step in
+/// `step`. `acceleration` is the external force divided by m. Returns the velocity after the
+/// impact; 0 if the sphere stays.
 inline double strike(ReboundStep& step, double time, double velocity, double acceleration,
                      const ContactSetting& setting, double restitution) {
+  assert(!(time < step.last_impact));
   // A flight that is shorter than this fraction of the step counts as rest, so that bounces end.
-  // The fraction is a free choice, but must be > 0.
   constexpr double kShortestFlight = 1e-3;
   const double least =
       setting.mass * kShortestFlight * setting.step * std::max(0.0, -acceleration) / 2;
@@ -123,10 +117,11 @@ inline double strike(ReboundStep& step, double time, double velocity, double acc
   return after;
 }
 
-/// Continues a step from its last impact, after which the sphere stays in contact, to the end of
-/// the step. `push` [M L/T] is the impulse of the external force in the whole step.
+/// Continues a step from its last impact, after which the sphere stays in contact. `push` is the
+/// impulse of the external force in the whole step.
 template <class Drag>
 void stay(ReboundStep& step, double push, const ContactSetting& setting, const Drag& drag) {
+  assert(step.last_impact >= 0);
   const double rest = setting.step - step.last_impact;
   if (!(rest > 0)) return;
   const ContactSetting of_rest(setting.mass, setting.gamma_min, rest);
@@ -142,9 +137,9 @@ void stay(ReboundStep& step, double push, const ContactSetting& setting, const D
   step.lowest_gamma = std::min(step.lowest_gamma, end.state.gamma);
 }
 
-/// A step that begins in flight, from `state` with gamma = 0 and with D > 0 or u > 0. `push` [M
-/// L/T] is the impulse of the external force in the step, and `acceleration` = a [L/T^2] the mean
-/// of this force divided by m. Returns nothing if the sphere does not reach contact in the step.
+/// A step that begins in flight, with gamma = 0 and with D > 0 or u > 0. `push` is the impulse of
+/// the external force in the step, and `acceleration` = a [L/T^2] the mean of this force divided by
+/// m. Returns nothing if the sphere does not reach contact in the step.
 ///
 /// Without resolved drag, the gaps of the scheme, D^{n+1} = D^n + h u^{n+1}, lie on the parabola
 /// with the acceleration a that begins with the velocity w = u^n + push/m - a h/2. The impacts are
@@ -156,6 +151,7 @@ template <class Drag>
 std::optional<ReboundStep> rebound_step(const ContactState& state, double push, double acceleration,
                                         const ContactSetting& setting, double restitution,
                                         const Drag& drag) {
+  assert(state.gamma == 0 && (state.gap > 0 || state.velocity > 0));
   const double m = setting.mass, h = setting.step;
   ReboundStep step;
   if constexpr (Drag::kResolved) {

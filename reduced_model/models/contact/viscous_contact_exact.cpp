@@ -1,15 +1,8 @@
-// Finds the events of viscous contact (landing, release, and the instant at which the solids
-// touch), and computes the budget of impulses and works between them. In flight only the external
-// force f_ext acts; in contact gap and velocity are 0, and gamma changes by the impulse of this
-// force (viscous_contact_exact.hpp has the equations). Gaps [L], >= 0, velocities [L/T], times [T]
-// and gamma [M L/T], <= 0, minus the impulse that the film has absorbed, are in any consistent
-// units. A fit without a positive coefficient of 1/q (q is the gap) and more than 1e8 rows are an
-// Error(kBadInput), a force with too many periods an Error(kNotConverged), a stop an
-// Error(kInterrupted). models.cpp uses this file. A change of results must raise kModelsRevision
-// (trajectory.hpp).
+// Events of viscous contact (landing, release, touch of the solids), and the budget between them.
 #include "viscontact/reduced_model/models/contact/viscous_contact_exact.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <vector>
 
 #include "viscontact/common/root_finding.hpp"
@@ -41,7 +34,7 @@ class EventDriven {
   const std::optional<SolidTouch>& touch() const { return touch_; }
   double lowest_gamma() const { return lowest_gamma_; }
 
-  /// Gap [L], velocity [L/T] and gamma [M L/T] at a time t [T] between the last event and the next.
+  /// Gap, velocity and gamma at a time t between the last event and the next.
   double gap(double t) const {
     if (contact_) return 0;
     const double by_force =
@@ -53,16 +46,19 @@ class EventDriven {
     return contact_ ? std::clamp(gamma_ + push_until(t), gamma_min_, 0.0) : 0;
   }
 
-  /// Goes to the next event or, if there is none before the time `to` [T], to that time. Returns
-  /// the time [T] to which it has gone. From the last event to `to`, f_ext must have the constant
-  /// sign `sign` (1 or -1), or be 0 if `sign` is 0 (not checked).
-  double advance(double to, double sign) { return contact_ ? carry(to, sign) : fly(to); }
+  /// Goes to the next event or, if there is none before the time `to`, to that time, which it
+  /// returns. From the last event to `to`, f_ext must have the constant sign `sign` (1 or -1), or
+  /// be 0 if `sign` is 0.
+  double advance(double to, double sign) {
+    assert(to > from_ && (sign == 0 || sign == 1 || sign == -1));
+    return contact_ ? carry(to, sign) : fly(to);
+  }
 
  private:
-  /// Impulse of f_ext [M L/T] from the last event to the time t.
+  /// Impulse of f_ext from the last event to the time t.
   double push_until(double t) const { return f_.impulse(t) - f_.impulse(from_); }
 
-  /// Does what advance() does for a sphere in flight, whose next event is a landing.
+  /// advance() for a sphere in flight, whose next event is a landing.
   double fly(double to) {
     const auto falls = [&](double t) { return velocity(t) < 0; };
     // The velocity is monotone, because f_ext keeps its sign. Therefore the velocity changes its
@@ -88,8 +84,7 @@ class EventDriven {
     return to;
   }
 
-  /// Makes gap [L] and velocity [L/T] at the time t those of the last event, and adds the impulse
-  /// and the work of f_ext to the budget.
+  /// Makes these values at the time t those of the last event.
   void move_to(double t, double gap, double velocity) {
     budget_.external_impulse += push_until(t);
     budget_.external_work += m_ / 2 * (velocity - velocity_) * (velocity + velocity_);
@@ -98,8 +93,8 @@ class EventDriven {
     velocity_ = velocity;
   }
 
-  /// Computes the impact at the time t [T], after which the sphere is in contact, or in flight
-  /// again if the solids give back more than the film takes. Returns t.
+  /// Computes the impact at the time t, after which the sphere is in contact, or in flight again if
+  /// the solids give back more than the film takes. Returns t.
   double land(double t) {
     move_to(t, 0, velocity(t));
     const double least = std::max(0.0, -f_.value(t)) * shortest_flight_ / 2;
@@ -117,8 +112,8 @@ class EventDriven {
     return t;
   }
 
-  /// Does what advance() does for a sphere in contact. The next event is the release, at which
-  /// gamma reaches 0, or the instant at which the solids touch, at which gamma reaches gamma_min.
+  /// advance() for a sphere in contact. The next event is the release, at which gamma reaches 0, or
+  /// the touch of the solids, at which gamma reaches gamma_min.
   double carry(double to, double sign) {
     const double end = gamma_ + push_until(to);
     double t = to;
@@ -141,8 +136,8 @@ class EventDriven {
   }
 
   // A flight that is shorter than this fraction of the duration of the motion counts as rest, so
-  // that the infinitely many bounces of a sphere without a film end. The number is a free choice,
-  // which inertial.cpp repeats.
+  // that the infinitely many bounces of a sphere without a film end. inertial.cpp has the same
+  // constant.
   static constexpr double kShortestFlight = 1e-6;
 
   double m_;
@@ -159,8 +154,6 @@ class EventDriven {
 
 }  // namespace
 
-/// Computes the motion from 0 to motion.end_time. The trajectory has rows at the times of
-/// row_times() and at the events; a row at an event has the state after it.
 Trajectory simulate_viscous_contact_exact(const Motion& motion,
                                           const lubrication::LubricationForce& force) {
   const ContactModel model = viscous_contact(motion, force);

@@ -1,11 +1,4 @@
-// Makes the model `viscous_contact_threshold` (viscous_contact_threshold.hpp), with contact at the
-// gap q_c [L] and the whole drag at larger gaps. q_c must be greater than the heights of the
-// roughness together [L], >= 0, and less than the initial gap. `impulse` of the force is the
-// primitive Gamma [M L/T] of the resistance [M/T]; gamma [M L/T], <= 0, is minus the impulse that
-// the film below q_c has absorbed. A q_c or a roughness outside this range or outside the fit, and
-// in a run a gap outside the fit, are an Error(kBadInput). A film too thin for a double is an
-// Error(kNotConverged). models.cpp uses this file. A change must keep the text of film_law, which
-// heads of trajectories contain. A change of results must raise kModelsRevision (trajectory.hpp).
+// The film, the bound of gamma and the drag of viscous_contact_threshold(), physics.md (4.7).
 #include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
 
 #include <limits>
@@ -14,9 +7,6 @@
 
 namespace viscontact::reduced_model {
 
-/// The film has the thickness [L] at which Gamma is Gamma(q_c) + gamma. The solids touch at
-/// gamma_min [M L/T], where this thickness equals both heights of roughness together; without
-/// roughness they never touch. `force` must outlive the result, which refers to it.
 ContactModel viscous_contact_threshold(const Motion& motion,
                                        const lubrication::LubricationForce& force) {
   const double q_c = motion.parameter(kThresholdGap);

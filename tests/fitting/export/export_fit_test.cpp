@@ -78,7 +78,6 @@ void expect_values(const std::vector<Values>& values, const lubrication::Fit& fi
   }
 }
 
-/// Both limits of the drag outside the interval.
 lubrication::OutsideInterval both_limits() { return lubrication::OutsideInterval{}.with_limits(); }
 
 /// Compares with the force that has both limits, from far below the interval to far above it.

@@ -1,6 +1,5 @@
-// Rows that failed although nothing is wrong with them: at some gaps above planes and free surfaces
-// the factorisation lost ten digits, and sliding in unbounded fluid was refused where little
-// accuracy was asked. Rows must not depend on the units either.
+// Rows that failed although nothing is wrong with them: at some gaps the factorisation lost ten
+// digits, and sliding was refused where little accuracy was asked. Units must not matter either.
 #include <gtest/gtest.h>
 
 #include <cmath>

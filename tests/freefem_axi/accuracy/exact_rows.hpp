@@ -60,13 +60,11 @@ struct ExactRows {
 /// All functions that draw rows, with their names.
 std::span<const ExactRows> exact_rows();
 
-/// A solved row.
 struct SolvedRow {
   ExactRow row;
   lubrication::MotionRow answer;
 
   double error() const { return std::abs(answer.force_factor / row.drag_factor - 1); }
-  /// The error divided by its estimate.
   double ratio() const { return error() / answer.relative_error_estimate; }
   bool says_reached() const {
     return answer.relative_error_estimate <= row.tabulation.relative_accuracy;

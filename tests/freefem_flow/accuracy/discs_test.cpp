@@ -1,6 +1,5 @@
-// Discs in the plane, solved by FreeFEM, against exact velocities and forces. Viscosity 1, radius
-// 1. Bounds on errors: 2e-3 with 12 edges, 2e-4 with 24, 2e-5 with 48 for extrapolated velocities
-// and gaps from 0.1, 1e-3 with 24 edges and a gap of 0.02.
+// Discs of radius 1 in a plane flow of viscosity 1, solved by FreeFEM, against exact velocities and
+// forces.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -20,6 +19,9 @@
 
 namespace viscontact::freefem_flow {
 namespace {
+
+// Bounds on errors are 2e-3 with 12 edges, 2e-4 with 24, 2e-5 with 48 for extrapolated velocities
+// and gaps from 0.1, 1e-3 with 24 edges and a gap of 0.02.
 
 using particles::BoxDomain;
 using particles::DiscDomain;

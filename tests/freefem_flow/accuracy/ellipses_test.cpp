@@ -1,8 +1,5 @@
 // Ellipses in Stokes flow, solved by FreeFEM, against the exact flows in unbounded fluid of G. B.
-// Jeffery (1922, Proc. R. Soc. Lond. A 102, 161), in the plane: without a torque the ellipse turns
-// in the flow (s y, 0) at -s (a^2 sin^2 + b^2 cos^2)/(a^2 + b^2), and it turns at omega against the
-// torque 2 pi mu (a^2 + b^2) omega. A round wall at the distance R changes both by about (a/R)^2.
-// Viscosity 1.
+// Jeffery (1922, Proc. R. Soc. Lond. A 102, 161), in the plane. Viscosity 1.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,6 +19,10 @@
 
 namespace viscontact::freefem_flow {
 namespace {
+
+// Without a torque the ellipse turns in the flow (s y, 0) at -s (a^2 sin^2 + b^2 cos^2)/(a^2 +
+// b^2), and it turns at omega against the torque 2 pi mu (a^2 + b^2) omega. A round wall at the
+// distance R changes both by about (a/R)^2.
 
 using particles::Fluid;
 using particles::FluidMesh;

@@ -1,6 +1,5 @@
-// Rigid bodies, hinges, springs and arms in the fluid of FreeFEM: across the sides of sheared
-// cells, and springs of all stiffnesses. The mobility that they need is that of FreeFEM, with its
-// errors.
+// Rigid bodies, hinges, springs and arms in the fluid of FreeFEM, whose mobility has errors: across
+// the sides of sheared cells, and springs of all stiffnesses.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 // Plates with round ends in Stokes flow, and flows and pressures through lines across a channel,
-// solved by FreeFEM. Viscosity 1.
-// Docs: fluid.md.
+// solved by FreeFEM (docs/fluid.md). Viscosity 1.
 #include <gtest/gtest.h>
 
 #include <cmath>

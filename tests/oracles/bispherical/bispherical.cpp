@@ -1,3 +1,14 @@
+// Sums the series of bispherical.hpp.
+#include "tests/oracles/bispherical/bispherical.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/oracles/bispherical/bispherical_basis.hpp"
+
+namespace viscontact {
+namespace {
+
 // The sphere is xi = alpha > 0, the second surface xi = xi2 < alpha: a sphere outside (xi2 < 0), a
 // plane (0), a cavity around (xi2 > 0). With m = n + 1/2 and c half the distance of the poles, the
 // stream function is
@@ -21,15 +32,6 @@
 //
 // Near contact, and for a far small second sphere, differences of these functions would lose all
 // digits. They are written so that no numbers are subtracted that agree to leading order.
-#include "tests/oracles/bispherical/bispherical.hpp"
-
-#include <algorithm>
-#include <cmath>
-
-#include "tests/oracles/bispherical/bispherical_basis.hpp"
-
-namespace viscontact {
-namespace {
 
 using Real = long double;
 

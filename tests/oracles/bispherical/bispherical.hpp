@@ -1,16 +1,15 @@
 // Exact Stokes drag of a sphere that moves along its line of centres with a second surface of
 // revolution: a plane, a shear-free plane, another sphere, a spherical cavity around it.
-//
+#pragma once
+
+namespace viscontact {
+
 // One series in bispherical coordinates solves all these problems (Stimson & Jeffery 1926, Proc. R.
 // Soc. A 111, 110; Brenner 1961, Chem. Eng. Sci. 16, 242; Maude 1961, Br. J. Appl. Phys. 12, 293).
 // All numbers are dimensionless. A drag factor is drag / (6 pi mu r U) with the viscosity mu and
 // the radius r and velocity U of the sphere; epsilon = gap / r, where the gap is the smallest
 // distance to the second surface. Unless a function says otherwise, 1e-6 <= epsilon <= 1e3, and the
-// relative error is below 1e-14. Tests of tabulations and bench/ compare FreeFEM with these values;
-// no code is shared.
-#pragma once
-
-namespace viscontact {
+// relative error is below 1e-14.
 
 /// Fixed no-slip plane. Brenner 1961, first problem; Maude 1961.
 double bispherical_plane_factor(double epsilon);

@@ -1,9 +1,5 @@
-// The functions S and H of the bispherical coordinate s, from which a stream function without slip
-// at s = 0 is made (bispherical.cpp): they solve its equation and have a double zero there. K and L
-// are their derivatives, and n >= 1 numbers the terms of the series. All numbers are dimensionless.
-//
-//     S = sinh(m s) sinh(s),   H = m cosh(m s) sinh(s) - sinh(m s) cosh(s),   m = n + 1/2,
-//     S' = K = m cosh(m s) sinh(s) + sinh(m s) cosh(s),   S'' = L,   H' = (m^2 - 1) S.
+// Functions of bispherical coordinates from which a stream function without slip is made
+// (bispherical.cpp). All numbers are dimensionless.
 #pragma once
 
 #include <cmath>
@@ -12,9 +8,15 @@
 
 namespace viscontact {
 
-/// S, H, K, L at s = sigma, times exp(-m sigma), and the determinants of the conditions at sigma
-/// (value and first derivative, value and second derivative), times exp(-2 m sigma). With these
-/// factors nothing overflows. All numbers have nearly the precision of a long double.
+/// S, H, K, L at s = sigma, times exp(-m sigma), where
+///
+///     S = sinh(m s) sinh(s),   H = m cosh(m s) sinh(s) - sinh(m s) cosh(s),   m = n + 1/2,
+///     S' = K = m cosh(m s) sinh(s) + sinh(m s) cosh(s),   S'' = L,   H' = (m^2 - 1) S,
+///
+/// solve the equation of the stream function and have a double zero at s = 0; n >= 1 numbers the
+/// terms of the series. Also the determinants of the conditions at sigma (value and first
+/// derivative, value and second derivative), times exp(-2 m sigma). With these factors nothing
+/// overflows. All numbers have nearly the precision of a long double.
 struct BisphericalBasis {
   long double s, h, k, l;
   long double no_slip;     ///< (m^2-1) S^2 - H K = sinh^2(m sigma) - m^2 sinh^2(sigma)

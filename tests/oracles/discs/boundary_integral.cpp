@@ -1,10 +1,4 @@
-// A double layer of density q on discs and walls, whose velocity at x is
-//     sum over y of (1/pi) r (r.q)(r.n)/|r|^4 ds,   r = x - y, n the normal out of disc or
-//     container,
-// or in complex numbers, with products of vectors a.b = Re(conj(a) b),
-//     (1/(4 pi)) [conj(q n) r/conj(r)^2 + 2 (q.n)/conj(r) + q n/r] ds.
-// Its value on a boundary is the principal value, + q/2 outside of the curve and - q/2 inside. In a
-// periodic domain 1/r is summed over the images, and conj(q n) r/conj(r)^2 likewise.
+// Discs in plane Stokes flow by a double layer of density q on discs and walls.
 #include <Eigen/Dense>
 #include <cmath>
 #include <complex>
@@ -17,6 +11,14 @@
 
 namespace viscontact {
 namespace {
+
+// The velocity of the double layer at x is
+//     sum over y of (1/pi) r (r.q)(r.n)/|r|^4 ds,   r = x - y, n the normal out of disc or
+//     container,
+// or in complex numbers, with products of vectors a.b = Re(conj(a) b),
+//     (1/(4 pi)) [conj(q n) r/conj(r)^2 + 2 (q.n)/conj(r) + q n/r] ds.
+// Its value on a boundary is the principal value, + q/2 outside of the curve and - q/2 inside. In a
+// periodic domain 1/r is summed over the images, and conj(q n) r/conj(r)^2 likewise.
 
 using Complex = std::complex<double>;
 using std::conj;

@@ -1,6 +1,4 @@
-// Velocities are w = u + i v = phi(z) - z conj(phi'(z)) + conj(psi(z)) with analytic phi and psi
-// (Goursat). The force that the stress exerts along an arc, with the normal to the right of dz, is
-// the difference of -2 i (phi + z conj(phi') - conj(psi)) between its ends.
+// Discs in plane Stokes flow by collocation with the functions of Goursat.
 #include <Eigen/Dense>
 #include <cmath>
 #include <complex>
@@ -13,6 +11,10 @@
 
 namespace viscontact {
 namespace {
+
+// Velocities are w = u + i v = phi(z) - z conj(phi'(z)) + conj(psi(z)) with analytic phi and psi
+// (Goursat). The force that the stress exerts along an arc, with the normal to the right of dz, is
+// the difference of -2 i (phi + z conj(phi') - conj(psi)) between its ends.
 
 using Complex = std::complex<double>;
 using std::conj;

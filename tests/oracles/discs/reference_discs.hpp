@@ -1,6 +1,5 @@
-// Reads data/reference/discs.csv for the tests: exact motions of discs in Stokes flow, and
-// dissipations. Units are those of DiscProblem: the viscosity is 1, lengths, forces and times are
-// in any one unit.
+// Reads data/reference/discs.csv: exact motions of discs in Stokes flow, and dissipations, in the
+// units of DiscProblem.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,5 @@
-// The case of the benchmark box2d, for its tests and for bench/box2d.cpp: discs or spheres fall
-// into a box. Lengths, masses and times are in one unit each. A change makes the times of
-// bench/README.md incomparable.
+// The case of the benchmark box2d: discs or spheres fall into a box. Lengths, masses and times are
+// in one unit each. The times in bench/README.md are those of this case.
 #pragma once
 
 #include "viscontact/particles/simulation.hpp"

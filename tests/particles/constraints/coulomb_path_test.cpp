@@ -1,6 +1,5 @@
 // The path of smoothed problems to a solution with Coulomb's law, docs/physics.md (5.20): its end
-// against the conditions of the law and closed forms, in the plane and in space, in other units, in
-// another order, with another choice of the tangents and from another guess.
+// against the conditions of the law and closed forms, and what must not matter.
 #include "viscontact/particles/constraints/coulomb_path.hpp"
 
 #include <gtest/gtest.h>
@@ -124,7 +123,6 @@ TEST(CoulombPath, DividesTheLoadOfEqualContactsEqually) {
   EXPECT_NEAR(impulses[1] + impulses[3], -0.3, 1e-5);
 }
 
-/// Without motion nothing is to be solved.
 /// In a blow the lowest impulse may be one that the solids carry, with which the contact opens.
 TEST(CoulombPath, GivesABlowThatOpensAContactItsFriction) {
   auto problem = disc_on_a_floor(3, 0.5, 0.5);

@@ -1,6 +1,5 @@
 // Random problems with friction against the conditions that their solutions obey, docs/physics.md
-// (5.7) and (5.9): in the plane and in space, with films, bilateral rows, redundant contacts,
-// masses in the ratio 1e4, friction up to 2, in other units and in another order.
+// (5.7) and (5.9), in the plane and in space.
 #include <gtest/gtest.h>
 
 #include <algorithm>

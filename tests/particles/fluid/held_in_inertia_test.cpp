@@ -1,7 +1,5 @@
-// Rigid bodies, hinges, springs and arms in a fluid with inertia, whose flow a stand-in replaces by
-// drag: steps of second order against closed forms, lengths and places that hold, and stiff
-// springs.
-// Docs: physics.md (6.7), (6.9).
+// Rigid bodies, hinges, springs and arms in a fluid with inertia, docs/physics.md (6.7), (6.9),
+// whose flow a stand-in replaces by drag: orders, lengths that hold, and stiff springs.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,6 +1,5 @@
-// Time stepping in a fluid with inertia, whose flow a stand-in replaces by drag and an added mass:
-// steps of second order, also where forces and given motions jump, the whole impulse of each force
-// and contact, and steps of different lengths. Docs: physics.md (6.9), (6.10).
+// Time stepping in a fluid with inertia, docs/physics.md (6.9), (6.10), whose flow a stand-in
+// replaces by drag and an added mass: orders, also at jumps, and impulses.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,6 +1,5 @@
-// Plates with round ends that meet walls, discs and each other in a fluid, whose flow a stand-in
-// replaces by drag: levers, finite turns, films and rebounds.
-// Docs: fluid.md, physics.md (6.4).
+// Plates with round ends that meet walls, discs and each other in a fluid, docs/physics.md (6.4),
+// whose flow a stand-in replaces by drag: levers, finite turns, films and rebounds.
 #include <gtest/gtest.h>
 
 #include <cmath>

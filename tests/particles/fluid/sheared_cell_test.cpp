@@ -1,6 +1,5 @@
-// Rigid bodies, hinges, springs, arms and contacts across the sides of a sheared or strained cell,
-// in a fluid with a given resistance. Where the cell begins decides which image of a particle is in
-// it, and nothing else: relative to the mean flow at the places of the particles, all is the same.
+// Rigid bodies, links and contacts across the sides of a sheared or strained cell, in a fluid with
+// a given resistance: relative to the mean flow, it does not matter where the cell begins.
 #include <gtest/gtest.h>
 
 #include <array>

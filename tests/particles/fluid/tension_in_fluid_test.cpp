@@ -1,6 +1,5 @@
-// Chains of arms, springs and films, and bodies, that are pulled in a fluid with a given resistance:
-// a motion across the pull decays at every step, and pendulums move as closed forms say.
-// Docs: physics.md (6.15).
+// Chains of links and films, and bodies, that are pulled in a fluid with a given resistance,
+// docs/physics.md (6.15): motions across the pull decay, and pendulums move as closed forms say.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -89,8 +88,8 @@ TEST(TensionInFluid, AMotionAcrossAMasslessChainDecaysMonotonicallyAtEveryStep) 
       SCOPED_TRACE(::testing::Message() << static_cast<int>(kind) << " " << h);
       const Chain chain{.kind = kind, .h = h};
       const auto x = asides(chain, 12);
-      // The slower one of both modes of the chain decays at this rate. Rounding and the tolerance of
-      // lengths, 1e-6 radii, leave some 1e-7.
+      // The slower one of both modes of the chain decays at this rate. Rounding and the tolerance
+      // of lengths, 1e-6 radii, leave some 1e-7.
       const double rate = (3 - std::sqrt(5.0)) / 2 * chain.force / chain.apart / chain.drag;
       for (std::size_t n = 1; n < x.size(); ++n) {
         // Where one step turns the links to the line of the pull, the correction of their lengths
@@ -132,8 +131,8 @@ TEST(TensionInFluid, AMotionAcrossAChainOfMassesDoesNotGrowAtAnyStep) {
       }
 }
 
-/// The angle of a disc without mass from the line of the force on it at the time `end`, on an arm or
-/// a stiff spring of length 1.5 about a fixed disc. Its rate is -force/(drag length) sin(angle).
+/// The angle of a disc without mass from the line of the force on it at the time `end`, on an arm
+/// or a stiff spring of length 1.5 about a fixed disc. Its rate is -force/(drag length) sin(angle).
 double angle_of_pendulum(Kind kind, double h, double end) {
   constexpr double kLength = 1.5, kForce = 3, kDrag = 2, kStart = 1.2;
   auto system = in_fluid(2, 100, h, 0.01);

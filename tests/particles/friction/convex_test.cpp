@@ -1,6 +1,5 @@
-// The convex methods of friction, docs/physics.md (5.9) and (5.17): one collision against the
-// minimiser of its problem in closed form, landings and inclines with films, and packings in which
-// every step must converge and the energy must fall.
+// The convex methods of friction, docs/physics.md (5.9) and (5.17), against closed forms, and
+// packings in which every step must converge and the energy must fall.
 #include <gtest/gtest.h>
 
 #include <algorithm>

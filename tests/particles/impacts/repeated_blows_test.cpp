@@ -1,8 +1,5 @@
 // Pairs that are hit again and again, also several times in a step, against the closed form of a
-// ball that bounces: its velocities fall by e_d, and its bounces end when a flight would be shorter
-// than a twentieth of the step (docs/physics.md (5.16)). After each blow the gap is 0 but for a
-// rounding error, whose sign must not matter. On a plane that turns, the blows are found by
-// bisection.
+// ball that bounces, docs/physics.md (5.16).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,6 +13,10 @@
 
 namespace viscontact::particles {
 namespace {
+
+// Velocities fall by e_d, and bounces end when a flight would be shorter than a twentieth of the
+// step. After each blow the gap is 0 but for a rounding error, whose sign must not matter. On a
+// plane that turns, the blows are found by bisection.
 
 enum class Partner { kPlane, kTurningPlane, kRoundWall, kParticle };
 

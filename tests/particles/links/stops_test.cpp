@@ -1,6 +1,5 @@
-// Stops of hinges: the angle at which they end a motion and the torque with which they hold,
-// without a fluid and in one, against closed forms.
-// Docs: particles.md, physics.md (5.12) and (6.4).
+// Stops of hinges, docs/physics.md (5.12) and (6.4): the angle at which they end a motion and the
+// torque with which they hold, without a fluid and in one, against closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,6 +1,5 @@
 // The shipped cases of a fluid with inertia (data/cases/flow) run with FreeFEM, coarser and
-// shorter, and give the published numbers that docs/fluid.md compares with. The full cases are
-// commands of that page.
+// shorter, and give the published numbers that docs/fluid.md compares with.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -175,9 +174,9 @@ TEST_F(FlowCase, CharacteristicsAreOfSecondOrder) {
   EXPECT_GT(std::abs(coarse / fine), 3);  // 4 in theory
 }
 
-// Circular Couette flow has no inertia along its circles: the torque is 4 pi mu omega r² R²/(R² - r²).
-// In a step of 0.3 at the disc the difference along a circle is off by 0.3^4/4 of the velocity, and
-// the mesh makes 5e-4. With FreeFEM's convect() the torque was 9e-3 off.
+// Circular Couette flow has no inertia along its circles: the torque is 4 pi mu omega r² R²/(R² -
+// r²). In a step of 0.3 at the disc the difference along a circle is off by 0.3^4/4 of the
+// velocity, and the mesh makes 5e-4. With FreeFEM's convect() the torque was 9e-3 off.
 TEST_F(FlowCase, CharacteristicsFollowCircles) {
   compute(R"(title = "A disc that spins in a ring"
 [space]

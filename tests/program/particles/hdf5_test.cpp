@@ -1,6 +1,5 @@
-// The HDF5 file that `viscontact particles --hdf5` writes: its numbers, in h5py, are those of the
-// other results of the run, and no failure leaves a part of it. libhdf5 and h5py must be there
-// (scripts/setup --tests).
+// The HDF5 file that `viscontact particles --hdf5` writes has, in h5py, the numbers of the other
+// results of the run, and no failure leaves a part of it.
 #include <gmock/gmock.h>
 
 #include <cstdlib>

@@ -1,6 +1,5 @@
 // A run of particles in a fluid that is killed or interrupted at any moment continues by the same
-// command, and its files become those of a run that nothing disturbed: with a solver of the user's
-// own, and with FreeFEM.
+// command, and its files become those of a run that nothing disturbed.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
-// `viscontact report DIR` makes the pages of every kind of folder again from its other files: they
-// are those of the run, apart from the line that says how they were made. Colours, and places of
-// texts, in the pictures of a swimmer and of a rolling sphere.
+// `viscontact report DIR` makes the pages of every kind of folder again from its other files. Also
+// colours, and places of texts, in the pictures of a swimmer and of a rolling sphere.
 #include <gmock/gmock.h>
 
 #include <algorithm>

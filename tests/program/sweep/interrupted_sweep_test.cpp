@@ -18,7 +18,6 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-/// Runs that a signal ends.
 class InterruptedSweep : public SweepCommand {
  protected:
   /// So many that a signal comes in time: on a machine with other work, the shell that sends it may

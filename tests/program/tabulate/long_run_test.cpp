@@ -1,6 +1,5 @@
 // Tabulations that are killed: the same command continues, no finished row is computed again, and
-// the table is that of an undisturbed run. (Ctrl-C: interrupt_test.cpp. Damaged journals:
-// tests/freefem_axi/journal/row_journal_test.cpp.)
+// the table is that of an undisturbed run.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

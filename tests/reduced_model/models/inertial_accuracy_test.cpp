@@ -1,6 +1,5 @@
 // simulate_inertial against an integration of the equation of motion in extended precision
-// (tests/oracles/inertial_motion.hpp), which makes no use of the first integral that
-// simulate_inertial is made of.
+// (tests/oracles/inertial_motion.hpp), which does not use its first integral.
 #include <gtest/gtest.h>
 
 #include <algorithm>
