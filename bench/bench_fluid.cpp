@@ -14,7 +14,7 @@
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_flow/accuracy/exact_flows.hpp"
 #include "tests/freefem_flow/placed_flow.hpp"
-#include "viscontact/particles/case/particles_case.hpp"
+#include "viscontact/particle_runs/case/particles_case.hpp"
 
 namespace {
 

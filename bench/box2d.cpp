@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-#include "tests/particles/box2d/box2d_case.hpp"
+#include "tests/contact_dynamics/box2d/box2d_case.hpp"
 #include "viscontact/particles/current_contacts.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <ctime>
 
-#include "viscontact/particles/simulation.hpp"
+#include "viscontact/contact_dynamics/simulation.hpp"
 
 namespace {
 

@@ -36,7 +36,7 @@ def milliseconds(function, times):
 
 
 def write_box(folder):
-    """The case of tests/particles/box2d/box2d_case.cpp, bit for bit."""
+    """The case of tests/contact_dynamics/box2d/box2d_case.cpp, bit for bit."""
     state = 12345
 
     def uniform():

@@ -18,8 +18,8 @@
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
 #include "viscontact/freefem_flow/boundary/mesh_boundary.hpp"
 #include "viscontact/freefem_flow/membranes/membrane_process.hpp"
+#include "viscontact/immersed/fluid_solver.hpp"
 #include "viscontact/particles/fluid.hpp"
-#include "viscontact/particles/fluid/fluid_solver.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {

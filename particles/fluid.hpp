@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "viscontact/particles/membranes/membrane.hpp"
+#include "viscontact/particles/links/membrane.hpp"
 #include "viscontact/particles/piecewise_constant.hpp"
 
 namespace viscontact::particles {

@@ -16,9 +16,6 @@
 
 namespace viscontact::particles {
 
-/// The number of a particle, its place in the arrays, from 0, as the type of an index.
-constexpr std::size_t index_of(std::int32_t number) { return static_cast<std::size_t>(number); }
-
 /// The particles as flat arrays, in any consistent units. Entry k of `radii`, `masses` and `ids`
 /// belongs to particle k, and so do the `dimension` entries from dimension * k on of `positions`
 /// and `velocities`. The restart file stores the arrays as they are (io/restart.cpp).

@@ -10,7 +10,6 @@
 #include <span>
 #include <vector>
 
-#include "viscontact/particles/arrangement/source.hpp"
 #include "viscontact/particles/contact/contact_laws.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/domain/periods.hpp"
@@ -18,6 +17,7 @@
 #include "viscontact/particles/links/links.hpp"
 #include "viscontact/particles/particles.hpp"
 #include "viscontact/particles/piecewise_constant.hpp"
+#include "viscontact/particles/source.hpp"
 
 namespace viscontact::particles {
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "viscontact/common/index.hpp"
+
 namespace viscontact::particles {
 
 /// In two dimensions the third component is 0. For particles on an axis the first component is
@@ -38,8 +40,5 @@ inline Vector point_of(const double* values, std::size_t k, int dimension) {
   const double* at = values + k * static_cast<std::size_t>(dimension);
   return {at[0], dimension > 1 ? at[1] : 0.0, dimension > 2 ? at[2] : 0.0};
 }
-
-/// The larger of two numbers, or NaN if one of them is NaN.
-inline double largest_or_nan(double a, double b) { return a != a || b <= a ? a : b; }
 
 }  // namespace viscontact::particles

@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "viscontact/freefem_flow/freefem_solver.hpp"
-#include "viscontact/particles/case/particles_case.hpp"
+#include "viscontact/particle_runs/case/particles_case.hpp"
+#include "viscontact/particle_runs/run/particle_simulation.hpp"
+#include "viscontact/particle_runs/run/particles_earlier_run.hpp"
 #include "viscontact/particles/current_contacts.hpp"
-#include "viscontact/particles/run/particle_simulation.hpp"
-#include "viscontact/particles/run/particles_earlier_run.hpp"
 #include "viscontact/python/call.hpp"
 
 namespace viscontact::python {

@@ -6,7 +6,7 @@
 #include "viscontact/app/arguments/interrupt.hpp"
 #include "viscontact/app/commands/commands.hpp"
 #include "viscontact/freefem_flow/freefem_solver.hpp"
-#include "viscontact/particles/run/particles_stage.hpp"
+#include "viscontact/particle_runs/run/particles_stage.hpp"
 #include "viscontact/rolling/job/rolling_stage.hpp"
 #include "viscontact/swimmer/job/swimmer_stage.hpp"
 

@@ -12,7 +12,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/locks.hpp"
 #include "viscontact/common/named.hpp"
-#include "viscontact/particles/run/particles_pages.hpp"
+#include "viscontact/particle_runs/run/particles_pages.hpp"
 #include "viscontact/pipeline/compare_stage.hpp"
 #include "viscontact/pipeline/run_stages.hpp"
 #include "viscontact/pipeline/simulate/simulate_stage.hpp"

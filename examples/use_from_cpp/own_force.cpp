@@ -7,8 +7,8 @@
 #include <exception>
 #include <utility>
 
+#include "viscontact/contact_dynamics/simulation.hpp"
 #include "viscontact/particles/current_contacts.hpp"
-#include "viscontact/particles/simulation.hpp"
 
 namespace {
 

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "viscontact/immersed/fluid_solver.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/fluid.hpp"
-#include "viscontact/particles/fluid/fluid_solver.hpp"
 #include "viscontact/particles/outline.hpp"
 
 namespace viscontact::freefem_flow {

@@ -10,8 +10,8 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
+#include "viscontact/membranes/membrane_curve.hpp"
 #include "viscontact/particles/domain/periods.hpp"
-#include "viscontact/particles/membranes/membrane_curve.hpp"
 
 namespace viscontact::freefem_flow {
 

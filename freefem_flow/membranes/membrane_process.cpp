@@ -17,8 +17,8 @@
 #include "viscontact/freefem_flow/process/dissipation_alone.hpp"
 #include "viscontact/freefem_flow/process/opening.hpp"
 #include "viscontact/freefem_flow/process/solver_dialogue.hpp"
+#include "viscontact/membranes/membrane_curve.hpp"
 #include "viscontact/particles/domain/periods.hpp"
-#include "viscontact/particles/membranes/membrane_curve.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {

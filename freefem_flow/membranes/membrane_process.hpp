@@ -6,7 +6,7 @@
 #include <span>
 
 #include "viscontact/freefem_flow/process/flow_process.hpp"
-#include "viscontact/particles/fluid/fluid_solver.hpp"
+#include "viscontact/immersed/fluid_solver.hpp"
 
 namespace viscontact::freefem_flow {
 

@@ -11,8 +11,8 @@
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/freefem_flow/boundary/mesh_boundary.hpp"
 #include "viscontact/freefem_flow/process/solver_command.hpp"
+#include "viscontact/immersed/fluid_solver.hpp"
 #include "viscontact/particles/fluid.hpp"
-#include "viscontact/particles/fluid/fluid_solver.hpp"
 
 namespace viscontact::freefem_flow {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
+#include "viscontact/immersed/fluid_solver.hpp"
 #include "viscontact/particles/fluid.hpp"
-#include "viscontact/particles/fluid/fluid_solver.hpp"
 
 namespace viscontact::freefem_flow {
 

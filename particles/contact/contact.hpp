@@ -54,12 +54,6 @@ struct Contact {
   bool is_stop() const { return first < 0 && obstacle < 0; }
 };
 
-/// Residual [L] of the conditions gap >= 0, impulse >= lowest, and equality in one of the two.
-/// `slack` is Contact::w times (impulse - lowest) [L].
-inline double contact_residual(double gap_after, double slack) {
-  return std::abs(std::min(gap_after, slack));
-}
-
 /// The vector from the centre of `first` to that of image `image` of `second` [L].
 template <int D>
 std::array<double, D> separation(const Particles& p, std::int32_t first, std::int32_t second,

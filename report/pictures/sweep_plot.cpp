@@ -100,7 +100,7 @@ bool is_logarithmic(const std::vector<double>& values) {
 
 constexpr int kSweepWidth = 860;  // [pixels]
 constexpr const char *kMean = ".mean",
-                     *kError = ".standard_error";  // as in particles/case/particles_study.cpp
+                     *kError = ".standard_error";  // as in particle_runs/case/particles_study.cpp
 
 void check_has_value(const std::filesystem::path& path, const std::vector<double>& values,
                      bool one_column) {

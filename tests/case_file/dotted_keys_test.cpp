@@ -5,7 +5,7 @@
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "viscontact/case_file/toml_section.hpp"
-#include "viscontact/particles/case/particles_case.hpp"
+#include "viscontact/particle_runs/case/particles_case.hpp"
 
 namespace viscontact::case_file {
 namespace {

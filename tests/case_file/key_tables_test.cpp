@@ -7,7 +7,7 @@
 
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/particles/case/particles_case.hpp"
+#include "viscontact/particle_runs/case/particles_case.hpp"
 #include "viscontact/rolling/case/rolling_case.hpp"
 #include "viscontact/swimmer/case/swimmer_case.hpp"
 

@@ -131,7 +131,7 @@ TEST(Extending, ChangesNoOtherFiles) {
             "freefem_axi/scripts/axisymmetric_stokes.idp\n"
             "freefem_axi/scripts/slip_plane.edp\n"
             "lubrication/terms.cpp\n"
-            "particles/case/particles_case.cpp\n"
+            "particle_runs/case/particles_case.cpp\n"
             "particles/contact/ageing_law.hpp\n"
             "particles/contact/contact_laws.hpp\n"
             "particles/pair_memory.hpp\n"

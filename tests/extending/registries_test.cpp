@@ -65,22 +65,22 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
           Found("case_file/case_file.cpp", "sphere"), Found("case_file/case_file.cpp", "reference"),
           Found("sweep/sphere_study.cpp", "sphere"),
           // sections of a case of particles
-          Found("particles/case/particles_case.cpp", "viscous_contact"),
-          Found("particles/case/particles_case.cpp", "plane"),
-          Found("particles/case/membrane_checks.cpp", "viscous_contact"),
-          Found("particles/case/membrane_checks.cpp", "plane"),
-          Found("particles/case/fluid_start_checks.cpp", "viscous_contact"),
+          Found("particle_runs/case/particles_case.cpp", "viscous_contact"),
+          Found("particle_runs/case/particles_case.cpp", "plane"),
+          Found("particle_runs/case/membrane_checks.cpp", "viscous_contact"),
+          Found("particle_runs/case/membrane_checks.cpp", "plane"),
+          Found("particle_runs/case/fluid_start_checks.cpp", "viscous_contact"),
           // obstacles in words
-          Found("particles/case/start_checks.cpp", "plane"),
-          Found("particles/case/fluid_start_checks.cpp", "plane"),
+          Found("particle_runs/case/start_checks.cpp", "plane"),
+          Found("particle_runs/case/fluid_start_checks.cpp", "plane"),
           Found("particles/steps/step_report.cpp", "plane"),
-          Found("particles/simulation.cpp", "plane"),
+          Found("contact_dynamics/simulation.cpp", "plane"),
           // a key in the head of a file of a sweep
           Found("sweep/sphere_study.cpp", "reference"),
           // a part of the boundary, which FreeFEM's scripts print
           Found("freefem_axi/row_picture.cpp", "sphere"),
           // the body in words
-          Found("particles/picture/particles_page.cpp", "sphere"),
+          Found("particle_runs/picture/particles_page.cpp", "sphere"),
           // what a legend numbers
           Found("swimmer/job/swimmer_page.cpp", "sphere"),
           // bases of pairs, two of which are named bases

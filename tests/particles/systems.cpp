@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-#include "viscontact/particles/io/link_file.hpp"
+#include "viscontact/particle_runs/io/link_file.hpp"
 
 namespace viscontact::particles {
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "viscontact/particles/simulation.hpp"
+#include "viscontact/contact_dynamics/simulation.hpp"
 
 namespace viscontact::particles {
 

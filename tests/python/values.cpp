@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "viscontact/case_file/case_file.hpp"
+#include "viscontact/contact_dynamics/simulation.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/motions/pair_fit.hpp"
-#include "viscontact/particles/case/particles_case.hpp"
-#include "viscontact/particles/simulation.hpp"
+#include "viscontact/particle_runs/case/particles_case.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 #include "viscontact/rolling/case/rolling_case.hpp"
 

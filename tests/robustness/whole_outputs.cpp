@@ -15,7 +15,7 @@
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/motion_table.hpp"
-#include "viscontact/particles/io/restart.hpp"
+#include "viscontact/particle_runs/io/restart.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
 

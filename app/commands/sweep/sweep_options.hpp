@@ -9,7 +9,7 @@
 
 #include "viscontact/app/arguments/command_options.hpp"
 #include "viscontact/case_file/case_template.hpp"
-#include "viscontact/particles/case/particles_study.hpp"
+#include "viscontact/particle_runs/case/particles_study.hpp"
 #include "viscontact/sweep/study.hpp"
 
 namespace viscontact::app {

@@ -11,7 +11,7 @@
 #include "viscontact/app/commands/sweep/sweep_options.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/freefem_flow/freefem_solver.hpp"
-#include "viscontact/particles/sweep/particles_sweep_stage.hpp"
+#include "viscontact/particle_runs/sweep/particles_sweep_stage.hpp"
 #include "viscontact/pipeline/dry_run.hpp"
 #include "viscontact/pipeline/simulate/simulate_stage.hpp"
 #include "viscontact/results/foreign_files.hpp"

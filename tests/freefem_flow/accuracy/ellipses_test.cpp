@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "viscontact/freefem_flow/freefem_solver.hpp"
+#include "viscontact/immersed/fluid_solver.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/fluid.hpp"
-#include "viscontact/particles/fluid/fluid_solver.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "tests/freefem_flow/accuracy/exact_flows.hpp"
 #include "tests/freefem_flow/placed_flow.hpp"
-#include "viscontact/particles/fluid/fluid_simulation.hpp"
+#include "viscontact/immersed/fluid_simulation.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "tests/freefem_flow/placed_flow.hpp"
+#include "viscontact/immersed/fluid_simulation.hpp"
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
-#include "viscontact/particles/fluid/fluid_simulation.hpp"
 #include "viscontact/particles/outline.hpp"
 
 namespace viscontact::freefem_flow {

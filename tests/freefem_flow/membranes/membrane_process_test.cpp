@@ -11,8 +11,8 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/freefem_flow/freefem_solver.hpp"
-#include "viscontact/particles/membranes/membrane.hpp"
-#include "viscontact/particles/membranes/membrane_curve.hpp"
+#include "viscontact/membranes/membrane_curve.hpp"
+#include "viscontact/membranes/membrane_shape.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {

@@ -88,10 +88,10 @@ TEST(FilmLaw, KeepsTheErrorOfItsImpulses) {
 }
 
 TEST(FrictionLaw, RubsWithTheImpulseThatSolidsCarry) {
-  EXPECT_EQ(FrictionLaw::carried(3, 2), 1);
-  EXPECT_EQ(FrictionLaw::carried(2, 3), 0);
-  EXPECT_EQ(FrictionLaw::carried(-1, 0), 0);
-  EXPECT_EQ(FrictionLaw::carried(5, std::numeric_limits<double>::infinity()), 0);
+  EXPECT_EQ(contact_solver::load_of_solids(3, 2), 1);
+  EXPECT_EQ(contact_solver::load_of_solids(2, 3), 0);
+  EXPECT_EQ(contact_solver::load_of_solids(-1, 0), 0);
+  EXPECT_EQ(contact_solver::load_of_solids(5, std::numeric_limits<double>::infinity()), 0);
 }
 
 TEST(FrictionCone, HasTheNearestPoint) {

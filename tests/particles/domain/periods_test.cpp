@@ -13,9 +13,9 @@
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/particles/systems.hpp"
+#include "viscontact/particle_runs/io/restart.hpp"
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/current_contacts.hpp"
-#include "viscontact/particles/io/restart.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 

@@ -5,7 +5,7 @@
 #include "tests/program/program.hpp"
 #include "tests/program/sample_files.hpp"
 #include "tests/program/undisturbed.hpp"
-#include "viscontact/particles/io/particle_file.hpp"
+#include "viscontact/particle_runs/io/particle_file.hpp"
 
 namespace viscontact {
 namespace {

@@ -10,8 +10,8 @@
 #include "tests/program/sample_files.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/files/locks.hpp"
-#include "viscontact/particles/io/particle_file.hpp"
-#include "viscontact/particles/io/restart.hpp"
+#include "viscontact/particle_runs/io/particle_file.hpp"
+#include "viscontact/particle_runs/io/restart.hpp"
 
 namespace viscontact {
 namespace {

@@ -1,5 +1,5 @@
 // Runs of `viscontact particles` that a signal ends or that start from a restart file.
-#include "viscontact/particles/io/restart.hpp"
+#include "viscontact/particle_runs/io/restart.hpp"
 
 #include <gmock/gmock.h>
 

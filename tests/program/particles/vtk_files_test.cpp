@@ -10,7 +10,7 @@
 #include "tests/program/particles/particles_command.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/vtk/flow_vtk.hpp"
-#include "viscontact/particles/io/particle_file.hpp"
+#include "viscontact/particle_runs/io/particle_file.hpp"
 
 namespace viscontact {
 namespace {

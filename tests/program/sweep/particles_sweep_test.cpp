@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "tests/particles/sweep/particles_case.hpp"
+#include "tests/particle_runs/sweep/particles_case.hpp"
 #include "tests/program/sweep/sweep_command.hpp"
 #include "tests/program/undisturbed.hpp"
 #include "viscontact/common/files/file.hpp"

@@ -1,7 +1,7 @@
 // A sweep of particles on Slurm itself: a cluster of two nodes on this machine.
 #include <gmock/gmock.h>
 
-#include "tests/particles/sweep/particles_case.hpp"
+#include "tests/particle_runs/sweep/particles_case.hpp"
 #include "tests/program/program.hpp"
 #include "tests/program/slurm_cluster.hpp"
 #include "tests/program/sweep/sweep_command.hpp"

@@ -1,0 +1,638 @@
+// Steps of (5.6) to (5.9), (5.17) and (5.21), docs/physics.md, island by island.
+#include "viscontact/contact_dynamics/constraints/constraint_system.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace viscontact::particles {
+
+namespace {
+
+/// Twice the kinetic energy of the `motions`, times the length of the step [M L^2/T].
+template <int D>
+double energy_of(const ConstraintProblem<D>& problem, std::span<const Motion<D>> motions) {
+  double energy = 0;
+  for (std::size_t u = 0; u < motions.size(); ++u) {
+    const auto impulse = problem.units[u].impulse_of(motions[u]);
+    for (std::size_t k = 0; k < impulse.size(); ++k) energy += impulse[k] * motions[u][k];
+  }
+  return energy;
+}
+
+/// The sum of the magnitudes of the normal impulses of all contacts [M L/T].
+template <int D>
+double sum_of_loads(const ConstraintProblem<D>& problem) {
+  double sum = 0;
+  for (const auto& block : problem.blocks)
+    if (block.is_contact) sum += std::abs(problem.impulses[block.row]);
+  return sum;
+}
+
+}  // namespace
+
+template <int D>
+ConstraintSystem<D>::ConstraintSystem(const ConstraintStep& step, const Particles& particles,
+                                      std::span<double> displacements,
+                                      std::span<const double> mobilities)
+    : step_(step),
+      particles_(particles),
+      displacements_(displacements),
+      mobilities_(mobilities),
+      mean_radius_(mean_radius(particles)),
+      is_convex_(step.laws.friction && step.laws.friction->method == FrictionMethod::kConvex),
+      times_{step.end - step.begin, step.kick, step.end, step.is_first},
+      free_turns_(step.turns.begin(), step.turns.end()),
+      free_bodies_(step.bodies.begin(), step.bodies.end()),
+      links_(link_equations(*step.links, particles, times_)),
+      link_residuals_(links_.size(), 0.0),
+      link_forces_(step.link_forces.begin(), step.link_forces.end()),
+      first_link_forces_(link_forces_),
+      unit_of_particle_(mobilities.size(), -1),
+      unit_of_body_(particles.bodies.count(), -1),
+      offsets_(particles.bodies.empty() ? 0 : particles.count()) {
+  assert(step.end > step.begin && step.kick > 0);
+  assert(displacements.size() == mobilities.size() * static_cast<std::size_t>(D));
+  assert(step.turn_mobilities.size() == mobilities.size());
+  assert(step.turns.size() == mobilities.size() * static_cast<std::size_t>(kTurns<D>));
+  for (auto& stop : stop_equations(*step.links, particles)) {
+    links_.push_back(std::move(stop));
+    link_residuals_.push_back(0);
+  }
+  link_errors_.resize(links_.size());
+  for (const auto& body : particles.bodies.bodies)
+    for (std::size_t m = 0; m < body.members.size(); ++m)
+      offsets_[index_of(body.members[m])] = present_offset(body, m, D);
+}
+
+template <int D>
+void ConstraintSystem<D>::join_linked(ContactSystem<D>& system) const {
+  for (const auto& link : links_)
+    for (const auto& part : link.parts()) {
+      system.connect(link.parts().front().particle, part.particle);
+      if (!link.is_spring()) system.hold(part.particle);
+    }
+}
+
+template <int D>
+bool ConstraintSystem<D>::is_held_apart(const Pair& pair) const {
+  for (const auto& arm : step_.links->arms) {
+    if (std::minmax(arm.first, arm.second) != std::minmax(pair.first, pair.second)) continue;
+    const auto i = index_of(pair.first), j = index_of(pair.second);
+    // A case may give lengths that are shorter by the rounding errors of its numbers.
+    constexpr double kShorter = 1e-6;
+    const double touching = (1 - kShorter) * (particles_.radii[i] + particles_.radii[j]);
+    // An arm holds the nearest image. Other images may touch, also if they are equally near.
+    constexpr double kRounding = 1e-9;
+    const Vector nearest =
+        nearest_image(particles_.cell, particles_.position(j) - particles_.position(i));
+    Vector apart{};
+    std::ranges::copy(separation<D>(particles_, pair.first, pair.second, pair.image),
+                      apart.begin());
+    return length_at(arm.length, times_.end) >= touching &&
+           norm(apart - nearest) <= kRounding * norm(nearest);
+  }
+  return false;
+}
+
+template <int D>
+void ConstraintSystem<D>::add(const Contact<D>& contact, const Pair& pair,
+                              const PairMemory& memory) {
+  ContactState state;
+  state.tangents = tangents_of(contact, particles_, step_.obstacles, step_.begin, step_.end);
+  state.tangents.capacity =
+      pair.gamma -
+      step_.laws.lowest_gamma(pair, memory, radii_of(pair, particles_, step_.obstacles));
+  state.friction = memory.friction();
+  state.carried = state.first_load = memory[Remembered::kCarried];
+  contact_states_.push_back(state);
+}
+
+template <int D>
+void ConstraintSystem<D>::find_islands(ContactSystem<D>& system) {
+  islands_.clear();
+  std::vector<std::int32_t> number(system.bodies().size(), -1);  // of the islands, at their roots
+  const auto island_of = [&](std::int32_t particle) -> Island& {
+    auto& n = number[index_of(system.island(system.body_of(particle)))];
+    if (n < 0) {
+      n = static_cast<std::int32_t>(islands_.size());
+      islands_.emplace_back();
+    }
+    return islands_[index_of(n)];
+  };
+  for (const auto particle : system.bodies())
+    island_of(particle).bodies.push_back(system.body_of(particle));
+  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+    auto& island = island_of(system.contacts[c].second);
+    island.contacts.push_back(c);
+    island.has_given_up |= contact_states_[c].gave_up;
+    island.can_give_up &= !contact_states_[c].could_not_give_up;
+  }
+  for (std::size_t l = 0; l < links_.size(); ++l)
+    island_of(links_[l].parts().front().particle).links.push_back(l);
+}
+
+template <int D>
+bool ConstraintSystem<D>::is_solved(const ContactSystem<D>& system, const Island& island,
+                                    bool is_rough) const {
+  const auto solved = progress_[index_of(island.bodies.front())].solved;
+  if (!island.contacts.empty() && island.contacts.back() >= known_contacts_) return false;
+  if (is_rough) return solved != Progress::Solved::kNot;
+  if (solved != Progress::Solved::kAccurately) return false;
+  return (island.has_given_up && !is_convex_) ||
+         (std::ranges::all_of(island.contacts,
+                              [&](std::size_t c) {
+                                const auto& residual = contact_states_[c].residual;
+                                return residual.normal <= system.contacts[c].allowed &&
+                                       residual.tangential <= slips_allowed[c];
+                              }) &&
+          std::ranges::all_of(
+              island.links, [&](std::size_t l) { return link_residuals_[l] <= links_allowed[l]; }));
+}
+
+template <int D>
+UnitMotion ConstraintSystem<D>::motion_of(std::int32_t unit,
+                                          std::span<const Motion<D>> motions) const {
+  UnitMotion result;
+  if (unit < 0) return result;
+  const auto& motion = motions[static_cast<std::size_t>(unit)];
+  constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);
+  for (std::size_t i = 0; i < d; ++i) result.displacement[i] = motion[i];
+  for (std::size_t i = 0; i < r; ++i) result.turn[3 - r + i] = motion[d + i];
+  return result;
+}
+
+template <int D>
+void ConstraintSystem<D>::move_particles(const ContactSystem<D>& system, const Island& island,
+                                         std::span<const Motion<D>> motions) {
+  constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);
+  for (const auto b : island.bodies) {
+    const auto particle = system.bodies()[index_of(b)];
+    const auto k = index_of(particle);
+    if (is_given(particle)) continue;
+    const auto motion = motion_of(unit_of_particle_[k], motions);
+    Vector moved = motion.displacement;
+    if (particles_.bodies.body_of(particle) >= 0)
+      moved = displacement_at(motion.displacement, motion.turn, offsets_[k], D);
+    for (std::size_t i = 0; i < d; ++i) displacements_[k * d + i] = moved[i];
+    for (std::size_t i = 0; i < r; ++i) step_.turns[k * r + i] = motion.turn[3 - r + i];
+  }
+}
+
+template <int D>
+double ConstraintSystem<D>::correct(ContactSystem<D>& system, Island& island,
+                                    std::span<const Motion<D>> motions) {
+  move_particles(system, island, motions);
+  auto& problem = island.problem;
+  double largest = 0;
+  island.shifts.assign(island.contacts.size() + island.links.size(), 0.0);
+  island.shifts_across = island.shifts;
+  const auto shift = [&](std::size_t b, std::size_t k, double value) {
+    const std::size_t r = problem.blocks[b].row + k;
+    const double linear = problem.rows[r].offset + problem.product(r, motions);
+    problem.rows[r].offset += value - linear;
+    // A contact that is open before and after the change moves nothing.
+    const auto& block = problem.blocks[b];
+    if (block.is_contact && block.lowest == 0 && problem.impulses[r] == 0 && linear > 0 &&
+        value > 0)
+      return;
+    island.shifts[b] = std::max(island.shifts[b], std::abs(value - linear));
+    largest = std::max(largest, std::abs(value - linear) / block.allowed);
+  };
+  std::size_t b = 0;
+  for (const auto c : island.contacts) {
+    const auto& contact = system.contacts[c];
+    const bool has_body = particles_.bodies.body_of(contact.second) >= 0 ||
+                          (contact.first >= 0 && particles_.bodies.body_of(contact.first) >= 0);
+    if (has_body || system.uses_distance(contact)) shift(b, 0, system.gap(contact));
+    ++b;
+  }
+  for (const auto l : island.links) {
+    const std::size_t of_link = b++;
+    if (links_[l].is_spring()) continue;
+    std::vector<UnitMotion> of_units;
+    for (const auto& part : links_[l].parts())
+      of_units.push_back(is_given(part.particle)
+                             ? given_motion(part.particle)
+                             : motion_of(unit_of_particle_[index_of(part.particle)], motions));
+    const auto values = values_after(links_[l], *step_.links, particles_, times_, of_units);
+    for (std::size_t k = 0; k < values.size(); ++k) shift(of_link, k, values[k]);
+  }
+  return std::max(largest, change_tensions(system, island, motions, false));
+}
+
+template <int D>
+bool ConstraintSystem<D>::begin_without_contacts(ContactSystem<D>& system, Island& island) {
+  auto& problem = island.problem;
+  const auto motions = motions_without_contacts(system, island);
+  correct(system, island, motions);
+  for (std::size_t b = 0; b < island.contacts.size(); ++b) {
+    const auto& block = problem.blocks[b];
+    if (block.lowest != 0 ||
+        problem.rows[block.row].offset + problem.product(block.row, motions) < 0)
+      return false;
+  }
+  std::ranges::fill(problem.impulses, 0.0);
+  for (std::size_t b = 0; b < island.links.size(); ++b) {
+    const auto& link = links_[island.links[b]];
+    const auto& block = problem.blocks[island.contacts.size() + b];
+    for (std::size_t k = 0; !block.is_contact && k < block.rows; ++k)
+      problem.impulses[block.row + k] = times_.kick * link_forces_[link.first_force + k];
+  }
+  change_tensions(system, island, motions, true);
+  return true;
+}
+
+template <int D>
+bool ConstraintSystem<D>::has_large_shifts(const Island& island) const {
+  constexpr double kPart = 1e-6;  // of the mean radius
+  const std::size_t contacts = island.contacts.size();
+  for (std::size_t b = 0; b < island.shifts.size(); ++b) {
+    const bool is_angle = b >= contacts && links_[island.links[b - contacts]].is_angle();
+    if (std::max(island.shifts[b], island.shifts_across[b]) * (is_angle ? mean_radius_ : 1) >
+        kPart * mean_radius_)
+      return true;
+  }
+  return false;
+}
+
+template <int D>
+bool ConstraintSystem<D>::can_use_distances(ContactSystem<D>& system, const Island& island) const {
+  return system.may_use_distances() && std::ranges::any_of(island.contacts, [&](std::size_t c) {
+           const auto& contact = system.contacts[c];
+           return contact.first >= 0 && system.is_held(contact) && !system.uses_distance(contact);
+         });
+}
+
+template <int D>
+void ConstraintSystem<D>::take_over(ContactSystem<D>& system, const Island& island,
+                                    const ConstraintSolution<D>& solution) {
+  const auto& problem = island.problem;
+  std::size_t b = 0;
+  // A residual is that of the last solution plus the correction that would follow.
+  for (const auto c : island.contacts) {
+    const auto& block = problem.blocks[b];
+    const double impulse = problem.impulses[block.row];
+    auto& state = contact_states_[c];
+    system.contacts[c].impulse = impulse;
+    state.friction = {};
+    state.carried = block.rows > 1 ? load_of_solids(impulse, block.capacity) : 0;
+    for (std::size_t k = 1; k < block.rows; ++k)
+      state.friction =
+          state.friction + problem.impulses[block.row + k] * state.tangents.directions[k - 1];
+    state.residual = residual_of_contact(island, b, solution);
+    state.residual.normal += std::max(island.shifts[b], island.shifts_across[b]);
+    ++b;
+  }
+  const auto forces_of = [&](std::size_t l) {
+    return std::span(link_forces_).subspan(links_[l].first_force, links_[l].rows.size());
+  };
+  for (const auto l : island.links) std::ranges::fill(forces_of(l), 0.0);
+  for (const auto l : island.links) {
+    const auto& link = links_[l];
+    const auto& block = problem.blocks[b];
+    link_residuals_[l] =
+        solution.residuals[b].normal + std::max(island.shifts[b], island.shifts_across[b]);
+    if (link.is_angle()) link_residuals_[l] *= mean_radius_;
+    // A hinge has one torque, the sum of those of its spring and its stops.
+    const bool is_stop = link.kind == LinkEquations::Kind::kStop;
+    const double sign = is_stop ? link.parts().front().direction[2] : 1;
+    for (std::size_t k = 0; k < block.rows; ++k)
+      forces_of(l)[k] += sign * problem.impulses[block.row + k] / times_.kick;
+    ++b;
+  }
+  take_impulses_across(island, solution.motions);
+  // Forces of a solution without contacts may be far from those with contacts, and are no guess.
+  if (!island.contacts.empty())
+    for (const auto l : island.links)
+      std::ranges::copy(forces_of(l), &first_link_forces_[links_[l].first_force]);
+  for (const auto in_system : island.bodies) {
+    const auto body = particles_.bodies.body_of(system.bodies()[index_of(in_system)]);
+    if (body < 0) continue;
+    auto& step = step_.bodies[index_of(body)];
+    step = free_bodies_[index_of(body)];
+    const auto motion = motion_of(unit_of_body_[index_of(body)], solution.motions);
+    constrain(step, motion.displacement, motion.turn, D);
+  }
+}
+
+template <int D>
+double ConstraintSystem<D>::change_of_impulses(const Island& island,
+                                               const Refinement<D>& refinement) const {
+  if (std::ranges::all_of(island.shifts, [](double shift) { return shift == 0; })) return 0;
+  const auto [allowed, of_values] = errors_of_values(island);
+  const auto changes = refinement.changes_by(island.shifts);
+  const auto unavoidable = refinement.changes_by(of_values);
+  double largest = 0;
+  for (std::size_t b = 0; b < allowed.size(); ++b)
+    if (changes[b] > 0)
+      largest = std::max(largest, changes[b] / std::max(allowed[b], unavoidable[b]));
+  return largest;
+}
+
+template <int D>
+void ConstraintSystem<D>::take_errors(const Island& island, const Refinement<D>* refinement) {
+  std::vector<double> of_shifts, unavoidable;
+  if (refinement != nullptr) {
+    of_shifts = refinement->changes_by(island.shifts);
+    unavoidable = refinement->changes_by(errors_of_values(island).second);
+  }
+  std::size_t b = 0;
+  const auto take = [&](ImpulseError& error, double scale) {
+    error = {};
+    if (refinement != nullptr)
+      error = {scale * (refinement->error(b) + of_shifts[b]), scale * unavoidable[b]};
+    ++b;
+  };
+  for (const auto c : island.contacts) take(contact_states_[c].error, 1);
+  for (const auto l : island.links)
+    take(link_errors_[l], links_[l].is_angle() ? 1 / mean_radius_ : 1);
+}
+
+template <int D>
+std::pair<std::vector<double>, std::vector<double>> ConstraintSystem<D>::errors_of_values(
+    const Island& island) const {
+  std::vector<double> allowed, of_values;
+  for (const auto c : island.contacts) {
+    allowed.push_back(allowed_errors[c]);
+    of_values.push_back(rounding[c]);
+  }
+  for (const auto l : island.links) {
+    const std::size_t k = contact_states_.size() + l;
+    const double length = links_[l].is_angle() ? mean_radius_ : 1;
+    allowed.push_back(allowed_errors[k] * length);
+    of_values.push_back(rounding[k] / length);
+  }
+  return {allowed, of_values};
+}
+
+template <int D>
+BlockResidual ConstraintSystem<D>::residual_of_contact(
+    const Island& island, std::size_t b, const ConstraintSolution<D>& solution) const {
+  const auto& problem = island.problem;
+  auto block = problem.blocks[b];
+  if (is_convex_ || !island.has_given_up || block.rows == 1) return solution.residuals[b];
+  block.friction_bound = FrictionBound::kCoulomb;
+  return residual_after(problem, block, solution.motions);
+}
+
+template <int D>
+bool ConstraintSystem<D>::may_give_up(const Island& island) const {
+  const auto has_own_load = [](const ConstraintBlock& block) {
+    return block.is_contact && block.rows > 1 && block.friction_bound != FrictionBound::kGiven;
+  };
+  return island.can_give_up && !island.has_given_up && !island.problem.is_rough &&
+         std::ranges::any_of(island.problem.blocks, has_own_load);
+}
+
+template <int D>
+bool ConstraintSystem<D>::give_up(Island& island, bool have_diverged,
+                                  ConstraintSolution<D>& solution, SolverResult& result) {
+  auto& problem = island.problem;
+  if (!may_give_up(island)) return false;
+  const auto with_own_loads = problem;
+  const auto is_solved = [&](bool without_friction) {
+    auto with_given_loads = solve_with_given_loads(problem, without_friction);
+    result.iterations += with_given_loads.result.iterations;
+    if (!(with_given_loads.result.residual <= 1)) return false;
+    solution = std::move(with_given_loads);
+    return true;
+  };
+  island.has_given_up = (!have_diverged && is_solved(false)) || is_solved(true);
+  if (!island.has_given_up) {
+    island.can_give_up = false;
+    for (const auto c : island.contacts) contact_states_[c].could_not_give_up = true;
+    problem = with_own_loads;
+    return false;
+  }
+  for (std::size_t b = 0; b < island.contacts.size(); ++b) {
+    auto& state = contact_states_[island.contacts[b]];
+    state.gave_up = true;
+    state.given_load = problem.blocks[b].given_load;
+  }
+  return true;
+}
+
+template <int D>
+SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
+                                        double roughly_allowed, int max_iterations) {
+  using Solved = typename Progress::Solved;
+  assert(contact_states_.size() == system.contacts.size());
+  assert(slips_allowed.size() == contact_states_.size() && links_allowed.size() == links_.size());
+  assert(allowed_errors.size() == contact_states_.size() + links_.size());
+  assert(rounding.size() == allowed_errors.size());
+  find_islands(system);
+  progress_.resize(system.bodies().size());
+  SolverResult result;
+  has_given_up_ = false;
+  for (auto& island : islands_) {
+    Progress progress;
+    for (const auto b : island.bodies)
+      progress.iterations = std::max(progress.iterations, progress_[index_of(b)].iterations);
+    if (!is_solved(system, island, is_rough)) {
+      const auto solved = solve_island(system, island, is_rough, roughly_allowed,
+                                       max_iterations - progress.iterations);
+      progress.iterations += solved.iterations;
+      progress.solved = is_rough               ? Solved::kRoughly
+                        : solved.residual <= 1 ? Solved::kAccurately
+                                               : Solved::kNot;
+      // Iterations of a solution without contacts do not count for later ones with contacts.
+      auto of_bodies = progress;
+      if (island.contacts.empty() && solved.residual <= 1) of_bodies.iterations = 0;
+      for (const auto b : island.bodies) progress_[index_of(b)] = of_bodies;
+      result.residual = largest_or_nan(result.residual, solved.residual);
+    }
+    result.iterations = std::max(result.iterations, progress.iterations);
+    has_given_up_ |= island.has_given_up;
+  }
+  known_contacts_ = system.contacts.size();
+  std::ranges::copy(link_forces_, step_.link_forces.begin());
+  return result;
+}
+
+template <int D>
+SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island& island,
+                                               bool is_rough, double roughly_allowed,
+                                               int max_iterations) {
+  auto& problem = island.problem;
+  // Each correction multiplies the error by about the turn of the bodies in the step [rad].
+  // Corrections count as divergent if they grow kPatience times in succession, or if
+  // kMostWithoutGain of them do not halve the largest one. (Five factors of 0.87 would halve it.)
+  // Then the constraints contradict each other, or the step is too long.
+  constexpr int kPatience = 3, kMostWithoutGain = 5;
+  // A correction is fast if it is below kFast times the one before.
+  constexpr double kFast = 0.1;
+  // An unsolved problem is still corrected if its residual is this small part of the correction.
+  constexpr double kSmallPart = 1e-3;
+  // Corrected problems take 10 to 300 iterations, unless constraints contradict each other.
+  constexpr int kMostCorrected = 1000;
+  // Corrected problems may take this many also if the solution before left fewer iterations.
+  constexpr int kLeastCorrected = 100;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double last_change = kInfinity, gained_change = kInfinity;
+  int growing = 0, gained_at = 0;
+  ConstraintSolution<D> solution;
+  std::optional<Refinement<D>> refinement;
+  SolverResult result;
+  const auto restart = [&] {
+    make_problem(system, island, is_rough, roughly_allowed);
+    if (has_motions_without_contacts(island) && !begin_without_contacts(system, island))
+      make_problem(system, island, is_rough, roughly_allowed);
+    last_change = gained_change = kInfinity;
+    growing = gained_at = 0;
+  };
+  // Begins anew with friction that the loads of `impulses` bound, or, if it is empty, those of a
+  // solution without friction. If this fails, restores the problem and returns false.
+  const auto give_up_anew = [&](const std::vector<double>& impulses) {
+    if (!may_give_up(island)) return false;
+    auto corrected = problem;
+    const auto tensions = island.tensions;
+    const auto shifts = island.shifts, shifts_across = island.shifts_across;
+    restart();
+    // The rows of tensions, which are the last ones, may have changed.
+    std::copy_n(impulses.begin(), std::min(impulses.size(), problem.impulses.size()),
+                problem.impulses.begin());
+    if (give_up(island, impulses.empty(), solution, result)) return true;
+    problem = std::move(corrected);
+    island.tensions = tensions;
+    island.shifts = shifts;
+    island.shifts_across = shifts_across;
+    return false;
+  };
+  // Begins anew with gaps that are distances. Returns false if this would change no gap.
+  const auto use_distances = [&] {
+    if (!can_use_distances(system, island)) return false;
+    system.use_distances(island.bodies.front());
+    restart();
+    return true;
+  };
+  restart();
+  // These members belong to the problem without corrections: the larger energy of its motions
+  // without and with impulses, the sum of its loads, and its impulses. Impulses of Coulomb's law
+  // can have any size where friction locks a body, and are not kept.
+  double first_energy = 0, first_loads = 0;
+  std::vector<double> first_impulses;
+  for (int n = 0;; ++n) {
+    int most = island.has_given_up ? kMostOfGivenLoads : max_iterations - result.iterations;
+    if (n > 0) most = std::max(most, kLeastCorrected);
+    if (n > 0 && can_use_distances(system, island)) most = std::min(most, kMostCorrected);
+    solution = solve_constraints(problem, std::max(1, most));
+    result.iterations += solution.result.iterations;
+    refinement.reset();
+    if (!is_rough) refinement.emplace(problem, solution);
+    const auto is_exhausted = [&] {
+      return result.iterations >= max_iterations + (island.has_given_up ? kMostOfGivenLoads : 0);
+    };
+    // A body that friction locks between two contacts still turns about the line through them. The
+    // correction for this turn demands a motion that the locks prevent. The convex relaxation then
+    // has a solution, whose loads are larger by orders of magnitude and add energy. Planes and arms
+    // that move may add energy, too, but without such loads.
+    constexpr double kMostEnergy = 1.01, kMostLoads = 10;  // times first_energy and first_loads
+    if (n == 0) {
+      const std::vector<double> none(problem.rows.size());
+      first_energy = std::max(energy_of<D>(problem, solution.motions),
+                              energy_of<D>(problem, motions<D>(problem, none)));
+      first_loads = sum_of_loads(problem);
+      if (is_convex_) first_impulses = problem.impulses;
+    } else if (is_convex_ && first_loads > 0 && sum_of_loads(problem) > kMostLoads * first_loads &&
+               energy_of<D>(problem, solution.motions) > kMostEnergy * first_energy &&
+               give_up_anew(first_impulses)) {
+      n = 0;
+      continue;
+    }
+    // A convex problem is given up only if further iterations would not solve it.
+    if (!(solution.result.residual <= 1) && !is_rough && !(is_convex_ && is_exhausted())) {
+      if (n > 0 && use_distances()) {
+        max_iterations += result.iterations;
+        n = -1;
+        continue;
+      }
+      if (n > 0 && give_up_anew(first_impulses)) {
+        n = 0;
+        continue;
+      }
+      // Where friction locks particles that must move, impulses grow without bound, so that loads
+      // have no meaning. This happens in every convex problem without a solution.
+      if (give_up(island, is_convex_, solution, result)) refinement.emplace(problem, solution);
+    }
+    result.residual = solution.result.residual;
+    constexpr int kWithTheirTensions = 4;  // corrections, which suffice for unique loads
+    island.loads_may_drift = n >= kWithTheirTensions && !(refinement && refinement->is_done());
+    double change = correct(system, island, solution.motions);
+    if (refinement && refinement->is_done())
+      change = std::max(change, change_of_impulses(island, *refinement));
+    result.residual += change;
+    growing = change < last_change ? 0 : growing + 1;
+    const bool is_fast = change < kFast * last_change;
+    last_change = change;
+    if (change < gained_change / 2) {
+      gained_change = change;
+      gained_at = n;
+    }
+    const bool is_unsolved =
+        !(solution.result.residual <= (is_exhausted() ? 1 : std::max(1.0, kSmallPart * change)));
+    // Half of what is allowed is left to the residual of the solution.
+    if (change <= 0.5 || is_rough || is_unsolved) break;
+    if (growing == kPatience || n - gained_at == kMostWithoutGain) {
+      if (!has_large_shifts(island)) break;
+      if (use_distances()) {
+        n = -1;
+        continue;
+      }
+      // Friction may turn bodies so far that corrections do not converge.
+      if (island.has_given_up) break;
+      if (!give_up_anew({})) break;
+      n = 0;
+      continue;
+    }
+    // The loads of a solution bound the friction of the next one. With large friction this may
+    // repeat without end, while corrections would follow the loads. The first correction contains
+    // most of what turns change. The solution after it therefore begins with the same loads, and
+    // all later solutions keep the loads that it finds.
+    if (n == 0 && !problem.keeps_loads)
+      for (std::size_t b = 0; b < island.contacts.size(); ++b)
+        problem.blocks[b].given_load = contact_states_[island.contacts[b]].first_load;
+    if (n > 0) problem.keeps_loads = true;
+    problem.is_near =
+        n > 0 && solution.result.residual <= 1 && (is_fast || !has_large_shifts(island));
+  }
+  take_over(system, island, solution);
+  take_errors(island, refinement && refinement->is_done() ? &*refinement : nullptr);
+  if (island.contacts.empty() && result.residual <= 1) {
+    without_contacts_.resize(system.bodies().size());
+    for (const auto b : island.bodies) {
+      const auto unit = unit_of_particle_[index_of(system.bodies()[index_of(b)])];
+      if (unit >= 0) without_contacts_[index_of(b)] = solution.motions[index_of(unit)];
+    }
+  }
+  if (is_rough)
+    for (const auto c : island.contacts) contact_states_[c].first_load = contact_states_[c].carried;
+  if (is_rough || island.has_given_up) return result;
+  for (std::size_t b = 0; b < island.contacts.size(); ++b)
+    contact_states_[island.contacts[b]].last_load = problem.blocks[b].given_load;
+  return result;
+}
+
+template <int D>
+std::vector<double> ConstraintSystem<D>::least_violations() const {
+  const std::size_t contacts = contact_states_.size();
+  std::vector<double> all(contacts + links_.size());
+  for (const auto& island : islands_) {
+    if (island.problem.blocks.empty()) continue;
+    const auto of_blocks = viscontact::contact_solver::least_violations(island.problem);
+    for (std::size_t b = 0; b < island.contacts.size(); ++b) all[island.contacts[b]] = of_blocks[b];
+    for (std::size_t b = 0; b < island.links.size(); ++b) {
+      const auto l = island.links[b];
+      all[contacts + l] =
+          of_blocks[island.contacts.size() + b] * (links_[l].is_angle() ? mean_radius_ : 1);
+    }
+  }
+  return all;
+}
+template class ConstraintSystem<2>;
+template class ConstraintSystem<3>;
+
+}  // namespace viscontact::particles

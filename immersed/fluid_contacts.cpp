@@ -1,0 +1,544 @@
+// Lists pairs that are close to contact, makes the contacts of a step and measures their residuals.
+#include "viscontact/immersed/fluid_contacts.hpp"
+
+#include <cassert>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <tuple>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/constraint_rows/link_rows.hpp"
+#include "viscontact/constraint_rows/solver_names.hpp"
+#include "viscontact/immersed/closed_contacts.hpp"
+#include "viscontact/particles/neighbours/close_pairs.hpp"
+#include "viscontact/particles/outline.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+/// Pairs are sorted by this key, with the obstacles in the order -1, -2, ... Files of contacts and
+/// restart files have this order.
+auto place_of_pair(const Pair& pair) {
+  return std::tuple(std::max(pair.first, -1 - pair.first), pair.second, pair.image, pair.place);
+}
+
+/// Sorts `pairs`. Those that are also in `before`, the list of the step before, get their memory
+/// from it; the pairs of `before` with gamma < 0 are added.
+void keep_memory(std::vector<Pair>& pairs, std::vector<Pair> before) {
+  std::ranges::sort(pairs, {}, place_of_pair);
+  std::ranges::sort(before, {}, place_of_pair);
+  std::erase_if(before, [&](const Pair& old) {
+    return !(old.gamma < 0) &&
+           !std::ranges::binary_search(pairs, place_of_pair(old), {}, place_of_pair);
+  });
+  // set_union() takes a pair that is in both from the first list.
+  std::vector<Pair> merged;
+  std::ranges::set_union(before, pairs, std::back_inserter(merged), {}, place_of_pair,
+                         place_of_pair);
+  pairs = std::move(merged);
+}
+
+/// Nothing if the pair is none of two plates.
+std::optional<SpineContacts> contacts_of_two_plates(const Fluid& fluid, const Particles& p,
+                                                    const Pair& pair) {
+  if (pair.first < 0) return {};
+  const auto i = index_of(pair.first), j = index_of(pair.second);
+  if (!fluid.is_plate(i) || !fluid.is_plate(j)) return {};
+  return SpineContacts(outline_of(fluid, p, p.angles, i),
+                       outline_of(fluid, p, p.angles, j, shift_of(p.cell, pair.image)));
+}
+
+/// The pairs `before` of the step before, with the places of the present contacts of plates. If two
+/// contacts became one, this one gets the memory of the contact with the smaller gamma.
+std::vector<Pair> at_present_places(const std::vector<Pair>& before, const State& state,
+                                    const Fluid& fluid) {
+  if (fluid.plates.empty()) return before;
+  std::vector<Pair> pairs;
+  for (auto pair : before) {
+    if (const auto contacts = contacts_of_two_plates(fluid, state.particles, pair))
+      pair.place = contacts->contact_of(pair.place);
+    const auto same = std::ranges::find(pairs, place_of_pair(pair), place_of_pair);
+    if (same == pairs.end()) {
+      pairs.push_back(pair);
+      continue;
+    }
+    if (pair.gamma < same->gamma) *same = pair;
+  }
+  return pairs;
+}
+
+/// Lists all pairs with a distance of their surfaces below `reach` [L] and those with gamma < 0. On
+/// an axis the side of a cylinder is left out.
+void list_pairs(StepContacts& step, const State& state, const Fluid& fluid,
+                std::span<const PlanePosition> obstacles, double reach, ThreadPool& pool) {
+  // Particles are found by circles around them that overlap, whose radii must be below half a
+  // period, because only the nearest images of particles have a number (periods.hpp).
+  constexpr double kShareOfPeriod = 0.499;
+  const auto& p = state.particles;
+  std::vector<double> extents = p.radii;
+  double furthest = std::numeric_limits<double>::infinity();
+  for (const double length : p.cell.lengths)
+    if (length > 0) furthest = std::min(furthest, kShareOfPeriod * length);
+  for (auto& extent : extents) extent = std::max(extent, std::min(extent + reach / 2, furthest));
+  const auto close = p.cell.is_periodic()
+                         ? close_pairs_in_period(p.cell, p.positions, extents, pool)
+                         : close_pairs(p.dimension, p.positions, extents, pool);
+  for (const auto& pair : close) {
+    if (p.bodies.are_one(pair.first, pair.second)) continue;
+    Pair made{pair.first, pair.second};
+    made.image = pair.image;
+    const auto contacts = contacts_of_two_plates(fluid, p, made);
+    if (!contacts) {
+      step.pairs.push_back(made);
+      continue;
+    }
+    for (const int place : contacts->places()) {
+      made.place = place;
+      step.pairs.push_back(made);
+    }
+  }
+  for (std::size_t w = 0; w < obstacles.size(); ++w) {
+    if (p.dimension == 1 && obstacles[w].normal[0] == 0) continue;
+    for (std::size_t k = 0; k < p.count(); ++k) {
+      if (!(gap(obstacles[w], p.position(k), p.radii[k]) < reach)) continue;
+      Pair pair{-1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k)};
+      step.walls.push_back(pair);
+      pair.place = 1;  // the other end of a plate
+      if (fluid.is_plate(k)) step.walls.push_back(pair);
+    }
+  }
+  keep_memory(step.pairs, at_present_places(state.pairs, state, fluid));
+  keep_memory(step.walls, state.walls);
+}
+
+bool has_plate(const Fluid& fluid, std::int32_t first, std::int32_t second) {
+  return fluid.is_plate(index_of(second)) || (first >= 0 && fluid.is_plate(index_of(first)));
+}
+
+double cross(const std::array<double, 2>& arm, const std::array<double, 2>& force) {
+  return arm[0] * force[1] - arm[1] * force[0];
+}
+
+double along(const std::array<double, 2>& arm, const std::array<double, 2>& normal) {
+  return arm[0] * normal[0] + arm[1] * normal[1];
+}
+
+/// The contact of a plate and a plate, a disc or an obstacle: that of two discs, whose centres are
+/// the nearest points of both spines; the spine of a disc is its centre. At an obstacle each end of
+/// the plate has a contact of its own, and two plates may have two contacts. Pair::place is the
+/// end, 0 or 1, or a place of SpineContacts, 0 to 3. The particles `start` decide what place
+/// belongs to what contact; the gap is that of `p`. Sets `place`, where friction acts.
+Contact<2> contact_of_plates(const Fluid& fluid, const Particles& start, const Particles& p,
+                             const Pair& pair, std::span<const PlanePosition> obstacles,
+                             FrictionPlace& place) {
+  const auto j = index_of(pair.second);
+  Contact<2> contact{std::max(pair.first, -1), pair.second, {}, 0, pair.gamma, pair.impulse};
+  const Vector shift = pair.first < 0 ? Vector{} : shift_of(p.cell, pair.image);
+  const auto second = outline_of(fluid, p, p.angles, j, shift);
+  if (pair.first < 0) {
+    const auto& obstacle = obstacles[pair.plane()];
+    const auto ends = second.spine();
+    const Vector end{ends[index_of(pair.place)][0], ends[index_of(pair.place)][1], 0};
+    const Vector normal = normal_at(obstacle, end);
+    contact.normal = {normal[0], normal[1]};
+    contact.gap = gap(obstacle, end, second.end_radius());
+    contact.obstacle = -1 - pair.first;
+    const std::array arm = {end[0] - second.centre[0], end[1] - second.centre[1]};
+    contact.levers[1] = cross(arm, contact.normal);
+    place.arms[1] = second.end_radius() - along(arm, contact.normal);
+    place.on_obstacle = end - (second.end_radius() + contact.gap) * normal;
+    return contact;
+  }
+  contact.image = pair.image;
+  const auto i = index_of(pair.first);
+  const auto first = outline_of(fluid, p, p.angles, i);
+  const SpineContacts places(outline_of(fluid, start, start.angles, i),
+                             outline_of(fluid, start, start.angles, j, shift));
+  const auto near = places.at(pair.place, first, second);
+  contact.normal = {near.second[0] - near.first[0], near.second[1] - near.first[1]};
+  const double distance = std::hypot(contact.normal[0], contact.normal[1]);
+  if (distance > 0)
+    for (auto& x : contact.normal) x /= distance;
+  else
+    contact.normal = {1, 0};
+  contact.gap = (near.cross ? 0 : distance) - first.end_radius() - second.end_radius();
+  const auto arm = [](const std::array<double, 2>& at, const Outline& of) {
+    return std::array{at[0] - of.centre[0], at[1] - of.centre[1]};
+  };
+  const auto of_first = arm(near.first, first), of_second = arm(near.second, second);
+  contact.levers = {-cross(of_first, contact.normal), cross(of_second, contact.normal)};
+  // Both arms of friction end at one point in the gap, so that friction keeps the angular momentum.
+  const double share = distance / (first.end_radius() + second.end_radius());
+  place.arms = {along(of_first, contact.normal) + share * first.end_radius(),
+                share * second.end_radius() - along(of_second, contact.normal)};
+  return contact;
+}
+
+/// The contact of any pair, with the distance of the surfaces as its gap. A tangent takes the place
+/// of a round wall, where the particle comes with its velocity without contact. Sets `place`.
+Contact<2> contact_in_fluid(const Fluid& fluid, const Particles& p, const Pair& pair,
+                            std::span<const PlanePosition> obstacles,
+                            const ContactConditions& conditions, FrictionPlace& place) {
+  if (has_plate(fluid, pair.first, pair.second))
+    return contact_of_plates(fluid, p, p, pair, obstacles, place);
+  if (p.dimension == 1) {
+    const auto on_axis = contact_of<1>(p, pair, obstacles);
+    Contact<2> contact{on_axis.first, on_axis.second, {on_axis.normal[0], 0}};
+    contact.gap = on_axis.gap;
+    contact.lowest = on_axis.lowest;
+    contact.obstacle = on_axis.obstacle;
+    contact.impulse = on_axis.impulse;
+    return contact;
+  }
+  const auto k = index_of(pair.second);
+  if (pair.first >= 0) {
+    const auto contact = contact_of<2>(p, pair, obstacles);
+    const double first = p.radii[index_of(pair.first)];
+    const double share = 1 + contact.gap / (first + p.radii[k]);
+    place.arms = {share * first, share * p.radii[k]};
+    return contact;
+  }
+  auto obstacle = obstacles[pair.plane()];
+  if (obstacle.is_curved()) {
+    const double* velocity = &conditions.free_velocities[conditions.layout.at(pair.second, 0)];
+    const Vector moved{conditions.h * velocity[0], conditions.h * velocity[1], 0};
+    obstacle = tangent_at(obstacle, p.position(k) + moved);
+  }
+  const auto contact = contact_of<2>(p, pair, obstacle);
+  place.arms = {0, p.radii[k]};
+  place.on_obstacle =
+      p.position(k) - (p.radii[k] + contact.gap) * Vector{contact.normal[0], contact.normal[1], 0};
+  return contact;
+}
+
+void make_contacts(StepContacts& step, const Particles& p, const Fluid& fluid,
+                   std::span<const PlanePosition> obstacles, const ContactConditions& conditions,
+                   const FrictionOfStep* friction) {
+  for (const auto* list : {&step.pairs, &step.walls})
+    for (const auto& pair : *list) {
+      FrictionPlace place;
+      auto contact = contact_in_fluid(fluid, p, pair, obstacles, conditions, place);
+      if (friction != nullptr) {
+        auto one = friction_of_contact(*friction, p, pair, contact, place, conditions);
+        one.contact = step.contacts.size();
+        if (std::isfinite(one.capacity)) step.frictions.push_back(one);
+      }
+      contact.gap -= fluid.threshold_gap;
+      contact.lowest /= conditions.share_of_impulse;
+      contact.impulse /= conditions.share_of_impulse;
+      // A distance that differs from the threshold gap by less than half of the tolerance counts
+      // as equal to it.
+      if (std::abs(contact.gap) <= conditions.solver.tolerance * conditions.mean_radius / 2)
+        contact.gap = 0;
+      // In a sheared cell an image of a particle moves relative to the particle.
+      if (pair.first >= 0 && pair.image != 0) {
+        const auto velocity = velocity_of_image(p.cell, pair.image);
+        contact.gap +=
+            conditions.h * (contact.normal[0] * velocity[0] + contact.normal[1] * velocity[1]);
+      }
+      step.contacts.push_back(contact);
+    }
+}
+
+Particles moved(const Particles& p, std::span<const double> velocities, double h,
+                const MotionLayout& layout) {
+  auto result = p;
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    const auto at = layout.at(static_cast<std::int32_t>(k), 0);
+    for (std::size_t d = 0; d < 2; ++d) result.positions[2 * k + d] += h * velocities[at + d];
+    result.angles[k] += h * velocities[at + 2];
+  }
+  return result;
+}
+
+/// Corrects the gaps of contacts of plates, which turn by finite angles in the step, by the
+/// difference between the true gap after the step and the linearised one. Returns false, and
+/// changes nothing, if this difference is at most a quarter of the tolerance for each contact that
+/// may act.
+bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
+                   std::span<const PlanePosition> obstacles, const ContactConditions& conditions) {
+  const double h = conditions.h;
+  const auto after = moved(p, step.velocities, h, conditions.layout);
+  std::vector<double> changes(step.contacts.size());
+  double largest = 0;
+  for (std::size_t c = 0; c < step.pairs.size() + step.walls.size(); ++c) {
+    const auto& contact = step.contacts[c];
+    const auto n = step.pairs.size();
+    const auto& pair = c < n ? step.pairs[c] : step.walls[c - n];
+    if (!has_plate(fluid, pair.first, pair.second)) continue;
+    // make_contacts() sets a gap within half of the tolerance to 0; the gap after the step is
+    // changed by as much.
+    const auto gap_at = [&](const Particles& at) {
+      FrictionPlace place;
+      return contact_of_plates(fluid, p, at, pair, obstacles, place).gap - fluid.threshold_gap;
+    };
+    double gap = gap_at(after);
+    const double before = gap_at(p);
+    if (std::abs(before) <= conditions.solver.tolerance * conditions.mean_radius / 2) gap -= before;
+    changes[c] = gap - gap_after(contact, step.velocities.data(), h, conditions.layout);
+    if (contact.w != kHeld && (gap < 0 || contact.impulse != 0 || contact.lowest < 0))
+      largest = std::max(largest, std::abs(changes[c]));
+  }
+  if (largest <= conditions.solver.tolerance * conditions.mean_radius / 4) return false;
+  for (std::size_t c = 0; c < changes.size(); ++c) step.contacts[c].gap += changes[c];
+  return true;
+}
+
+/// Throws Error(kNotConverged) if two plates are closer after the step than the tolerance allows,
+/// at a place that was no contact at its beginning.
+void check_plates_apart(const StepContacts& step, const Particles& p, const Fluid& fluid,
+                        const ContactConditions& conditions) {
+  if (fluid.plates.empty()) return;
+  const auto after = moved(p, step.velocities, conditions.h, conditions.layout);
+  const double allowed = 2 * conditions.solver.tolerance * conditions.mean_radius;
+  const auto gap_at = [&](const Particles& at, const Pair& pair) {
+    return gap(
+        outline_of(fluid, at, at.angles, index_of(pair.first)),
+        outline_of(fluid, at, at.angles, index_of(pair.second), shift_of(at.cell, pair.image)));
+  };
+  for (const auto& pair : step.pairs) {
+    if (!fluid.is_plate(index_of(pair.first)) || !fluid.is_plate(index_of(pair.second))) continue;
+    const double least = std::min(fluid.threshold_gap, gap_at(p, pair)) - allowed;
+    if (const double left = gap_at(after, pair); left < least)
+      throw Error(ErrorKind::kNotConverged,
+                  "the plates {} and {} would have a gap of {:.3g} after the step, less than "
+                  "fluid.threshold_gap, {:.3g}, at a place that is no contact when the step "
+                  "begins; a shorter time step helps",
+                  p.id(index_of(pair.first)), p.id(index_of(pair.second)), left,
+                  fluid.threshold_gap);
+  }
+}
+
+}  // namespace
+
+PairRadii radii_in_fluid(const Fluid& fluid, const Pair& pair, const Particles& particles,
+                         std::span<const Plane> obstacles) {
+  auto radii = radii_of(pair, particles, obstacles);
+  radii.second = fluid.end_radius(index_of(pair.second), radii.second);
+  if (pair.first >= 0) radii.first = fluid.end_radius(index_of(pair.first), radii.first);
+  return radii;
+}
+
+std::vector<Contact<2>> contacts_of_stops(const Links& links, const Particles& particles) {
+  std::vector<Contact<2>> contacts;
+  for (const auto& stop : stop_equations(links, particles)) {
+    const auto& part = stop.parts().front();
+    const double lever = particles.radii[index_of(part.particle)];
+    Contact<2> contact{-1, part.particle, {}, lever * stop.rows.front().value};
+    contact.obstacle = -1;
+    contact.levers = {0, lever * part.direction[2]};
+    contacts.push_back(contact);
+  }
+  return contacts;
+}
+
+void add_torques_of_stops(const Links& links, const Particles& particles,
+                          std::span<const Contact<2>> contacts, double h,
+                          std::span<double> link_forces) {
+  const auto stops = stop_equations(links, particles);
+  assert(h > 0 && contacts.size() >= stops.size());
+  const auto of_stops = contacts.last(stops.size());
+  for (std::size_t s = 0; s < stops.size(); ++s)
+    link_forces[stops[s].first_force] += of_stops[s].levers[1] * of_stops[s].impulse / h;
+}
+
+namespace {
+
+/// False if a hinge holds the point of contact, so that its force cannot change the gap.
+bool moves(const Contact<2>& contact, const Mobility& mobility,
+           const ContactConditions& conditions) {
+  if (!(conditions.least_w > 0)) return true;
+  std::vector<double> forces(conditions.free_velocities.size());
+  add_contact_force(contact, 1, forces, conditions.layout);
+  return opening(contact, mobility(forces).data(), conditions.layout) > conditions.least_w;
+}
+
+/// Remembers the velocities for the forces of single contacts, for which problems with friction ask
+/// repeatedly.
+Mobility remembered(const Mobility& mobility) {
+  return
+      [&mobility, answers = std::make_shared<std::map<std::vector<double>, std::vector<double>>>()](
+          std::span<const double> forces) {
+        // The force of one contact has at most six components that are not 0: two forces and a
+        // torque on each particle. Nothing asks twice for sums of more forces.
+        constexpr std::ptrdiff_t kMost = 6;
+        if (std::ranges::count_if(forces, [](double f) { return f != 0; }) > kMost)
+          return mobility(forces);
+        auto [place, is_new] = answers->try_emplace({forces.begin(), forces.end()});
+        if (is_new) place->second = mobility(forces);
+        return place->second;
+      };
+}
+
+}  // namespace
+
+void solve_listed(StepContacts& step, const Mobility& mobility,
+                  const ContactConditions& conditions) {
+  ContactProblem problem(conditions, mobility);
+  std::vector<std::size_t> chosen;
+  std::vector<char> is_chosen(step.contacts.size(), 0);
+  for (auto& contact : step.contacts) contact.w = 0;
+  step.is_solved = true;
+  for (;;) {
+    const auto before = chosen.size();
+    for (std::size_t c = 0; c < step.contacts.size(); ++c) {
+      const auto& contact = step.contacts[c];
+      const double after =
+          gap_after(contact, problem.velocities().data(), conditions.h, conditions.layout);
+      const bool takes_part = after < 0 || contact.lowest != 0 || contact.impulse != 0;
+      if (is_chosen[c] != 0 || !takes_part) continue;
+      is_chosen[c] = 1;
+      if (!moves(contact, mobility, conditions)) {
+        step.contacts[c].w = kHeld;
+        continue;
+      }
+      chosen.push_back(c);
+      problem.add(contact);
+    }
+    const bool has_joined = chosen.size() > before;
+    if (!has_joined && !problem.is_rough()) break;
+    step.is_solved =
+        problem.solve(has_joined && problem.iterations() < conditions.solver.max_iterations);
+  }
+  for (auto& contact : step.contacts) contact.impulse = 0;
+  for (std::size_t i = 0; i < chosen.size(); ++i) step.contacts[chosen[i]] = problem.contacts()[i];
+  step.of_gaps.assign(step.contacts.size(), {});
+  auto responses = problem.responses();
+  for (std::size_t i = 0; i < responses.size(); ++i)
+    step.of_gaps[chosen[i]] = std::move(responses[i]);
+  step.amplification = problem.amplification();
+  step.loads = problem.loads();
+  step.velocities = problem.velocities();
+  step.iterations += problem.iterations();
+}
+
+double reach_of(const State& state, const Fluid& fluid, std::span<const double> velocities,
+                const ContactConditions& conditions) {
+  const auto& cell = state.particles.cell;
+  const double of_images =
+      norm(velocity_of_image(cell, Periods{1, 0})) + norm(velocity_of_image(cell, Periods{0, 1}));
+  double of_turns = 0;  // of the ends of plates [L/T]
+  for (std::size_t k = 0; k < fluid.plates.size(); ++k)
+    if (fluid.is_plate(k))
+      of_turns = std::max(of_turns, state.particles.radii[k] * std::abs(velocities[3 * k + 2]));
+  return fluid.threshold_gap +
+         conditions.h * (2 * (fastest(velocities, conditions.layout) + of_turns) + of_images);
+}
+
+StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links& links,
+                            std::span<const PlanePosition> obstacles,
+                            const std::function<bool(const Pair&)>& is_left_out,
+                            const Mobility& mobility, const ContactConditions& conditions,
+                            ThreadPool& pool, const FrictionOfStep* friction) {
+  assert(friction == nullptr || friction->setting.laws.friction);
+  const auto& p = state.particles;
+  const auto& free = conditions.free_velocities;
+  const auto stops = contacts_of_stops(links, p);
+  // The first reach is a guess, which is enlarged if it was too small. Contacts seldom push
+  // particles to more than twice the largest speed without contact.
+  double reach =
+      std::max(conditions.least_reach, reach_of(state, fluid, free, conditions) +
+                                           2 * conditions.h * fastest(free, conditions.layout) +
+                                           1e-3 * conditions.mean_radius);
+  const Mobility remembering = remembered(mobility);
+  const double mu_s = friction != nullptr ? friction->setting.laws.friction->coefficient : 0;
+  const auto solve = [&](StepContacts& step) {
+    if (friction != nullptr)
+      solve_with_friction(step, mu_s, remembering, conditions);
+    else
+      solve_listed(step, mobility, conditions);
+    correct_impulses(step, mu_s, mobility, conditions);
+  };
+  int iterations = 0;
+  for (;;) {
+    StepContacts step;
+    step.iterations = iterations;
+    list_pairs(step, state, fluid, obstacles, reach, pool);
+    std::erase_if(step.pairs, is_left_out);
+    std::erase_if(step.walls, is_left_out);
+    make_contacts(step, p, fluid, obstacles, conditions, friction);
+    step.contacts.insert(step.contacts.end(), stops.begin(), stops.end());
+    solve(step);
+    // Each correction multiplies the error by about the angle [rad] by which plates turn in the
+    // step, so that few corrections are needed.
+    constexpr int kMostCorrections = 20;
+    for (int n = 0; n < kMostCorrections && !fluid.plates.empty(); ++n) {
+      if (!correct_turns(step, p, fluid, obstacles, conditions)) break;
+      solve(step);
+      if (n + 1 == kMostCorrections) step.is_solved = false;
+    }
+    step.reach = reach;
+    const double needed = reach_of(state, fluid, step.velocities, conditions);
+    if (needed <= reach) {
+      check_plates_apart(step, p, fluid, conditions);
+      return step;
+    }
+    iterations = step.iterations;
+    reach = 2 * needed;
+  }
+}
+
+std::vector<double> set_allowed(std::span<Contact<2>> contacts,
+                                const ContactConditions& conditions) {
+  const auto& free = conditions.free_velocities;
+  const auto& settings = conditions.solver;
+  const auto& layout = conditions.layout;
+  const double h = conditions.h;
+  std::vector<double> of_particle(free.size() / layout.components, 0.0);
+  const auto for_particles = [](const Contact<2>& contact, const auto& visit) {
+    for (const auto k : {contact.first, contact.second})
+      if (k >= 0) visit(index_of(k));
+  };
+  for (const auto& contact : contacts) {
+    if (!(contact.w > 0)) continue;
+    const double after = gap_after(contact, free.data(), h, layout);
+    // If gamma < 0, the film also pulls, so that an impulse is needed to keep the gap from opening.
+    const double stopping = (contact.lowest < 0 ? std::abs(after) : std::max(0.0, -after));
+    const double impulse = std::max(std::abs(contact.impulse), stopping / contact.w);
+    for_particles(contact,
+                  [&](std::size_t k) { of_particle[k] = std::max(of_particle[k], impulse); });
+  }
+  const double rounding = rounding_error_of_gaps(conditions);
+  std::vector<double> at_work(contacts.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    for_particles(contacts[c],
+                  [&](std::size_t k) { at_work[c] = std::min(at_work[c], of_particle[k]); });
+    auto& contact = contacts[c];
+    contact.allowed = settings.tolerance * conditions.mean_radius / 2;
+    if (contact.w > 0)
+      contact.allowed = std::min(
+          contact.allowed, std::max(settings.impulse_tolerance * contact.w * at_work[c], rounding));
+  }
+  return at_work;
+}
+
+StepResiduals measure_residuals(std::span<Contact<2>> contacts, std::span<const double> velocities,
+                                const ContactConditions& conditions) {
+  assert(velocities.size() == conditions.free_velocities.size());
+  const auto at_work = set_allowed(contacts, conditions);
+  StepResiduals residuals;
+  residuals.impulse_errors.resize(contacts.size());
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const auto& contact = contacts[c];
+    if (contact.w == kHeld) continue;
+    const double after = gap_after(contact, velocities.data(), conditions.h, conditions.layout);
+    if (!contact.is_stop())
+      residuals.take_gap(
+          after, {contact.first >= 0 ? contact.first : -1 - contact.obstacle, contact.second});
+    // A contact that was left out of the problem (w = 0) must not close.
+    const bool takes_part = contact.w > 0;
+    const double residual =
+        takes_part ? contact_residual(after, contact.w * (contact.impulse - contact.lowest))
+                   : std::max(0.0, -after);
+    residuals.take(residual, contact.allowed);
+    if (!takes_part) continue;
+    residuals.impulse_errors[c] = residual / contact.w;
+    residuals.take_impulse(residual / contact.w, at_work[c]);
+  }
+  return residuals;
+}
+
+}  // namespace viscontact::particles

@@ -1,0 +1,502 @@
+// A step in a fluid, (6.1) to (6.5) in docs/physics.md: velocities without contact, contacts, and
+// velocities with them.
+#include "viscontact/immersed/fluid_simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cmath>
+#include <functional>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/immersed/fluid_contacts.hpp"
+#include "viscontact/immersed/fluid_motion.hpp"
+#include "viscontact/immersed/fluid_solver.hpp"
+#include "viscontact/immersed/held_rows.hpp"
+#include "viscontact/immersed/held_solver.hpp"
+#include "viscontact/immersed/step_equation.hpp"
+#include "viscontact/particles/domain/domain.hpp"
+#include "viscontact/particles/neighbours/neighbour_list.hpp"
+#include "viscontact/particles/outline.hpp"
+#include "viscontact/particles/steps/step_times.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// How often a step is solved with geometric rows at most. Tensions hardly depend on how fast links
+// turn.
+constexpr int kMostTurns = 10;
+
+LinkTimes times_of_links(const StepEquation& equation, double h, double next) {
+  const auto flow = equation.flow_step();
+  return {h, h, next, false, flow.from, flow.to};
+}
+
+}  // namespace
+
+FluidSimulation::FluidSimulation(Setting setting, State state, std::unique_ptr<FluidSolver> solver)
+    : setting_(std::move(setting)),
+      state_(std::move(state)),
+      solver_(std::move(solver)),
+      layout_{motion_components(state_.particles.dimension)},
+      mean_radius_(mean_radius(state_.particles)),
+      pool_(1),
+      obstacles_(obstacles_of(setting_)) {
+  assert(setting_.fluid && solver_ != nullptr);
+  auto& p = state_.particles;
+  // A restart file of a run without a fluid has no velocities of the step before, and may contain
+  // collisions, which a step in a fluid does not use.
+  if (state_.earlier_velocities.empty()) state_.earlier_step = 0;
+  state_.blows = {};
+  auto& film = setting_.laws.film;
+  film.shape = p.dimension == 1 ? FilmShape::kSpheres : FilmShape::kDiscs;
+  film.begins_at = setting_.fluid->threshold_gap;
+  p.cell = cell_of(setting_);
+  p.cell.moved_for = state_.time;
+  if (layout_.components == 3) {
+    p.angles.resize(p.count());
+    p.angular_velocities.resize(p.count());
+  }
+  wrap_into_cell(state_);
+  if (setting_.fluid->has_inertia() && state_.steps > 0) {
+    if (state_.flow.empty())
+      throw Error(ErrorKind::kBadInput,
+                  "the restart file has no flow, because its run had a fluid without inertia; a "
+                  "case with fluid.density > 0 can continue runs of such cases only");
+    solver_->load_flow(std::string(state_.flow.begin(), state_.flow.end()));
+    has_flow_ = true;
+  }
+  state_.flow.clear();
+  has_links_ = !setting_.links.empty() || !p.bodies.empty();
+  if (!has_links_ && layout_.components != 3) return;
+  auto held = std::make_unique<HeldSolver>(std::move(solver_), error_of_answers(*setting_.fluid),
+                                           setting_.fluid->has_inertia());
+  held_ = held.get();
+  solver_ = std::move(held);
+}
+
+State FluidSimulation::state_to_save() {
+  auto state = state_;
+  if (has_flow_) {
+    const auto flow = solver_->saved_flow();
+    state.flow.assign(flow.begin(), flow.end());
+  }
+  return state;
+}
+
+void FluidSimulation::begin_flow(double h) {
+  if (!setting_.fluid->has_inertia() || has_flow_) return;
+  const StepEquation equation(setting_, state_, h, state_.time + h);
+  auto bodies = equation.bodies();
+  bodies.flow_step.order = 0;
+  bodies.flow_step.time = state_.time;
+  if (held_ != nullptr) {
+    const HeldMotion held(setting_.links, state_.particles,
+                          times_of_links(equation, h, state_.time + h), equation.link_times());
+    held_->hold(held.rows(), h);
+  }
+  solver_->place(bodies);
+  const bool at_rest = setting_.fluid->start == FlowStart::kRest;
+  if (at_rest) {
+    state_.earlier_velocities = equation.velocities();
+  } else {
+    state_.earlier_velocities = solver_->velocities(equation.right_side(), true);
+    first_kinetic_energy_ = solver_->quantities().kinetic_energy;
+  }
+  solver_->keep_flow(at_rest, state_.earlier_velocities);
+  has_flow_ = true;
+}
+
+std::vector<double> FluidSimulation::free_velocities(const StepEquation& equation,
+                                                     std::span<const double> flow, double h,
+                                                     const HeldMotion* held) {
+  assert(flow.size() == state_.particles.count() * layout_.components);
+  std::vector<double> free(flow.begin(), flow.end());
+  if (setting_.fluid->has_inertia()) {
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      const auto k = static_cast<std::int32_t>(i / layout_.components);
+      if (equation.is_driven(k))
+        free[i] = equation.given_in_step(k)[i % layout_.components];
+      else if (!equation.is_in_contact(k))
+        free[i] += equation.share_of_change() * (flow[i] - state_.earlier_velocities[i]);
+    }
+    return free;
+  }
+  auto earlier = state_.earlier_velocities;
+  if (earlier.size() != free.size() || state_.earlier_forces.size() != free.size() ||
+      !(state_.earlier_step > 0) || !equation.drives_as_before())
+    return free;
+  auto now = equation.right_side();
+  if (held != nullptr) {
+    // Bodies have turned since the step before. The velocities of their members in that step are
+    // replaced by those that the same rigid motion has at the present places of the members.
+    held->make_rigid(earlier);
+    add_elements(held_->forces_of_step(), now);
+  }
+  std::vector<double> difference(free.size());
+  for (std::size_t i = 0; i < free.size(); ++i)
+    difference[i] = state_.earlier_forces[i] + equation.inertia()[i] * earlier[i] - now[i];
+  std::vector<double> changed(flow.begin(), flow.end());
+  if (largest_magnitude(difference) > 0) {
+    const auto added = held_ != nullptr ? held_->velocities_without_springs(difference)
+                                        : solver_->velocities(difference, false);
+    for (std::size_t i = 0; i < changed.size(); ++i) changed[i] += added[i];
+  }
+  // Links have turned since the step before. The earlier velocities are changed until the links
+  // hold with their present directions, so that the difference that is extrapolated comes from the
+  // resistance of the fluid alone.
+  if (held_ != nullptr) held_->hold_velocities(earlier);
+  const double share = h / (2 * state_.earlier_step);
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    const auto k = static_cast<std::int32_t>(i / layout_.components);
+    if (!equation.is_in_contact(k) && !equation.is_driven(k))
+      free[i] += share * (changed[i] - earlier[i]);
+  }
+  return free;
+}
+
+ContactConditions FluidSimulation::contact_conditions(std::span<const double> free,
+                                                      double h) const {
+  assert(h > 0);
+  const auto& fluid = *setting_.fluid;
+  ContactConditions conditions{
+      free, h, layout_, setting_.solver, mean_radius_, error_of_answers(fluid), kick_length(h) / h};
+  conditions.is_symmetric = !fluid.has_inertia() || fluid.coupling == Coupling::kSplitting;
+  if (!setting_.links.hinges.empty()) {
+    // If a hinge holds a gap, the change w of the velocity of this gap by a unit force [T/M] should
+    // be 0, but consists of errors. least_w must lie between these errors and the least w of a gap
+    // that can change. A particle resists a force with its mass over the step plus a drag of about
+    // the viscosity, or some 1e5 times the viscosity in the narrowest gap that a mesh resolves.
+    // There are no hinges on an axis, where the drag would have another dimension.
+    constexpr double kShare = 1e-9, kErrors = 10;
+    double heaviest = 0;
+    const auto& p = state_.particles;
+    for (std::size_t k = 0; k < p.count(); ++k)
+      heaviest = std::max(heaviest, p.masses[k] + fluid.density * fluid.size_of(2, k, p.radii[k]));
+    for (const auto& body : p.bodies.bodies) heaviest = std::max(heaviest, body.mass);
+    conditions.least_w = std::max(kShare, kErrors * error_of_answers(fluid)) /
+                         (fluid.viscosity + heaviest / kick_length(h));
+  }
+  return conditions;
+}
+
+double FluidSimulation::kick_length(double h) const {
+  // In a fluid with inertia forces change the velocities in the step that ends at the present
+  // places, and particles move with them in the step that begins there.
+  const auto& fluid = *setting_.fluid;
+  const bool is_of_flow = fluid.has_inertia() && fluid.coupling != Coupling::kSplitting;
+  return is_of_flow && state_.earlier_step > 0 ? state_.earlier_step : h;
+}
+
+bool FluidSimulation::is_computed_twice() const {
+  return setting_.fluid->has_inertia() && !(state_.earlier_step > 0);
+}
+
+std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& equation,
+                                                            std::span<const double> free, double h,
+                                                            double next, StepContacts& contacts) {
+  const bool is_split = setting_.fluid->coupling == Coupling::kSplitting;
+  const auto inertia = equation.inertia_of_projection();
+  const auto is_movable = [&](std::int32_t k) {
+    return k >= 0 && !equation.is_driven(k) && !(is_split && inertia[layout_.at(k, 0)] == 0);
+  };
+  // With splitting the velocities come from the masses alone, otherwise from the fluid.
+  const Mobility mobility = [&](std::span<const double> loads) {
+    if (!is_split) return solver_->velocities(loads, false);
+    std::vector<double> velocities(loads.size());
+    for (std::size_t i = 0; i < loads.size(); ++i)
+      if (is_movable(static_cast<std::int32_t>(i / layout_.components)) && inertia[i] > 0)
+        velocities[i] = loads[i] / inertia[i];
+    return velocities;
+  };
+  const auto& fluid = *setting_.fluid;
+  const auto is_ellipse = [&](std::int32_t k) { return k >= 0 && fluid.is_ellipse(index_of(k)); };
+  // Three kinds of pairs have no contact: those of which no particle can be moved, those with an
+  // ellipse (check_ellipses()), and the two ends of an arm, which prescribes their distance.
+  const auto is_left_out = [&](const Pair& pair) {
+    return (!is_movable(pair.first) && !is_movable(pair.second)) || is_ellipse(pair.first) ||
+           is_ellipse(pair.second) || std::ranges::any_of(setting_.links.arms, [&](const Arm& arm) {
+             return std::minmax(arm.first, arm.second) == std::minmax(pair.first, pair.second);
+           });
+  };
+  auto conditions = contact_conditions(free, h);
+  const FrictionOfStep friction{setting_, obstacles_, state_.memories, state_.time, next};
+  const bool has_inertia = fluid.has_inertia();
+  const auto before = has_inertia ? state_.earlier_velocities : equation.velocities();
+  // BlowStep::loaded
+  const auto loaded = [&] {
+    if (has_inertia) return solver_->velocities(equation.forces(), false);
+    std::vector<double> momentum(before.size());
+    for (std::size_t i = 0; i < before.size(); ++i) momentum[i] = equation.inertia()[i] * before[i];
+    auto velocities = solver_->velocities(momentum, false);
+    for (std::size_t i = 0; i < before.size(); ++i) velocities[i] = free[i] - velocities[i];
+    return velocities;
+  };
+  for (;;) {
+    contacts = solve_contacts(
+        state_, fluid, setting_.links, positions_of(obstacles_, next), is_left_out, mobility,
+        conditions, pool_,
+        setting_.laws.friction && setting_.laws.friction->coefficient > 0 ? &friction : nullptr);
+    if (!setting_.laws.restitution.is_on() || is_computed_twice()) return std::nullopt;
+    const BlowStep step{setting_, state_, obstacles_, next, kick_length(h), before, loaded};
+    auto blow = solve_blow(contacts, step, mobility, conditions);
+    if (!blow) return blow;
+    // Solids may rebound faster than particles move without contact. If they could then reach
+    // particles that are not listed, the step is solved again with a list up to a larger gap.
+    const double needed = reach_of(state_, fluid, blow->velocities, conditions);
+    if (needed <= contacts.reach) return blow;
+    conditions.least_reach = 2 * needed;
+  }
+}
+
+void FluidSimulation::keep_and_extrapolate(const StepEquation& equation, Motion& motion) const {
+  // With coupling = splitting, contacts change the velocities of the particles, but not the flow.
+  motion.kept = motion.flow;
+  if (setting_.fluid->coupling == Coupling::kSplitting)
+    for (std::size_t i = 0; i < motion.kept.size(); ++i)
+      motion.kept[i] += motion.after[i] - motion.free[i];
+  // The change in the first step is not extrapolated, because velocities may jump at the start.
+  const double share = state_.steps > 1 ? 2 * equation.share_of_change() : 0;
+  motion.at_end = motion.kept;
+  for (std::size_t i = 0; i < motion.at_end.size(); ++i) {
+    const auto k = static_cast<std::int32_t>(i / layout_.components);
+    if (equation.is_driven(k))
+      motion.at_end[i] = motion.moved[i];
+    else if (!equation.is_in_contact(k))
+      motion.at_end[i] += share * (motion.kept[i] - state_.earlier_velocities[i]);
+  }
+}
+
+FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_estimated) {
+  const auto begin = Clock::now();
+  const bool is_split = setting_.fluid->coupling == Coupling::kSplitting;
+  Motion motion;
+  StepEquation equation(setting_, state_, h, next);
+  std::vector<double> forces;
+  std::optional<HeldMotion> held;
+  std::vector<double> further_row_forces;  // the result of hold_after_step()
+  std::vector<double> settled;             // of follow_turns()
+  // A contact with an impulse sets theta = 1 for its particles, which changes the equation of
+  // motion. The step is then solved again.
+  for (int iterations = 0;;) {
+    if (held_ != nullptr) {
+      held.emplace(setting_.links, state_.particles, times_of_links(equation, h, next),
+                   equation.link_times());
+      held_->hold(held->rows(), h);
+    }
+    solver_->place(equation.bodies());
+    forces = equation.right_side();
+    auto loaded =
+        forces;  // by contacts, those of the step before until those of this step are known
+    const auto contacts = held ? contacts_before(h) : std::vector<Contact<2>>{};
+    for (const auto& contact : contacts)
+      add_contact_force(contact, contact.impulse / h, loaded, layout_);
+    if (held)
+      follow_turns(equation, *held, loaded, contacts, held->row_forces(state_.link_forces),
+                   settled);
+    for (int turns = 0;; ++turns) {
+      motion.flow = solver_->velocities(forces, true);
+      // Forces may have jumped since the step before.
+      if (held && turns == 0 &&
+          follow_turns(equation, *held, loaded, contacts, held_->row_forces(), settled))
+        continue;
+      motion.free = free_velocities(equation, motion.flow, h, held ? &*held : nullptr);
+      motion.linear = motion.free;
+      if (held) {
+        further_row_forces =
+            hold_after_step(equation, *held, motion.flow, motion.linear, h, motion.links_hold);
+        motion.free = held->with_finite_turns(motion.linear);
+      }
+      motion.blow = solve_contacts_of(equation, motion.free, h, next, motion.contact);
+      if (held) hold_with_contacts(equation, *held, h, next, motion, further_row_forces);
+      iterations += motion.contact.iterations + (motion.blow ? motion.blow->iterations : 0);
+      if (!held || motion.blow || turns == kMostTurns) break;
+      loaded = forces;
+      auto of_rows = held_->row_forces();
+      if (largest_magnitude(motion.contact.loads) > 0) {
+        add_elements(motion.contact.loads, loaded);
+        of_rows = held_->row_forces_under(loaded);
+      }
+      if (!follow_turns(equation, *held, loaded, motion.contact.contacts, of_rows, settled)) break;
+    }
+    motion.contact.iterations = iterations;
+    if (!equation.put_in_contact(motion.blow ? motion.blow->contacts : motion.contact.contacts))
+      break;
+  }
+  motion.buckling =
+      std::max(held ? held->pushing() : 0, turn_of_films(motion.contact.contacts, equation) / 2);
+  const auto& loads = motion.blow ? motion.blow->loads : motion.contact.loads;
+  motion.after = motion.blow ? motion.blow->velocities : motion.contact.velocities;
+  if (largest_magnitude(loads) > 0 && !is_split) {
+    // The fluid is solved again with the contact forces, because the reported flow and forces of
+    // the fluid contain their effect.
+    const auto before = motion.flow;
+    add_elements(loads, forces);
+    motion.flow = solver_->velocities(forces, true);
+    for (std::size_t i = 0; i < before.size(); ++i)
+      motion.after[i] = motion.free[i] + (motion.flow[i] - before[i]);
+  }
+  motion.moved = motion.blow ? motion.blow->moved : motion.after;
+  for (std::size_t i = 0; i < motion.moved.size(); ++i)
+    motion.linear[i] += motion.moved[i] - motion.free[i];
+  if (!motion.blow) motion.after = motion.linear;
+  // The part of the forces that accelerates a particle does not act on the fluid.
+  motion.drag = forces;
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    motion.drag[i] -= equation.inertia()[i] * motion.flow[i];
+  if (held) add_elements(held_->forces_of_step(), motion.drag);
+  motion.at_end = equation.velocities_at_end(motion.after, motion.flow);
+  if (setting_.fluid->has_inertia()) keep_and_extrapolate(equation, motion);
+  std::vector<double> of_step, at_end;  // the forces of the links within the step and at its end
+  std::vector<double> row_forces;
+  if (held) {
+    row_forces = held_->row_forces();
+    if (!equation.link_times().empty()) add_elements(further_row_forces, row_forces);
+    of_step = motion.link_forces = held->link_forces(row_forces);
+    add_torques_of_stops(setting_.links, state_.particles,
+                         motion.blow ? motion.blow->contacts : motion.contact.contacts, h,
+                         motion.link_forces);
+    if (!equation.link_times().empty()) {
+      at_end = held->link_forces(hold_at_end(equation, *held, motion.linear, motion.at_end));
+      add_elements(at_end, motion.link_forces);
+    }
+  }
+  motion.quantities = solver_->quantities();
+  auto drag = motion.quantities.fluid_forces;
+  for (auto& force : drag) force = -force;
+  if (held) held->keep_torques(motion.linear, drag, held_->stiffnesses(), motion.drag);
+  if (held && !setting_.links.arms.empty()) {
+    const auto working = equation.velocities_of_work(motion.flow, motion.at_end, drag);
+    for (std::size_t k = 0; k < setting_.links.arms.size(); ++k) {
+      const auto place = setting_.links.place_of_arm(k, state_.particles.dimension);
+      double power = of_step[place] * held->rate_of_arm(k, working) +
+                     held->power_of_turning(k, row_forces, working);
+      if (!at_end.empty())
+        power += at_end[place] * held->rate_of_arm_at_end(k, motion.linear, working);
+      motion.arm_powers.push_back(power);
+    }
+  }
+  if (is_estimated && !setting_.fluid->has_inertia())
+    estimate(equation, forces, held ? &*held : nullptr, motion);
+  motion.fluid.flow_time = state_.time;
+  motion.fluid.is_computed_again = is_computed_twice();
+  if (motion.fluid.is_computed_again) {
+    motion.fluid.kinetic_energy = first_kinetic_energy_;
+  } else {
+    motion.fluid.probes = motion.quantities.probes;
+    motion.fluid.dissipation = motion.quantities.dissipation;
+    motion.fluid.apparent_viscosity = motion.quantities.apparent_viscosity;
+    motion.fluid.kinetic_energy = motion.quantities.kinetic_energy;
+  }
+  if (setting_.laws.friction && motion.fluid.dissipation > 0)
+    motion.fluid.apparent_viscosity *=
+        1 + heat_of_friction(motion.contact, motion.moved, contact_conditions(motion.free, h)) /
+                motion.fluid.dissipation;
+  if (setting_.fluid->has_inertia()) report_inertia(motion);
+  motion.fluid.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  return motion;
+}
+
+void FluidSimulation::report_inertia(Motion& motion) const {
+  const auto& fluid = *setting_.fluid;
+  const auto& p = state_.particles;
+  auto& report = motion.fluid;
+  report.courant_number = motion.quantities.courant_number;
+  report.advection_error = motion.quantities.advection_error;
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    double square = 0;
+    for (std::size_t d = 0; d < layout_.directions(); ++d) {
+      const auto i = k * layout_.components + d;
+      square += motion.kept[i] * motion.kept[i];
+      if (!report.is_computed_again &&
+          setting_.given_motions.contains(static_cast<std::int32_t>(k)))
+        report.given_force[d] += motion.quantities.fluid_forces[i];
+    }
+    report.reynolds_number = std::max(report.reynolds_number, fluid.density * std::sqrt(square) *
+                                                                  2 * p.radii[k] / fluid.viscosity);
+  }
+}
+
+void FluidSimulation::estimate(const StepEquation& equation, std::span<const double> forces,
+                               const HeldMotion* held, Motion& motion) {
+  std::function<std::vector<double>()> link_forces;
+  if (has_links_) link_forces = [&] { return held->link_forces(held_->row_forces()); };
+  auto estimate = estimate_flow(*solver_, forces, state_.particles, *setting_.fluid, link_forces);
+  motion.fluid.velocity_errors = estimate.of_velocities;
+  motion.fluid.force_errors = estimate.of_forces;
+  motion.force_errors = {std::move(estimate.force_errors), std::move(estimate.further_errors)};
+  motion.quantities = std::move(estimate.quantities);
+  if (setting_.fluid->coupling == Coupling::kSplitting) return;
+  auto moved = motion.after;
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    moved[i] += estimate.velocities[i] - motion.flow[i];
+  motion.reported = equation.velocities_at_end(moved, estimate.velocities);
+  if (held != nullptr && !equation.link_times().empty())
+    hold_at_end(equation, *held, moved, motion.reported);
+}
+
+void FluidSimulation::check_ellipses() const {
+  const auto& fluid = *setting_.fluid;
+  if (fluid.semi_axes.empty()) return;
+  const auto& p = state_.particles;
+  const double least = fluid.threshold_gap - setting_.solver.tolerance * mean_radius_;
+  const auto is_driven = [&](std::size_t k) {
+    return setting_.given_motions.contains(static_cast<std::int32_t>(k));
+  };
+  const auto check = [&](std::size_t k, double gap, const std::string& other) {
+    if (gap < least)
+      throw Error(ErrorKind::kNotConverged,
+                  "particle {}, an ellipse, has a gap of {:.3g} to {} at time {}, less than "
+                  "fluid.threshold_gap, {:.3g}; contacts of ellipses are not computed, and the run "
+                  "must end before",
+                  p.id(k), gap, other, state_.time, fluid.threshold_gap);
+  };
+  const auto places = positions_of(obstacles_, state_.time);
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    if (!fluid.is_ellipse(k)) continue;
+    const auto outline = outline_of(fluid, p, p.angles, k);
+    for (const auto& place : places)
+      if (!is_driven(k) && gap(place, p.position(k), p.radii[k]) < least)
+        check(k, gap(place, outline), "a wall or plane");
+    for (std::size_t j = 0; j < p.count(); ++j)
+      for (std::int32_t image = -kLargestImage; image <= kLargestImage; ++image) {
+        const auto shift = shift_of(p.cell, image);
+        const auto apart = p.position(j) + shift - p.position(k);
+        if (j == k || (image != 0 && norm(shift) == 0) || (is_driven(k) && is_driven(j)) ||
+            norm(apart) - p.radii[k] - p.radii[j] >= least)
+          continue;
+        check(k, gap(outline, outline_of(fluid, p, p.angles, j, shift)),
+              fmt::format("particle {}", p.id(j)));
+      }
+  }
+}
+
+StepReport FluidSimulation::step(double end) {
+  const auto interval = StepGrid(setting_.time_step).next(state_, end);
+  if (!interval) return {.time = state_.time, .parts = 1};
+  check_ellipses();
+  StepReport report{.time = interval->end};
+  begin_flow(interval->h);
+  auto motion = solve(interval->h, interval->end, state_.steps == 0 || interval->reaches_end);
+  report.iterations = motion.contact.iterations;
+  report.buckling = motion.buckling;
+  report.fluid = motion.fluid;
+  report.parts = 1;
+  examine(motion, interval->h, report);
+  accept(std::move(motion), interval->h, interval->end, report);
+  StepGrid::count(state_, *interval);
+  return report;
+}
+
+FlowField FluidSimulation::flow_at_present() {
+  const double h = setting_.time_step;
+  begin_flow(h);
+  solve(h, state_.time + h, false);
+  return solver_->flow();
+}
+
+}  // namespace viscontact::particles

@@ -1,0 +1,370 @@
+// Reads [particles] (a CSV file), [[particle]] and [[force]].
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/particle_runs/case/particles_sections.hpp"
+#include "viscontact/particle_runs/io/particle_file.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+constexpr Allowed kMassWithoutFluid = {
+    [](double v) { return v >= 1 / kLargestNumber && v <= kLargestNumber; },
+    "from 1e-100 to 1e100 (0 is allowed only in a case with [fluid], or with a given motion)"};
+constexpr std::array kKeysOfRotation = {"torque", "angle", "angular_velocity", "moment_of_inertia"};
+
+/// Throws Error(kBadInput) for keys of a table [[particle]] that are not allowed in this dimension
+/// (1, 2 or 3), with or without a fluid, or beside each other.
+void check_keys(const case_file::TomlSection& section, int dimension, bool in_fluid) {
+  section.require(
+      !section.has("semi_axes") || (in_fluid && dimension == 2), "semi_axes",
+      "belongs to an ellipse in a fluid in the plane; this particle must have a radius");
+  section.require(!section.has("semi_axes") || !section.has("radius"), "radius",
+                  "must be left out, because semi_axes makes this particle an ellipse");
+  section.require(
+      !section.has("length") || (in_fluid && dimension == 2), "length",
+      "belongs to a plate with round ends in a fluid in the plane; this particle has none");
+  section.require(!section.has("length") || !section.has("semi_axes"), "length",
+                  "must be left out, because semi_axes makes this particle an ellipse");
+  for (const auto* key : kKeysOfRotation)
+    section.require(dimension != 1 || !section.has(key), key,
+                    "must be left out, because a sphere on the axis does not turn");
+  section.require(dimension != 3 || !section.has("angle"), "angle",
+                  "must be left out, because the orientation of a sphere changes nothing");
+}
+
+/// Keys of the motion of a driven particle, which must be given up to `end_time` [T].
+void given_motion_keys(case_file::Keys& keys, GivenMotion& motion, int dimension, double end_time) {
+  keys.required("value", pieces(motion.velocity, dimension, end_time),
+                {"velocity of a particle that is driven"});
+  keys.require(dimension != 1 || !keys.has("angular_velocity"), "angular_velocity",
+               "must be left out, because a sphere on the axis does not turn");
+  keys.optional("angular_velocity", pieces_of_turn(motion.angular_velocity, dimension, end_time),
+                {"counter-clockwise", "0"});
+}
+
+/// Angles are in radians.
+struct ParticleTable {
+  // At time 0: [L], [L/T], [1/T].
+  Vector centre{}, velocity{}, angular_velocity{};
+  // [L], [M], [rad]. The radius of an ellipse or plate is its larger semi-axis.
+  double radius = 0, mass = 0, angle = 0;
+  std::optional<double> moment_of_inertia;
+  std::array<double, 2> semi_axes{};  // [L], of an ellipse or plate; zeros: a disc or sphere
+  std::optional<double> length;       // [L], of a plate with round ends
+  /// Area of the disc, ellipse or plate [L^2], or volume of the sphere [L^3].
+  double size(int dimension) const {
+    if (length) return size_of_plate(semi_axes);
+    return semi_axes[0] > 0 ? size_of_ellipse(semi_axes) : size_of_particle(dimension, radius);
+  }
+  /// Moment of inertia about the centre [M L^2]: the one that is given, or else that of a
+  /// homogeneous particle.
+  double inertia_in_plane() const {
+    if (moment_of_inertia) return *moment_of_inertia;
+    if (length) return homogeneous_inertia_of_plate(mass, semi_axes);
+    return semi_axes[0] > 0 ? homogeneous_inertia_of_ellipse(mass, semi_axes)
+                            : homogeneous_inertia(2, mass, radius);
+  }
+  PiecewiseConstant force, torque;  // [M L/T^2], [M L^2/T^2]; empty if they are not given
+  bool is_fixed = false;
+  std::optional<GivenMotion> given;  // how it is driven; a fixed particle has velocities 0
+};
+
+void read_given_motion(const case_file::TomlSection& section, std::string_view key,
+                       ParticleTable& p, const ParticlesCase& c) {
+  section.require(!p.is_fixed, key,
+                  "must be left out, because fixed = true already says how this particle moves");
+  case_file::read_keys(section.section(key), given_motion_keys, p.given.emplace(),
+                       c.particles.dimension, c.end_time);
+}
+
+/// Keys of the mass, or of the density (mass over area or volume) in its place.
+void read_mass(case_file::Keys& keys, ParticleTable& p, int dimension, bool in_fluid) {
+  double density = 0;
+  const bool has_density = keys.optional(
+      "density", case_file::number(density, kModeratelyPositiveOr0),
+      {"in place of `mass`: mass of the disc over its area, or of the sphere over its volume",
+       "from `mass`"});
+  const bool may_be_0 = in_fluid || p.given.has_value();
+  keys.require(!has_density || density > 0 || may_be_0, "density",
+               "is 0; a particle without a fluid must have a mass");
+  keys.require(!has_density || !keys.has("mass"), "mass",
+               "must be left out, because density gives the mass of this particle");
+  if (has_density) p.mass = density * p.size(dimension);
+  if (has_density && keys.reads()) return;
+  keys.required_if(!may_be_0, "mass",
+                   case_file::number(p.mass, may_be_0 ? kModeratelyPositiveOr0 : kMassWithoutFluid),
+                   {"mass of the disc or sphere", "required; in a fluid, or with a given motion, 0",
+                    "from 1e-100 to 1e100, in a fluid or with a given motion also 0"});
+}
+
+void read_semi_axes(const case_file::TomlSection& section, std::string_view key,
+                    std::array<double, 2>& axes) {
+  const auto numbers = section.numbers(key, kModeratelyPositive);
+  section.require(numbers.size() == axes.size(), key,
+                  "contains {} numbers; it must contain the 2 semi-axes of an ellipse",
+                  numbers.size());
+  std::ranges::copy(numbers, axes.begin());
+  constexpr double kMostSlender = 100;  // meshes were tested up to this ratio
+  const double ratio = std::ranges::max(axes) / std::ranges::min(axes);
+  section.require(ratio <= kMostSlender, key,
+                  "has a larger semi-axis {:.6g} times the smaller one; at most {} is possible",
+                  ratio, kMostSlender);
+}
+
+void particle_keys(case_file::Keys& keys, ParticleTable& p, const ParticlesCase& c) {
+  const int dimension = c.particles.dimension;
+  const bool in_fluid = c.setting.fluid.has_value();
+  const auto read_fixed = [&](const case_file::TomlSection& section, std::string_view key) {
+    p.is_fixed = section.truth(key);
+  };
+  if (keys.reads()) check_keys(keys.section(), dimension, in_fluid);
+  keys.optional("fixed", case_file::custom("`true` or `false`", read_fixed),
+                {"whether the particle is at rest, whatever acts on it", "`false`"});
+  keys.optional("velocity_given",
+                case_file::custom("`{ value, angular_velocity }`", read_given_motion, p, c),
+                {"how the particle is driven, whatever acts on it"});
+  if (p.is_fixed) p.given.emplace();
+  for (const auto* key : {"force", "torque", "velocity", "angular_velocity"})
+    keys.require(
+        !p.given || !keys.has(key), key,
+        "has no effect, because {} gives the motion of this particle; one of them must be left out",
+        p.is_fixed ? "fixed" : "velocity_given");
+  keys.optional("force", pieces(p.force, dimension, c.end_time), {"is added to gravity", "0"});
+  keys.optional("torque", pieces_of_turn(p.torque, dimension, c.end_time),
+                {"in 2D counter-clockwise", "0"});
+  keys.optional("velocity", vector(p.velocity, dimension), {"at time 0", "0"});
+  keys.optional("angular_velocity", turn(p.angular_velocity, dimension),
+                {"at time 0, in 2D counter-clockwise", "0"});
+  keys.required("centre", vector(p.centre, dimension), {"at time 0"});
+  const bool is_ellipse = keys.optional(
+      "semi_axes", case_file::custom("two lengths `[a, b]`", read_semi_axes, p.semi_axes),
+      {"[in a fluid](#particles-in-a-fluid) in the plane, in place of `radius`: an ellipse, whose "
+       "first semi-axis points along `angle`",
+       "from `radius`"});
+  if (is_ellipse) p.radius = std::ranges::max(p.semi_axes);
+  keys.required_if(
+      !is_ellipse, "radius", case_file::number(p.radius, kModeratelyPositive),
+      {"radius of the disc or sphere, or of the ends of a plate", "required without `semi_axes`"});
+  keys.optional("length", case_file::number(p.length, kModeratelyPositive),
+                {"[in a fluid](#particles-in-a-fluid) in the plane: the particle is a plate of "
+                 "this length along `angle`, with round ends of the `radius`",
+                 "none"});
+  if (p.length) {
+    // Meshes were tested up to the first ratio. Plates below the second one are nearly discs.
+    constexpr double kMostSlender = 100, kLeast = 1.01;
+    const double ratio = *p.length / (2 * p.radius);
+    keys.require(ratio >= kLeast && ratio <= kMostSlender, "length",
+                 "is {}; it must be from {} to {} times the thickness of the plate, {}", *p.length,
+                 kLeast, kMostSlender, 2 * p.radius);
+    p.semi_axes = {*p.length / 2, p.radius};
+    p.radius = *p.length / 2;
+  }
+  read_mass(keys, p, dimension, in_fluid);
+  keys.optional("angle", case_file::number(p.angle, kModerate), {"at time 0, in 2D only"});
+  keys.optional("moment_of_inertia",
+                case_file::number(p.moment_of_inertia,
+                                  in_fluid ? kModeratelyPositiveOr0 : kModeratelyPositive),
+                {"about the centre", "mass r²/2 of a disc, 2 mass r²/5 of a sphere",
+                 "from 1e-100 to 1e100, in a fluid also 0"});
+}
+
+/// Sets angle, angular velocity and moment of inertia of the last particle of a case without a
+/// fluid. The first table with one of kKeysOfRotation makes all particles turn; those before it get
+/// the defaults of add_rotation().
+void add_rotation_of_last(const case_file::TomlSection& section, const ParticleTable& table,
+                          Particles& p) {
+  const bool is_turned = table.given && !table.given->angular_velocity.pieces.empty();
+  if (!p.turn() && !is_turned &&
+      std::ranges::none_of(kKeysOfRotation, [&](auto* key) { return section.has(key); }))
+    return;
+  add_rotation(p);
+  const std::size_t k = p.count() - 1;
+  if (p.dimension == 2) {
+    p.angles[k] = table.angle;
+    p.angular_velocities[k] = table.angular_velocity[2];
+  } else {
+    for (std::size_t d = 0; d < 3; ++d) p.angular_velocities[3 * k + d] = table.angular_velocity[d];
+  }
+  if (table.moment_of_inertia) p.inertias[k] = *table.moment_of_inertia;
+}
+
+/// The value at time 0; 0 without pieces.
+Vector at_start(const PiecewiseConstant& function) {
+  return function.pieces.empty() ? Vector{} : function.pieces.front().value;
+}
+
+/// Appends the semi-axes of discs to `axes` until it has `end` entries.
+void add_discs(std::vector<std::array<double, 2>>& axes, const Particles& p, std::size_t end) {
+  for (auto k = axes.size(); k < end; ++k) axes.push_back({p.radii[k], p.radii[k]});
+}
+
+void read_particle(const case_file::TomlSection& section, ParticlesCase& c) {
+  auto& p = c.particles;
+  const bool in_fluid = c.setting.fluid.has_value();
+  require_ids(section, "centre", p, 1);
+  ParticleTable table;
+  case_file::read_keys(section, particle_keys, table, c);
+  const auto number = static_cast<std::int32_t>(p.count());
+  if (table.given) {
+    table.velocity = at_start(table.given->velocity);
+    table.angular_velocity = at_start(table.given->angular_velocity);
+    c.setting.given_motions[number] = *table.given;
+  }
+  if (!table.force.pieces.empty()) c.setting.forces[number] = std::move(table.force);
+  if (!table.torque.pieces.empty()) c.setting.torques[number] = std::move(table.torque);
+  for (std::size_t d = 0; d < static_cast<std::size_t>(p.dimension); ++d) {
+    p.positions.push_back(table.centre[d]);
+    p.velocities.push_back(table.velocity[d]);
+  }
+  p.radii.push_back(table.radius);
+  p.masses.push_back(table.mass);
+  if (table.semi_axes[0] > 0) {
+    auto& axes = c.setting.fluid->semi_axes;
+    add_discs(axes, p, p.count() - 1);
+    axes.push_back(table.semi_axes);
+  }
+  if (table.length) {
+    auto& plates = c.setting.fluid->plates;
+    plates.resize(p.count());
+    plates.back() = 1;
+  }
+  if (in_fluid && p.dimension == 2) {
+    p.angles.push_back(table.angle);
+    p.angular_velocities.push_back(table.angular_velocity[2]);
+    p.inertias.push_back(table.inertia_in_plane());
+  } else if (!in_fluid) {
+    add_rotation_of_last(section, table, p);
+  }
+  add_missing_ids(p);
+}
+
+void file_keys(case_file::Keys& keys, std::string& file) {
+  keys.required("file", case_file::file_name(file), {"a CSV file, see below"});
+}
+
+/// Reads the CSV file that [particles] names, relative to the folder of the case file.
+void read_file_of_particles(const case_file::TomlSection& section, ParticlesCase& c,
+                            ParticleLines& lines) {
+  std::string name;
+  case_file::read_keys(section, file_keys, name);
+  c.particles_file = c.path.parent_path() / name;
+  const bool in_fluid = c.setting.fluid.has_value();
+  auto file = read_particles(c.particles_file, c.particles.dimension, in_fluid);
+  c.particles = std::move(file.particles);
+  lines.in_file = std::move(file.lines);
+  auto& p = c.particles;
+  if (in_fluid && p.dimension == 2)
+    for (std::size_t k = 0; k < p.count(); ++k)
+      p.inertias.push_back(homogeneous_inertia(2, p.masses[k], p.radii[k]));
+  if (!in_fluid && p.turn()) add_rotation(p);
+}
+
+struct ForceTable {
+  std::vector<std::int32_t> particles;  // their numbers, from 0
+  PiecewiseConstant value;              // the force on each of them [M L/T^2]
+};
+
+void force_by_id_keys(case_file::Keys& keys, ForceTable& force, const ParticlesCase& c,
+                      const ParticleIds& ids) {
+  keys.required("value", pieces(force.value, c.particles.dimension, c.end_time),
+                {"the force, which is added to gravity"});
+  keys.required("particles", case_file::custom("a list of ids", read_ids, force.particles, ids),
+                {"particles on which it acts; one force for each particle"});
+}
+
+}  // namespace
+
+ParticleLines read_particles_of_case(const case_file::TomlSection& root, ParticlesCase& c) {
+  ParticleLines lines;
+  if (root.has("particles")) read_file_of_particles(root.section("particles"), c, lines);
+  if (root.has("particle"))
+    for (const auto& section : root.sections("particle")) {
+      read_particle(section, c);
+      lines.in_case.push_back(section.line());
+    }
+  if (root.has("arrangement")) read_arrangement(root.section("arrangement"), c);
+  read_membranes(root, c, lines);
+  read_sources(root, c);
+  if (c.setting.fluid && !c.setting.fluid->semi_axes.empty())
+    add_discs(c.setting.fluid->semi_axes, c.particles, c.particles.count());
+  if (c.setting.fluid && !c.setting.fluid->plates.empty())
+    c.setting.fluid->plates.resize(c.particles.count());
+  if (!c.setting.fluid && (c.setting.laws.friction || c.particles.turn()))
+    add_rotation(c.particles);
+  if (c.particles.count() > 0 || !c.setting.sources.empty()) return lines;
+  if (!c.particles_file.empty())
+    throw_bad_input({c.particles_file.string()},
+                    "has no particle; it must have a row for each particle after the header line");
+  throw_bad_input({c.path.string()},
+                  "has no particle; name a file in [particles], or add a [[particle]], a "
+                  "[[membrane]], an [arrangement], or a [[source]]");
+}
+
+void require_ids(const case_file::TomlSection& section, std::string_view key, const Particles& p,
+                 std::size_t count) {
+  section.require(count <= ids_left(p), key,
+                  "needs {} of the ids above {}, the largest one so far; ids are at most {}", count,
+                  largest_id(p), std::numeric_limits<std::int32_t>::max());
+}
+
+void read_forces_by_id(const case_file::TomlSection& root, ParticlesCase& c) {
+  if (!root.has("force")) return;
+  const ParticleIds ids(c);
+  for (const auto& section : root.sections("force")) {
+    ForceTable force;
+    case_file::read_keys(section, force_by_id_keys, force, c, ids);
+    for (const auto particle : force.particles) {
+      const auto id = c.particles.id(index_of(particle));
+      section.require(!c.setting.given_motions.contains(particle), "particles",
+                      "contains particle {}, whose motion is given, so that a force has no effect; "
+                      "it must be left out",
+                      id);
+      section.require(c.setting.forces.emplace(particle, force.value).second, "particles",
+                      "contains particle {} a second time; each particle must have one force", id);
+    }
+  }
+}
+
+std::vector<case_file::KeyTable> particle_tables() {
+  const ParticlesCase c;
+  const ParticleIds ids(c);
+  return {case_file::describe_keys("[particles]", file_keys),
+          case_file::describe_keys("[[particle]]", particle_keys, c),
+          case_file::describe_keys("particle.velocity_given", given_motion_keys, 2, 0),
+          case_file::describe_keys("[[force]]", force_by_id_keys, c, ids)};
+}
+
+ParticleIds::ParticleIds(const ParticlesCase& c) : case_(c) {
+  for (std::size_t k = 0; k < c.particles.count(); ++k)
+    places_.emplace(c.particles.id(k), static_cast<std::int32_t>(k));
+}
+
+std::int32_t ParticleIds::number(const case_file::TomlSection& section, std::string_view key,
+                                 double id, std::string_view verb) const {
+  const bool whole = id == std::floor(id) && id <= std::numeric_limits<std::int32_t>::max();
+  const auto found = whole ? places_.find(static_cast<std::int32_t>(id)) : places_.end();
+  section.require(case_.particles.count() > 0, key, "{} {}, but the case has no particles", verb,
+                  id);
+  if (found == places_.end() && case_.particles.ids.empty())
+    section.fail(
+        key,
+        "{} {}, which is not the number of a particle; the particles are numbered from 0 to {}",
+        verb, id, case_.particles.count() - 1);
+  section.require(found != places_.end(), key,
+                  "{} {}, which is not the id of a particle; {} gives the ids", verb, id,
+                  case_.particles_file.string());
+  return found->second;
+}
+
+void read_ids(const case_file::TomlSection& section, std::string_view key,
+              std::vector<std::int32_t>& place, const ParticleIds& ids) {
+  for (const double id : section.numbers(key, kNotNegative))
+    place.push_back(ids.number(section, key, id, "contains"));
+}
+
+}  // namespace viscontact::particles

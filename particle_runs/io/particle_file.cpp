@@ -1,0 +1,326 @@
+// Reads and writes particles as CSV; particle_file.hpp has the columns.
+#include "viscontact/particle_runs/io/particle_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <string_view>
+#include <unordered_map>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/text/csv.hpp"
+#include "viscontact/common/text/number.hpp"
+#include "viscontact/immersed/fluid_solver.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+constexpr std::size_t kColumns = 14, kId = 8, kAngle = 9, kAngularVelocity = 10;
+using Row = CsvRow<kColumns>;
+using Names = std::array<std::string, kColumns>;
+
+// The required columns come first, as read_csv() expects: position, radius, mass. The velocity,
+// columns that belong to other dimensions, the id and the rotation follow. kId, kAngle, ... are
+// indices in all three lists.
+// clang-format off
+const Names kDiscs = {"x", "y", "radius", "mass", "vx", "vy", "z", "vz", "id", "angle",
+  "angular_velocity", "angular_velocity_x", "angular_velocity_y", "angular_velocity_z"};
+const Names kSpheres = {"x", "y", "z", "radius", "mass", "vx", "vy", "vz", "id", "angle",
+  "angular_velocity", "angular_velocity_x", "angular_velocity_y", "angular_velocity_z"};
+const Names kOnAxis = {"z", "radius", "mass", "vz", "x", "y", "vx", "vy", "id", "angle",
+  "angular_velocity", "angular_velocity_x", "angular_velocity_y", "angular_velocity_z"};
+// clang-format on
+constexpr std::size_t kAngularVelocityX = 11;
+
+// The further columns in a fluid. Those with forces of an earlier run are accepted, but not used.
+constexpr std::array<std::string_view, 7> kOfDiscsInFluid = {"angle",
+                                                             "angular_velocity",
+                                                             "fluid_force_x",
+                                                             "fluid_force_y",
+                                                             "fluid_torque",
+                                                             "fluid_force_error_estimate",
+                                                             "fluid_torque_error_estimate"};
+constexpr std::array<std::string_view, 2> kOnAxisInFluid = {"fluid_force_z",
+                                                            "fluid_force_error_estimate"};
+
+// Further columns without a fluid, where particles may turn.
+constexpr std::array<std::string_view, 2> kOfDiscsThatTurn = {"angle", "angular_velocity"};
+constexpr std::array<std::string_view, 3> kOfSpheresThatTurn = {
+    "angular_velocity_x", "angular_velocity_y", "angular_velocity_z"};
+
+std::span<const std::string_view> turning_columns(int dimension) {
+  if (dimension == 1) return {};
+  if (dimension == 2) return kOfDiscsThatTurn;
+  return kOfSpheresThatTurn;
+}
+
+/// There are none in three dimensions, where there is no fluid.
+std::span<const std::string_view> fluid_columns(int dimension) {
+  if (dimension == 1) return kOnAxisInFluid;
+  if (dimension == 2) return kOfDiscsInFluid;
+  return {};
+}
+
+/// The columns of the loads of particles whose motion is given, without a fluid.
+std::vector<std::string> load_columns(int dimension, bool turn) {
+  const std::string_view axes = dimension == 3 ? "xyz" : "xy";
+  std::vector<std::string> names;
+  for (const char axis : axes) names.push_back(fmt::format("contact_force_{}", axis));
+  if (turn && dimension == 2) names.emplace_back("contact_torque");
+  if (turn && dimension == 3)
+    for (const char axis : axes) names.push_back(fmt::format("contact_torque_{}", axis));
+  return names;
+}
+
+/// Adds the fields of load_columns() for particle `k`, which are empty if `loads` does not have it.
+void add_load(std::string& text, std::span<const GivenParticleLoad> loads, std::size_t k,
+              int dimension, bool turn) {
+  assert(std::ranges::is_sorted(loads, {}, &GivenParticleLoad::particle));
+  const auto particle = static_cast<std::int32_t>(k);
+  const auto load = std::ranges::lower_bound(loads, particle, {}, &GivenParticleLoad::particle);
+  const bool has_load = load != loads.end() && load->particle == particle;
+  const auto add = [&](double number) { (text += ',') += has_load ? format_number(number) : ""; };
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
+    add(has_load ? load->force[d] : 0);
+  if (!turn) return;
+  for (std::size_t d = dimension == 3 ? 0 : 2; d < 3; ++d) add(has_load ? load->torque[d] : 0);
+}
+
+enum class Sign { kAny, kNotNegative, kPositive };
+
+/// Throws Error(kBadInput) if the number is missing or has the wrong sign, if its magnitude is
+/// above 1e100, or, unless any sign is allowed, if it is between 0 and 1e-100.
+double allowed(const Row& row, const Names& names, std::size_t column, Sign sign,
+               const std::string& file) {
+  const double value = required_field(row, names, column, file);
+  // Squares and cubes of numbers up to this one and of their inverses are finite and not 0.
+  constexpr double kLargest = 1e100;
+  if (sign == Sign::kNotNegative && !(value == 0 || value >= 1 / kLargest))
+    throw_bad_input({file, row.line}, "{} is {}; it must be 0 or at least 1e-100", names[column],
+                    value);
+  if (sign == Sign::kPositive && !(value >= 1 / kLargest))
+    throw_bad_input({file, row.line}, "{} is {}; it must be > 0, at least 1e-100", names[column],
+                    value);
+  if (!(std::abs(value) <= kLargest))
+    throw_bad_input({file, row.line}, "{} is {}; it must be at most {} in magnitude", names[column],
+                    value, kLargest);
+  return value;
+}
+
+/// Throws Error(kBadInput) for unknown columns, which read_csv_rows() would ignore (a misspelt
+/// velocity, for example), and for incomplete velocities. `names` has the columns of this
+/// dimension.
+void check_header(const std::string& text, const std::string& file, const Names& names,
+                  int dimension, bool in_fluid) {
+  // The columns of kDiscs up to `id` are those that each file may have, whatever its dimension.
+  const std::span known(kDiscs.begin(), kId + 1);
+  const auto of_fluid = in_fluid ? fluid_columns(dimension) : turning_columns(dimension);
+  const auto header = csv_header(text);
+  const FilePosition here{file, header.line};
+  std::vector<std::string> velocities;
+  for (const auto& name : header.names) {
+    if (name.starts_with("semi_axis_"))
+      throw_bad_input(
+          here,
+          "has a column '{}' of ellipses or plates; the particles of a file must be discs or "
+          "spheres, and each ellipse or plate a table [[particle]] with semi_axes or length",
+          name);
+    const bool is_load =
+        !in_fluid && (name.starts_with("contact_force_") || name.starts_with("contact_torque"));
+    if (!is_load && std::ranges::find(known, name) == known.end() &&
+        std::ranges::find(of_fluid, name) == of_fluid.end())
+      throw_bad_input(
+          here,
+          "has a column '{}', which is not known{}; the known columns are id, x, y, z, vx, vy, vz, "
+          "radius, mass{}{}",
+          shortened(name),
+          name.empty() ? " (pandas writes its index so; to_csv(..., index=False) does not)" : "",
+          of_fluid.empty() ? "" : ", ", fmt::join(of_fluid, ", "));
+    if (name.starts_with('v')) velocities.push_back(name);
+  }
+  const auto d = static_cast<std::size_t>(dimension);
+  for (const auto& name : std::span(names).subspan(d + 2, d))
+    if (!velocities.empty() && std::ranges::find(velocities, name) == velocities.end())
+      throw_bad_input(here,
+                      "has the column {} of the velocity, but not {}; it must have all components "
+                      "of the velocity or none",
+                      velocities.front(), name);
+}
+
+/// The ids of the rows. Empty if the file has no column `id`, if all its fields are empty, or if
+/// the ids are 0, 1, ..., as without the column.
+std::vector<std::int32_t> read_ids(const std::vector<Row>& rows, const std::string& file) {
+  const auto has_id = [](const Row& row) { return row.fields[kId].has_value(); };
+  if (std::ranges::none_of(rows, has_id)) return {};
+  constexpr double kLargest = std::numeric_limits<std::int32_t>::max();
+  std::vector<std::int32_t> ids;
+  std::unordered_map<std::int32_t, int> line_of;
+  for (const auto& row : rows) {
+    const double id = required_field(row, kDiscs, kId, file);
+    if (!(id >= 0 && id <= kLargest && id == std::floor(id)))
+      throw_bad_input({file, row.line}, "id is {}; it must be a whole number from 0 to {}", id,
+                      kLargest);
+    ids.push_back(static_cast<std::int32_t>(id));
+    const auto [other, is_new] = line_of.emplace(ids.back(), row.line);
+    if (!is_new)
+      throw_bad_input({file, row.line},
+                      "id is {}, which is the id of the particle in line {}; each particle must "
+                      "have an id of its own",
+                      ids.back(), other->second);
+  }
+  const auto is_place = [place = 0](std::int32_t id) mutable { return id == place++; };
+  if (std::ranges::all_of(ids, is_place)) ids.clear();
+  return ids;
+}
+
+}  // namespace
+
+ParticleFile read_particles(const std::filesystem::path& path, int dimension, bool in_fluid) {
+  assert(dimension >= 1 && dimension <= 3);
+  const auto& names = dimension == 1 ? kOnAxis : dimension == 2 ? kDiscs : kSpheres;
+  const auto d = static_cast<std::size_t>(dimension);
+  const std::string file = path.string(), text = read_file(path);
+  std::vector<Row> rows;
+  read_csv_rows(text, file, names, d + 2, [&](auto fields, int line) {
+    std::ranges::copy(fields, rows.emplace_back(Row{{}, line}).fields.begin());
+  });
+  check_header(text, file, names, dimension, in_fluid);
+  const auto turns = [](const Row& row) {
+    return std::any_of(row.fields.begin() + kAngle, row.fields.end(),
+                       [](const auto& field) { return field.has_value(); });
+  };
+  const bool any_turns = dimension != 1 && std::ranges::any_of(rows, turns);
+  const bool rotate = dimension == 2 && (in_fluid || any_turns);
+  const bool spin = dimension == 3 && any_turns;
+  if (rows.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+    throw_bad_input({file}, "has {} particles; at most {} are allowed", rows.size(),
+                    std::numeric_limits<std::int32_t>::max());
+  ParticleFile result;
+  auto& p = result.particles;
+  p.dimension = dimension;
+  for (const auto& row : rows) {
+    const auto given_or_0 = [&](std::size_t i) {
+      return row.fields[i] ? allowed(row, names, i, Sign::kAny, file) : 0.0;
+    };
+    for (std::size_t i = 2 * d + 2; i < kId; ++i)
+      if (row.fields[i])
+        throw_bad_input(
+            {file, row.line},
+            dimension == 2
+                ? "has a value in a column of the third dimension (z or vz); space.dimension is 2"
+                : "has a value in a column of another dimension (x, y, vx or vy); space.dimension "
+                  "is \"axisymmetric\"");
+    for (std::size_t i = 0; i < d; ++i)
+      p.positions.push_back(allowed(row, names, i, Sign::kAny, file));
+    p.radii.push_back(allowed(row, names, d, Sign::kPositive, file));
+    p.masses.push_back(
+        allowed(row, names, d + 1, in_fluid ? Sign::kNotNegative : Sign::kPositive, file));
+    for (std::size_t i = d + 2; i < 2 * d + 2; ++i) p.velocities.push_back(given_or_0(i));
+    if (rotate) {
+      p.angles.push_back(given_or_0(kAngle));
+      p.angular_velocities.push_back(given_or_0(kAngularVelocity));
+    }
+    if (spin) {
+      p.orientations.insert(p.orientations.end(), {1, 0, 0, 0});
+      for (std::size_t i = 0; i < 3; ++i)
+        p.angular_velocities.push_back(given_or_0(kAngularVelocityX + i));
+    }
+    result.lines.push_back(row.line);
+  }
+  p.ids = read_ids(rows, file);
+  return result;
+}
+
+std::string write_particles(const Particles& particles, const std::optional<FluidForces>& forces,
+                            std::span<const GivenParticleLoad> loads) {
+  const auto d = static_cast<std::size_t>(particles.dimension);
+  assert(!forces || forces->values.empty() ||
+         forces->values.size() == particles.count() * motion_components(particles.dimension));
+  assert(!forces || forces->errors.empty() ||
+         forces->errors.size() == particles.count() * motion_components(particles.dimension));
+  assert(!forces || forces->semi_axes.empty() || forces->semi_axes.size() == particles.count());
+  std::string text = fmt::format("# rows: {}\n", particles.count());
+  text += d == 1   ? "id,z,vz,radius,mass"
+          : d == 2 ? "id,x,y,vx,vy,radius,mass"
+                   : "id,x,y,z,vx,vy,vz,radius,mass";
+  if (forces)
+    for (const auto name : fluid_columns(particles.dimension)) (text += ',') += name;
+  else if (particles.turn())
+    for (const auto name : turning_columns(particles.dimension)) (text += ',') += name;
+  if (forces && !forces->semi_axes.empty()) text += ",semi_axis_1,semi_axis_2";
+  if (!loads.empty())
+    for (const auto& name : load_columns(particles.dimension, particles.turn()))
+      (text += ',') += name;
+  text += '\n';
+  for (std::size_t k = 0; k < particles.count(); ++k) {
+    fmt::format_to(std::back_inserter(text), "{}", particles.id(k));
+    const auto add = [&](double value) { (text += ',') += format_number(value); };
+    for (std::size_t i = k * d; i < k * d + d; ++i) add(particles.positions[i]);
+    for (std::size_t i = k * d; i < k * d + d; ++i) add(particles.velocities[i]);
+    add(particles.radii[k]);
+    add(particles.masses[k]);
+    if (forces) {
+      if (d == 2) add(particles.angles[k]);
+      if (d == 2) add(particles.angular_velocities[k]);
+      const auto components = motion_components(particles.dimension);
+      const auto add_or_empty = [&](std::span<const double> values, std::size_t i) {
+        if (values.empty())
+          text += ',';
+        else
+          add(values[k * components + i]);
+      };
+      for (std::size_t i = 0; i < components; ++i) add_or_empty(forces->values, i);
+      add_or_empty(forces->errors, 0);
+      if (components == 3) add_or_empty(forces->errors, 2);
+      if (!forces->semi_axes.empty())
+        for (const double axis : forces->semi_axes[k]) add(axis);
+    } else if (particles.turn()) {
+      if (d == 2) add(particles.angles[k]);
+      const std::size_t turns = d == 3 ? 3 : 1;
+      for (std::size_t i = 0; i < turns; ++i) add(particles.angular_velocities[k * turns + i]);
+    }
+    if (!loads.empty()) add_load(text, loads, k, particles.dimension, particles.turn());
+    text += '\n';
+  }
+  return text;
+}
+
+std::string motion_header(int dimension, bool turn, bool has_loads) {
+  std::string header =
+      dimension == 1 ? "time,id,z,vz"
+      : dimension == 2
+          ? (turn ? "time,id,x,y,angle,vx,vy,angular_velocity" : "time,id,x,y,vx,vy")
+          : fmt::format("time,id,x,y,z,vx,vy,vz{}",
+                        turn ? ",angular_velocity_x,angular_velocity_y,angular_velocity_z" : "");
+  if (has_loads)
+    for (const auto& name : load_columns(dimension, turn)) (header += ',') += name;
+  return header + "\n";
+}
+
+std::string motion_rows(double time, const Particles& particles,
+                        const std::vector<GivenParticleLoad>* loads) {
+  const auto d = static_cast<std::size_t>(particles.dimension);
+  const bool is_disc = d == 2 && particles.turn(), is_sphere = d == 3 && particles.turn();
+  std::string text;
+  for (std::size_t k = 0; k < particles.count(); ++k) {
+    fmt::format_to(std::back_inserter(text), "{},{}", format_number(time), particles.id(k));
+    const auto add = [&](double value) { (text += ',') += format_number(value); };
+    for (std::size_t i = k * d; i < k * d + d; ++i) add(particles.positions[i]);
+    if (is_disc) add(particles.angles[k]);
+    for (std::size_t i = k * d; i < k * d + d; ++i) add(particles.velocities[i]);
+    if (is_disc) add(particles.angular_velocities[k]);
+    for (std::size_t i = 3 * k; is_sphere && i < 3 * k + 3; ++i)
+      add(particles.angular_velocities[i]);
+    if (loads != nullptr) add_load(text, *loads, k, particles.dimension, particles.turn());
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace viscontact::particles

@@ -1,0 +1,199 @@
+// Reads the frames of a run and draws them, with bounded memory however long the run is.
+#include "viscontact/particle_runs/run/particles_pages.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/text/csv.hpp"
+#include "viscontact/membranes/membrane_shape.hpp"
+#include "viscontact/particle_runs/io/contact_file.hpp"
+#include "viscontact/particle_runs/io/playback.hpp"
+#include "viscontact/particle_runs/io/vtk.hpp"
+#include "viscontact/particle_runs/picture/particles_picture.hpp"
+#include "viscontact/particle_runs/picture/scene.hpp"
+#include "viscontact/particles/domain/domain.hpp"
+#include "viscontact/report/pictures/pdf.hpp"
+#include "viscontact/results/foreign_files.hpp"
+#include "viscontact/terminal/progress.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+namespace fs = std::filesystem;
+
+Playback without_frames(const ParticlesCase& c) {
+  Playback playback;
+  playback.dimension = c.particles.dimension;
+  playback.units = c.units;
+  playback.radii.assign(c.particles.radii.begin(), c.particles.radii.end());
+  if (std::ranges::any_of(c.particles.masses, [](double mass) { return mass > 0; }))
+    playback.masses.assign(c.particles.masses.begin(), c.particles.masses.end());
+  playback.is_in_fluid = c.setting.fluid.has_value();
+  if (c.setting.fluid) playback.semi_axes = c.setting.fluid->semi_axes;
+  if (c.setting.fluid) playback.plates = c.setting.fluid->plates;
+  playback.ids = c.particles.ids;
+  playback.cell = cell_of(c.setting);
+  playback.bodies = c.particles.bodies.of_particle;
+  if (const auto& friction = c.setting.laws.friction)
+    playback.friction_coefficient = friction->coefficient;
+  for (const auto& hinge : c.setting.links.hinges) playback.links.hinges.push_back(hinge.at);
+  for (const auto& spring : c.setting.links.springs)
+    playback.links.springs.push_back({spring.first, spring.second});
+  for (const auto& arm : c.setting.links.arms)
+    playback.links.arms.push_back({arm.first, arm.second});
+  // Lines between neighbouring beads of a membrane are drawn as those of arms.
+  for (const auto& membrane : membranes_of(c.setting))
+    for (std::int32_t k = 0; k < membrane.count(); ++k)
+      playback.links.arms.push_back({membrane.bead(k), membrane.bead(k + 1)});
+  return playback;
+}
+
+/// A frame without the flow. Throws Error(kBadInput) if the file has fewer particles than the case,
+/// or more although the case has no sources.
+Frame read_frame(double time, const fs::path& path, const ParticlesCase& c,
+                 std::span<const PlaneMotion> motions) {
+  auto content = read_vtp(path, c.particles.dimension);
+  if (content.positions.size() < c.particles.positions.size() ||
+      (content.positions.size() > c.particles.positions.size() && c.setting.sources.empty()))
+    throw_bad_input({path.string()}, "is a frame of other particles");
+  Frame frame;
+  frame.time = time;
+  frame.positions.assign(content.positions.begin(), content.positions.end());
+  frame.angles.assign(content.angles.begin(), content.angles.end());
+  frame.speeds.assign(content.speeds.begin(), content.speeds.end());
+  frame.orientations.assign(content.orientations.begin(), content.orientations.end());
+  frame.planes = positions_of(obstacles_of(c.setting, motions), time);
+  frame.contacts = std::move(content.contacts);
+  return frame;
+}
+
+/// The motions at the times of all frames, from planes.csv; empty if no plane has a load. Throws
+/// Error(kBadInput) if the file does not have a row for each plane and frame.
+std::vector<std::vector<PlaneMotion>> read_plane_motions(const ParticlesCase& c,
+                                                         const fs::path& folder,
+                                                         std::size_t frames) {
+  std::vector<std::vector<PlaneMotion>> motions(frames);
+  std::vector<std::size_t> loaded;
+  for (std::size_t k = 0; k < c.setting.planes.size(); ++k)
+    if (c.setting.planes[k].load) loaded.push_back(k);
+  if (loaded.empty()) return motions;
+  const auto path = folder / kPlanesFile;
+  const auto rows = read_csv<1>(path, {"displacement"}, 1).rows;
+  if (rows.size() != frames * loaded.size())
+    throw_bad_input({path.string()}, "has {} rows; it must have one for each plane and frame, {}",
+                    rows.size(), frames * loaded.size());
+  for (std::size_t f = 0; f < frames; ++f) {
+    motions[f].resize(c.setting.planes.size());
+    for (std::size_t l = 0; l < loaded.size(); ++l)
+      motions[f][loaded[l]].displacement = rows[f * loaded.size() + l].fields[0].value_or(0);
+  }
+  return motions;
+}
+
+/// Whenever the frames in memory take more than kMostBytes, every second frame is left out; the
+/// last frame is always kept. Throws Error(kBadInput) if there is no frame, or for a frame that is
+/// missing, damaged or of other particles.
+Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
+  auto playback = without_frames(c);
+  auto& frames = playback.frames;
+  const auto files = read_pvd(folder / "particles.pvd");
+  if (files.empty()) throw_bad_input({(folder / "particles.pvd").string()}, "has no frame");
+  if (!c.setting.sources.empty()) {
+    // The last frame has all particles that sources have added.
+    const auto last = read_vtp(folder / files.back().second, c.particles.dimension);
+    playback.radii.assign(last.radii.begin(), last.radii.end());
+    playback.masses.assign(last.masses.begin(), last.masses.end());
+    if (!playback.ids.empty()) playback.ids = last.ids;
+    if (!playback.bodies.empty()) playback.bodies.resize(last.radii.size(), -1);
+  }
+  // A page of 24 MB cannot show as much as kMostBytes.
+  const auto motions = read_plane_motions(c, folder, files.size());
+  constexpr std::size_t kMostBytes = std::size_t{256} << 20U;
+  std::size_t every = 1, kept_bytes = 0;
+  for (std::size_t f = 0; f < files.size(); ++f) {
+    if (kept_bytes > kMostBytes && frames.size() > 4) {
+      for (std::size_t i = 1; 2 * i < frames.size(); ++i) frames[i] = std::move(frames[2 * i]);
+      frames.resize((frames.size() + 1) / 2);
+      kept_bytes /= 2;
+      every *= 2;
+    }
+    if (f % every != 0 && f + 1 != files.size()) continue;
+    frames.push_back(read_frame(files[f].first, folder / files[f].second, c, motions[f]));
+    const auto& kept = frames.back();
+    kept_bytes += (kept.positions.size() + kept.speeds.size() + kept.angles.size() +
+                   kept.orientations.size()) *
+                      sizeof(float) +
+                  kept.planes.size() * sizeof(PlanePosition) +
+                  kept.contacts.size() * sizeof(CurrentContact);
+  }
+  // Particles that a source has not added yet get the position NaN, and are not drawn.
+  for (auto& frame : frames) {
+    const auto count = playback.radii.size();
+    frame.positions.resize(count * static_cast<std::size_t>(playback.dimension),
+                           std::numeric_limits<float>::quiet_NaN());
+    if (!frames.back().angles.empty()) frame.angles.resize(count);
+    frame.speeds.resize(count);
+    while (frame.orientations.size() < frames.back().orientations.size())
+      frame.orientations.insert(frame.orientations.end(), {1, 0, 0, 0});
+  }
+  if (c.setting.fluid)
+    for (const auto& [time, file] : read_pvd(folder / "flow.pvd"))
+      if (const auto frame = std::ranges::find(frames, time, &Frame::time); frame != frames.end())
+        frame->flow = folder / file;
+  return playback;
+}
+
+/// The numbers in run.json; unknown ones if the file is missing, as after an interrupted run, or
+/// lacks them.
+ParticleRegime regime_in(const fs::path& folder) {
+  ParticleRegime regime;
+  if (!fs::is_regular_file(folder / "run.json")) return regime;
+  const auto json = nlohmann::json::parse(read_file(folder / "run.json"), nullptr, false);
+  const auto read = [&](const char* key, double& number) {
+    if (json.is_object() && json.contains(key) && json.at(key).is_number())
+      number = json.at(key).get<double>();
+  };
+  read("reynolds_number", regime.reynolds);
+  read("stokes_number", regime.stokes);
+  read("film_stokes_number", regime.film);
+  regime.has_contact = regime.film >= 0;
+  return regime;
+}
+
+}  // namespace
+
+void write_pages(const ParticlesCase& c, const fs::path& folder,
+                 const results::Provenance& provenance, const ParticleRegime& regime) {
+  constexpr int kPanels = 4;  // number of times that the still picture shows
+  auto playback = read_playback(c, folder);
+  playback.note = in_words(regime);
+  for (const auto& warning : warnings_of(c, regime)) playback.note += ". Warning: " + warning;
+  if (!std::ranges::all_of(playback.radii, [](float radius) { return std::isnormal(radius); }))
+    terminal::warn(
+        "particles: warning: particles.html and particles.svg show nothing, because a radius is "
+        "not between 1e-37 and 3e38, the lengths that they can draw; choose another unit of "
+        "length");
+  FlowFrames flows;
+  results::write_output(folder / "particles.html", TextKind::kHtml,
+                        particles_page(playback, c.title, &flows), provenance);
+  report::remove_pdf_of(folder / "particles.svg");
+  results::write_output(folder / "particles.svg", TextKind::kSvg,
+                        particles_picture(playback, c.title, kPanels, &flows), provenance);
+}
+
+void report_particles(const fs::path& folder) {
+  for (const auto* name : {"particles.html", "particles.svg"})
+    results::refuse_other_kind(folder / name, "", "result");
+  auto files = results::given_inputs(folder / "particles.pvd");
+  const auto c = read_particles_case(files.front());
+  files.push_back(folder / "particles.pvd");
+  if (c.setting.fluid) files.push_back(folder / "flow.pvd");
+  write_pages(c, folder, results::provenance_of({files, {}}), regime_in(folder));
+  terminal::say("report: {0}/particles.html, {0}/particles.svg", folder.string());
+}
+
+}  // namespace viscontact::particles

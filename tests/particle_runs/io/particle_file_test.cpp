@@ -1,0 +1,199 @@
+// Particles in a fluid and on an axis as CSV files: columns, numbers that read back, and refusals.
+#include "viscontact/particle_runs/io/particle_file.hpp"
+
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <array>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/common/failure.hpp"
+#include "tests/common/temporary_folder.hpp"
+#include "tests/particles/systems.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+using ::testing::HasSubstr;
+
+Particles discs_in_fluid() {
+  State state = no_particles(2);
+  add_particle(state, {1, 2, 0}, 0.5, 0, {-0.1, 1.0 / 3, 0});
+  add_particle(state, {4, 5, 0}, 0.25, 3);
+  state.particles.angles = {0.7, -1};
+  state.particles.angular_velocities = {2, 1.0 / 7};
+  return state.particles;
+}
+
+class FluidParticleFile : public ::testing::Test {
+ protected:
+  Particles read(const std::string& text, int dimension, bool in_fluid) const {
+    return read_particles(folder_.file("particles.csv", text), dimension, in_fluid).particles;
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(FluidParticleFile, OfDiscsHasRotationAndForces) {
+  const auto p = discs_in_fluid();
+  const std::vector<double> forces = {10, 20, 30, 40, 50, 60.5}, errors = {1, 1, 2, 3, 3, 0.5};
+  const auto text = write_particles(p, FluidForces{forces, errors});
+  EXPECT_EQ(text,
+            "# rows: 2\n"
+            "id,x,y,vx,vy,radius,mass,angle,angular_velocity,fluid_force_x,fluid_force_y,"
+            "fluid_torque,fluid_force_error_estimate,fluid_torque_error_estimate\n"
+            "0,1,2,-0.1,0.3333333333333333,0.5,0,0.7,2,10,20,30,1,2\n"
+            "1,4,5,0,0,0.25,3,-1,0.14285714285714285,40,50,60.5,3,0.5\n");
+  const auto again = read(text, 2, true);
+  EXPECT_EQ(again.positions, p.positions);
+  EXPECT_EQ(again.velocities, p.velocities);
+  EXPECT_EQ(again.masses, p.masses);
+  EXPECT_EQ(again.angles, p.angles);
+  EXPECT_EQ(again.angular_velocities, p.angular_velocities);
+  EXPECT_TRUE(again.inertias.empty());
+}
+
+TEST_F(FluidParticleFile, OfSpheresOnAnAxisHasOneComponent) {
+  State state = no_particles(1);
+  add_particle(state, {3, 0, 0}, 1, 0, {-0.5, 0, 0});
+  const std::vector<double> forces = {-9}, errors = {0.25};
+  const auto text = write_particles(state.particles, FluidForces{forces, errors});
+  EXPECT_EQ(text,
+            "# rows: 1\nid,z,vz,radius,mass,fluid_force_z,fluid_force_error_estimate\n"
+            "0,3,-0.5,1,0,-9,0.25\n");
+  const auto again = read(text, 1, true);
+  EXPECT_EQ(again.dimension, 1);
+  EXPECT_EQ(again.positions, std::vector<double>{3});
+  EXPECT_EQ(again.velocities, std::vector<double>{-0.5});
+  EXPECT_EQ(again.masses, std::vector<double>{0});
+  EXPECT_TRUE(again.angles.empty());
+}
+
+TEST_F(FluidParticleFile, HasEmptyFieldsForWhatIsNotKnown) {
+  // Before the first step, and after a step without an estimate. A case can read the file.
+  const auto p = discs_in_fluid();
+  const std::vector<double> forces = {10, 20, 30, 40, 50, 60.5};
+  const auto no_step = write_particles(p, FluidForces{});
+  EXPECT_THAT(no_step, HasSubstr("fluid_torque_error_estimate\n"));
+  EXPECT_THAT(no_step, HasSubstr("0.5,0,0.7,2,,,,,\n"));
+  EXPECT_EQ(read(no_step, 2, true).angles, p.angles);
+  const auto no_estimate = write_particles(p, FluidForces{forces, {}});
+  EXPECT_THAT(no_estimate, HasSubstr("0.5,0,0.7,2,10,20,30,,\n"));
+  EXPECT_EQ(read(no_estimate, 2, true).angles, p.angles);
+}
+
+TEST_F(FluidParticleFile, WithoutRotationBeginsAtAngle0) {
+  const auto p = read("x,y,radius,mass\n1,2,1,0\n", 2, true);
+  EXPECT_EQ(p.angles, std::vector<double>{0});
+  EXPECT_EQ(p.angular_velocities, std::vector<double>{0});
+}
+
+TEST_F(FluidParticleFile, WithoutAFluidHasTheRotationOfParticlesThatTurn) {
+  auto discs = read("x,y,radius,mass,angular_velocity\n1,2,1,1,0.5\n", 2, false);
+  EXPECT_EQ(discs.angular_velocities, std::vector<double>{0.5});
+  EXPECT_EQ(discs.angles, std::vector<double>{0});
+  EXPECT_THAT(write_particles(discs),
+              HasSubstr("id,x,y,vx,vy,radius,mass,angle,angular_velocity\n0,1,2,0,0,1,1,0,0.5\n"));
+  auto spheres = read("x,y,z,radius,mass,angular_velocity_z\n1,2,3,1,1,0.5\n", 3, false);
+  EXPECT_EQ(spheres.angular_velocities, (std::vector<double>{0, 0, 0.5}));
+  EXPECT_THAT(write_particles(spheres),
+              HasSubstr("radius,mass,angular_velocity_x,angular_velocity_y,angular_velocity_z\n"
+                        "0,1,2,3,0,0,0,1,1,0,0,0.5\n"));
+  EXPECT_TRUE(read("x,y,radius,mass\n1,2,1,1\n", 2, false).angular_velocities.empty());
+}
+
+TEST_F(FluidParticleFile, StaysAsItWasWithoutAFluid) {
+  auto p = discs_in_fluid();
+  p.angles = p.angular_velocities = {};
+  EXPECT_EQ(write_particles(p),
+            "# rows: 2\nid,x,y,vx,vy,radius,mass\n"
+            "0,1,2,-0.1,0.3333333333333333,0.5,0\n1,4,5,0,0,0.25,3\n");
+  EXPECT_THAT(
+      bad_input([&] { read("x,y,radius,mass,fluid_torque\n1,2,1,1,0\n", 2, false); }),
+      HasSubstr("has a column 'fluid_torque', which is not known; the known columns are id, "
+                "x, y, z, vx, vy, vz, radius, mass, angle, angular_velocity"));
+  EXPECT_THAT(bad_input([&] { read(",x,y,radius,mass\n0,1,2,1,1\n", 2, false); }),
+              HasSubstr("has a column '', which is not known (pandas writes its index so"));
+  EXPECT_THAT(bad_input([&] { read("x,y,radius,mass\n1,2,1,0\n", 2, false); }),
+              HasSubstr("mass is 0; it must be > 0"));
+}
+
+TEST_F(FluidParticleFile, IsRefusedWithTheLine) {
+  EXPECT_THAT(bad_input([&] { read("x,y,radius,mass\n1,2,1,-1\n", 2, true); }),
+              HasSubstr("particles.csv:2: mass is -1; it must be 0 or at least 1e-100"));
+  EXPECT_THAT(bad_input([&] { read("x,y,radius,mass\n1,2,0,1\n", 2, true); }),
+              HasSubstr("radius is 0; it must be > 0"));
+  EXPECT_THAT(bad_input([&] { read("z,x,radius,mass\n1,2,1,1\n", 1, true); }),
+              HasSubstr("particles.csv:2: has a value in a column of another dimension"));
+  EXPECT_THAT(bad_input([&] { read("z,radius,mass,spin\n1,2,1,1\n", 1, true); }),
+              HasSubstr("radius, mass, fluid_force_z"));
+  EXPECT_THAT(bad_input([&] { read("x,y,radius,mass,fluid_force_z\n1,2,1,1,0\n", 2, true); }),
+              HasSubstr("angle, angular_velocity, fluid_force_x"));
+}
+
+TEST_F(FluidParticleFile, OfEllipsesIsRefusedByItsColumn) {
+  const std::vector<std::array<double, 2>> axes = {{0.5, 0.25}, {0.25, 0.25}};
+  const auto text = write_particles(discs_in_fluid(), FluidForces{{}, {}, axes});
+  EXPECT_THAT(bad_input([&] { read(text, 2, true); }),
+              HasSubstr("particles.csv:2: has a column 'semi_axis_1' of ellipses or plates"));
+}
+
+TEST_F(FluidParticleFile, NamesTheMissingComponentOfTheVelocity) {
+  EXPECT_THAT(bad_input([&] { read("# a\nx,y,radius,mass,vx,vz\n1,2,1,1,5,\n", 2, false); }),
+              HasSubstr("particles.csv:2: has the column vx of the velocity, but not vy"));
+  EXPECT_THAT(bad_input([&] { read("x,y,z,radius,mass,vy,vz\n1,2,3,1,1,5,6\n", 3, false); }),
+              HasSubstr("particles.csv:1: has the column vy of the velocity, but not vx"));
+  EXPECT_THAT(bad_input([&] { read("z,radius,mass,vx\n1,1,1,\n", 1, false); }),
+              HasSubstr("but not vz"));
+  EXPECT_EQ(read("x,y,radius,mass,vx,vy,vz\n1,2,1,1,5,6,\n", 2, false).velocities,
+            (std::vector<double>{5, 6}));
+}
+
+TEST_F(FluidParticleFile, MayHaveAByteOrderMarkBeforeAComment) {
+  const std::string mark = "\xEF\xBB\xBF", table = "x,y,radius,mass\n1,2,1,1\n";
+  EXPECT_EQ(read(mark + table, 2, false).count(), 1U);
+  EXPECT_EQ(read(mark + "# a comment\n" + table, 2, false).count(), 1U);
+}
+
+// To open a pipe a second time would wait forever for another writer.
+TEST_F(FluidParticleFile, MayBeAPipe) {
+  const auto pipe = folder_.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::thread writer([&] { std::ofstream(pipe) << "x,y,radius,mass,spin\n1,2,1,1,1\n"; });
+  EXPECT_THAT(bad_input([&] { read_particles(pipe, 2, false); }), HasSubstr("column 'spin'"));
+  writer.join();
+}
+
+TEST_F(FluidParticleFile, OfTheMotionHasARowForEachParticle) {
+  auto p = discs_in_fluid();
+  p.ids = {7, 3};
+  EXPECT_EQ(motion_header(2, true) + motion_rows(0.1, p),
+            "time,id,x,y,angle,vx,vy,angular_velocity\n"
+            "0.1,7,1,2,0.7,-0.1,0.3333333333333333,2\n"
+            "0.1,3,4,5,-1,0,0,0.14285714285714285\n");
+  State state = no_particles(1);
+  add_particle(state, {3, 0, 0}, 1, 0, {-0.5, 0, 0});
+  EXPECT_EQ(motion_header(1, false) + motion_rows(2, state.particles),
+            "time,id,z,vz\n2,0,3,-0.5\n");
+}
+
+TEST_F(FluidParticleFile, OfTheMotionHasTheColumnsThatParticlesHave) {
+  State state = no_particles(2);
+  add_particle(state, {1, 2, 0}, 1, 1, {-0.5, 3, 0});
+  EXPECT_EQ(motion_header(2, false) + motion_rows(2, state.particles),
+            "time,id,x,y,vx,vy\n2,0,1,2,-0.5,3\n");
+  state = no_particles(3);
+  add_particle(state, {1, 2, 3}, 1, 1, {4, 5, 6});
+  EXPECT_EQ(motion_header(3, false) + motion_rows(2, state.particles),
+            "time,id,x,y,z,vx,vy,vz\n2,0,1,2,3,4,5,6\n");
+  add_rotation(state.particles);
+  state.particles.angular_velocities = {7, 8, 9};
+  EXPECT_EQ(motion_header(3, true) + motion_rows(2, state.particles),
+            "time,id,x,y,z,vx,vy,vz,angular_velocity_x,angular_velocity_y,angular_velocity_z\n"
+            "2,0,1,2,3,4,5,6,7,8,9\n");
+}
+
+}  // namespace
+}  // namespace viscontact::particles
