@@ -290,11 +290,6 @@ Matrix3 scaled(double factor, Matrix3 a) {
 
 namespace {
 
-Matrix3 operator+(Matrix3 a, const Matrix3& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] += b[i];
-  return a;
-}
-
 /// Turn [rad] in a step of length h by the implicit midpoint rule: the fixed point of turn = h (I +
 /// added)^-1 L, with the inertia I after half of the turn.
 Vector midpoint_turn(const RigidBody& body, const Vector& angular_momentum, const Matrix3& added,

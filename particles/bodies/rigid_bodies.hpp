@@ -22,6 +22,10 @@ inline Vector operator*(const Matrix3& a, const Vector& x) {
   return {a[0] * x[0] + a[1] * x[1] + a[2] * x[2], a[3] * x[0] + a[4] * x[1] + a[5] * x[2],
           a[6] * x[0] + a[7] * x[1] + a[8] * x[2]};
 }
+inline Matrix3 operator+(Matrix3 a, const Matrix3& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] += b[i];
+  return a;
+}
 
 /// Restart files store all members of this struct; the rest of RigidBody comes from the case.
 struct BodyMotion {

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "tests/particles/systems.hpp"
+#include "tests/common/random.hpp"
 
-namespace viscontact::particles {
+namespace viscontact::contact_solver {
 namespace {
 
 using Eigen::Index;
@@ -145,4 +145,4 @@ TEST(BlockFactor, HasTheSameBitsInUnitsThatArePowersOfTwo) {
 }
 
 }  // namespace
-}  // namespace viscontact::particles
+}  // namespace viscontact::contact_solver

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "tests/particles/systems.hpp"
+#include "tests/common/random.hpp"
 
-namespace viscontact::particles {
+namespace viscontact::contact_solver {
 namespace {
 
 constexpr double kRounding = 1e-12;  // some thousand rounding errors
@@ -53,4 +53,4 @@ TEST(SecondOrderCone, KeepsTheDigitsOfTheDistanceFromTheBoundary) {
 }
 
 }  // namespace
-}  // namespace viscontact::particles
+}  // namespace viscontact::contact_solver

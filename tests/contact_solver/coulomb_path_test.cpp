@@ -12,7 +12,7 @@
 
 #include "tests/contact_solver/random_constraints.hpp"
 
-namespace viscontact::particles {
+namespace viscontact::contact_solver {
 namespace {
 
 // Violations at the end of a path over the size of the problem, as constraint_solver.cpp asks.
@@ -205,4 +205,4 @@ TEST(CoulombPath, DependsOnNoUnitsOrderAndGuessInThePlane) { expect_same_ends<2>
 TEST(CoulombPath, DependsOnNoUnitsOrderAndGuessInSpace) { expect_same_ends<3>(); }
 
 }  // namespace
-}  // namespace viscontact::particles
+}  // namespace viscontact::contact_solver

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace viscontact::particles {
+namespace viscontact::contact_solver {
 namespace {
 
 /// x >= 0 of least |A x - b| (Lawson & Hanson 1974, "Solving least squares problems", chapter 23).
@@ -75,4 +75,4 @@ Eigen::VectorXd solve(const DenseProblem& problem) {
   return problem.gamma + u * (unit / rest);
 }
 
-}  // namespace viscontact::particles
+}  // namespace viscontact::contact_solver

@@ -4,7 +4,7 @@
 
 #include <Eigen/Dense>
 
-namespace viscontact::particles {
+namespace viscontact::contact_solver {
 
 /// A projection in dense matrices. The impulses are p = gamma^n + x with x >= 0. If all films pull
 /// with all that they have absorbed, p = gamma^n and the displacements are y0. The solution
@@ -36,4 +36,4 @@ struct DenseProblem {
 /// programming (Lawson & Hanson 1974, "Solving least squares problems", chapter 23).
 Eigen::VectorXd solve(const DenseProblem& problem);
 
-}  // namespace viscontact::particles
+}  // namespace viscontact::contact_solver

@@ -8,13 +8,13 @@
 #include <limits>
 #include <vector>
 
+#include "tests/common/random.hpp"
 #include "tests/contact_solver/dense_problem.hpp"
 #include "tests/contact_solver/random_problem.hpp"
-#include "tests/particles/systems.hpp"
 #include "viscontact/contact_solver/active_set_newton.hpp"
 #include "viscontact/contact_solver/mass_dual_problem.hpp"
 
-namespace viscontact::particles {
+namespace viscontact::contact_solver {
 namespace {
 
 TEST(FreeSetFactor, IsTheInverseBetweenContactsThatWereFreeAndStillAre) {
@@ -95,4 +95,4 @@ TEST(DualSolver, DoesNotCountAProblemWithANumberThatIsNoneAsSolved) {
 }
 
 }  // namespace
-}  // namespace viscontact::particles
+}  // namespace viscontact::contact_solver

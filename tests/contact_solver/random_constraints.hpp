@@ -8,10 +8,18 @@
 #include <cstdint>
 #include <vector>
 
-#include "tests/particles/systems.hpp"
+#include "tests/common/random.hpp"
+#include "viscontact/constraint_rows/contact_rows.hpp"
 #include "viscontact/contact_solver/constraint_problem.hpp"
 
-namespace viscontact::particles {
+namespace viscontact::contact_solver {
+
+using particles::cross;
+using particles::displacement_row;
+using particles::norm;
+using particles::operator*;
+using particles::unit_of_particle;
+using particles::Vector;
 
 /// Lengths, masses and times of a problem are multiplied by these.
 struct ProblemUnits {
@@ -147,4 +155,4 @@ double square_of(const ConstraintProblem<D>& problem, const std::vector<Motion<D
   return sum;
 }
 
-}  // namespace viscontact::particles
+}  // namespace viscontact::contact_solver

@@ -7,22 +7,22 @@
 #include <cstddef>
 #include <vector>
 
+#include "tests/common/random.hpp"
 #include "tests/contact_solver/dense_problem.hpp"
-#include "tests/particles/systems.hpp"
 #include "viscontact/contact_solver/mass_dual_problem.hpp"
 
-namespace viscontact::particles {
+namespace viscontact::contact_solver {
 
 template <int D>
 struct Problem {
-  std::vector<Contact<D>> contacts;
+  std::vector<GapRow<D>> contacts;
   std::vector<double> displacements, mobilities;
 
   /// Sets the w of each contact, which follows from the mobilities.
   void set_w() {
     for (auto& contact : contacts)
-      contact.w = (contact.first < 0 ? 0 : mobilities[index_of(contact.first)]) +
-                  mobilities[index_of(contact.second)];
+      contact.bounds.w = (contact.first < 0 ? 0 : mobilities[index_of(contact.first)]) +
+                         mobilities[index_of(contact.second)];
   }
 
   DenseProblem dense() const {
@@ -34,7 +34,7 @@ struct Problem {
     for (Eigen::Index c = 0; c < rows; ++c) {
       const auto& contact = contacts[static_cast<std::size_t>(c)];
       result.gap[c] = contact.gap;
-      result.gamma[c] = contact.lowest;
+      result.gamma[c] = contact.bounds.lowest;
       for (int d = 0; d < D; ++d) {
         const double n = contact.normal[static_cast<std::size_t>(d)];
         if (contact.first >= 0) result.g(c, contact.first * D + d) = -n;
@@ -60,19 +60,19 @@ Problem<D> random_problem(Random& random) {
   }
   const int contacts = random.integer(1, 4 * bodies);
   for (int c = 0; c < contacts; ++c) {
-    Contact<D> contact;
+    GapRow<D> contact;
     contact.second = random.integer(0, bodies - 1);
     contact.first = random.integer(-1, bodies - 1);
     if (contact.first == contact.second) contact.first = -1;
-    const Vector normal = random.direction(D);
+    const auto normal = random.direction(D);
     std::copy_n(normal.begin(), D, contact.normal.begin());
     contact.gap = random.chance(0.5) ? 0 : random.uniform(0, 0.5);
-    contact.lowest = random.chance(0.5) ? 0 : -random.decades(-3, 1);
-    contact.impulse = random.chance(0.5) ? 0 : random.uniform(contact.lowest, 1);
+    contact.bounds.lowest = random.chance(0.5) ? 0 : -random.decades(-3, 1);
+    contact.bounds.impulse = random.chance(0.5) ? 0 : random.uniform(contact.bounds.lowest, 1);
     problem.contacts.push_back(contact);
   }
   problem.set_w();
   return problem;
 }
 
-}  // namespace viscontact::particles
+}  // namespace viscontact::contact_solver

@@ -12,7 +12,7 @@
 #include "viscontact/contact_solver/constraint_solver.hpp"
 #include "viscontact/contact_solver/interior_points.hpp"
 
-namespace viscontact::particles {
+namespace viscontact::contact_solver {
 namespace {
 
 // Residuals are allowed up to this part of the size of the problem. It is far above rounding errors
@@ -292,4 +292,4 @@ TEST(InteriorPointsOfFriction, MotionsAreTheSameInAllUnitsAndOrders) {
 }
 
 }  // namespace
-}  // namespace viscontact::particles
+}  // namespace viscontact::contact_solver

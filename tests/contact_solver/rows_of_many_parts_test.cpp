@@ -5,10 +5,11 @@
 #include <cstddef>
 #include <vector>
 
-#include "tests/particles/systems.hpp"
+#include "tests/common/random.hpp"
+#include "viscontact/constraint_rows/contact_rows.hpp"
 #include "viscontact/contact_solver/constraint_solver.hpp"
 
-namespace viscontact::particles {
+namespace viscontact::contact_solver {
 namespace {
 
 constexpr int kUnits = 40;
@@ -19,7 +20,7 @@ ConstraintProblem<2> chain(Random& random, double compliance) {
   ConstraintProblem<2> problem;
   for (int u = 0; u < kUnits; ++u) {
     const std::vector<double> moved{random.uniform(-1, 1), random.uniform(-1, 1)}, turned{0.0};
-    problem.units.push_back(unit_of_particle<2>(random.uniform(0.5, 2), random.uniform(0.5, 2),
+    problem.units.push_back(particles::unit_of_particle<2>(random.uniform(0.5, 2), random.uniform(0.5, 2),
                                                 moved.data(), turned.data()));
   }
   const auto add = [&](const std::vector<RowPart<2>>& parts, double offset) {
@@ -81,4 +82,4 @@ TEST(RowsOfManyParts, HoldWithTheLeastChangeOfTheMotions) {
 }
 
 }  // namespace
-}  // namespace viscontact::particles
+}  // namespace viscontact::contact_solver

@@ -12,15 +12,6 @@
 
 namespace viscontact::particles {
 
-Vector Random::direction(int dimension) {
-  std::normal_distribution<double> normal;
-  for (;;) {
-    const Vector v{normal(generator_), normal(generator_),
-                   dimension == 3 ? normal(generator_) : 0.0};
-    if (const double length = norm(v); length > 0.1) return (1 / length) * v;
-  }
-}
-
 State no_particles(int dimension) {
   State state;
   state.particles.dimension = dimension;

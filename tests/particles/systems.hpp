@@ -5,30 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <random>
 #include <span>
 #include <vector>
 
+#include "tests/common/random.hpp"
 #include "viscontact/contact_dynamics/simulation.hpp"
 
 namespace viscontact::particles {
-
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : generator_(seed) {}
-  double uniform(double from, double to) {
-    return std::uniform_real_distribution(from, to)(generator_);
-  }
-  /// 10^x with x uniform in [from, to].
-  double decades(double from, double to) { return std::pow(10, uniform(from, to)); }
-  int integer(int from, int to) { return std::uniform_int_distribution(from, to)(generator_); }
-  bool chance(double probability) { return uniform(0, 1) < probability; }
-  /// A random unit vector, uniform over all directions.
-  Vector direction(int dimension);
-
- private:
-  std::mt19937_64 generator_;
-};
 
 State no_particles(int dimension);
 

@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "tests/common/random.hpp"
 #include "tests/contact_solver/dense_problem.hpp"
 #include "tests/contact_solver/random_problem.hpp"
-#include "tests/particles/systems.hpp"
 #include "viscontact/contact_solver/mass_dual_problem.hpp"
 
-namespace viscontact::particles {
+namespace viscontact::contact_solver {
 namespace {
 
 struct Answer {
@@ -25,7 +25,7 @@ template <int D>
 Answer answer_of(const Problem<D>& problem, double tolerance, int threads = 1) {
   ThreadPool pool(threads);
   auto contacts = problem.contacts;
-  for (auto& contact : contacts) contact.allowed = tolerance;
+  for (auto& contact : contacts) contact.bounds.allowed = tolerance;
   MassDualProblem<D> dual(contacts, problem.displacements, problem.mobilities, pool);
   FreeSetFactor<D> factor;
   Answer answer;
@@ -112,11 +112,11 @@ TEST(Projection, OfRandomSpheresIsThatOfADenseSolver) {
 Problem<2> packed_lattice(int side, Random& random) {
   Problem<2> problem;
   const auto contact = [&](int first, int second, std::array<double, 2> normal) {
-    Contact<2> c;
+    GapRow<2> c;
     c.first = first;
     c.second = second;
     c.normal = normal;
-    c.lowest = random.chance(0.3) ? -random.uniform(0, 1) : 0;
+    c.bounds.lowest = random.chance(0.3) ? -random.uniform(0, 1) : 0;
     problem.contacts.push_back(c);
   };
   for (int y = 0; y < side; ++y)
@@ -153,7 +153,7 @@ TEST(Projection, OfDuplicateContactsHasOneVelocityAndTheirImpulsesAddUp) {
     // Each contact in two halves.
     const auto contacts = problem.contacts.size();
     for (std::size_t c = 0; c < contacts; ++c) {
-      problem.contacts[c].lowest /= 2;
+      problem.contacts[c].bounds.lowest /= 2;
       problem.contacts.push_back(problem.contacts[c]);
     }
     const auto twice = answer_of(problem, 1e-12);
@@ -169,7 +169,7 @@ TEST(Projection, HasVelocitiesThatDoNotDependOnTheGuess) {
     auto problem = random_problem<3>(random);
     const auto dense = problem.dense();
     const auto first = answer_of(problem, 1e-11);
-    for (auto& contact : problem.contacts) contact.impulse = random.uniform(-20, 20);
+    for (auto& contact : problem.contacts) contact.bounds.impulse = random.uniform(-20, 20);
     const auto second = answer_of(problem, 1e-11);
     EXPECT_LE(square_distance(dense, first.displacements, second.displacements),
               bound_by_convexity(dense, first.impulses, second.impulses, 2e-11));
@@ -184,7 +184,7 @@ TEST(Projection, LeavesAConvergedGuessAsItIs) {
     const auto answer = answer_of(problem, 1e-9);
     auto again = problem;
     for (std::size_t c = 0; c < again.contacts.size(); ++c)
-      again.contacts[c].impulse = answer.impulses[static_cast<Eigen::Index>(c)];
+      again.contacts[c].bounds.impulse = answer.impulses[static_cast<Eigen::Index>(c)];
     // Twice the tolerance: the guess is rounded.
     EXPECT_EQ(answer_of(again, 2e-9).solved.iterations, 0);
   }
@@ -201,10 +201,10 @@ TEST(Projection, ThatCannotBeSaysSo) {
   // Two planes that overlap at the disc: no displacement is on the free side of both.
   Problem<2> problem{{}, {0, 0}, {1}};
   for (const double side : {1.0, -1.0}) {
-    Contact<2> contact;
+    GapRow<2> contact;
     contact.normal = {side, 0};
     contact.gap = -0.1;
-    contact.allowed = 1e-6;
+    contact.bounds.allowed = 1e-6;
     problem.contacts.push_back(contact);
   }
   problem.set_w();
@@ -220,4 +220,4 @@ TEST(Projection, ThatCannotBeSaysSo) {
 }
 
 }  // namespace
-}  // namespace viscontact::particles
+}  // namespace viscontact::contact_solver
