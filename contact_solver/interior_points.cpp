@@ -11,7 +11,7 @@ namespace {
 
 /// This part [1] of the change of r is added to the change of u. It bounds the entries of the
 /// matrix at 1e10 times the masses, so that its factorisation keeps six digits of the masses.
-constexpr double kRegularisation = 1e-10;
+constexpr double kInnerRegularisation = 1e-10;
 
 /// A step ends after this part [1] of the way to the boundary of the nearest cone.
 constexpr double kInside = 0.995;
@@ -168,7 +168,7 @@ double InteriorPoints<D>::measure() {
 template <int D>
 void InteriorPoints<D>::begin_predictor(Single& part) {
   part.goal = -part.u;
-  part.weight = 1 / ((part.is_equation ? part.compliance : part.u / part.r) + kRegularisation);
+  part.weight = 1 / ((part.is_equation ? part.compliance : part.u / part.r) + kInnerRegularisation);
 }
 
 template <int D>
@@ -179,8 +179,8 @@ void InteriorPoints<D>::begin_predictor(Cones& part) {
 
 template <int D>
 ConePoint InteriorPoints<D>::change_of_r(const Cones& part, const ConePoint& numbers) {
-  return part.is_bound_given ? part.scaling.solve_beside(kRegularisation, numbers)
-                             : part.scaling.solve(kRegularisation, numbers);
+  return part.is_bound_given ? part.scaling.solve_beside(kInnerRegularisation, numbers)
+                             : part.scaling.solve(kInnerRegularisation, numbers);
 }
 
 template <int D>
@@ -252,10 +252,10 @@ void InteriorPoints<D>::find_direction(int solutions) {
       problem_.add_impulse(part.row, part.scale * part.change_of_r, right_);
     for (const auto& part : cones_) add_impulse(part, part.change_of_r, right_);
   }
-  for (auto& part : singles_) part.change_of_u += kRegularisation * part.change_of_r;
+  for (auto& part : singles_) part.change_of_u += kInnerRegularisation * part.change_of_r;
   for (auto& part : cones_) {
     for (std::size_t k = 0; k < 3; ++k)
-      part.change_of_u[k] += kRegularisation * part.change_of_r[k];
+      part.change_of_u[k] += kInnerRegularisation * part.change_of_r[k];
     if (!part.is_bound_given) continue;
     // The change of z follows from the second number of W^2 dr + du, which must be that of the
     // goal. The first number is much larger near a solution, so that digits would be lost.

@@ -186,7 +186,7 @@ py::object contacts(const PythonParticles& self) {
   using Contact = particles::CurrentContact;
   py::dict columns;
   const auto id_of = [&](std::int32_t number) {
-    return number < 0 ? number : p.id(particles::index_of(number));
+    return number < 0 ? number : p.id(index_of(number));
   };
   columns["first"] = column(all, [&](const Contact& c) { return id_of(c.first); });
   columns["second"] = column(all, [&](const Contact& c) { return id_of(c.second); });

@@ -137,7 +137,7 @@ MembraneProcess::MembraneProcess(const particles::Fluid& fluid, const particles:
   for (std::size_t d = 0; d < 2; ++d)
     for (const auto& membrane : membranes_)
       for (const auto bead : membrane.beads)
-        components_.push_back(kComponents * particles::index_of(bead) + d);
+        components_.push_back(kComponents * index_of(bead) + d);
   std::vector<double> radii_of_discs;
   // The opening has the lines of opening() for the discs and then, for each membrane, a line with
   // its numbers of beads and edges and its viscosity ratio, and the rows of the matrix `smoothing`.
@@ -192,7 +192,7 @@ void MembraneProcess::place(const particles::FluidParticles& bodies) {
     Eigen::MatrixXd own(membranes_[m].count(), 2);
     for (Eigen::Index k = 0; k < own.rows(); ++k) {
       const auto at = bodies.particles->position(
-          particles::index_of(membranes_[m].beads[static_cast<std::size_t>(k)]));
+          index_of(membranes_[m].beads[static_cast<std::size_t>(k)]));
       own.row(k) << at[0], at[1];
     }
     if (!own.allFinite())
