@@ -2,7 +2,7 @@
 // commands reads a case file (TOML) and writes all results of the case and a web page about them
 // into the folder --output; numbers are in the units of the case. --jobs is from 1 to 1024.
 // main.cpp adds the commands. They throw Error(kWrongUsage) for an empty name of the folder, or for
-// --hdf5 if the program was built without HDF5, Error(kBadInput) for a wrong case or a file that
+// --hdf5 if the module hdf5 is missing, Error(kBadInput) for a wrong case or a file that
 // must not be replaced, Error(kExternalProgram) if FreeFEM or another program fails,
 // Error(kNotConverged) if a computation fails, and Error(kInterrupted) after Ctrl-C.
 // run_particles(), run_rolling() and run_swimmer() do the work. Texts of --help may be changed. A

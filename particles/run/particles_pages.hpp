@@ -1,8 +1,8 @@
 // Writes the page, the picture and the HDF5 and XYZ files of a run of many particles from the files
 // that the run has written. Lengths [L], times [T] and velocities [L/T] are in the units of the case. The
 // commands `particles` and `report` call these functions. They throw Error(kBadInput) if a file is
-// missing, damaged or cannot be written, and Error(kWrongUsage) if HDF5 is asked for but this
-// program was built without libhdf5. A change must keep that frames of earlier versions can be
+// missing, damaged or cannot be written, and Error(kWrongUsage) if HDF5 is asked for but the module
+// hdf5 cannot be loaded. A change must keep that frames of earlier versions can be
 // drawn, and the names and layout of the data sets in the HDF5 file (docs/file-formats.md, "HDF5"),
 // because users' scripts read them.
 #pragma once
@@ -31,8 +31,7 @@ void write_pages(const ParticlesCase& c, const std::filesystem::path& folder,
 /// run, or if Viscontact did not write the page or picture that would be replaced.
 void report_particles(const std::filesystem::path& folder);
 
-/// Throws Error(kWrongUsage), which says what to install, if this program was built without
-/// libhdf5.
+/// Loads the module hdf5. Throws Error(kWrongUsage), which says what to install, if that fails.
 void require_hdf5();
 
 /// Writes `folder`/particles.h5 from the frames that `folder`/particles.pvd lists, one after the
@@ -40,7 +39,7 @@ void require_hdf5();
 /// command, is stored in the file. At any time, also after a power cut, the folder has the earlier
 /// file or the whole new one (write_file_by() in file.hpp). Throws Error(kBadInput) if a frame is
 /// missing or damaged, if there is no frame, or if the file cannot be written, and
-/// Error(kWrongUsage) if this program was built without libhdf5.
+/// Error(kWrongUsage) if the module hdf5 cannot be loaded.
 void write_hdf5(const ParticlesCase& c, const std::filesystem::path& folder,
                 const results::Provenance& provenance);
 

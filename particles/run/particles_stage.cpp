@@ -1,7 +1,7 @@
 // Runs a case of many particles (particles_stage.hpp): checks the inputs, continues an earlier run,
 // computes time steps, saves the state and writes the results. Times of the motion [T] are in the
 // unit of the case, computing times in s, memory in MiB; the number of threads is at least 1 (not
-// checked). A wrong case or file is an Error(kBadInput), a request for HDF5 without libhdf5 an
+// checked). A wrong case or file is an Error(kBadInput), a request for HDF5 without its module an
 // Error(kWrongUsage), a failure of the fluid solver an Error(kExternalProgram), a step that does
 // not converge an Error(kNotConverged), a stop an Error(kInterrupted). Errors of a step are thrown
 // after the results are written. A change must keep that restart.bin is written after all files

@@ -39,7 +39,7 @@ struct ParticlesRequest {
 /// computed, Error(kExternalProgram) if the fluid solver failed in a step, Error(kInterrupted) if
 /// `stop` requested a stop. If the flow of a frame cannot be computed, its error is thrown at once,
 /// and the same request continues from the last restart.bin. Throws Error(kWrongUsage) at the
-/// beginning if `hdf5` is true and the program was built without libhdf5.
+/// beginning if `hdf5` is true and the module hdf5 cannot be loaded.
 void run_particles(const ParticlesRequest& request);
 
 }  // namespace viscontact::particles
