@@ -5,6 +5,7 @@
 #include <hdf5.h>
 
 #include <array>
+#include <cassert>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -154,6 +155,7 @@ class LibraryFile : public Hdf5File {
     checked(H5Awrite(attribute, type, &begin), name_);
   }
   std::size_t add_rows(const std::string& path, Hdf5Number type, std::size_t columns) override {
+    assert(columns >= 1 && columns <= 8192);
     sets_.emplace_back(id_, path, type, columns, name_);
     return sets_.size() - 1;
   }

@@ -1,7 +1,7 @@
 // The HDF5 file that the module hdf5 writes with libhdf5.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
