@@ -170,8 +170,8 @@ struct ForceAtArm {
 
 /// Mean force on a body in a step, and mean torque about its centre.
 struct BodyLoad {
-  Vector force{};                    ///< [M L/T^2]
-  Vector torque{};                   ///< [M L^2/T^2]
+  Vector force{};   ///< [M L/T^2]
+  Vector torque{};  ///< [M L^2/T^2]
   std::vector<ForceAtArm> forces{};  ///< those on members, which `force` and `torque` contain
   /// Positive semidefinite stiffness against turns that the forces have in the step, (5.21)
   /// [M L^2/T^2], times the parameter of Newmark's method; of discs the last entry.
