@@ -1,11 +1,13 @@
-# viscontact_library(NAME SOURCES FILE... [HEADERS FILE...] [NEEDS PART...] [FIND PACKAGE...]
-#                    [PUBLIC LIBRARY...] [PRIVATE LIBRARY...] [COMPUTES_LITTLE])
+# viscontact_library(NAME SOURCES FILE... [HEADERS FILE...] [NEEDS PART...] [LOADS PART...]
+#                    [FIND PACKAGE...] [PUBLIC LIBRARY...] [PRIVATE LIBRARY...] [COMPUTES_LITTLE])
 #
 # Adds a part of Viscontact that can be used on its own, as the targets viscontact_NAME and
 # viscontact::NAME. Paths of files are relative to the folder of the CMakeLists.txt that calls it.
 #
 # HEADERS  public headers, which are installed; all other headers are internal
 # NEEDS    parts of Viscontact that the part links to
+# LOADS    parts PART that the part links to, too, but which the program loads as modules: a target with
+#          the property VISCONTACT_LOADS_MODULES links PART_loader in place of PART
 # FIND     arguments of find_dependency, one string for each package, for projects that use the part
 #          through find_package(viscontact COMPONENTS NAME)
 # PUBLIC   external libraries whose headers the public headers include
@@ -17,7 +19,7 @@
 # A part without HEADERS is used by the program alone and is not installed.
 function(viscontact_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "COMPUTES_LITTLE" ""
-                        "SOURCES;HEADERS;NEEDS;FIND;PUBLIC;PRIVATE")
+                        "SOURCES;HEADERS;NEEDS;LOADS;FIND;PUBLIC;PRIVATE")
   set(target viscontact_${name})
   add_library(${target} STATIC ${arg_SOURCES})
   add_library(viscontact::${name} ALIAS ${target})
@@ -32,6 +34,12 @@ function(viscontact_library name)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${VISCONTACT_INCLUDE_FOLDER}>
                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   list(TRANSFORM arg_NEEDS PREPEND viscontact_ OUTPUT_VARIABLE parts)
+  set(loads_modules $<BOOL:$<TARGET_PROPERTY:VISCONTACT_LOADS_MODULES>>)
+  foreach(part IN LISTS arg_LOADS)
+    list(APPEND parts
+      $<BUILD_INTERFACE:$<IF:${loads_modules},viscontact_${part}_loader,viscontact_${part}>>
+      $<INSTALL_INTERFACE:viscontact::${part}>)
+  endforeach()
   target_link_libraries(${target} PUBLIC ${parts} ${arg_PUBLIC}
                         PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:viscontact_warnings>)
   if(arg_COMPUTES_LITTLE)
@@ -55,7 +63,7 @@ function(viscontact_library name)
   list(TRANSFORM arg_HEADERS PREPEND viscontact/${folder}/ OUTPUT_VARIABLE headers)
   # These variables describe the part in viscontact-config.cmake.in.
   list(JOIN arg_FIND "\" \"" find)
-  string(APPEND description "set(viscontact_${name}_needs ${arg_NEEDS})\n")
+  string(APPEND description "set(viscontact_${name}_needs ${arg_NEEDS} ${arg_LOADS})\n")
   string(APPEND description "set(viscontact_${name}_find \"${find}\")\n")
   string(APPEND description "set(viscontact_${name}_headers ${headers})\n")
   set_property(GLOBAL APPEND PROPERTY VISCONTACT_PARTS ${name})

@@ -1,5 +1,5 @@
 // One frame of a motion of particles as SVG, a panel of the still picture. view.js and picture.js
-// in particles/picture/page draw the same on a web page.
+// in particle_runs/picture/page draw the same on a web page.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // The numbers of the page that plays a motion of particles, encoded as blocks, which motion.js,
-// colouring.js and flow.js in particles/picture/page read.
+// colouring.js and flow.js in particle_runs/picture/page read.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The page that plays a motion of particles. The scripts in particles/picture/page read the keys of
+// The page that plays a motion of particles. The scripts in particle_runs/picture/page read the keys of
 // its JSON and find elements by their ids.
 #include <fmt/format.h>
 

@@ -76,7 +76,7 @@ struct LineWidth {
 };
 
 /// Colours and proportions of the still picture and the page, which gets them as JSON.
-/// style_of_page() of particles_page.cpp and the scripts in particles/picture/page have the same
+/// style_of_page() of particles_page.cpp and the scripts in particle_runs/picture/page have the same
 /// names.
 struct SceneStyle {
   using Colour = const char*;  ///< "#rrggbb"

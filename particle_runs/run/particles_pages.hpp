@@ -25,7 +25,7 @@ void write_pages(const ParticlesCase& c, const std::filesystem::path& folder,
 /// run, or if Viscontact did not write the page or picture that would be replaced.
 void report_particles(const std::filesystem::path& folder);
 
-/// Throws Error(kWrongUsage), which says what to install, if the program was built without libhdf5.
+/// Throws Error(kWrongUsage), which says what to install, if the module hdf5 cannot be loaded.
 void require_hdf5();
 
 /// Writes `folder`/particles.h5 (docs/file-formats.md, "HDF5") from the frames that

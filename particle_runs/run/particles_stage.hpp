@@ -28,7 +28,7 @@ struct ParticlesRequest {
 /// fluid every 10 s. Throws at the beginning, before anything is written: Error(kBadInput) if the
 /// case or the restart file is wrong, if a result would replace an input or a file that Viscontact
 /// did not write, or if another process uses the folder; Error(kWrongUsage) if `hdf5` is true and
-/// the program was built without libhdf5; Error(kExternalProgram) if the fluid solver cannot be
+/// the module hdf5 cannot be loaded; Error(kExternalProgram) if the fluid solver cannot be
 /// started. Throws after everything is written: Error(kNotConverged) if a step missed the
 /// tolerances by more than the factor kStillAResult or cannot be computed, Error(kExternalProgram)
 /// if the fluid solver failed in a step, Error(kInterrupted) if `stop` requested a stop. If a file
