@@ -120,9 +120,7 @@ Eigen::VectorXd leverages(const Eigen::MatrixXd& matrix) {
   const Eigen::VectorXd over_length = matrix.colwise().norm().cwiseInverse();
   const Eigen::MatrixXd scaled = matrix * over_length.asDiagonal();
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(scaled);
-  const Eigen::MatrixXd q =
-      qr.householderQ() * Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols());
-  return q.rowwise().squaredNorm();
+  return first_columns_of_q(qr).rowwise().squaredNorm();
 }
 
 /// For each row: true if it alone has the smallest or the largest gap of the table. A fit without

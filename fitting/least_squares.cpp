@@ -70,10 +70,10 @@ void refine(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_sid
     const Eigen::VectorXd f = (b - residual - long_matrix * x).cast<double>();
     const Eigen::VectorXd g = (-(long_matrix.transpose() * residual)).cast<double>();
     const Eigen::VectorXd h = upper.transpose().solve(g);
-    Eigen::VectorXd d = qr.householderQ().adjoint() * f;
+    Eigen::VectorXd d = transposed_q_times(qr, f);
     x += upper.solve(d.head(columns) - h).cast<long double>();
     d.head(columns) = h;
-    const Eigen::VectorXd correction = qr.householderQ() * d;
+    const Eigen::VectorXd correction = q_times(qr, d);
     residual += correction.cast<long double>();
   }
   const Eigen::VectorXd refined = x.cast<double>();

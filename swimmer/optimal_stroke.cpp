@@ -109,7 +109,7 @@ std::optional<VectorXd> LoopOptimizer::newton_step(const PolynomialLoop& loop, c
   // method would go to a saddle point. A multiple of the Hessian for a constant metric is added to
   // make it so; it grows from a small value until it suffices.
   const Eigen::HouseholderQR<MatrixXd> qr(normal);
-  const MatrixXd basis = MatrixXd(qr.householderQ()).rightCols(normal.size() - 1);
+  const MatrixXd basis = whole_q(qr).rightCols(normal.size() - 1);
   MatrixXd hessian = *exact;
   const auto is_positive = [&] {
     const MatrixXd on_plane = basis.transpose() * hessian * basis;

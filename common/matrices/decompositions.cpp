@@ -28,3 +28,24 @@ template void Eigen::LDLT<Eigen::MatrixXd>::_solve_impl(const Eigen::VectorXd&,
                                                         Eigen::VectorXd&) const;
 template void Eigen::LLT<Eigen::MatrixXd>::_solve_impl(const Eigen::VectorXd&,
                                                        Eigen::VectorXd&) const;
+
+namespace viscontact {
+
+Eigen::MatrixXd first_columns_of_q(const Eigen::HouseholderQR<Eigen::MatrixXd>& qr) {
+  return qr.householderQ() * Eigen::MatrixXd::Identity(qr.rows(), qr.cols());
+}
+
+Eigen::MatrixXd whole_q(const Eigen::HouseholderQR<Eigen::MatrixXd>& qr) {
+  return qr.householderQ();
+}
+
+Eigen::VectorXd q_times(const Eigen::HouseholderQR<Eigen::MatrixXd>& qr, const Eigen::VectorXd& v) {
+  return qr.householderQ() * v;
+}
+
+Eigen::VectorXd transposed_q_times(const Eigen::HouseholderQR<Eigen::MatrixXd>& qr,
+                                   const Eigen::VectorXd& v) {
+  return qr.householderQ().adjoint() * v;
+}
+
+}  // namespace viscontact

@@ -42,3 +42,17 @@ extern template void Eigen::LDLT<Eigen::MatrixXd>::_solve_impl(const Eigen::Vect
 extern template void Eigen::LLT<Eigen::MatrixXd>::_solve_impl(const Eigen::VectorXd&,
                                                               Eigen::VectorXd&) const;
 /// @endcond
+
+namespace viscontact {
+
+/// The first columns of Q in the decomposition Q R of a matrix, as many as the matrix has.
+Eigen::MatrixXd first_columns_of_q(const Eigen::HouseholderQR<Eigen::MatrixXd>& qr);
+/// The whole orthogonal matrix Q in the decomposition Q R.
+Eigen::MatrixXd whole_q(const Eigen::HouseholderQR<Eigen::MatrixXd>& qr);
+/// Q v, for the whole orthogonal matrix Q in the decomposition Q R.
+Eigen::VectorXd q_times(const Eigen::HouseholderQR<Eigen::MatrixXd>& qr, const Eigen::VectorXd& v);
+/// Q^T v, for the whole orthogonal matrix Q in the decomposition Q R.
+Eigen::VectorXd transposed_q_times(const Eigen::HouseholderQR<Eigen::MatrixXd>& qr,
+                                   const Eigen::VectorXd& v);
+
+}  // namespace viscontact
