@@ -24,13 +24,16 @@ constexpr Allowed kShare = {[](double v) { return v >= 0 && v <= 1; }, "from 0 t
 
 /// Reads 2, 3, or "axisymmetric", which becomes 1.
 void read_dimension(const case_file::TomlSection& space, std::string_view key, int& dimension) {
-  if (!space.is_text(key)) {
-    dimension = space.count(key, 2, 3);
+  constexpr const char* kAllowed = "it must be 2, 3 or \"axisymmetric\"";
+  space.require(space.has(key), key, "is missing; {}", kAllowed);
+  if (space.is_text(key)) {
+    space.require(space.text(key) == "axisymmetric", key, "is '{}'; {}", space.text(key), kAllowed);
+    dimension = 1;
     return;
   }
-  space.require(space.text(key) == "axisymmetric", key,
-                "is '{}'; it must be 2, 3 or \"axisymmetric\"", space.text(key));
-  dimension = 1;
+  const auto shown = space.shown(key);
+  space.require(shown == "2" || shown == "3", key, "is {}; {}", shown, kAllowed);
+  dimension = space.count(key, 2, 3);  // refuses 2.0
 }
 
 void space_keys(case_file::Keys& keys, ParticlesCase& c) {
