@@ -155,15 +155,6 @@ void check_friction_in_fluid(const case_file::TomlSection& section, const Settin
                   "have no friction; the section [friction] must be left out");
 }
 
-/// Earlier versions offered three methods that solve the same problem. A case that names one of the
-/// other two is still accepted, and the present method is used.
-void read_method(const case_file::TomlSection& solver, std::string_view key) {
-  const auto text = solver.text(key);
-  solver.require(
-      text == "conjugate_gradients" || text == "accelerated_gradient" || text == "gauss_seidel",
-      key, "is '{}'; it must be \"conjugate_gradients\", the only method", text);
-}
-
 void solver_keys(case_file::Keys& keys, SolverSettings& settings) {
   keys.optional("tolerance", case_file::number(settings.tolerance, kTolerance),
                 {"tolerance of the gaps, divided by the mean radius"});
@@ -176,10 +167,6 @@ void solver_keys(case_file::Keys& keys, SolverSettings& settings) {
                  "contacts](fluid.md#contact)",
                  {},
                  "whole number >= 1"});
-  keys.optional("method", case_file::custom("`\"conjugate_gradients\"`", read_method),
-                {"the only method; `\"accelerated_gradient\"` and `\"gauss_seidel\"` are read and "
-                 "have no effect",
-                 "`\"conjugate_gradients\"`"});
 }
 
 void output_keys(case_file::Keys& keys, ParticlesCase& c) {
