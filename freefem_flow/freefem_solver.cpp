@@ -1,4 +1,4 @@
-// The commands of fluid solvers, and the units in which FreeFEM computes.
+// The commands of fluid solvers, and results of FreeFEM in the units of the case.
 #include "viscontact/freefem_flow/freefem_solver.hpp"
 
 #include <fmt/format.h>
@@ -18,29 +18,12 @@
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
 #include "viscontact/freefem_flow/boundary/mesh_boundary.hpp"
 #include "viscontact/freefem_flow/membranes/membrane_process.hpp"
+#include "viscontact/freefem_flow/solver_units.hpp"
 #include "viscontact/immersed/fluid_solver.hpp"
 #include "viscontact/particles/fluid.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {
-
-/// The units in which FreeFEM computes: the powers of 2, whose scaling has no rounding error, with
-/// which the radius of the smallest particle or membrane, and the viscosity, become numbers between
-/// 0.7 and 1.5. The unit of time is that of the case.
-struct SolverUnits {
-  double length = 1;     ///< [L]
-  double viscosity = 1;  ///< [M/(L T)]
-};
-
-/// For the smallest of `radii`, or for the size of the domain if there are none.
-SolverUnits solver_units(const particles::Fluid& fluid, const particles::Domain& domain,
-                         std::span<const double> radii);
-
-/// Lengths, masses and what depends on them, divided by the units of the solver. The penalty, the
-/// viscosity ratios, times, angles and rates [1/T] stay.
-particles::Fluid in_units(particles::Fluid fluid, const SolverUnits& units);
-particles::Domain in_units(particles::Domain domain, const SolverUnits& units);
-std::vector<double> in_units(std::span<const double> lengths, const SolverUnits& units);
 
 /// A fluid solver that changes arguments in the units of the case to SolverUnits, asks another
 /// solver, and changes the results back.
@@ -77,64 +60,6 @@ class ScaledSolver : public particles::FluidSolver {
   std::unique_ptr<particles::FluidSolver> solver_;
 };
 
-/// The power of 2 whose logarithm is nearest to that of `number`.
-double power_of_2(double number) {
-  assert(number > 0);
-  return std::exp2(std::round(std::log2(number)));
-}
-
-SolverUnits solver_units(const particles::Fluid& fluid, const particles::Domain& domain,
-                         std::span<const double> radii) {
-  const double length = radii.empty() ? size_of(domain) : std::ranges::min(radii);
-  return {power_of_2(length), power_of_2(fluid.viscosity)};
-}
-
-particles::Fluid in_units(particles::Fluid fluid, const SolverUnits& units) {
-  fluid.viscosity /= units.viscosity;
-  fluid.threshold_gap /= units.length;
-  for (auto& axes : fluid.semi_axes)
-    for (auto& axis : axes) axis /= units.length;
-  for (auto& area : fluid.cut_areas) area /= units.length * units.length;
-  fluid.density /= units.viscosity / (units.length * units.length);
-  for (auto& membrane : fluid.membranes) {
-    membrane.bending_rigidity /= units.viscosity * units.length * units.length * units.length;
-    membrane.perimeter /= units.length;
-    membrane.area /= units.length * units.length;
-  }
-  for (auto& probe : fluid.probes)
-    for (auto* place : {&probe.from, &probe.to})
-      for (auto& x : *place) x /= units.length;
-  for (auto& gradient : fluid.pressure_gradient) gradient /= units.viscosity / units.length;
-  if (auto* sides = std::get_if<particles::SideVelocities>(&fluid.boundary))
-    for (auto& side : *sides) {
-      for (auto& component : side.value) component /= units.length;
-      for (auto& piece : side.pieces.pieces)
-        for (auto& component : piece.value) component /= units.length;
-    }
-  return fluid;
-}
-
-particles::Domain in_units(particles::Domain domain, const SolverUnits& units) {
-  const double unit = units.length;
-  if (auto* disc = std::get_if<particles::DiscDomain>(&domain)) {
-    for (auto& x : disc->centre) x /= unit;
-    disc->radius /= unit;
-  } else if (auto* box = std::get_if<particles::BoxDomain>(&domain)) {
-    for (auto* corner : {&box->from, &box->to})
-      for (auto& x : *corner) x /= unit;
-  } else if (auto* cylinder = std::get_if<particles::CylinderDomain>(&domain)) {
-    cylinder->radius /= unit;
-    cylinder->height /= unit;
-  }
-  return domain;
-}
-
-std::vector<double> in_units(std::span<const double> lengths, const SolverUnits& units) {
-  std::vector<double> scaled(lengths.begin(), lengths.end());
-  for (auto& length : scaled) length /= units.length;
-  return scaled;
-}
-
 ScaledSolver::ScaledSolver(const SolverUnits& units, int dimension,
                            std::unique_ptr<particles::FluidSolver> solver)
     : units_(units),
@@ -158,7 +83,7 @@ void ScaledSolver::place(const particles::FluidParticles& bodies) {
   assert(bodies.particles != nullptr);
   particles::Particles scaled;
   scaled.dimension = bodies.particles->dimension;
-  scaled.positions = in_units(bodies.particles->positions, units_);
+  scaled.positions = places_in_units(bodies.particles->positions, scaled.dimension, units_);
   scaled.radii = in_units(bodies.particles->radii, units_);
   scaled.ids = bodies.particles->ids;
   // Lengths in `bodies` stay in the unit of the case, because the mesh asks only which particles
@@ -228,6 +153,10 @@ particles::FlowField ScaledSolver::flow() {
   auto field = solver_->flow();
   for (auto* lengths : {&field.x, &field.y, &field.velocity_x, &field.velocity_y})
     for (auto& value : *lengths) value *= units_.length;
+  // A sum with 0 would change the sign of -0, which files show.
+  for (std::size_t d = 0; d < units_.origin.size(); ++d)
+    if (units_.origin[d] != 0)
+      for (auto& x : d == 0 ? field.x : field.y) x += units_.origin[d];
   for (auto& pressure : field.pressure) pressure *= units_.viscosity;
   return field;
 }
@@ -269,20 +198,37 @@ void refuse_small_particles(const particles::Fluid& fluid, const particles::Doma
       fluid.edges_per_particle, shortest / chord);
 }
 
-/// Throws Error(kNotConverged) if FreeFEM would refuse an edge of `boundary`, which is in units of
-/// `unit` [L] around a domain of the extent `size` in these units.
-void refuse_short_edges(const MeshBoundary& boundary, double size, double unit) {
+/// The same for edges on a membrane (membrane_process.hpp).
+void refuse_small_membranes(const particles::Fluid& fluid, const particles::Domain& domain) {
+  const double shortest = kShortestEdge * extent_of(domain);
+  for (const auto& membrane : fluid.membranes) {
+    const int edges = std::max(fluid.edges_per_particle, (2 * membrane.count() + 2) / 3);
+    if (membrane.perimeter >= edges * shortest) continue;
+    throw Error(
+        ErrorKind::kBadInput,
+        "a membrane of perimeter {} is too small for the domain: {} edges on it are {:.2g} long, "
+        "and FreeFEM makes no mesh with edges below {:.2g}, which is {} of the length of the "
+        "domain; the perimeter must be at least {:.3g}. Choose a smaller domain",
+        membrane.perimeter, edges, membrane.perimeter / edges, shortest, kShortestEdge,
+        edges * shortest);
+  }
+}
+
+/// Throws Error(kNotConverged) if FreeFEM would refuse an edge of `boundary`, which is in `units`
+/// around a domain of the extent `size` in these units.
+void refuse_short_edges(const MeshBoundary& boundary, double size, const SolverUnits& units) {
   for (const auto& curve : boundary.curves)
     for (int i = curve.first; i < curve.first + curve.edges; ++i) {
       const auto &from = boundary.points[static_cast<std::size_t>(i)],
                  &to = boundary.points[static_cast<std::size_t>(i) + 1];
       const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
       if (length >= kShortestEdge * size) continue;
+      const auto place = units.in_case(from);
       throw Error(ErrorKind::kNotConverged,
                   "a gap is too narrow for the mesh: an edge in it at ({:.6g}, {:.6g}) is {:.2g} "
                   "long, and FreeFEM makes no mesh with edges below {:.2g}, which is {} of the "
                   "length of the domain; raise threshold_gap",
-                  from[0] * unit, from[1] * unit, length * unit, kShortestEdge * size * unit,
+                  place[0], place[1], length * units.length, kShortestEdge * size * units.length,
                   kShortestEdge);
     }
 }
@@ -334,12 +280,13 @@ std::unique_ptr<particles::FluidSolver> start_fluid_solver(const particles::Flui
                                                            std::span<const double> radii,
                                                            int dimension, const StopToken& stop) {
   if (!fluid.membranes.empty()) {
+    refuse_small_membranes(fluid, domain);
     std::vector<double> sizes;
     for (const auto& membrane : fluid.membranes)
       sizes.push_back(std::sqrt(membrane.area / std::numbers::pi));
     const auto units = solver_units(fluid, domain, sizes);
     auto process = start_membrane_solver(in_units(fluid, units), in_units(domain, units),
-                                         in_units(radii, units), units.length,
+                                         in_units(radii, units), units,
                                          freefem_command("membranes.edp"), solver_limits(stop));
     return std::make_unique<ScaledSolver>(units, dimension, std::move(process));
   }
@@ -348,10 +295,10 @@ std::unique_ptr<particles::FluidSolver> start_fluid_solver(const particles::Flui
   const SolverUnits units = is_freefem ? solver_units(fluid, domain, radii) : SolverUnits{};
   const auto own_fluid = in_units(fluid, units);
   const auto own_domain = in_units(domain, units);
-  const auto make_boundary = [own_fluid, own_domain, is_freefem, unit = units.length](
+  const auto make_boundary = [own_fluid, own_domain, is_freefem, units](
                                  const particles::FluidParticles& placed, double coarsening) {
     auto boundary = mesh_boundary(own_fluid, own_domain, placed, coarsening);
-    if (is_freefem) refuse_short_edges(boundary, extent_of(own_domain), unit);
+    if (is_freefem) refuse_short_edges(boundary, extent_of(own_domain), units);
     return boundary;
   };
   auto process = std::make_unique<FlowProcess>(own_fluid, own_domain, in_units(radii, units),

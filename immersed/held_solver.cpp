@@ -33,6 +33,7 @@ void HeldSolver::hold(std::vector<HeldRow> rows, double h) {
   assert(h > 0);
   rows_ = std::move(rows);
   stiffnesses_.clear();
+  row_forces_.clear();
   h_ = h;
 }
 
@@ -60,6 +61,7 @@ void HeldSolver::place(const FluidParticles& bodies) {
   solver_->place(bodies);
   is_varied_ = false;
   responses_.clear();
+  row_forces_.clear();
   motions_ = bodies.particles->count() * motion_components(bodies.particles->dimension);
   respond();
 }

@@ -2,6 +2,7 @@
 // docs/physics.md (6.7).
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -127,9 +128,13 @@ class HeldSolver : public FluidSolver {
   /// >= 0 [M/T^2, M L^2/T^2]; 0 if the row is no spring.
   const std::vector<double>& stiffnesses() const { return stiffnesses_; }
   /// True if row `r` is a spring whose motion the step does not resolve: theta > 2/3, or z > 1.
-  bool is_stiff(std::size_t r) const { return thetas_[r] > 2.0 / 3; }
+  bool is_stiff(std::size_t r) const {
+    assert(r < thetas_.size());
+    return thetas_[r] > 2.0 / 3;
+  }
 
-  /// In the last velocities(forces, true) [M L/T^2, M L^2/T^2].
+  /// In the last velocities(forces, true) [M L/T^2, M L^2/T^2]; empty if it was not called after the
+  /// last place().
   const std::vector<double>& row_forces() const { return row_forces_; }
 
   /// The forces and torques on all particles of springs, of rows with a particle that accelerates,

@@ -39,7 +39,8 @@ class MembraneSimulation::Implementation {
  private:
   // The Eigen vectors of this class hold places [L, rad], velocities [L/T, 1/T], or forces and
   // torques [M L/T^2, M L^2/T^2]: first x of all beads, then y of all beads, and then x, y and the
-  // angle of each disc. The discs are the particles that are no beads.
+  // angle of each disc. The discs are the particles that are no beads. Places are relative to
+  // origin_, so that lengths and areas of membranes far from the origin of the case are exact.
   Eigen::Index bead_components() const { return 2 * membranes_.beads(); }
   /// Places from `positions` [L] of all particles. If `near` is not null and the domain is
   /// periodic, each disc and the first bead of each membrane are taken at the image nearest to
@@ -51,6 +52,8 @@ class MembraneSimulation::Implementation {
   void to_particles(const Eigen::VectorXd& all, std::vector<double>& numbers) const;
   void to_particles(const Eigen::VectorXd& all, std::vector<double>& of_centres,
                     std::vector<double>& of_turns) const;
+  /// Sets the positions and angles of all particles.
+  void put_places(const Eigen::VectorXd& places, Particles& particles) const;
   // Means between the times `from` and `to` [T], or, if these are equal, values at this time.
   Eigen::VectorXd applied_forces(double from, double to) const;
   void place(const Eigen::VectorXd& places, double from, double to);
@@ -81,6 +84,7 @@ class MembraneSimulation::Implementation {
   State state_, before_step_;
   std::unique_ptr<FluidSolver> solver_;
   Membranes membranes_;
+  Vector origin_;                    // distant_corner() of the domain [L]
   std::vector<std::int32_t> discs_;  // the particles that are no beads
   ThreadPool pool_;
   std::vector<Plane> obstacles_;
@@ -93,6 +97,7 @@ MembraneSimulation::Implementation::Implementation(Setting setting, State state,
       state_(std::move(state)),
       solver_(std::move(solver)),
       membranes_(setting_.fluid->membranes),
+      origin_(distant_corner(setting_.domain)),
       pool_(1),
       obstacles_(obstacles_of(setting_)) {
   assert(solver_ != nullptr && !setting_.fluid->membranes.empty());
@@ -134,13 +139,14 @@ Eigen::VectorXd MembraneSimulation::Implementation::places(std::span<const doubl
   const auto& p = state_.particles;
   const auto beads = bead_components();
   Eigen::VectorXd places(beads + static_cast<Eigen::Index>(kComponents * discs_.size()));
+  std::vector<double> relative(positions.begin(), positions.end());
+  for (std::size_t i = 0; i < relative.size(); ++i) relative[i] -= origin_[i % 2];
   const Eigen::VectorXd near_beads = near != nullptr ? near->head(beads) : Eigen::VectorXd();
-  places.head(beads) =
-      membranes_.places(positions, p.cell, near != nullptr ? &near_beads : nullptr);
+  places.head(beads) = membranes_.places(relative, p.cell, near != nullptr ? &near_beads : nullptr);
   auto i = beads;
   for (const auto disc : discs_) {
     for (std::size_t d = 0; d < 2; ++d, ++i) {
-      places(i) = positions[2 * index_of(disc) + d];
+      places(i) = relative[2 * index_of(disc) + d];
       const double period = p.cell.lengths[d];
       if (near != nullptr && period > 0)
         places(i) -= period * std::round((places(i) - (*near)(i)) / period);
@@ -185,6 +191,13 @@ void MembraneSimulation::Implementation::to_particles(const Eigen::VectorXd& all
   }
 }
 
+void MembraneSimulation::Implementation::put_places(const Eigen::VectorXd& places,
+                                                    Particles& particles) const {
+  to_particles(places, particles.positions, particles.angles);
+  for (std::size_t i = 0; i < particles.positions.size(); ++i)
+    if (origin_[i % 2] != 0) particles.positions[i] += origin_[i % 2];
+}
+
 Eigen::VectorXd MembraneSimulation::Implementation::applied_forces(double from, double to) const {
   std::vector<double> forces(kComponents * state_.particles.count());
   for (const auto& [particle, force] : setting_.forces) {
@@ -197,7 +210,7 @@ Eigen::VectorXd MembraneSimulation::Implementation::applied_forces(double from, 
 void MembraneSimulation::Implementation::place(const Eigen::VectorXd& places, double from,
                                                double to) {
   auto placed = state_.particles;
-  to_particles(places, placed.positions, placed.angles);
+  put_places(places, placed);
   FluidParticles bodies{.particles = &placed, .angles = placed.angles, .driven = {}, .inertia = {}};
   for (const auto& [particle, motion] : setting_.given_motions) {
     const auto at = [&](const PiecewiseConstant& of) {
@@ -405,7 +418,7 @@ StepReport MembraneSimulation::Implementation::step(double end) {
   state_.earlier_positions = state_.particles.positions;
   state_.earlier_forces = std::move(forces);
   state_.earlier_step = h;
-  to_particles(reached, state_.particles.positions, state_.particles.angles);
+  put_places(reached, state_.particles);
   to_particles(velocities, state_.particles.velocities, state_.particles.angular_velocities);
   state_.time = interval->end;
   wrap_into_cell(state_);

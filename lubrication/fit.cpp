@@ -99,7 +99,7 @@ Fit with_viscosity(Fit fit, double viscosity) {
 
 namespace {
 
-constexpr auto kAllowed = Absence::kAllowed;  // for keys that files of earlier versions lack
+constexpr auto kAllowed = Absence::kAllowed;  // for keys that files written by hand may lack
 constexpr Allowed kAtLeast1 = {[](double v) { return v >= 1; }, ">= 1"};
 constexpr auto kLeftOutIfEmpty = Absence::kLeftOutIfEmpty;
 
@@ -129,24 +129,22 @@ void check_covariance(const JsonFields& json, const Fit& fit) {
                 "is {}; it must be >= 0, since it is a variance", fit.covariance[i][i]);
 }
 
-/// The two keys of a row that was left out of its fit; `which` is "inner" or "end". If one of them
-/// is missing, `row` stays as it is.
+/// The two keys of a row that was left out of its fit; `which` is "inner" or "end".
 void left_out_row(JsonFields& json, const std::string& which, std::optional<LeftOutRow>& row) {
   std::optional<double> residual, gap;
   if (row) std::tie(residual, gap) = std::tuple(row->relative_residual, row->gap);
-  json("leave_one_out_" + which + "_largest", residual, kAllowed);
-  json("leave_one_out_" + which + "_gap", gap, kAllowed);
+  json("leave_one_out_" + which + "_largest", residual);
+  json("leave_one_out_" + which + "_gap", gap);
   if (residual && gap) row = {*gap, *residual};
 }
 
-/// The three keys of the row; if one of them is missing, `worst` stays as it is.
 void worst_to_estimate(JsonFields& json, std::optional<WorstToEstimate>& worst) {
   std::optional<double> ratio, gap, residual;
   if (worst)
     std::tie(ratio, gap, residual) = std::tuple(worst->ratio, worst->gap, worst->relative_residual);
-  json("estimate_ratio_largest", ratio, kAllowed);
-  json("estimate_ratio_gap", gap, kAllowed);
-  json("estimate_ratio_residual", residual, kAllowed);
+  json("estimate_ratio_largest", ratio);
+  json("estimate_ratio_gap", gap);
+  json("estimate_ratio_residual", residual);
   if (ratio && gap && residual) worst = {*gap, *residual, *ratio};
 }
 
@@ -172,7 +170,7 @@ void fields_of(JsonFields& json, FitDiagnostics& d) {
   json("leave_one_out_gap", d.leave_one_out_gap);
   left_out_row(json, "inner", d.left_out_inner);
   left_out_row(json, "end", d.left_out_end);
-  json("rows_beyond_estimate", d.rows_beyond_estimate, kAllowed);
+  json("rows_beyond_estimate", d.rows_beyond_estimate);
   worst_to_estimate(json, d.worst_to_estimate);
   json("chi_squared", d.chi_squared);
   json.word("misfit", d.misfit, parse_misfit);

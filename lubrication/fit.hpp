@@ -90,10 +90,9 @@ struct FitDiagnostics {
   /// shows how large the error of the formula may be between rows. Nothing if leave_one_out_rms is
   /// nothing, or if the table has no such row.
   std::optional<LeftOutRow> left_out_inner{}, left_out_end{};
-  /// Rows, without outliers, whose |relative residual| is larger than their own error estimate. It
-  /// is 0 for fit files of earlier versions, which lack it.
+  /// Rows, without outliers, whose |relative residual| is larger than their own error estimate.
   std::size_t rows_beyond_estimate = 0;
-  /// Outliers do not count. Nothing without error estimates and in fit files of earlier versions.
+  /// Outliers do not count. Nothing without error estimates.
   std::optional<WorstToEstimate> worst_to_estimate{};
   /// The sum over the gaps of (relative residual/error estimate)^2 [1], of which the mean over the
   /// rows at a gap counts. Nothing if a row has no error estimate.

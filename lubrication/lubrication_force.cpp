@@ -161,21 +161,18 @@ LubricationForce::LubricationLimit LubricationForce::limit() const {
 }
 
 double LubricationForce::regular_resistance(double gap) const {
-  if (exact_)
-    return leading_ / radius_ * plane_drag_factor_regular(std::max(gap / radius_, kExactRange[0]));
-  const double from = std::max(gap, fitted_interval_[0]);
+  const double from = gap < 0 ? gap : std::max(gap, fitted_interval_[0]);
   check_gap(from);
+  if (exact_) return leading_ / radius_ * plane_drag_factor_regular(from / radius_);
   if (from > fitted_interval_[1]) return resistance(from) - leading_ / from;
   return sum_values(regular_weights_, from, largest_gap_);
 }
 
 double LubricationForce::regular_impulse(double gap) const {
-  if (exact_)
-    return gap > 0 ? leading_ * plane_drag_regular_integral(std::max(gap / radius_, kExactRange[0]))
-                   : 0;
   const auto [smallest, largest] = fitted_interval_;
-  if (gap <= smallest) return gap * regular_resistance(smallest);
+  if (gap >= 0 && gap <= smallest) return gap * regular_resistance(smallest);
   check_gap(gap);
+  if (exact_) return leading_ * plane_drag_regular_integral(gap / radius_);
   const double to_smallest = smallest * regular_resistance(smallest);
   const double within = std::min(gap, largest);
   const double in_interval = sum_antiderivatives(regular_weights_, within, largest_gap_) -

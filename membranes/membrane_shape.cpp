@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -22,13 +23,37 @@ const std::vector<Membrane>& membranes_of(const Setting& setting) {
   return setting.fluid ? setting.fluid->membranes : setting.links.membranes;
 }
 
+namespace {
+
+/// Moves the first bead to 0 along each axis on which coordinates are so much larger than the
+/// membrane that their rounding errors would change its lengths and its area. Returns how far, [L].
+std::array<double, 2> move_to_origin(Eigen::VectorXd& positions) {
+  constexpr double kDistant = 100;  // as in distant_corner()
+  const auto n = positions.size() / 2;
+  std::array<double, 2> from{};
+  for (Eigen::Index d = 0; d < 2; ++d) {
+    auto along = positions.segment(d * n, n);
+    const double first = along(0);
+    if (!(std::abs(first) > kDistant * (along.maxCoeff() - along.minCoeff()))) continue;
+    along.array() -= first;
+    from[static_cast<std::size_t>(d)] = first;
+  }
+  return from;
+}
+
+}  // namespace
+
 MembraneMeasures measure(const Membrane& membrane, const Particles& particles) {
   if (!membrane.lengths.empty()) return measure_necklace(membrane, particles);
   const std::array one = {membrane};
   const Membranes membranes(one);
-  return measure(MembraneCurve(membrane.count()),
-                 membranes.places(particles.positions, particles.cell),
-                 membranes.from_particles(particles.velocities, 2));
+  auto positions = membranes.places(particles.positions, particles.cell);
+  const auto from = move_to_origin(positions);
+  auto measures = measure(MembraneCurve(membrane.count()), positions,
+                          membranes.from_particles(particles.velocities, 2));
+  if (from[0] != 0) measures.x += from[0];
+  if (from[1] != 0) measures.y += from[1];
+  return measures;
 }
 
 namespace {
@@ -195,7 +220,8 @@ void shape_polygon(Membrane& membrane, const Particles& particles) {
 }
 
 double shape_curve(Membrane& membrane, Particles& particles) {
-  const auto given = ordered_necklace(membrane, particles);
+  auto given = ordered_necklace(membrane, particles);
+  move_to_origin(given);
   const MembraneCurve curve(membrane.count());
   membrane.perimeter = curve.perimeter(given);
   membrane.area = curve.area(given);

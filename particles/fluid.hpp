@@ -68,12 +68,14 @@ struct WallVelocity {
   std::array<double, 2> at(double time, double from = 0, double to = 0) const;
 };
 
-/// The velocity E x at the points x of all walls, with the constant matrix E. If the domain is
+/// The velocity u0 + E x at the points x of all walls, with the constant matrix E. If the domain is
 /// periodic along x and y, E is the mean velocity gradient. A shear with the rate s has E = (0, s;
 /// 0, 0) and the velocity (s y, 0). A strain with the rate s has E = (s, 0; 0, -s).
 struct LinearFlow {
   /// E as du/dx, du/dy, dv/dx, dv/dy [1/T]. If all are 0, the walls are at rest.
   std::array<double, 4> gradient{};
+  /// u0 [L/T], which is 0 in a case; not used if the domain is periodic along x and y.
+  std::array<double, 2> at_origin{};
 };
 
 /// Velocities of the sides of a box: left, right, bottom, top. Entries of periodic sides are not

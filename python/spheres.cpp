@@ -95,7 +95,6 @@ py::object columns_of(const reduced_model::Trajectory& trajectory) {
   about["steps"] = trajectory.steps;
   about["seconds"] = trajectory.seconds;
   about["film_from_gamma"] = or_none(trajectory.film_from_gamma);
-  about["recovered_minimal_gap"] = about["film_from_gamma"];  // the name in earlier versions
   about["contact_interval"] = or_none(trajectory.contact_interval);
   about["solid_contact_from"] =
       trajectory.solid_contact_from ? py::cast(trajectory.solid_contact_from->time) : py::none();

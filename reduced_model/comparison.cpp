@@ -146,8 +146,7 @@ Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
 }
 
 void fields_of(JsonFields& json, SolidTouch& touch) {
-  // The functions fields_of() state the keys of the file in their order, for reading and writing. A
-  // key with Absence::kAllowed may be missing, as in files of earlier versions.
+  // The functions fields_of() state the keys of the file in their order, for reading and writing.
   json("time", touch.time);
   json("velocity", touch.velocity);
 }
@@ -172,18 +171,18 @@ void fields_of(JsonFields& json, MomentumEnergyBudget& budget) {
 void fields_of(JsonFields& json, ModelComparison& model) {
   json("minimal_gap", model.minimal_gap);
   json("minimal_gap_time", model.minimal_gap_time);
-  json.renamed("film_from_gamma", "recovered_minimal_gap", model.film_from_gamma);
+  json("film_from_gamma", model.film_from_gamma);
   json("contact_interval", model.contact_interval);
-  json("solid_contact_from", model.solid_contact_from, Absence::kAllowed);
+  json("solid_contact_from", model.solid_contact_from);
   json("time_to_gap", model.gap_times, Absence::kLeftOutIfEmpty);
-  json("rebounds", model.rebounds, Absence::kAllowed);
+  json("rebounds", model.rebounds);
   json("sup_gap_distance", model.sup_gap_distance);
   json("l1_gap_distance", model.l1_gap_distance);
   json("l1_velocity_distance", model.l1_velocity_distance);
-  json("books", model.budget, Absence::kAllowed);
-  json("reynolds_number", model.reynolds_number, Absence::kAllowed);
-  json("stokes_number", model.stokes_number, Absence::kAllowed);
-  json("film_stokes_number", model.film_stokes_number, Absence::kAllowed);
+  json("books", model.budget);
+  json("reynolds_number", model.reynolds_number);
+  json("stokes_number", model.stokes_number);
+  json("film_stokes_number", model.film_stokes_number);
   json("steps", model.steps);
   json("seconds", model.seconds);
 }

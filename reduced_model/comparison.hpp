@@ -64,7 +64,7 @@ struct Comparison {
 Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
                                 std::string_view reference_model, const StopToken& stop = {});
 
-/// Reads the comparison file (JSON), also of earlier versions. Throws Error(kBadInput), which names
+/// Reads the comparison file (JSON). Throws Error(kBadInput), which names
 /// file and line, if the file is missing or of another form.
 Comparison read_comparison(const std::filesystem::path& path);
 /// The text of the comparison file (docs/file-formats.md).

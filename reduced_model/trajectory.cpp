@@ -117,9 +117,6 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
   };
   if (const auto model = take("model")) trajectory.model = *model;
   trajectory.film_from_gamma = take_number(kFilmKey);
-  // Earlier versions wrote this name.
-  if (const auto film = take_number("recovered_minimal_gap"); !trajectory.film_from_gamma)
-    trajectory.film_from_gamma = film;
   trajectory.reynolds_number = take_number(kReynoldsKey);
   trajectory.stokes_number = take_number(kStokesKey);
   trajectory.film_stokes_number = take_number(kFilmStokesKey);

@@ -22,7 +22,7 @@ namespace viscontact::report {
 namespace {
 
 /// How well the fit predicts rows of the table that it did not use, as HTML. Empty if this is not
-/// known. Throws std::bad_optional_access for a fit of an earlier version that lacks a number.
+/// known.
 std::string trust(const lubrication::FitDiagnostics& d) {
   std::string text;
   if (d.leave_one_out_rms)
@@ -34,10 +34,6 @@ std::string trust(const lubrication::FitDiagnostics& d) {
   if (d.left_out_end)
     text += fmt::format(", beyond an end (an extrapolation) {:.3g} at gap {:.4g}",
                         d.left_out_end->relative_residual, d.left_out_end->gap);
-  // A fit file of an earlier version has one value for inner rows and end rows together.
-  if (d.leave_one_out_rms && !d.left_out_inner && !d.left_out_end)
-    text += fmt::format(", largest {:.3g} at gap {:.4g}", d.leave_one_out_largest.value(),
-                        d.leave_one_out_gap.value());
   if (d.leave_one_out_rms) text += ". ";
   if (d.chi_squared)
     text += fmt::format(

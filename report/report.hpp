@@ -12,7 +12,7 @@
 namespace viscontact::report {
 
 /// Writes report.html, which loads nothing from elsewhere, and the pictures in plots/ into the
-/// folder of a run. Its inputs are the files in the folder, also of an earlier version: case.toml,
+/// folder of a run. Its inputs are the files in the folder: case.toml,
 /// fit.json, comparison.json, trajectories/*.csv (at least one) and, if they exist, table.csv and
 /// uncertainty.json. `given` are the files of the user from which the same command made these
 /// files; it is empty if the user gave the files in the folder. If gnuplot cannot be run, the user

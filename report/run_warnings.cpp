@@ -86,22 +86,16 @@ void add_failed_models(Warnings& warnings, const results::RunResults& run) {
 }
 
 /// Warns if residuals of the fit are larger than the table's error estimates. Each residual is
-/// compared with the estimate of its own row, because that of another row may be much larger. A fit
-/// file of an earlier version has chi-squared in place of this comparison.
+/// compared with the estimate of its own row, because that of another row may be much larger.
 void add_coarser_than_table(Warnings& warnings, const lubrication::FitDiagnostics& d) {
-  if (d.misfit != lubrication::Misfit::kBasis) return;
-  if (const auto& worst = d.worst_to_estimate)
-    warnings.add("fit.json",
-                 "The fit is coarser than the table: {} of {} rows have a relative residual above "
-                 "their own error estimate, most of all the row at gap {:.4g} ({:.2g}, which is "
-                 "{:.2g} times its estimate); another basis can do better",
-                 d.rows_beyond_estimate, d.rows, worst->gap, std::abs(worst->relative_residual),
-                 worst->ratio);
-  else
-    warnings.add("fit.json",
-                 "The fit is coarser than the table: chi-squared is {:.2g} for {} degrees of "
-                 "freedom; another basis can do better",
-                 d.chi_squared.value_or(0), d.degrees_of_freedom);
+  const auto& worst = d.worst_to_estimate;
+  if (d.misfit != lubrication::Misfit::kBasis || !worst) return;
+  warnings.add("fit.json",
+               "The fit is coarser than the table: {} of {} rows have a relative residual above "
+               "their own error estimate, most of all the row at gap {:.4g} ({:.2g}, which is "
+               "{:.2g} times its estimate); another basis can do better",
+               d.rows_beyond_estimate, d.rows, worst->gap, std::abs(worst->relative_residual),
+               worst->ratio);
 }
 
 void add_poor_fit(Warnings& warnings, const lubrication::Fit& fit) {

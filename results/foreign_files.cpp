@@ -1,4 +1,4 @@
-// Recognises files of Viscontact, also of earlier versions, by their provenance (provenance.hpp).
+// Recognises files of Viscontact by their provenance (provenance.hpp).
 #include "viscontact/results/foreign_files.hpp"
 
 #include <cassert>

@@ -23,7 +23,7 @@ namespace viscontact::results {
 namespace {
 
 // A line is a provenance if it contains kName followed by kBegin, the beginning of a JSON object.
-// Earlier files have both, and foreign_files.cpp repeats them.
+// foreign_files.cpp repeats both.
 constexpr std::string_view kName = "provenance";
 constexpr std::string_view kBegin = "{\"command\":[";
 

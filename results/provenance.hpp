@@ -18,7 +18,7 @@ struct InputFile {
   bool intermediate = false;  ///< the same command made the file, as `run` makes its table
 };
 
-/// How a file was made: command, inputs and versions. Files of earlier versions stay readable.
+/// How a file was made: command, inputs and versions.
 struct Provenance {
   /// The command as it was typed: program, then arguments.
   std::vector<std::string> command;

@@ -1,4 +1,4 @@
-// Reads the folder of a run (run_folder.hpp), also that of an earlier version.
+// Reads the folder of a run (run_folder.hpp).
 #include "viscontact/results/run_results.hpp"
 
 #include <utility>

@@ -70,7 +70,6 @@ Variation parse_variation(std::string_view text) {
   const auto equals = text.find('=');
   if (equals == std::string_view::npos || equals == 0) refuse(text, "KEY= is missing");
   variation.key = text.substr(0, equals);
-  if (variation.key == "motion.mass") variation.key = "sphere.mass";
   const auto number = [&](std::string_view part) {
     const auto value = parse_number(part);
     if (!value) refuse(text, fmt::format("'{}' is not a finite number", part));

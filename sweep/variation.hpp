@@ -32,8 +32,7 @@ struct Variation {
 };
 
 /// Reads "KEY=A:B:log:N" (geometric progression), "KEY=A:B:N" (equal distances) or "KEY=V,V,...".
-/// The key "motion.mass" of earlier versions is read as "sphere.mass". Throws Error(kBadInput),
-/// which names the fault: the key is missing, the text has another form, a number is not finite, a
+/// Throws Error(kBadInput), which names the fault: the key is missing, the text has another form, a number is not finite, a
 /// logarithmic range contains 0 or changes sign, or N is not an integer from 1 to 1e9. A case need
 /// not have the key.
 Variation parse_variation(std::string_view text);

@@ -101,14 +101,6 @@ class JsonFields {
     }
   }
 
-  /// The same for a key that had the name `former` in files of earlier versions.
-  template <class Value>
-  void renamed(const std::string& key, const std::string& former, Value& value,
-               Absence absence = Absence::kRefused) {
-    const bool is_old = reads() && !json_->contains(key) && json_->contains(former);
-    (*this)(is_old ? former : key, value, absence);
-  }
-
   /// A finite number; when it is read, the key must exist and the number be `allowed`.
   void operator()(const std::string& key, double& value, const Allowed& allowed) {
     (*this)(key, value);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
-#include <charconv>
 #include <cstring>
 #include <new>
 
@@ -132,27 +131,21 @@ std::optional<std::string_view> between(std::string_view text, std::string_view 
 
 VtkReader::VtkReader(std::string_view text, std::string file, std::string what)
     : file_(std::move(file)), what_(std::move(what)) {
-  constexpr std::string_view kMark = "<AppendedData encoding=\"raw\">\n_";
-  const auto mark = text.find(kMark);
-  const auto head = text.substr(0, mark);
-  if (mark != std::string_view::npos)
-    appended_ = text.substr(mark + kMark.size());
-  else if (!text.ends_with(kVtkClosing))
-    refuse();
-  const auto file_tag = between(head, "<VTKFile ", ">").value_or("");
+  if (!text.ends_with(kVtkClosing)) refuse();
+  const auto file_tag = between(text, "<VTKFile ", ">").value_or("");
   if (between(file_tag, "byte_order=\"", "\"") != kByteOrder ||
       between(file_tag, "header_type=\"", "\"") != "UInt64" ||
-      (mark == std::string_view::npos && between(file_tag, "compressor=\"", "\"") != kCompressor))
+      between(file_tag, "compressor=\"", "\"") != kCompressor)
     refuse();
-  list_arrays(head);
+  list_arrays(text);
 }
 
-void VtkReader::list_arrays(std::string_view head) {
+void VtkReader::list_arrays(std::string_view text) {
   std::string_view section;
-  for (auto at = head.find('<'); at != std::string_view::npos; at = head.find('<', at)) {
-    const auto rest = head.substr(at);
+  for (auto at = text.find('<'); at != std::string_view::npos; at = text.find('<', at)) {
+    const auto rest = text.substr(at);
     if (rest.starts_with("<!--")) {
-      at = head.find("-->", at);
+      at = text.find("-->", at);
       continue;
     }
     const auto end = rest.find('>');
@@ -166,14 +159,10 @@ void VtkReader::list_arrays(std::string_view head) {
     }
     const auto name = between(tag, "Name=\"", "\""), type = between(tag, "type=\"", "\"");
     if (!name || !type) refuse();
-    Array array{section, *name, *type, tag, {}};
-    if (!tag.ends_with('/')) {
-      const auto content = between(rest.substr(end), ">", "</DataArray>");
-      if (!content) refuse();
-      array.content = *content;
-      at += content->size();
-    }
-    arrays_.push_back(array);
+    const auto content = between(rest.substr(end), ">", "</DataArray>");
+    if (!content) refuse();
+    at += content->size();
+    arrays_.push_back({section, *name, *type, *content});
   }
 }
 
@@ -191,15 +180,6 @@ std::string VtkReader::bytes_of(std::string_view section, std::string_view name,
                                 const char* type) const {
   const auto* array = find(section, name);
   if (array == nullptr || array->type != type) refuse();
-  if (const auto offset = between(array->tag, "offset=\"", "\"")) {
-    std::uint64_t at = 0, size = 0;
-    if (std::from_chars(offset->data(), offset->data() + offset->size(), at).ec != std::errc() ||
-        at > appended_.size() || appended_.size() - at < sizeof size)
-      refuse();
-    std::memcpy(&size, appended_.data() + at, sizeof size);
-    if (appended_.size() - at - sizeof size < size) refuse();
-    return std::string(appended_.substr(at + sizeof size, size));
-  }
   auto text = array->content;
   while (text.starts_with('\n')) text.remove_prefix(1);
   while (text.ends_with('\n')) text.remove_suffix(1);

@@ -74,8 +74,7 @@ struct PolyCells {
 std::optional<std::string_view> between(std::string_view text, std::string_view before,
                                         std::string_view after);
 
-/// Reads the arrays of a file that vtk_array() wrote on a machine with the same byte order. Files
-/// of earlier revisions, whose arrays are appended raw data, are read, too.
+/// Reads the arrays of a file that vtk_array() wrote on a machine with the same byte order.
 class VtkReader {
  public:
   /// `text`, the content of `file`, must outlive this object. `what` says in messages what the file
@@ -101,17 +100,14 @@ class VtkReader {
 
  private:
   struct Array {
-    std::string_view section, name, type;
-    std::string_view tag;      // from "<" to the end of its attributes
-    std::string_view content;  // empty if the numbers are appended
+    std::string_view section, name, type, content;
   };
-  void list_arrays(std::string_view head);
+  void list_arrays(std::string_view text);
   const Array* find(std::string_view section, std::string_view name) const;
   std::string bytes_of(std::string_view section, std::string_view name, const char* type) const;
 
   std::string file_, what_;
   std::vector<Array> arrays_;
-  std::string_view appended_;  // empty if the arrays are inline
 };
 
 }  // namespace viscontact

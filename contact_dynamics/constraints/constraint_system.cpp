@@ -279,7 +279,9 @@ void ConstraintSystem<D>::take_over(ContactSystem<D>& system, const Island& isla
     auto& state = contact_states_[c];
     system.contacts[c].impulse = impulse;
     state.friction = {};
-    state.carried = block.rows > 1 ? load_of_solids(impulse, block.capacity) : 0;
+    state.carried = has_friction(state.tangents) ? load_of_solids(impulse, block.capacity) : 0;
+    if (state.carried > 0 && has_given_slip(system.contacts[c]))
+      state.friction = friction_of_given_slip(system.contacts[c], state);
     for (std::size_t k = 1; k < block.rows; ++k)
       state.friction =
           state.friction + problem.impulses[block.row + k] * state.tangents.directions[k - 1];

@@ -226,6 +226,13 @@ class ConstraintSystem {
   UnitMotion given_motion(std::int32_t particle) const;
   // The side of an obstacle has no unit (-1).
   ContactSide side_of(std::int32_t entry) const;
+  // The film of smooth particles absorbs every impulse, so that they have no friction.
+  bool has_friction(const ContactTangents<D>& tangents) const;
+  // True if no impulse changes how the surfaces slide on each other: a plane under a load, which
+  // moves along its normal only, and a particle whose motion is given.
+  bool has_given_slip(const Contact<D>& contact) const;
+  // The impulse of friction on such a particle [M L/T], 0 if the surfaces do not slide.
+  Vector friction_of_given_slip(const Contact<D>& contact, const ContactState& state) const;
   // Makes a unit of each rigid body, and of each particle without a body, of the island.
   void number_units(const ContactSystem<D>& system, Island& island);
   // Takes the last impulses as the guess. `allowed_slip` is in [L].

@@ -1,5 +1,6 @@
 // The ConstraintProblem of an island of a ConstraintSystem.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <vector>
 
@@ -51,6 +52,32 @@ ContactSide ConstraintSystem<D>::side_of(std::int32_t entry) const {
 }
 
 template <int D>
+bool ConstraintSystem<D>::has_friction(const ContactTangents<D>& tangents) const {
+  return step_.laws.friction && step_.laws.friction->coefficient > 0 &&
+         std::isfinite(tangents.capacity);
+}
+
+template <int D>
+bool ConstraintSystem<D>::has_given_slip(const Contact<D>& contact) const {
+  return contact.loaded_plane >= 0 && is_given(contact.second);
+}
+
+template <int D>
+Vector ConstraintSystem<D>::friction_of_given_slip(const Contact<D>& contact,
+                                                   const ContactState& state) const {
+  assert(has_given_slip(contact));
+  Vector normal{};
+  std::copy_n(contact.normal.begin(), D, normal.begin());
+  const auto motion = given_motion(contact.second);
+  Vector slip = motion.displacement - state.tangents.second_arm * cross(motion.turn, normal) -
+                state.tangents.surface;
+  slip = slip - dot(slip, normal) * normal;
+  const double length = norm(slip);
+  if (!(length > 0)) return {};
+  return (-step_.laws.friction->coefficient * state.carried / length) * slip;
+}
+
+template <int D>
 void ConstraintSystem<D>::add_contact(const Contact<D>& contact, std::size_t c, double allowed_slip,
                                       ConstraintProblem<D>& problem) {
   const auto& state = contact_states_[c];
@@ -62,8 +89,8 @@ void ConstraintSystem<D>::add_contact(const Contact<D>& contact, std::size_t c, 
   block.capacity = tangents.capacity;
   block.allowed = contact.allowed;
   block.allowed_slip = allowed_slip;
-  // The film of smooth particles absorbs every impulse, so that there is no friction.
-  const bool rubs = block.friction > 0 && std::isfinite(block.capacity);
+  // Friction that moves nothing has no rows, because their mobilities would be 0.
+  const bool rubs = has_friction(tangents) && !has_given_slip(contact);
   block.rows = rubs ? static_cast<std::size_t>(D) : 1;
   if (problem.is_convex && rubs) {
     block.friction_bound = block.has_film() ? FrictionBound::kGiven : FrictionBound::kCone;

@@ -120,9 +120,11 @@ TablePlan make_plan(PlanParts<Row> given) {
       return false;
     const auto version = table.versions.find("FreeFEM");
     auto blank = planned.blank;
+    const auto column_count = columns_of(planned.head, blank).size();
     for (auto row : table.rows) {
+      // A file may have the hash and yet other rows, such as those of more spheres.
+      if (columns_of(table, row).size() != column_count) return false;
       const auto columns = columns_of(planned.head, row);
-      if (columns.size() != columns_of(planned.head, blank).size()) return false;
       RowPoint point;
       for (std::size_t k = 0; k < size_of_point; ++k) point.push_back(*columns[k].number);
       auto& finished = record.finished[point];

@@ -80,13 +80,14 @@ class WantedEdges {
 
 }  // namespace
 
-void check_places(const particles::Domain& domain, const InnerCurves& curves, double unit) {
-  assert(unit > 0);
-  const auto fail = [&](const char* what, const Point& x) {
+void check_places(const particles::Domain& domain, const InnerCurves& curves,
+                  const SolverUnits& units) {
+  const auto fail = [&](const char* what, const Point& place) {
+    const auto x = units.in_case(place);
     throw Error(ErrorKind::kNotConverged,
                 "{} at ({:.6g}, {:.6g}); use a shorter time_step, or more room between membranes, "
                 "particles and walls",
-                what, x[0] * unit, x[1] * unit);
+                what, x[0], x[1]);
   };
   for (const auto& own : curves.membranes)
     for (const auto& node : own.rowwise()) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "viscontact/freefem_flow/boundary/mesh_boundary.hpp"
+#include "viscontact/freefem_flow/solver_units.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/outline.hpp"
 
@@ -29,9 +30,10 @@ struct InnerCurves {
 };
 
 /// Throws Error(kNotConverged) if a node of a membrane is outside the domain or inside a disc, or
-/// if a disc is not inside the domain; a place that is NaN counts as outside. `unit` is the unit of
-/// length of `curves`, measured in that of the case, for the message.
-void check_places(const particles::Domain& domain, const InnerCurves& curves, double unit);
+/// if a disc is not inside the domain; a place that is NaN counts as outside. `units` are those of
+/// the arguments; the message has places of the case.
+void check_places(const particles::Domain& domain, const InnerCurves& curves,
+                  const SolverUnits& units);
 
 /// The place of a line across a box that is periodic along x, at which a mesh can end: the distance
 /// [L] from the left side of the box, which may be negative, to the middle of the widest strip

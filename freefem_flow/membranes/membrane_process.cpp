@@ -63,7 +63,7 @@ MembraneNodes nodes_of(int beads, int edges) {
 class MembraneProcess : public particles::FluidSolver {
  public:
   MembraneProcess(const particles::Fluid& fluid, const particles::Domain& domain,
-                  std::span<const double> radii, double unit, SolverCommand command,
+                  std::span<const double> radii, const SolverUnits& units, SolverCommand command,
                   const SolverLimits& limits);
 
   void place(const particles::FluidParticles& bodies) override;
@@ -94,7 +94,7 @@ class MembraneProcess : public particles::FluidSolver {
   SolverLimits limits_;
   std::string opening_, gradient_;  // the first requests; gradient_ may be empty
   particles::Domain domain_;
-  double unit_;  // unit of length of the arguments in that of the case; for messages
+  SolverUnits units_;  // of the arguments
   std::vector<Membrane> membranes_;
   int edges_;                         // on each membrane
   int edges_of_disc_;                 // least number on each disc
@@ -116,18 +116,17 @@ class MembraneProcess : public particles::FluidSolver {
 };
 
 MembraneProcess::MembraneProcess(const particles::Fluid& fluid, const particles::Domain& domain,
-                                 std::span<const double> radii, double unit, SolverCommand command,
-                                 const SolverLimits& limits)
+                                 std::span<const double> radii, const SolverUnits& units,
+                                 SolverCommand command, const SolverLimits& limits)
     : command_(std::move(command)),
       limits_(limits),
       domain_(domain),
-      unit_(unit),
+      units_(units),
       membranes_(fluid.membranes),
       edges_(fluid.edges_per_particle),
       edges_of_disc_(fluid.edges_per_particle),
       radii_(radii.begin(), radii.end()),
       dissipation_alone_(dissipation_alone(fluid, domain)) {
-  assert(unit > 0);
   if (membranes_.size() > kMostMembranes)
     throw Error(ErrorKind::kBadInput, "the case has {} membranes; at most {} are allowed",
                 membranes_.size(), kMostMembranes);
@@ -203,7 +202,7 @@ void MembraneProcess::place(const particles::FluidParticles& bodies) {
     const auto at = bodies.particles->position(k);
     curves.discs.push_back({.centre = {at[0], at[1]}, .radius = radii_[k]});
   }
-  check_places(domain_, curves, unit_);
+  check_places(domain_, curves, units_);
   shift_ = shift_between_membranes(domain_, curves);
   // If the domain is periodic, the mesh covers the period that begins at a line between membranes
   // and discs. Each curve is shifted by whole periods into it.
@@ -284,12 +283,10 @@ FlowField MembraneProcess::flow() {
 
 }  // namespace
 
-std::unique_ptr<particles::FluidSolver> start_membrane_solver(const particles::Fluid& fluid,
-                                                              const particles::Domain& domain,
-                                                              std::span<const double> radii,
-                                                              double unit, SolverCommand command,
-                                                              const SolverLimits& limits) {
-  return std::make_unique<MembraneProcess>(fluid, domain, radii, unit, std::move(command), limits);
+std::unique_ptr<particles::FluidSolver> start_membrane_solver(
+    const particles::Fluid& fluid, const particles::Domain& domain, std::span<const double> radii,
+    const SolverUnits& units, SolverCommand command, const SolverLimits& limits) {
+  return std::make_unique<MembraneProcess>(fluid, domain, radii, units, std::move(command), limits);
 }
 
 }  // namespace viscontact::freefem_flow

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "viscontact/freefem_flow/process/flow_process.hpp"
+#include "viscontact/freefem_flow/solver_units.hpp"
 #include "viscontact/immersed/fluid_solver.hpp"
 
 namespace viscontact::freefem_flow {
@@ -13,8 +14,8 @@ namespace viscontact::freefem_flow {
 /// Starts the process and waits until it is ready. `domain` is a disc, or a box that is not
 /// periodic along y. `fluid` has membranes, no inertia, and no solver of the user's own; radii and
 /// viscosity should be about 1. `radii` [L] are those of all particles, which are either beads,
-/// which are points of the membranes and feel no torque, or rigid discs, free or driven. `unit` is
-/// the unit of length of the arguments, measured in that of the case, for messages. Throws
+/// which are points of the membranes and feel no torque, or rigid discs, free or driven. `units`
+/// are those of the arguments; messages have places of the case. Throws
 /// Error(kExternalProgram) if FreeFEM cannot be run or is not ready in time, Error(kInterrupted) if
 /// a stop is requested, and Error(kBadInput) if there are more than kMostMembranes membranes or no
 /// domain in the plane (opening()). The result is never null; its functions throw the errors that
@@ -26,10 +27,8 @@ namespace viscontact::freefem_flow {
 /// period between neighbours; beads may be outside the box. It throws Error(kNotConverged) if there
 /// is no such line, and if a membrane meets a disc or a membrane or disc leaves the domain. There
 /// is neither a penalty nor a second mesh.
-std::unique_ptr<particles::FluidSolver> start_membrane_solver(const particles::Fluid& fluid,
-                                                              const particles::Domain& domain,
-                                                              std::span<const double> radii,
-                                                              double unit, SolverCommand command,
-                                                              const SolverLimits& limits);
+std::unique_ptr<particles::FluidSolver> start_membrane_solver(
+    const particles::Fluid& fluid, const particles::Domain& domain, std::span<const double> radii,
+    const SolverUnits& units, SolverCommand command, const SolverLimits& limits);
 
 }  // namespace viscontact::freefem_flow

@@ -79,7 +79,7 @@ WallCoefficients wall_coefficients(const particles::Fluid& fluid, int label,
                                    const particles::FlowStep& step) {
   if (const auto* flow = std::get_if<particles::LinearFlow>(&fluid.boundary)) {
     const auto& g = flow->gradient;
-    return {0, g[0], g[1], 0, g[2], g[3], 0, 0};
+    return {flow->at_origin[0], g[0], g[1], flow->at_origin[1], g[2], g[3], 0, 0};
   }
   const auto& sides = std::get<particles::SideVelocities>(fluid.boundary);
   return side_coefficients(label, sides[static_cast<std::size_t>(label - 1)], step);

@@ -1,9 +1,14 @@
 // Checks of the membranes of a case.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -58,6 +63,35 @@ void check_case_in_fluid(const case_file::TomlSection& root, const case_file::To
     throw_bad_input(at,
                     "section [[membrane]] stands in a box that is periodic along y; the box must "
                     "have walls below and above");
+}
+
+/// Throws Error(kBadInput) if the membrane with these corners (corners_of()) is wider than the
+/// domain. The width of a membrane that is made is proportional to its perimeter.
+void check_width(const case_file::TomlSection& section, const Membrane& membrane,
+                 std::span<const double> corners, const Domain& domain) {
+  double fits = std::numeric_limits<double>::infinity();  // the least of domain over membrane [1]
+  std::string size;
+  for (std::size_t d = 0; d < 2; ++d) {
+    double from = corners[d], to = corners[d];
+    for (std::size_t i = d; i < corners.size(); i += 2) {
+      from = std::min(from, corners[i]);
+      to = std::max(to, corners[i]);
+    }
+    double most = std::numeric_limits<double>::infinity();  // [L]
+    if (const auto* disc = std::get_if<DiscDomain>(&domain)) most = 2 * disc->radius;
+    if (const auto* box = std::get_if<BoxDomain>(&domain)) most = box->to[d] - box->from[d];
+    if (!(most < fits * (to - from))) continue;
+    fits = most / (to - from);
+    size = fmt::format("measures {:.6g} along {}, and the domain {:.6g}", to - from,
+                       d == 0 ? "x" : "y", most);
+  }
+  if (section.has("particles"))
+    section.require(fits > 1, "particles", "makes a membrane that {}; the membrane must be smaller",
+                    size);
+  else
+    section.require(fits > 1, "perimeter",
+                    "is {}, which makes a membrane that {}; it must be less than {:.6g}",
+                    membrane.perimeter, size, fits * membrane.perimeter);
 }
 
 /// An estimate of the rate at which the boundary deforms the fluid [1/T]: the largest entry of the
@@ -154,6 +188,7 @@ void check_place(const case_file::TomlSection& section, const ParticlesCase& c) 
   const std::string_view shape = section.has("particles") ? "particles" : "reduced_area";
   const auto own = corners_of(membrane, p);
   const auto count = membrane.beads.size();
+  check_width(section, membrane, own, c.setting.domain);
   section.require(!crosses_itself(own), shape, "makes a membrane that crosses itself");
   // If the membrane is flat, its sides lie on each other, and no motion changes its area, so that
   // the equation of the area is singular.
@@ -192,18 +227,6 @@ void check_place(const case_file::TomlSection& section, const ParticlesCase& c) 
                     "enclose is {:.6g}; it must be at most {} of this one, with which it can "
                     "change its shape, or inner_area must be \"free\"",
                     membrane.area, largest, kOfLargestArea);
-  }
-  for (std::size_t d = 0; d < 2; ++d) {
-    double from = own[d], to = own[d];
-    for (std::size_t i = d; i < own.size(); i += 2) {
-      from = std::min(from, own[i]);
-      to = std::max(to, own[i]);
-    }
-    const double period = periods_of(c.setting.domain)[d];
-    section.require(!(period > 0) || to - from < period, shape,
-                    "makes a membrane as wide as the domain is periodic; it must be smaller than "
-                    "the period, {}",
-                    period);
   }
   const auto periods = periods_of(c.setting.domain);
   for (std::size_t m = 0; m + 1 < membranes.size(); ++m) {

@@ -24,13 +24,16 @@ constexpr Allowed kShare = {[](double v) { return v >= 0 && v <= 1; }, "from 0 t
 
 /// Reads 2, 3, or "axisymmetric", which becomes 1.
 void read_dimension(const case_file::TomlSection& space, std::string_view key, int& dimension) {
-  if (!space.is_text(key)) {
-    dimension = space.count(key, 2, 3);
+  constexpr const char* kAllowed = "it must be 2, 3 or \"axisymmetric\"";
+  space.require(space.has(key), key, "is missing; {}", kAllowed);
+  if (space.is_text(key)) {
+    space.require(space.text(key) == "axisymmetric", key, "is '{}'; {}", space.text(key), kAllowed);
+    dimension = 1;
     return;
   }
-  space.require(space.text(key) == "axisymmetric", key,
-                "is '{}'; it must be 2, 3 or \"axisymmetric\"", space.text(key));
-  dimension = 1;
+  const auto shown = space.shown(key);
+  space.require(shown == "2" || shown == "3", key, "is {}; {}", shown, kAllowed);
+  dimension = space.count(key, 2, 3);  // refuses 2.0
 }
 
 void space_keys(case_file::Keys& keys, ParticlesCase& c) {
@@ -152,15 +155,6 @@ void check_friction_in_fluid(const case_file::TomlSection& section, const Settin
                   "have no friction; the section [friction] must be left out");
 }
 
-/// Earlier versions offered three methods that solve the same problem. A case that names one of the
-/// other two is still accepted, and the present method is used.
-void read_method(const case_file::TomlSection& solver, std::string_view key) {
-  const auto text = solver.text(key);
-  solver.require(
-      text == "conjugate_gradients" || text == "accelerated_gradient" || text == "gauss_seidel",
-      key, "is '{}'; it must be \"conjugate_gradients\", the only method", text);
-}
-
 void solver_keys(case_file::Keys& keys, SolverSettings& settings) {
   keys.optional("tolerance", case_file::number(settings.tolerance, kTolerance),
                 {"tolerance of the gaps, divided by the mean radius"});
@@ -173,10 +167,6 @@ void solver_keys(case_file::Keys& keys, SolverSettings& settings) {
                  "contacts](fluid.md#contact)",
                  {},
                  "whole number >= 1"});
-  keys.optional("method", case_file::custom("`\"conjugate_gradients\"`", read_method),
-                {"the only method; `\"accelerated_gradient\"` and `\"gauss_seidel\"` are read and "
-                 "have no effect",
-                 "`\"conjugate_gradients\"`"});
 }
 
 void output_keys(case_file::Keys& keys, ParticlesCase& c) {

@@ -41,7 +41,11 @@ struct DrawnLinks {
 };
 
 struct Playback {
-  int dimension = 2;         ///< 1, 2 or 3
+  int dimension = 2;  ///< 1, 2 or 3
+  /// The place in the case of the origin of all places here [L]. It is 0 unless the motion is so far
+  /// from the origin of the case that single precision would not show it. Files of flows have the
+  /// places of the case.
+  Vector origin{};
   Units units{};             ///< names of the units of the case, such as "m"; may be empty
   std::vector<float> radii;  ///< of each particle [L], > 0
   /// The mass of each particle [M], >= 0, of discs in a fluid per length [M/L]; empty: not known.

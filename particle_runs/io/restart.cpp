@@ -17,11 +17,8 @@
 namespace viscontact::particles {
 namespace {
 
-// A file has the lowest version that can hold its state. Version 7 adds the memories of contact
-// laws that have no array in version 6, version 8 the flow of a fluid with inertia, version 9 the
-// positions before the last step, for membranes, version 10 Pair::place, version 11 State::sources,
-// version 12 State::blows, and version 13 State::planes and State::given_loads.
-constexpr int kFirstVersion = 6, kLastVersion = 13;
+// Another one means other fields.
+constexpr int kVersion = 13;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
 constexpr std::string_view kOrder =
@@ -52,10 +49,10 @@ struct StoredArrays {
   std::vector<Vector> given_forces, given_torques;
 };
 
-/// Calls `field` for each stored field, in the order of a file of this version. Both writing and
-/// reading use the function, so that the orders agree. New fields are added at the end.
+/// Calls `field` for each stored field, in the order of a file. Both writing and reading use the
+/// function, so that the orders agree.
 template <class State, class Arrays, class Field>
-void for_fields(State& state, Arrays& arrays, int version, Field&& field) {
+void for_fields(State& state, Arrays& arrays, Field&& field) {
   auto& p = state.particles;
   field(p.dimension);
   field(state.time);
@@ -84,30 +81,23 @@ void for_fields(State& state, Arrays& arrays, int version, Field&& field) {
   field(arrays.bodies);
   field(state.link_forces);
   field(state.arm_powers);
-  if (version < 7) return;
   field(arrays.names);
   field(arrays.memories);
-  if (version < 8) return;
   field(state.step_before);
   field(state.flow);
-  if (version < 9) return;
   field(state.earlier_positions);
-  if (version < 10) return;
   field(arrays.places);
-  if (version < 11) return;
   field(state.sources);
-  if (version < 12) return;
   field(arrays.blow_firsts);
   field(arrays.blow_impulses);
   field(arrays.blow_branches);
-  if (version < 13) return;
   field(state.planes);
   field(arrays.given_particles);
   field(arrays.given_forces);
   field(arrays.given_torques);
 }
 
-/// The first of kMemoryFields that has no array of its own in version 6.
+/// The first of kMemoryFields that has no array of its own.
 constexpr std::size_t kFirstNamed = 4;
 
 void store_memories(const State& state, StoredArrays& arrays) {
@@ -270,22 +260,18 @@ std::string_view line_of(std::string_view& rest, std::string_view begin, const s
   return value;
 }
 
-/// Throws Error(kBadInput) if the version is not known or the byte order is another one.
-int read_version(std::string_view& rest, const std::string& file) {
+/// Reads the first line. Throws Error(kBadInput) if the version or the byte order is another one.
+void read_version(std::string_view& rest, const std::string& file) {
   const auto line = line_of(rest, kWhat, file);
   int version = 0;
   const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), version);
   const auto rest_of_line = line.substr(static_cast<std::size_t>(end - line.data()));
-  if (error != std::errc{} || version < kFirstVersion || version > kLastVersion ||
-      !rest_of_line.starts_with(", "))
-    throw_bad_input(
-        {file},
-        "is a restart file of a version that is not known ({}); versions {} to {} can be read",
-        line.substr(0, 20), kFirstVersion, kLastVersion);
+  if (error != std::errc{} || version != kVersion || !rest_of_line.starts_with(", "))
+    throw_bad_input({file}, "is a restart file of another version ({}); it must be of version {}",
+                    line.substr(0, 20), kVersion);
   if (const auto order = rest_of_line.substr(2); order != kOrder)
     throw_bad_input({file}, "was written by a machine with another byte order ({}; it must be {})",
                     order.substr(0, 20), kOrder);
-  return version;
 }
 
 /// True if the sizes of the arrays fit the number of particles, the dimension is 1 to 3, the times
@@ -358,18 +344,9 @@ std::string write_restart(const State& state) {
     arrays.given_torques.push_back(torque);
   }
   std::string bytes;
-  const bool has_given = !state.planes.empty() || !state.given_loads.empty();
-  const int version = has_given                          ? 13
-                      : !state.blows.empty()             ? 12
-                      : !state.sources.empty()           ? 11
-                      : !arrays.places.empty()           ? 10
-                      : !state.earlier_positions.empty() ? 9
-                      : !state.flow.empty()              ? 8
-                      : !arrays.names.empty()            ? 7
-                                                         : kFirstVersion;
-  for_fields(state, arrays, version, Writer{bytes});
+  for_fields(state, arrays, Writer{bytes});
   std::string text;
-  text.append(kWhat).append(std::to_string(version)).append(", ").append(kOrder).append("\n");
+  text.append(kWhat).append(std::to_string(kVersion)).append(", ").append(kOrder).append("\n");
   text.append(kHash).append(sha256(bytes)).append("\n");
   return text + bytes;
 }
@@ -380,13 +357,13 @@ State read_restart(const std::filesystem::path& path) {
   std::string_view rest = text;
   while (rest.starts_with("# provenance") || rest.starts_with("# record"))
     rest.remove_prefix(std::min(rest.find('\n'), rest.size() - 1) + 1);
-  const int version = read_version(rest, file);
+  read_version(rest, file);
   const auto hash = line_of(rest, kHash, file);
   Reader reader(rest, file);
   if (hash != sha256(rest)) reader.throw_damaged();
   State state;
   StoredArrays arrays;
-  for_fields(state, arrays, version, reader);
+  for_fields(state, arrays, reader);
   const auto of_pairs = state.pairs.size(), of_all = of_pairs + state.walls.size();
   if (!reader.at_end() || (!arrays.images.empty() && arrays.images.size() != of_pairs) ||
       (!arrays.places.empty() && arrays.places.size() != of_all) || !take_memories(arrays, state) ||

@@ -31,10 +31,10 @@ std::string write_vtp(const Particles& particles, std::span<const CurrentContact
 struct VtpContent {
   /// Flat array [L], `dimension` numbers for each particle.
   std::vector<double> positions;
-  std::vector<double> radii;      ///< [L]
-  std::vector<double> masses;     ///< [M]; empty if the file has none
-  std::vector<double> speeds;     ///< [L/T], the lengths of the velocities
-  std::vector<std::int32_t> ids;  ///< empty if the file has none
+  std::vector<double> radii;   ///< [L]
+  std::vector<double> masses;  ///< [M]; empty if the file has none
+  std::vector<double> speeds;  ///< [L/T], the lengths of the velocities
+  std::vector<std::int32_t> ids;
   // Both are > 0 counter-clockwise, and empty for discs that do not turn and for spheres.
   std::vector<double> angles,  ///< [rad]
       angular_velocities;      ///< [1/T]
@@ -46,8 +46,7 @@ struct VtpContent {
   std::vector<CurrentContact> contacts;
 };
 
-/// Reads a file that write_vtp(), of this or an earlier version, wrote for particles of the
-/// dimension 1, 2 or 3 on a machine with the same byte order. Throws Error(kBadInput), which names
+/// Reads a file that write_vtp() wrote for particles of the dimension 1, 2 or 3 on a machine with the same byte order. Throws Error(kBadInput), which names
 /// the file, if it cannot be read, is not such a file, was cut short, or if lengths of its arrays
 /// or numbers of particles, images or kinds of friction do not fit. Positions, radii and forces may
 /// have any value.

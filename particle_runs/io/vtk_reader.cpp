@@ -1,4 +1,4 @@
-// Reads the layout of vtk.cpp, not VTK's formats in general; earlier frames lack some arrays.
+// Reads the layout of vtk.cpp, not VTK's formats in general.
 #include <cassert>
 #include <cmath>
 #include <cstdint>
@@ -34,13 +34,11 @@ std::vector<ShownMemory> read_memories(const VtkReader& reader, std::size_t coun
   std::size_t place = 0;
   for (const auto& field : kMemoryFields) {
     if (!field.is_shown) continue;
-    if (reader.has_array("CellData", field.name)) {
-      const auto values = reader.array<double>("CellData", field.name);
-      if (values.size() != count) reader.refuse();
-      for (std::size_t i = 0; i < count; ++i) {
-        const std::span numbers(memories[i]);
-        numbers[place] = values[i];
-      }
+    const auto values = reader.array<double>("CellData", field.name);
+    if (values.size() != count) reader.refuse();
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::span numbers(memories[i]);
+      numbers[place] = values[i];
     }
     ++place;
   }
@@ -56,7 +54,7 @@ std::vector<CurrentContact> read_contacts(const VtkReader& reader, std::int64_t 
   const auto partners = reader.array<std::int32_t>("CellData", "j");
   const auto images = numbers_or_zeros<std::int32_t>(reader, "image", gaps.size());
   const auto frictions = numbers_or_zeros<std::int32_t>(reader, "friction", gaps.size());
-  const auto normal_forces = numbers_or_zeros<double>(reader, "normal_force", gaps.size());
+  const auto normal_forces = reader.array<double>("CellData", "normal_force");
   const auto tangential_forces =
       numbers_or_zeros<double>(reader, "tangential_force", 3 * gaps.size());
   const auto solid_forces = numbers_or_zeros<double>(reader, "solid_force", gaps.size());
@@ -67,7 +65,8 @@ std::vector<CurrentContact> read_contacts(const VtkReader& reader, std::int64_t 
   const auto lines = reader.array<std::int64_t>("Lines", "connectivity");
   const auto walls = vertices.size(), pairs = lines.size() / 2;
   if (gaps.size() != walls + pairs || gammas.size() != gaps.size() ||
-      partners.size() != gaps.size() || lines.size() % 2 != 0)
+      partners.size() != gaps.size() || normal_forces.size() != gaps.size() ||
+      lines.size() % 2 != 0)
     reader.refuse();
   const auto particle = [&](std::int64_t place) {
     if (place < 0 || place >= particles) reader.refuse();
@@ -117,10 +116,8 @@ VtpContent read_vtp(const std::filesystem::path& path, int dimension) {
       content.positions.push_back(points[i]);
   content.radii = reader.array<double>("PointData", "radius");
   if (content.radii.size() != points.size() / 3) reader.refuse();
-  if (reader.has_array("PointData", "id")) {
-    content.ids = reader.array<std::int32_t>("PointData", "id");
-    if (content.ids.size() != content.radii.size()) reader.refuse();
-  }
+  content.ids = reader.array<std::int32_t>("PointData", "id");
+  if (content.ids.size() != content.radii.size()) reader.refuse();
   const auto velocities = reader.array<double>("PointData", "velocity");
   if (velocities.size() != points.size()) reader.refuse();
   for (std::size_t i = 0; i < velocities.size(); i += 3)

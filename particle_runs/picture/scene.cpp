@@ -225,6 +225,15 @@ Playback in_plane(const Playback& playback) {
   return plane;
 }
 
+/// The flow of a frame, with the places of the playback. Throws the error of read_flow().
+FlowField flow_of(const Playback& in_plane, const Frame& frame) {
+  auto flow = read_flow(frame.flow);
+  for (std::size_t d = 0; d < 2; ++d)
+    if (in_plane.origin[d] != 0)
+      for (auto& x : d == 0 ? flow.x : flow.y) x -= in_plane.origin[d];
+  return flow;
+}
+
 /// The rectangle that the flow fills, in the first frame that has a flow; no value if there is
 /// none. If there is an axis, the rectangle includes the mirror image of the flow. Along a
 /// direction with a period it is as long as the cell. Throws Error(kBadInput) if the flow cannot be
@@ -232,7 +241,7 @@ Playback in_plane(const Playback& playback) {
 std::optional<report::Window> flow_extent(const Playback& in_plane, bool has_axis) {
   for (const auto& frame : in_plane.frames) {
     if (frame.flow.empty()) continue;
-    const auto flow = read_flow(frame.flow);
+    const auto flow = flow_of(in_plane, frame);
     if (flow.triangles.empty()) continue;
     const auto [left, right] = std::ranges::minmax(flow.x);
     const auto [bottom, top] = std::ranges::minmax(flow.y);
@@ -264,7 +273,7 @@ FlowFrame read_flow_frame(const Playback& in_plane, std::size_t f, const FlowFra
   constexpr int kLines = 18;  // about how many streamlines a picture has
   FlowFrame found;
   found.frame = f;
-  const auto field = read_flow(in_plane.frames[f].flow);
+  const auto field = flow_of(in_plane, in_plane.frames[f]);
   if (field.triangles.empty()) return found;
   const auto flow = report::flow_on_grid(
       field, flows.grid,

@@ -1,7 +1,10 @@
 // Reads the frames of a run and draws them, with bounded memory however long the run is.
 #include "viscontact/particle_runs/run/particles_pages.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -25,8 +28,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Playback::origin.
+Vector origin_of_pictures(const ParticlesCase& c) {
+  const auto& p = c.particles;
+  if (p.dimension == 1) return {};
+  if (p.count() == 0) return distant_corner(c.setting.domain);
+  Vector low = p.position(0), high = low;
+  double radius = 0, size = 0;  // [L]
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    const Vector x = p.position(k);
+    for (std::size_t d = 0; d < 3; ++d) {
+      low[d] = std::min(low[d], x[d]);
+      high[d] = std::max(high[d], x[d]);
+    }
+    radius = std::max(radius, p.radii[k]);
+  }
+  for (std::size_t d = 0; d < 3; ++d) size = std::max(size, high[d] - low[d] + 2 * radius);
+  // Single precision then has errors of at most some 1e-4 of the size.
+  constexpr double kDistant = 1000;
+  const double rounded = std::pow(10, std::floor(std::log10(size)));
+  for (auto& x : low) x = std::abs(x) > kDistant * size ? std::round(x / rounded) * rounded : 0;
+  return low;
+}
+
 Playback without_frames(const ParticlesCase& c) {
   Playback playback;
+  playback.origin = origin_of_pictures(c);
   playback.dimension = c.particles.dimension;
   playback.units = c.units;
   playback.radii.assign(c.particles.radii.begin(), c.particles.radii.end());
@@ -37,10 +64,12 @@ Playback without_frames(const ParticlesCase& c) {
   if (c.setting.fluid) playback.plates = c.setting.fluid->plates;
   playback.ids = c.particles.ids;
   playback.cell = cell_of(c.setting);
+  for (std::size_t d = 0; d < 3; ++d) playback.cell.from[d] -= playback.origin[d];
   playback.bodies = c.particles.bodies.of_particle;
   if (const auto& friction = c.setting.laws.friction)
     playback.friction_coefficient = friction->coefficient;
-  for (const auto& hinge : c.setting.links.hinges) playback.links.hinges.push_back(hinge.at);
+  for (const auto& hinge : c.setting.links.hinges)
+    playback.links.hinges.push_back(hinge.at - playback.origin);
   for (const auto& spring : c.setting.links.springs)
     playback.links.springs.push_back({spring.first, spring.second});
   for (const auto& arm : c.setting.links.arms)
@@ -52,21 +81,27 @@ Playback without_frames(const ParticlesCase& c) {
   return playback;
 }
 
-/// A frame without the flow. Throws Error(kBadInput) if the file has fewer particles than the case,
+/// A frame without the flow, whose places are relative to `origin` [L]. Throws Error(kBadInput) if the file has fewer particles than the case,
 /// or more although the case has no sources.
 Frame read_frame(double time, const fs::path& path, const ParticlesCase& c,
-                 std::span<const PlaneMotion> motions) {
+                 std::span<const PlaneMotion> motions, const Vector& origin) {
   auto content = read_vtp(path, c.particles.dimension);
   if (content.positions.size() < c.particles.positions.size() ||
       (content.positions.size() > c.particles.positions.size() && c.setting.sources.empty()))
     throw_bad_input({path.string()}, "is a frame of other particles");
   Frame frame;
   frame.time = time;
-  frame.positions.assign(content.positions.begin(), content.positions.end());
+  const auto dimension = static_cast<std::size_t>(c.particles.dimension);
+  for (std::size_t i = 0; i < content.positions.size(); ++i) {
+    const double x = content.positions[i], from = origin[i % dimension];
+    frame.positions.push_back(static_cast<float>(from == 0 ? x : x - from));
+  }
   frame.angles.assign(content.angles.begin(), content.angles.end());
   frame.speeds.assign(content.speeds.begin(), content.speeds.end());
   frame.orientations.assign(content.orientations.begin(), content.orientations.end());
   frame.planes = positions_of(obstacles_of(c.setting, motions), time);
+  if (origin != Vector{})
+    for (auto& plane : frame.planes) plane.point = plane.point - origin;
   frame.contacts = std::move(content.contacts);
   return frame;
 }
@@ -122,7 +157,8 @@ Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
       every *= 2;
     }
     if (f % every != 0 && f + 1 != files.size()) continue;
-    frames.push_back(read_frame(files[f].first, folder / files[f].second, c, motions[f]));
+    frames.push_back(
+        read_frame(files[f].first, folder / files[f].second, c, motions[f], playback.origin));
     const auto& kept = frames.back();
     kept_bytes += (kept.positions.size() + kept.speeds.size() + kept.angles.size() +
                    kept.orientations.size()) *
@@ -171,6 +207,9 @@ void write_pages(const ParticlesCase& c, const fs::path& folder,
   constexpr int kPanels = 4;  // number of times that the still picture shows
   auto playback = read_playback(c, folder);
   playback.note = in_words(regime);
+  if (const auto& x = playback.origin; x != Vector{})
+    playback.note += fmt::format(". Places are relative to ({}, {}{})", x[0], x[1],
+                                 c.particles.dimension == 3 ? fmt::format(", {}", x[2]) : "");
   for (const auto& warning : warnings_of(c, regime)) playback.note += ". Warning: " + warning;
   if (!std::ranges::all_of(playback.radii, [](float radius) { return std::isnormal(radius); }))
     terminal::warn(

@@ -15,7 +15,7 @@ namespace viscontact::particles {
 /// inputs and command, is stored in both files. The page shows `regime` in words. A radius that is
 /// not between 1e-37 and 3e38 [L] only causes a warning, because nothing can be drawn. Throws
 /// Error(kBadInput), which names the file, if a file cannot be read or written or has other
-/// particles than the case, or if there is no frame. Frames of earlier versions can be drawn.
+/// particles than the case, or if there is no frame.
 void write_pages(const ParticlesCase& c, const std::filesystem::path& folder,
                  const results::Provenance& provenance, const ParticleRegime& regime);
 

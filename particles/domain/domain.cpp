@@ -1,6 +1,7 @@
 // Motion of planes, and sizes and walls of domains.
 #include "viscontact/particles/domain/domain.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -37,6 +38,25 @@ Vector Plane::displacement(const Vector& point, double from, double to) const {
 
 Vector Plane::surface_velocity(const Vector& point, double t) const {
   return velocity.value(t) + cross(angular_velocity, point - pivot - velocity.integral(t));
+}
+
+Vector distant_corner(const Domain& domain) {
+  Vector corner{};
+  double size = 0;  // [L]
+  if (const auto* disc = std::get_if<DiscDomain>(&domain)) {
+    size = 2 * disc->radius;
+    corner = {disc->centre[0] - disc->radius, disc->centre[1] - disc->radius, 0};
+  } else if (const auto* box = std::get_if<BoxDomain>(&domain)) {
+    corner = box->from;
+    for (std::size_t d = 0; d < box->dimension(); ++d)
+      size = std::max(size, box->to[d] - box->from[d]);
+  }
+  // Boxes that begin within some sizes of the origin, as most do, are not changed. Rounding errors
+  // in them are at most some hundred times those in a box at the origin.
+  constexpr double kDistant = 100;
+  for (auto& x : corner)
+    if (!(std::abs(x) > kDistant * size)) x = 0;
+  return corner;
 }
 
 std::vector<PlanePosition> positions_of(const std::vector<Plane>& planes, double t) {

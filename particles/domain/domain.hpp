@@ -123,6 +123,12 @@ inline std::array<double, 3> periods_of(const Domain& domain) {
   return periods;
 }
 
+/// The corner with the smallest coordinates of the box around a disc or a box [L], along the axes on
+/// which it is so far from the origin that coordinates have much larger rounding errors than
+/// distances from it, and 0 along the others. Computations with places relative to this point lose
+/// no digits in a scene far from the origin, and have the same bits as ever in one near it.
+Vector distant_corner(const Domain& domain);
+
 /// The walls, at rest, in the order of their numbers in files. A plane that is parallel to the
 /// axis, at the distance of the radius, replaces the side of a cylinder.
 std::vector<Plane> obstacles_of(const Domain& domain);

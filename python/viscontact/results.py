@@ -11,7 +11,6 @@ import collections.abc
 import csv
 import json
 import pathlib
-import re
 import xml.etree.ElementTree
 import zlib
 
@@ -151,23 +150,13 @@ def _read_pvd(path):
 
 
 def _read_vtk(path):
-    content = path.read_bytes()
-    # Files of earlier revisions have appended raw data, which is no XML.
-    mark = re.search(rb'<AppendedData encoding="raw">\s*_', content)
-    root = xml.etree.ElementTree.fromstring(
-        content if mark is None else content[:mark.start()] + b"</VTKFile>")
+    root = xml.etree.ElementTree.parse(path).getroot()
     order = "<" if root.get("byte_order") == "LittleEndian" else ">"
     size_type = numpy.dtype(order + _TYPES[root.get("header_type")])
 
-    def bytes_of(element):
-        if mark is None:
-            return _inline_bytes(element.text.strip(), size_type)
-        at = mark.end() + int(element.get("offset"))
-        size = int(numpy.frombuffer(content, size_type, 1, at)[0])
-        return content[at + size_type.itemsize:at + size_type.itemsize + size]
-
     def array(element):
-        numbers = numpy.frombuffer(bytes_of(element), order + _TYPES[element.get("type")])
+        numbers = numpy.frombuffer(_inline_bytes(element.text.strip(), size_type),
+                                   order + _TYPES[element.get("type")])
         components = int(element.get("NumberOfComponents", "1"))
         native = numbers.astype(numbers.dtype.newbyteorder("="))
         return native.reshape(-1, components) if components > 1 else native

@@ -106,7 +106,7 @@ void for_each_point(const QuadraticMesh& mesh, const Grid& grid, const FlowPerio
 
 Grid grid_of(const Window& window, std::size_t points) {
   static constexpr double kMost = 1200;  // a screen cannot show longer rows
-  const auto wanted = static_cast<double>(points);
+  const auto wanted = static_cast<double>(std::max<std::size_t>(points, 1));
   const double columns = std::sqrt(wanted * window.width() / window.height());
   const auto count = [](double n) {
     return static_cast<std::size_t>(std::clamp(std::round(n), 2.0, kMost));

@@ -39,7 +39,7 @@ struct Grid {
   }
 };
 
-/// A grid with about `points` >= 1 points, nearly as far apart along x as along y. A row or column
+/// A grid with about `points` points, nearly as far apart along x as along y. A row or column
 /// has from 2 to 1200 points, because a longer row could not be seen on a screen.
 Grid grid_of(const Window& window, std::size_t points);
 

@@ -228,6 +228,28 @@ struct Row {
   }
 };
 
+TEST(LoadedPlane, RestsOnADrivenParticleAndRubsOnIt) {
+  for (const int dimension : {2, 3})
+    for (const int way : {0, 1, 2}) {
+      SCOPED_TRACE(testing::Message() << dimension << ' ' << way);
+      Piston piston{.dimension = dimension, .way = way};
+      auto setting = piston.setting();
+      auto state = piston.state();
+      solve_by(way, setting, state);
+      setting.given_motions[0] = {constant({0.5, 0, 0}), {}};
+      state.particles.masses[0] = 0;
+      Simulation simulation(setting, state, 1);
+      run(simulation, 0.1, [&](const StepReport& report) {
+        EXPECT_TRUE(report.converged);
+        EXPECT_LE(report.largest_overlap, setting.solver.tolerance);
+      });
+      EXPECT_NEAR(push_on_piston(setting, simulation.state()), piston.force, kImpulses);
+      // The plane holds the particle back by Coulomb's friction.
+      const auto on_plane = wall_forces(setting, simulation.state()).back();
+      EXPECT_NEAR(on_plane[0], way == 0 ? 0 : 0.3 * piston.force, kImpulses);
+    }
+}
+
 TEST(GivenMotion, PushesARowWithTheForcesOnIt) {
   for (const int way : {0, 1, 2}) {
     Row row(way, 0.5, 3);

@@ -4,12 +4,14 @@
 
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "tests/immersed/stand_in_fluid.hpp"
 #include "tests/particles/systems.hpp"
 #include "viscontact/common/error.hpp"
+#include "viscontact/immersed/held_solver.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -191,6 +193,29 @@ TEST(HeldInFluid, ErrorsOfForcesAreThoseOfTheirLinksOnTwoMeshes) {
     EXPECT_NEAR(simulation.fluid_forces()[0], force + of_one_mesh * (second - force), 2e-6);
     EXPECT_NEAR(simulation.force_errors().of_fluid.at(0), 0.15 * std::abs(second - force), 1e-6);
   }
+}
+
+TEST(HeldSolver, HasNoForcesOfRowsThatItNoLongerHolds) {
+  auto system = in_fluid(1, 100, 0.1, 0.01);
+  for (const double z : {40.0, 44.0}) add_pushed(system, {z, 0, 0}, 0.5, 0, {});
+  const auto& p = system.state.particles;
+  HeldSolver solver(std::make_unique<StandInFluid>(constant_drag(2)), 1e-9, false);
+  const HeldRow rod{.entries = {{0, -1}, {1, 1}}};
+  solver.hold({rod}, 0.1);
+  solver.place({&p, {}, {}, {}});
+  EXPECT_TRUE(solver.row_forces().empty());
+  solver.velocities(std::vector{-3.0, 3.0}, true);
+  ASSERT_EQ(solver.row_forces().size(), 1U);
+  EXPECT_NEAR(solver.row_forces()[0], -3, 1e-9);
+  solver.place({&p, {}, {}, {}});
+  EXPECT_TRUE(solver.row_forces().empty());
+  solver.velocities(std::vector{-3.0, 3.0}, true);
+  solver.hold({}, 0.1);
+  EXPECT_TRUE(solver.row_forces().empty());
+  solver.place({&p, {}, {}, {}});
+  solver.velocities(std::vector{-3.0, 3.0}, true);
+  EXPECT_TRUE(solver.row_forces().empty());
+  EXPECT_TRUE(solver.thetas().empty());
 }
 
 TEST(HeldInFluid, ConstraintsThatContradictEachOtherAreNamed) {

@@ -181,6 +181,24 @@ TEST(LubricationForce, WithoutALeadingTermHasNoLubricationLimit) {
   EXPECT_THAT(bad_input([&] { force.impulse(1e-4); }), HasSubstr("1/q"));
 }
 
+TEST(LubricationForce, OfThePlaneRefusesWhatIsNoGap) {
+  const auto plane = LubricationForce::exact_plane(3, 2), below = plane.below_wall(4);
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double gap : {-1.0, std::nan(""), infinity})
+    for (const auto& force : {plane, below}) {
+      EXPECT_THAT(bad_input([&] { force.resistance(gap); }), HasSubstr("gap ")) << gap;
+      EXPECT_THAT(bad_input([&] { force.regular_resistance(gap); }), HasSubstr("gap ")) << gap;
+      EXPECT_THAT(bad_input([&] { force.regular_impulse(gap); }), HasSubstr("gap ")) << gap;
+    }
+  EXPECT_THAT(bad_input([&] { below.regular_resistance(4); }), HasSubstr("not less than 4"));
+  EXPECT_THAT(bad_input([&] { below.regular_impulse(4); }), HasSubstr("not less than 4"));
+  EXPECT_EQ(plane.regular_impulse(0), 0);
+  EXPECT_EQ(plane.regular_resistance(0), plane.regular_resistance(2e-300));
+  const LubricationForce fitted(exact_fit("lecture"));
+  EXPECT_THAT(bad_input([&] { fitted.regular_resistance(-1); }), HasSubstr("[0.001, 1]"));
+  EXPECT_THAT(bad_input([&] { fitted.regular_impulse(-1); }), HasSubstr("[0.001, 1]"));
+}
+
 TEST(LubricationForce, CoversAnIntervalWiderThanADoublesQuotient) {
   const LubricationForce force(fitting::planted_fit({{"1/q", 0.1}}, 1e-300, 1e300));
   for (const double gap : {1e-300, 1.0, 1e300}) EXPECT_DOUBLE_EQ(force.resistance(gap), 0.1 / gap);

@@ -31,8 +31,6 @@ class SimulateTest(unittest.TestCase):
         self.assertTrue(np.all(contact["gamma"] <= 0))
         self.assertTrue(np.all(np.isnan(motion["inertial"].gamma)))
         self.assertAlmostEqual(contact.about["film_from_gamma"], 0.000873904, delta=5e-10)
-        # The name in earlier versions.
-        self.assertEqual(contact.about["recovered_minimal_gap"], contact.about["film_from_gamma"])
         np.testing.assert_allclose(contact.about["contact_interval"], [0.4467, 4], atol=5e-5)
         m, about = 20, motion["inertial"].about
         # The balance of momentum; the impulse of the drag is computed from it.

@@ -213,20 +213,6 @@ TEST(ComparisonFile, HasNullWhereAModelHasNoContact) {
                                                     HasSubstr("\"contact_interval\": null")));
 }
 
-TEST(ComparisonFile, MayHaveTheFilmUnderItsNameInEarlierVersions) {
-  auto written = two_models();
-  written.models[0].film_from_gamma = 3e-3;
-  std::string text = write_comparison(written);
-  const std::string name = "film_from_gamma", former = "recovered_minimal_gap";
-  ASSERT_NE(text.find(name), text.npos);
-  for (auto at = text.find(name); at != text.npos; at = text.find(name, at))
-    text.replace(at, name.size(), former);
-  const TemporaryFolder folder;
-  const auto read = read_comparison(folder.file("old.json", text));
-  EXPECT_EQ(read.models[0].film_from_gamma, 3e-3);
-  EXPECT_FALSE(read.models[1].film_from_gamma);
-}
-
 TEST(ComparisonFile, IsRefusedWhenItIsSomethingElse) {
   const TemporaryFolder folder;
   std::string without_a_key = write_comparison(two_models());

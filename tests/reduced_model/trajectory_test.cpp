@@ -66,26 +66,6 @@ TEST(TrajectoryFile, ReadsBackToTheBit) {
   }
 }
 
-TEST(TrajectoryFile, MayHaveTheFilmUnderItsNameInEarlierVersions) {
-  const TemporaryFolder folder;
-  const std::string rows = "time,gap,velocity\n0,1,0\n";
-  const auto old =
-      read_trajectory(folder.file("old.csv", "# recovered_minimal_gap: 3e-3\n" + rows));
-  EXPECT_EQ(old.film_from_gamma, 3e-3);
-  EXPECT_TRUE(old.provenance.empty());
-  EXPECT_THAT(write_trajectory(old), HasSubstr("# film_from_gamma: 0.003\n"));
-  EXPECT_EQ(read_trajectory(folder.file("both.csv",
-                                        "# recovered_minimal_gap: 3e-3\n"
-                                        "# film_from_gamma: 4e-3\n" +
-                                            rows))
-                .film_from_gamma,
-            4e-3);
-  EXPECT_THAT(bad_input([&] {
-                read_trajectory(folder.file("w.csv", "# recovered_minimal_gap: thin\n" + rows));
-              }),
-              HasSubstr("recovered_minimal_gap"));
-}
-
 TEST(TrajectoryFile, HasTheColumnsOfTheInterfaces) {
   Trajectory trajectory;
   trajectory.model = "m";

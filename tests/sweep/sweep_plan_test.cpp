@@ -99,7 +99,7 @@ TEST(SweepPlanCheck, NothingIsThereTwiceAndTheReferenceIsOneOfTheModels) {
   const auto wrong = [](const SpherePlan& p) {
     return failure(ErrorKind::kWrongUsage, [&] { sphere_study(p, ""); });
   };
-  EXPECT_THAT(wrong(varied(plan, {"sphere.mass=1,2", "fluid.viscosity=1", "motion.mass=3"})),
+  EXPECT_THAT(wrong(varied(plan, {"sphere.mass=1,2", "fluid.viscosity=1", "sphere.mass=3"})),
               HasSubstr("the key sphere.mass is given twice"));
   EXPECT_THAT(wrong(with_models(plan, {"inertial", "inertial"}, "inertial")),
               HasSubstr("the model inertial is given twice"));

@@ -84,7 +84,7 @@ TEST(SweepRow, IsTheRunOfTheCaseWrittenByHand) {
 
 TEST(SweepRow, WithTheExactDragTooAndTimesDrawnOut) {
   const auto plan = varied(shipped("regime_map.toml"),
-                           {"motion.mass=0.5", "motion.time_scale=2.5", "sphere.radius=1,2"});
+                           {"sphere.mass=0.5", "motion.time_scale=2.5", "sphere.radius=1,2"});
   expect_row_of(plan, 1,
                 study_text("regime_map.toml", {{"mass = 1.0 ", "mass = 0.5 "},
                                                {"time_scale = 1.0", "time_scale = 2.5"},

@@ -57,24 +57,13 @@ report::SweepPlot picture_of(const SweepOptions& o, const CaseStudy& s) {
     return std::ranges::find(columns, column.substr(0, slash)) != columns.end() &&
            (slash == std::string::npos || points.is_varied(column.substr(slash + 1)));
   };
-  // Earlier versions used the name MODEL.film for the column MODEL.film_from_gamma.
-  const auto present_names = [&](std::vector<std::string> names) {
-    for (auto& name : names)
-      if (const auto end = name.find('/'); name.substr(0, end).ends_with(".film"))
-        name.insert(std::min(end, name.size()), "_from_gamma");
-    return names;
-  };
-  const auto requested = present_names(request.plot);
-  report::SweepPlot picture{o.x, o.y, present_names(o.columns), {}, points.draws > 0};
-  for (auto* axis : {&picture.x, &picture.y})
-    // Earlier versions used the name motion.mass for this key.
-    if (*axis == "motion.mass") *axis = "sphere.mass";
+  report::SweepPlot picture{o.x, o.y, o.columns, {}, points.draws > 0};
   if (picture.x.empty() && picture.y.empty()) {
     if (points.is_varied(request.x)) picture.x = request.x;
     if (points.is_varied(request.y) && points.samples == 0) picture.y = request.y;
   }
-  if (picture.columns.empty() && std::ranges::all_of(requested, is_there))
-    picture.columns = requested;
+  if (picture.columns.empty() && std::ranges::all_of(request.plot, is_there))
+    picture.columns = request.plot;
   if (picture.x.empty()) {
     const auto free = std::ranges::find_if(points.variations, [&](const sweep::Variation& v) {
       return v.key != picture.y && v.count > 1;

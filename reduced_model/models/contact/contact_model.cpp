@@ -47,10 +47,10 @@ class DragAtDistance {
     const double last = motion_ends_at(drag_.largest_gap) - contact_gap_ - distance;
     const double high = std::min(std::max(0.0, free), std::max(0.0, last * setting.per_step));
     const auto excess_and_slope = [&](double v) {
-      const double to = distance + setting.step * v;
+      // At the lower end of the bracket rounding errors could make it negative.
+      const double to = std::max(0.0, distance + setting.step * v);
       return std::pair(setting.mass * v + impulse(distance, to) - momentum,
-                       setting.mass + setting.step * drag_.resistance(contact_gap_ + distance +
-                                                                      setting.step * v));
+                       setting.mass + setting.step * drag_.resistance(contact_gap_ + to));
     };
     // A change of the velocity that is within its rounding error does not change the next gap.
     const auto settled = [](double v, double next) {

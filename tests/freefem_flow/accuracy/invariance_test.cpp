@@ -2,11 +2,15 @@
 // unit of length. And that the estimate of the error is true on the lecture's mesh.
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "tests/freefem_flow/accuracy/exact_flows.hpp"
 #include "tests/freefem_flow/placed_flow.hpp"
+#include "viscontact/freefem_flow/solver_units.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {
@@ -74,6 +78,57 @@ TEST(Units, DoNotChangeTheForceOnASphere) {
   }
   EXPECT_LT(factors[0], 0);
   EXPECT_NEAR(factors[1], factors[0], 1e-3 * -factors[0]);
+}
+
+TEST(Origin, OfASceneFarAwayDoesNotChangeTheFlow) {
+  // Places relative to the domain are multiples of 1/16, so that they are exact in both scenes.
+  constexpr double kFar = 1 << 27;
+  struct Scene {
+    std::array<bool, 3> periodic;
+    double x, y;
+  };
+  for (const auto mesh : {FluidMesh::kFitted, FluidMesh::kFixed})
+    for (const auto& scene : {Scene{{}, -kFar, kFar}, Scene{{true, false, false}, kFar, 0},
+                              Scene{{true, true, false}, kFar, -kFar}}) {
+      std::vector<std::vector<double>> answers;
+      std::vector<particles::FlowField> fields;
+      for (const auto& [x, y] : {std::pair(0.0, 0.0), std::pair(scene.x, scene.y)}) {
+        auto fluid = fluid_with(12);
+        fluid.mesh = mesh;
+        if (scene.periodic[0]) fluid.boundary = particles::LinearFlow{{0, 1, 0, 0}};
+        if (!scene.periodic[1]) fluid.probes = {{"p", {x + 1, y}, {x + 1, y + 6}}};
+        PlacedFlow flow(fluid, BoxDomain{{x, y}, {x + 8, y + 6}, scene.periodic},
+                        {{x + 3, y + 2.5}, {x + 5.25, y + 3}});
+        answers.push_back(flow.velocities({0, -1, 0, 0.5, 0, 0.25}));
+        for (const auto& probe : flow.solver().quantities().probes)
+          answers.back().insert(answers.back().end(), probe.begin(), probe.end());
+        fields.push_back(flow.solver().flow());
+        for (std::size_t i = 0; i < fields.back().x.size(); ++i) {
+          fields.back().x[i] -= x;
+          fields.back().y[i] -= y;
+        }
+      }
+      EXPECT_EQ(answers[1], answers[0]);
+      ASSERT_EQ(fields[1].x.size(), fields[0].x.size());
+      EXPECT_EQ(fields[1].velocity_x, fields[0].velocity_x);
+      for (std::size_t i = 0; i < fields[0].x.size(); ++i) {
+        EXPECT_NEAR(fields[1].x[i], fields[0].x[i], 1e-7);
+        EXPECT_NEAR(fields[1].y[i], fields[0].y[i], 1e-7);
+      }
+    }
+}
+
+TEST(Origin, OfWallsThatMoveWithALinearFlowIsInTheirVelocity) {
+  auto fluid = fluid_with(12);
+  fluid.boundary = particles::LinearFlow{{1, 2, 3, -1}};
+  const BoxDomain box{{1e6, -1e7}, {1e6 + 8, -1e7 + 6}};
+  const auto units = solver_units(fluid, box, std::vector{4.0});
+  EXPECT_EQ(units.origin, (std::array{1e6, -1e7}));
+  const auto& flow = std::get<particles::LinearFlow>(in_units(fluid, units).boundary);
+  EXPECT_DOUBLE_EQ(flow.at_origin[0] * units.length, 1e6 - 2e7);
+  EXPECT_DOUBLE_EQ(flow.at_origin[1] * units.length, 3e6 + 1e7);
+  EXPECT_EQ(solver_units(fluid, BoxDomain{{-700, 500}, {-692, 506}}, std::vector{4.0}).origin,
+            (std::array<double, 2>{}));
 }
 
 TEST(ShearedCell, MovesADiscWithTheShearAtItsPlace) {

@@ -19,9 +19,10 @@ namespace {
 
 using particles::Membrane;
 
-/// A vesicle of area pi unit^2 in a box of 8 x 6 units that is periodic along x and sheared.
+/// A vesicle of area pi unit^2 in a box of 8 x 6 units, or `room` times as large, that is periodic
+/// along x and sheared. The middle of the box is at (x, 0).
 struct Scene {
-  double unit = 1, viscosity = 1, ratio = 1, shear = 1, gradient = 0;
+  double unit = 1, viscosity = 1, ratio = 1, shear = 1, gradient = 0, room = 1, x = 0;
   particles::Vector centre{};
   std::vector<double> places{};
   particles::Particles beads{};
@@ -39,8 +40,11 @@ struct Scene {
     fluid.boundary = particles::LinearFlow{{0, shear, 0, 0}};
     fluid.pressure_gradient = {gradient, 0};
     fluid.membranes = {membrane};
-    const particles::BoxDomain box{{-4 * unit, -3 * unit}, {4 * unit, 3 * unit}, {true, false}};
+    const double size = room * unit;
+    const particles::BoxDomain box{
+        {x - 4 * size, -3 * size}, {x + 4 * size, 3 * size}, {true, false}};
     places = *particles::ellipse_of(membrane, centre, 0.5);
+    for (std::size_t i = 0; i < places.size(); i += 2) places[i] += x;
     beads.positions = places;
     beads.velocities.resize(places.size());
     beads.radii.assign(places.size() / 2, 0.01 * unit);
@@ -129,11 +133,24 @@ TEST(MembraneProcess, PlaceAndUnitsDoNotMatter) {
   const auto first = answer({.ratio = 4}, 1);
   const auto shifted = answer({.ratio = 4, .centre = {2.7, 0, 0}}, 1);
   const auto scaled = answer({.unit = 1024, .viscosity = 0.25, .ratio = 4, .shear = 8}, 2 * 1024);
+  const auto far = answer({.ratio = 4, .x = 1e8}, 1);
   for (std::size_t i = 0; i < first.size(); ++i) {
     // The same mesh up to rounding errors of its points, but FreeFEM may then choose other
-    // triangles.
+    // triangles. Far away positions are rounded to 1.5e-8.
     EXPECT_NEAR(shifted[i], first[i], 2e-3);
+    EXPECT_NEAR(far[i], first[i], 4e-3);
     EXPECT_NEAR(scaled[i], first[i], 1e-9);
+  }
+}
+
+TEST(MembraneProcess, AMembraneThatIsTooSmallForTheDomainIsAnError) {
+  Scene scene{.room = 1e6};
+  try {
+    scene.start(12);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("the perimeter must be at least 28.2"));
   }
 }
 

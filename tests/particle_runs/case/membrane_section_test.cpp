@@ -91,6 +91,27 @@ TEST_F(MembraneSection, MembranesThatMeetOrLeaveTheDomainAreErrors) {
   expect_refused(text(membrane("0.0, 3.5")), 12, "");
 }
 
+TEST_F(MembraneSection, AMembraneThatIsWiderThanTheDomainIsAnErrorOfItsPerimeter) {
+  // The width of an ellipse is proportional to its perimeter, so that the largest perimeter that is
+  // named is allowed.
+  const auto with = [&](double perimeter, const char* periodic) {
+    auto made = text(membrane(), "", periodic);
+    const std::string seven = "perimeter = 7.0";
+    return made.replace(made.find(seven), seven.size(),
+                        fmt::format("perimeter = {:.1f}", perimeter));
+  };
+  for (const auto* periodic : {"true, false", "false, false"}) {
+    expect_refused(with(40, periodic), 14, "membrane[0].perimeter is 40, which makes a membrane");
+    expect_refused(with(1e5, periodic), 14, "membrane[0].perimeter is 100000, which makes");
+  }
+  const auto said = bad_input([&] { read(with(40, "true, false")); });
+  const std::string least = "it must be less than ";
+  ASSERT_THAT(said, HasSubstr(least));
+  const double most = std::stod(said.substr(said.find(least) + least.size()));
+  EXPECT_THAT(bad_input([&] { read(with(1.01 * most, "true, false")); }), HasSubstr("perimeter"));
+  EXPECT_GT(most, 7);
+}
+
 TEST_F(MembraneSection, WhatCannotBeComputedWithMembranesIsRefused) {
   const auto beside = [&](const std::string& centre, const std::string& more) {
     return text(membrane() + "[[particle]]\ncentre = [" + centre + "]\n" + more + "\n");

@@ -1,4 +1,4 @@
-// Restart files of this version and of those before, and those that are refused.
+// Restart files that are read and those that are refused.
 #include "viscontact/particle_runs/io/restart.hpp"
 
 #include <gmock/gmock.h>
@@ -59,7 +59,6 @@ TEST_F(RestartFile, HasThePositionsBeforeAStepOfMembranes) {
   auto state = disc_on_plane(-0.75);
   state.earlier_positions = {0.5, 2};
   const auto text = write_restart(state);
-  EXPECT_THAT(text, HasSubstr("version 9"));
   EXPECT_EQ(read(text).earlier_positions, state.earlier_positions);
   state.earlier_positions = {0.5};
   EXPECT_THAT(bad_input([&] { read(write_restart(state)); }), HasSubstr("restart.bin: is damaged"));
@@ -70,7 +69,6 @@ TEST_F(RestartFile, HasWhatSourcesHaveDone) {
   state.sources = {{.poured = 1, .begin = 2, .begin_of_case = 0.5, .rate = 3, .seed = 4},
                    {.poured = 0, .begin = 7, .begin_of_case = 7, .rate = 0.1, .species = ~0ULL}};
   const auto text = write_restart(state);
-  EXPECT_THAT(text, HasSubstr("version 11"));
   EXPECT_EQ(read(text).sources, state.sources);
   for (const int poured : {-1, 1}) {  // the disc comes from the first source
     state.sources[1].poured = poured;
@@ -82,10 +80,8 @@ TEST_F(RestartFile, HasWhatSourcesHaveDone) {
 TEST_F(RestartFile, HasTheBlowsOfTheLastStep) {
   auto state = disc_on_plane(-0.75);
   state.earlier_step = 0.1;
-  EXPECT_THAT(write_restart(state), HasSubstr("version 6"));
   state.blows = {{-1, {0.1, 1.0 / 3, 0}, {0, 1, 0}}, {0, {-2, 0, 0}, {1.0 / 7, 0, 0}}};
   const auto text = write_restart(state);
-  EXPECT_THAT(text, HasSubstr("version 12"));
   const auto again = read(text);
   ASSERT_EQ(again.blows.size(), 2U);
   for (std::size_t k = 0; k < 2; ++k) {
@@ -111,7 +107,6 @@ TEST_F(RestartFile, SaysWhichEndOfAPlateIsAtAnObstacle) {
   state.walls.push_back(state.walls[0]);
   state.walls[1].place = 1;
   const auto text = write_restart(state);
-  EXPECT_THAT(text, HasSubstr("version 10"));
   EXPECT_EQ(read(text).walls, state.walls);
   state.walls[1].place = 2;
   EXPECT_THAT(bad_input([&] { read(write_restart(state)); }), HasSubstr("restart.bin: is damaged"));
@@ -202,10 +197,10 @@ TEST_F(RestartFile, WithListsOfOtherLengthsIsRefused) {
 }
 
 TEST_F(RestartFile, OfAnotherVersionIsRefused) {
-  for (const auto* version : {"version 14", "version :", "version 5", "version 6x"}) {
+  for (const auto* version : {"version 14", "version :", "version 12", "version 13x"}) {
     auto text = write_restart(disc_on_plane(-0.5));
-    text.replace(text.find("version 6"), 9, version);
-    EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr("versions 6 to 13 can be read"));
+    text.replace(text.find("version 13"), 10, version);
+    EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr("it must be of version 13"));
   }
 }
 

@@ -99,20 +99,6 @@ TEST_P(FlowFile, IsReadAsItWasWritten) {
 
 INSTANTIATE_TEST_SUITE_P(PlaneAndAxis, FlowFile, ::testing::Values(2, 1));
 
-// Three discs on a floor, in the format of earlier revisions: appended raw data. The numbers are
-// those of the tables of the same run.
-TEST(EarlierVtkFile, WithAppendedDataIsRead) {
-  const auto frame = read_vtp(VISCONTACT_SOURCE_FOLDER "/tests/particles/io/appended_frame.vtp", 2);
-  EXPECT_EQ(frame.positions,
-            (std::vector<double>{1.0666666666666669, 1, 3.0666666666666664, 1, 7, 1}));
-  EXPECT_EQ(frame.masses, (std::vector<double>{1, 2, 3}));
-  ASSERT_EQ(frame.contacts.size(), 4U);
-  EXPECT_EQ(frame.contacts[0].gamma, -0.6666666666666666);
-  EXPECT_EQ(frame.contacts[3].first, -1);
-  EXPECT_EQ(frame.contacts[3].second, 2);
-  EXPECT_EQ(frame.contacts[3].normal_force, 3.0000000000000004);
-}
-
 TEST_F(VtkFile, OfAFlowThatWasCutShortIsRefused) {
   const auto text = write_flow(small_flow());
   for (const auto size : {text.size() / 3, text.size() / 2, text.size() - 1})

@@ -43,14 +43,5 @@ value = [0.0, 1.0, 0.0]
   EXPECT_NEAR(end.position(0)[0] * std::sin(0.1) + end.position(0)[2] * std::cos(0.1), 1, 1e-6);
 }
 
-TEST_F(ParticlesCommand, ACaseThatNamesAMethodOfAnEarlierVersionIsStillRun) {
-  expect_done(run(put_case(kCase), out("now")));
-  expect_done(run(
-      put_case(replaced(kCase, "tolerance = 1e-6", "tolerance = 1e-6\nmethod = \"gauss_seidel\"")),
-      out("then")));
-  EXPECT_EQ(rest_of(out("then") / "final_particles.csv"),
-            rest_of(out("now") / "final_particles.csv"));
-}
-
 }  // namespace
 }  // namespace viscontact

@@ -6,6 +6,7 @@
 #include "tests/program/particles/particles_command.hpp"
 #include "tests/program/program.hpp"
 #include "tests/program/sample_files.hpp"
+#include "tests/program/undisturbed.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/particle_runs/io/particle_file.hpp"
 
@@ -65,6 +66,24 @@ TEST_F(ParticlesCommand, WarnsThatItsPagesCannotHaveLengthsBeyondSinglePrecision
     expect_done(result);
     EXPECT_EQ(result.errors.find("show nothing, because a radius") == std::string::npos, is_shown);
   }
+}
+
+TEST_F(ParticlesCommand, PictureOfASceneFarFromTheOriginIsThatOfTheSceneAtIt) {
+  const auto text = [](double x, double y) {
+    return fmt::format(
+        "title = \"t\"\n[space]\ndimension = 2\n[viscous_contact]\ntime_step = 0.1\n"
+        "end_time = 0.2\ngamma_min = 0.0\n[[plane]]\npoint = [{0:.1f}, {2:.1f}]\n"
+        "normal = [0.0, 1.0]\n[[particle]]\ncentre = [{0:.1f}, {1:.1f}]\nmass = 1.0\n"
+        "radius = 1.0\nvelocity = [0.0, -1.0]\n[[particle]]\ncentre = [{3:.1f}, {1:.1f}]\n"
+        "mass = 1.0\nradius = 1.0\n",
+        x, y, y - 4, x + 3);
+  };
+  expect_done(run(put_case(text(0, 0)), out("near")));
+  // Single precision has errors of 8 there.
+  expect_done(run(put_case(text(-134217728, 134217728)), out("far")));
+  EXPECT_EQ(rest_of(out("far") / "particles.svg"), rest_of(out("near") / "particles.svg"));
+  EXPECT_THAT(read_file(out("far") / "particles.html"),
+              HasSubstr("Places are relative to (-134217728, 134217728)"));
 }
 
 TEST_F(ParticlesCommand, FramesOfALongerRunDoNotStay) {

@@ -160,7 +160,7 @@ TEST_F(SweepCommand, DrawsAMapOfTwoKeys) {
 
 TEST_F(SweepCommand, CommandLineOverridesTheCase) {
   expect_done(sweep(kVanishing,
-                    {"--vary", "motion.mass=1,2", "--vary", "fluid.viscosity=0.5,1,2", "--models",
+                    {"--vary", "sphere.mass=1,2", "--vary", "fluid.viscosity=0.5,1,2", "--models",
                      "viscous_contact,viscous_contact_exact", "--reference", "viscous_contact"}));
   const auto found = lines();
   ASSERT_EQ(found.size(), 7U);
@@ -243,7 +243,7 @@ TEST_F(SweepCommand, WrongUsageIsRefusedBeforeAnyWork) {
   wrong({"--vary", "fluid.viscosity=1:2:many"}, "'many' is not a finite number");
   wrong({"--vary", "fluid.viscosity"}, "KEY= is missing");
   wrong({"--models", "inertia", "--reference", "inertia"}, "--models: no model is named 'inertia'");
-  wrong({"--vary", "motion.mass=1,2", "--vary", "sphere.mass=1"}, "key sphere.mass is given twice");
+  wrong({"--vary", "sphere.mass=1,2", "--vary", "sphere.mass=1"}, "key sphere.mass is given twice");
   wrong({"--reference", "viscous_contact"}, "'viscous_contact' is not one of the models");
   wrong({"--models", "inertial,inertial", "--reference", "inertial"}, "inertial is given twice");
   wrong(
@@ -367,8 +367,6 @@ TEST_F(SweepCommand, DoesNotReplaceAFileThatIsNoSweep) {
                                      "viscous_contact_exact.film_from_gamma"});
   expect_refused(kVanishing, arguments, ErrorKind::kBadInput,
                  AllOf(HasSubstr("picture.svg"), HasSubstr("is not a picture")));
-  // The name of the column in earlier versions.
-  arguments.back() = "viscous_contact_exact.film";
   // A sweep it may replace, by another one.
   std::filesystem::remove(path("picture.svg"));
   put_text(path("rows.csv"), "# provenance: {\"command\":[]}\n# viscontact: sweep\nother\n");

@@ -20,6 +20,12 @@ TEST(FlowGrid, HasAboutAsManyPointsAsWantedEquallyFarApart) {
   EXPECT_NEAR(grid.step_x(), grid.step_y(), 0.02 * grid.step_x());  // a step more or less
 }
 
+TEST(FlowGrid, HasTwoPointsInEachDirectionIfNoneAreWanted) {
+  const auto grid = grid_of({0, 4, 0, 1}, 0);
+  EXPECT_EQ(grid.columns, 2U);
+  EXPECT_EQ(grid.rows, 2U);
+}
+
 // The shape functions are quadratic, so that a quadratic flow is interpolated without error.
 TEST(FlowGrid, InterpolatesAQuadraticFlowExactly) {
   const FlowAt at = [](double x, double y) {

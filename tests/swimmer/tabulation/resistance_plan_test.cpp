@@ -76,6 +76,24 @@ TEST_F(ResistancePlan, FinishedRowsAreNotComputedAgainNorIsAFinishedTable) {
   EXPECT_EQ(read_resistance_table(path()).versions.at("FreeFEM"), "0-fake");
 }
 
+TEST_F(ResistancePlan, TheTableOfAnotherNumberOfSpheresIsNotRead) {
+  const auto plan = resistance_table_plan(spheres_, grid_);
+  for (const std::size_t spheres : {2U, 4U}) {
+    ResistanceTable other;
+    other.case_hash = plan.hash;
+    other.viscosity = 2;
+    other.radii.assign(spheres, 1);
+    ResistanceRow row;
+    prepare(other, row);
+    std::ranges::fill(row.gaps, 0.25);
+    for (std::size_t i = 0; i < spheres; ++i) row.entries[entry_position(i, i, spheres)] = 1;
+    other.rows = {row};
+    write_file(path(), write_resistance_table(other));
+    ASSERT_EQ(read_resistance_table(path()).radii.size(), spheres);
+    EXPECT_TRUE(plan.read(path()).finished.empty()) << spheres;
+  }
+}
+
 TEST_F(ResistancePlan, HashChangesWithEverythingThatTheMatricesDependOn) {
   const auto base = resistance_table_plan(spheres_, grid_).hash;
   const auto changed = [&](auto change) {
