@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
 
 namespace viscontact::particles {
 

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "viscontact/common/splitmix.hpp"
-#include "viscontact/particles/particles.hpp"
-#include "viscontact/particles/setting.hpp"
-#include "viscontact/particles/state.hpp"
+#include "viscontact/particles/setting/setting.hpp"
+#include "viscontact/particles/state/particles.hpp"
+#include "viscontact/particles/state/state.hpp"
 
 namespace viscontact::particles {
 

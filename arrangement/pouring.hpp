@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "viscontact/arrangement/species.hpp"
-#include "viscontact/particles/source.hpp"
+#include "viscontact/particles/setting/source.hpp"
 
 namespace viscontact::particles {
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "viscontact/common/splitmix.hpp"
-#include "viscontact/particles/source.hpp"
+#include "viscontact/particles/setting/source.hpp"
 
 namespace viscontact::particles {
 

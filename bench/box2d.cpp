@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "tests/contact_dynamics/box2d/box2d_case.hpp"
-#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/steps/current_contacts.hpp"
 
 namespace {
 

@@ -9,11 +9,11 @@
 #include "viscontact/constraint_rows/solver_names.hpp"
 #include "viscontact/contact_solver/constraint_problem.hpp"
 #include "viscontact/contact_solver/dual_problem.hpp"
-#include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/particles.hpp"
-#include "viscontact/particles/vector.hpp"
+#include "viscontact/particles/state/particles.hpp"
+#include "viscontact/particles/state/rigid_bodies.hpp"
+#include "viscontact/particles/values/vector.hpp"
 
 namespace viscontact::particles {
 

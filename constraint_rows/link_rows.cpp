@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#include "viscontact/particles/bodies/rigid_bodies.hpp"
+#include "viscontact/particles/state/rigid_bodies.hpp"
 
 namespace viscontact::particles {
 namespace {

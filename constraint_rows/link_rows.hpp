@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "viscontact/particles/links/links.hpp"
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
 
 namespace viscontact::particles {
 

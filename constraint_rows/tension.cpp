@@ -8,8 +8,8 @@
 #include <cmath>
 #include <utility>
 
-#include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/domain/periods.hpp"
+#include "viscontact/particles/state/rigid_bodies.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "viscontact/constraint_rows/link_rows.hpp"
-#include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/links/links.hpp"
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
+#include "viscontact/particles/state/rigid_bodies.hpp"
 
 namespace viscontact::particles {
 

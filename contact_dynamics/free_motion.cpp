@@ -4,7 +4,7 @@
 
 #include "viscontact/constraint_rows/tension.hpp"
 #include "viscontact/contact_dynamics/simulation.hpp"
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
 
 namespace viscontact::particles {
 

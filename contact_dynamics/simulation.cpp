@@ -17,10 +17,10 @@
 #include "viscontact/contact_dynamics/impacts/impacts.hpp"
 #include "viscontact/contact_dynamics/projection/step_projection.hpp"
 #include "viscontact/membranes/membrane_shape.hpp"
-#include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/contact/film_tension.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
+#include "viscontact/particles/state/rigid_bodies.hpp"
 #include "viscontact/particles/steps/step_report.hpp"
 #include "viscontact/particles/steps/step_times.hpp"
 

@@ -18,9 +18,9 @@
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
 #include "viscontact/freefem_flow/boundary/mesh_boundary.hpp"
 #include "viscontact/freefem_flow/membranes/membrane_process.hpp"
-#include "viscontact/freefem_flow/solver_units.hpp"
+#include "viscontact/freefem_flow/process/solver_units.hpp"
 #include "viscontact/immersed/fluid_solver.hpp"
-#include "viscontact/particles/fluid.hpp"
+#include "viscontact/particles/setting/fluid.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {

@@ -14,7 +14,7 @@
 #include "viscontact/constraint_rows/solver_names.hpp"
 #include "viscontact/immersed/closed_contacts.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
-#include "viscontact/particles/outline.hpp"
+#include "viscontact/particles/setting/outline.hpp"
 
 namespace viscontact::particles {
 namespace {

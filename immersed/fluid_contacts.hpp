@@ -16,11 +16,11 @@
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/contact/contact_laws.hpp"
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/fluid.hpp"
 #include "viscontact/particles/links/links.hpp"
-#include "viscontact/particles/pair_memory.hpp"
-#include "viscontact/particles/setting.hpp"
-#include "viscontact/particles/state.hpp"
+#include "viscontact/particles/setting/fluid.hpp"
+#include "viscontact/particles/setting/setting.hpp"
+#include "viscontact/particles/state/pair_memory.hpp"
+#include "viscontact/particles/state/state.hpp"
 #include "viscontact/particles/steps/step_report.hpp"
 
 namespace viscontact::particles {

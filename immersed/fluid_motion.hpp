@@ -14,8 +14,8 @@
 
 #include "viscontact/immersed/fluid_contacts.hpp"
 #include "viscontact/immersed/fluid_simulation.hpp"
-#include "viscontact/particles/setting.hpp"
-#include "viscontact/particles/steps/rebound.hpp"
+#include "viscontact/particles/setting/setting.hpp"
+#include "viscontact/particles/state/rebound.hpp"
 
 namespace viscontact::particles {
 

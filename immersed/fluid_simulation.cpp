@@ -19,7 +19,7 @@
 #include "viscontact/immersed/step_equation.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
-#include "viscontact/particles/outline.hpp"
+#include "viscontact/particles/setting/outline.hpp"
 #include "viscontact/particles/steps/step_times.hpp"
 
 namespace viscontact::particles {

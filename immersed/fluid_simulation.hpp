@@ -11,9 +11,9 @@
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/immersed/fluid_solver.hpp"
 #include "viscontact/particles/contact/contact.hpp"
-#include "viscontact/particles/setting.hpp"
-#include "viscontact/particles/state.hpp"
-#include "viscontact/particles/steps/rebound.hpp"
+#include "viscontact/particles/setting/setting.hpp"
+#include "viscontact/particles/state/rebound.hpp"
+#include "viscontact/particles/state/state.hpp"
 #include "viscontact/particles/steps/step_report.hpp"
 
 namespace viscontact::particles {

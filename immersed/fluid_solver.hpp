@@ -16,8 +16,8 @@
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/common/vtk/flow_vtk.hpp"
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/fluid.hpp"
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/setting/fluid.hpp"
+#include "viscontact/particles/state/particles.hpp"
 #include "viscontact/particles/steps/step_report.hpp"
 
 namespace viscontact::particles {

@@ -9,7 +9,7 @@
 
 #include "viscontact/common/matrices/decompositions.hpp"
 #include "viscontact/immersed/fluid_solver.hpp"
-#include "viscontact/particles/bodies/rigid_bodies.hpp"
+#include "viscontact/particles/state/rigid_bodies.hpp"
 
 namespace viscontact::particles {
 namespace {

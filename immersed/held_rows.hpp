@@ -11,7 +11,7 @@
 #include "viscontact/constraint_rows/link_rows.hpp"
 #include "viscontact/immersed/held_solver.hpp"
 #include "viscontact/particles/contact/contact.hpp"
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
 
 namespace viscontact::particles {
 

@@ -6,7 +6,7 @@
 
 #include "viscontact/constraint_rows/tension.hpp"
 #include "viscontact/immersed/held_rows.hpp"
-#include "viscontact/particles/bodies/rigid_bodies.hpp"
+#include "viscontact/particles/state/rigid_bodies.hpp"
 
 namespace viscontact::particles {
 namespace {

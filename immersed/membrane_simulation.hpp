@@ -7,8 +7,8 @@
 
 #include "viscontact/immersed/fluid_solver.hpp"
 #include "viscontact/membranes/membrane_shape.hpp"
-#include "viscontact/particles/setting.hpp"
-#include "viscontact/particles/state.hpp"
+#include "viscontact/particles/setting/setting.hpp"
+#include "viscontact/particles/state/state.hpp"
 #include "viscontact/particles/steps/step_report.hpp"
 
 namespace viscontact::particles {

@@ -11,7 +11,7 @@
 #include <variant>
 
 #include "viscontact/immersed/fluid_contacts.hpp"
-#include "viscontact/particles/bodies/rigid_bodies.hpp"
+#include "viscontact/particles/state/rigid_bodies.hpp"
 
 namespace viscontact::particles {
 namespace {

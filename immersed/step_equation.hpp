@@ -9,8 +9,8 @@
 
 #include "viscontact/immersed/fluid_solver.hpp"
 #include "viscontact/particles/contact/contact.hpp"
-#include "viscontact/particles/setting.hpp"
-#include "viscontact/particles/state.hpp"
+#include "viscontact/particles/setting/setting.hpp"
+#include "viscontact/particles/state/state.hpp"
 
 namespace viscontact::particles {
 

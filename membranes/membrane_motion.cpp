@@ -7,7 +7,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/matrices/decompositions.hpp"
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
 
 namespace viscontact::particles {
 

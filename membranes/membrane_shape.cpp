@@ -14,8 +14,8 @@
 #include "viscontact/membranes/membrane_curve.hpp"
 #include "viscontact/membranes/membrane_motion.hpp"
 #include "viscontact/membranes/necklace.hpp"
-#include "viscontact/particles/setting.hpp"
-#include "viscontact/particles/state.hpp"
+#include "viscontact/particles/setting/setting.hpp"
+#include "viscontact/particles/state/state.hpp"
 
 namespace viscontact::particles {
 

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 
 #include "viscontact/membranes/membrane_shape.hpp"
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
 
 namespace viscontact::particles {
 

@@ -10,7 +10,7 @@
 #include "viscontact/particle_runs/case/particles_case.hpp"
 #include "viscontact/particle_runs/run/particle_simulation.hpp"
 #include "viscontact/particle_runs/run/particles_earlier_run.hpp"
-#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/steps/current_contacts.hpp"
 #include "viscontact/python/call.hpp"
 
 namespace viscontact::python {

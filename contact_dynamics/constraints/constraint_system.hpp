@@ -14,14 +14,14 @@
 #include "viscontact/constraint_rows/contact_rows.hpp"
 #include "viscontact/constraint_rows/link_rows.hpp"
 #include "viscontact/constraint_rows/solver_names.hpp"
-#include "viscontact/contact_dynamics/contact_system.hpp"
+#include "viscontact/contact_dynamics/constraints/contact_system.hpp"
 #include "viscontact/contact_solver/constraint_problem.hpp"
 #include "viscontact/contact_solver/constraint_solver.hpp"
 #include "viscontact/contact_solver/refinement.hpp"
-#include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/contact/contact_laws.hpp"
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
+#include "viscontact/particles/state/rigid_bodies.hpp"
 
 namespace viscontact::particles {
 

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "viscontact/particles/contact/contact.hpp"
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -14,12 +14,12 @@
 #include "viscontact/constraint_rows/contact_rows.hpp"
 #include "viscontact/constraint_rows/solver_names.hpp"
 #include "viscontact/contact_solver/constraint_problem.hpp"
-#include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/contact/contact_laws.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/neighbours/pairs_of_particles.hpp"
-#include "viscontact/particles/state.hpp"
-#include "viscontact/particles/steps/rebound.hpp"
+#include "viscontact/particles/state/rebound.hpp"
+#include "viscontact/particles/state/rigid_bodies.hpp"
+#include "viscontact/particles/state/state.hpp"
 
 namespace viscontact::particles {
 

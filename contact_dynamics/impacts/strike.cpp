@@ -11,7 +11,7 @@
 #include "viscontact/contact_solver/constraint_problem.hpp"
 #include "viscontact/contact_solver/constraint_solver.hpp"
 #include "viscontact/particles/contact/contact.hpp"
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
 
 namespace viscontact::particles {
 

@@ -14,13 +14,13 @@
 
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/contact_dynamics/constraints/constraint_system.hpp"
-#include "viscontact/contact_dynamics/contact_system.hpp"
+#include "viscontact/contact_dynamics/constraints/contact_system.hpp"
 #include "viscontact/contact_dynamics/impacts/impacts.hpp"
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/contact/film_tension.hpp"
 #include "viscontact/particles/neighbours/pairs_of_particles.hpp"
-#include "viscontact/particles/setting.hpp"
-#include "viscontact/particles/state.hpp"
+#include "viscontact/particles/setting/setting.hpp"
+#include "viscontact/particles/state/state.hpp"
 #include "viscontact/particles/steps/step_report.hpp"
 
 namespace viscontact::particles {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "viscontact/contact_dynamics/simulation.hpp"
-#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/steps/current_contacts.hpp"
 
 namespace {
 

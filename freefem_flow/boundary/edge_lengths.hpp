@@ -12,8 +12,8 @@
 
 #include "viscontact/immersed/fluid_solver.hpp"
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/fluid.hpp"
-#include "viscontact/particles/outline.hpp"
+#include "viscontact/particles/setting/fluid.hpp"
+#include "viscontact/particles/setting/outline.hpp"
 
 namespace viscontact::freefem_flow {
 

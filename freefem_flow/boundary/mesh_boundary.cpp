@@ -12,7 +12,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
 #include "viscontact/freefem_flow/boundary/periodic_cells.hpp"
-#include "viscontact/particles/outline.hpp"
+#include "viscontact/particles/setting/outline.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {

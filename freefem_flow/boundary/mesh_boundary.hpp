@@ -8,7 +8,7 @@
 
 #include "viscontact/immersed/fluid_solver.hpp"
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/fluid.hpp"
+#include "viscontact/particles/setting/fluid.hpp"
 
 namespace viscontact::freefem_flow {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "viscontact/freefem_flow/boundary/mesh_boundary.hpp"
-#include "viscontact/freefem_flow/solver_units.hpp"
+#include "viscontact/freefem_flow/process/solver_units.hpp"
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/outline.hpp"
+#include "viscontact/particles/setting/outline.hpp"
 
 namespace viscontact::freefem_flow {
 

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "viscontact/freefem_flow/process/flow_process.hpp"
-#include "viscontact/freefem_flow/solver_units.hpp"
+#include "viscontact/freefem_flow/process/solver_units.hpp"
 #include "viscontact/immersed/fluid_solver.hpp"
 
 namespace viscontact::freefem_flow {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/fluid.hpp"
+#include "viscontact/particles/setting/fluid.hpp"
 
 namespace viscontact::freefem_flow {
 

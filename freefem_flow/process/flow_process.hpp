@@ -12,7 +12,7 @@
 #include "viscontact/freefem_flow/boundary/mesh_boundary.hpp"
 #include "viscontact/freefem_flow/process/solver_command.hpp"
 #include "viscontact/immersed/fluid_solver.hpp"
-#include "viscontact/particles/fluid.hpp"
+#include "viscontact/particles/setting/fluid.hpp"
 
 namespace viscontact::freefem_flow {
 

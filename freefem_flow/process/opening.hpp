@@ -6,7 +6,7 @@
 #include <string>
 
 #include "viscontact/immersed/fluid_solver.hpp"
-#include "viscontact/particles/fluid.hpp"
+#include "viscontact/particles/setting/fluid.hpp"
 
 namespace viscontact::freefem_flow {
 

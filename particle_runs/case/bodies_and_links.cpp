@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "viscontact/particle_runs/case/particles_sections.hpp"
-#include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/domain/periods.hpp"
 #include "viscontact/particles/links/links.hpp"
-#include "viscontact/particles/outline.hpp"
+#include "viscontact/particles/setting/outline.hpp"
+#include "viscontact/particles/state/rigid_bodies.hpp"
 
 namespace viscontact::particles {
 namespace {

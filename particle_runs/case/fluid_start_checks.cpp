@@ -9,7 +9,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/particle_runs/case/particles_sections.hpp"
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/outline.hpp"
+#include "viscontact/particles/setting/outline.hpp"
 
 namespace viscontact::particles {
 namespace {

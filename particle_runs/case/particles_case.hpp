@@ -9,7 +9,7 @@
 #include "viscontact/arrangement/arrangement.hpp"
 #include "viscontact/case_file/case_template.hpp"
 #include "viscontact/case_file/keys.hpp"
-#include "viscontact/particles/setting.hpp"
+#include "viscontact/particles/setting/setting.hpp"
 
 namespace viscontact::particles {
 

@@ -13,8 +13,8 @@
 
 #include "viscontact/case_file/keys.hpp"
 #include "viscontact/particle_runs/case/particles_case.hpp"
-#include "viscontact/particles/piecewise_constant.hpp"
-#include "viscontact/particles/vector.hpp"
+#include "viscontact/particles/values/piecewise_constant.hpp"
+#include "viscontact/particles/values/vector.hpp"
 
 namespace viscontact::particles {
 

@@ -7,7 +7,7 @@
 #include "viscontact/particle_runs/case/particles_sections.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
-#include "viscontact/particles/outline.hpp"
+#include "viscontact/particles/setting/outline.hpp"
 
 namespace viscontact::particles {
 

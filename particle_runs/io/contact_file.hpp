@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "viscontact/particle_runs/io/link_file.hpp"
-#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/steps/current_contacts.hpp"
 
 namespace viscontact::particles {
 

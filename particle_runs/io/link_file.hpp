@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "viscontact/membranes/membrane_shape.hpp"
-#include "viscontact/particles/setting.hpp"
+#include "viscontact/particles/setting/setting.hpp"
 
 namespace viscontact::particles {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/particles/particles.hpp"
-#include "viscontact/particles/state.hpp"
+#include "viscontact/particles/state/particles.hpp"
+#include "viscontact/particles/state/state.hpp"
 
 namespace viscontact::particles {
 

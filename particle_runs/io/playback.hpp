@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "viscontact/common/text/units.hpp"
-#include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/domain/domain.hpp"
+#include "viscontact/particles/steps/current_contacts.hpp"
 
 namespace viscontact::particles {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "viscontact/particles/state.hpp"
+#include "viscontact/particles/state/state.hpp"
 
 namespace viscontact::particles {
 

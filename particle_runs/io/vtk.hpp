@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/steps/current_contacts.hpp"
 
 namespace viscontact::particles {
 

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/particles/outline.hpp"
+#include "viscontact/particles/setting/outline.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -12,9 +12,9 @@
 #include "viscontact/common/system/module.hpp"
 #include "viscontact/common/vtk/vtk_xml.hpp"
 #include "viscontact/particle_runs/io/vtk.hpp"
-#include "viscontact/particles/pair_memory.hpp"
 #include "viscontact/particle_runs/run/module/hdf5_module.hpp"
 #include "viscontact/particle_runs/run/particles_pages.hpp"
+#include "viscontact/particles/state/pair_memory.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -8,7 +8,7 @@
 #include "viscontact/particle_runs/case/particles_case.hpp"
 #include "viscontact/particle_runs/run/particles_folder.hpp"
 #include "viscontact/particle_runs/run/run_log.hpp"
-#include "viscontact/particles/state.hpp"
+#include "viscontact/particles/state/state.hpp"
 
 namespace viscontact::particles {
 

@@ -14,7 +14,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/json.hpp"
 #include "viscontact/common/text/number.hpp"
-#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/steps/current_contacts.hpp"
 #include "viscontact/results/foreign_files.hpp"
 
 namespace viscontact {

@@ -14,7 +14,7 @@
 #include "viscontact/common/files/growing_file.hpp"
 #include "viscontact/particle_runs/case/particles_case.hpp"
 #include "viscontact/particle_runs/run/particle_regime.hpp"
-#include "viscontact/particles/state.hpp"
+#include "viscontact/particles/state/state.hpp"
 #include "viscontact/particles/steps/step_report.hpp"
 
 namespace viscontact::particles {

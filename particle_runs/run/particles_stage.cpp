@@ -28,7 +28,7 @@
 #include "viscontact/particle_runs/run/particles_folder.hpp"
 #include "viscontact/particle_runs/run/particles_pages.hpp"
 #include "viscontact/particle_runs/run/run_log.hpp"
-#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/steps/current_contacts.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/results/run_folder.hpp"
 #include "viscontact/terminal/progress.hpp"

@@ -10,7 +10,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/particle_runs/io/contact_file.hpp"
 #include "viscontact/particle_runs/io/vtk.hpp"
-#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/steps/current_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {

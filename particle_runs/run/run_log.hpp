@@ -12,8 +12,8 @@
 #include "viscontact/particle_runs/case/particles_case.hpp"
 #include "viscontact/particle_runs/io/link_file.hpp"
 #include "viscontact/particle_runs/run/particles_folder.hpp"
-#include "viscontact/particles/state.hpp"
-#include "viscontact/particles/steps/rebound.hpp"
+#include "viscontact/particles/state/rebound.hpp"
+#include "viscontact/particles/state/state.hpp"
 #include "viscontact/results/provenance.hpp"
 
 namespace viscontact::particles {

@@ -12,8 +12,8 @@
 #include <span>
 
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/particles.hpp"
-#include "viscontact/particles/state.hpp"
+#include "viscontact/particles/state/particles.hpp"
+#include "viscontact/particles/state/state.hpp"
 
 namespace viscontact::particles {
 

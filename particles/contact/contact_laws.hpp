@@ -11,8 +11,8 @@
 #include "viscontact/particles/contact/friction_law.hpp"
 #include "viscontact/particles/contact/restitution_law.hpp"
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/particles.hpp"
-#include "viscontact/particles/state.hpp"
+#include "viscontact/particles/state/particles.hpp"
+#include "viscontact/particles/state/state.hpp"
 
 namespace viscontact::particles {
 

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <optional>
 
-#include "viscontact/particles/state.hpp"
+#include "viscontact/particles/state/state.hpp"
 
 namespace viscontact::particles {
 

@@ -8,8 +8,8 @@
 #include <variant>
 #include <vector>
 
-#include "viscontact/particles/piecewise_constant.hpp"
-#include "viscontact/particles/vector.hpp"
+#include "viscontact/particles/values/piecewise_constant.hpp"
+#include "viscontact/particles/values/vector.hpp"
 
 namespace viscontact::particles {
 

@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/vector.hpp"
+#include "viscontact/particles/values/vector.hpp"
 
 namespace viscontact::particles {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "viscontact/particles/links/membrane.hpp"
-#include "viscontact/particles/vector.hpp"
+#include "viscontact/particles/values/vector.hpp"
 
 namespace viscontact::particles {
 

@@ -6,7 +6,7 @@
 
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/state.hpp"
+#include "viscontact/particles/state/state.hpp"
 
 namespace viscontact::particles {
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "viscontact/particles/state.hpp"
+#include "viscontact/particles/state/state.hpp"
 
 namespace viscontact::particles {
 

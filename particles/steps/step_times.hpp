@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/particles/setting.hpp"
-#include "viscontact/particles/state.hpp"
+#include "viscontact/particles/setting/setting.hpp"
+#include "viscontact/particles/state/state.hpp"
 
 namespace viscontact::particles {
 

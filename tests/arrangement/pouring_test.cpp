@@ -8,7 +8,7 @@
 #include "tests/common/temporary_folder.hpp"
 #include "tests/particles/systems.hpp"
 #include "viscontact/particle_runs/io/restart.hpp"
-#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/steps/current_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "tests/particles/systems.hpp"
-#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/steps/current_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -11,7 +11,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/particle_runs/io/contact_file.hpp"
 #include "viscontact/particle_runs/io/restart.hpp"
-#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/steps/current_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "tests/particles/systems.hpp"
-#include "viscontact/particles/bodies/rigid_bodies.hpp"
-#include "viscontact/particles/outline.hpp"
+#include "viscontact/particles/setting/outline.hpp"
+#include "viscontact/particles/state/rigid_bodies.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -134,7 +134,7 @@ TEST(Extending, ChangesNoOtherFiles) {
             "particle_runs/case/particles_case.cpp\n"
             "particles/contact/ageing_law.hpp\n"
             "particles/contact/contact_laws.hpp\n"
-            "particles/pair_memory.hpp\n"
+            "particles/state/pair_memory.hpp\n"
             "reduced_model/CMakeLists.txt\n"
             "reduced_model/models/models.cpp\n"
             "reduced_model/models/reference_log.cpp\n"

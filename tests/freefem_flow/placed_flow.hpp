@@ -13,7 +13,7 @@
 #include "viscontact/freefem_flow/freefem_solver.hpp"
 #include "viscontact/immersed/fluid_solver.hpp"
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/fluid.hpp"
+#include "viscontact/particles/setting/fluid.hpp"
 
 namespace viscontact::freefem_flow {
 

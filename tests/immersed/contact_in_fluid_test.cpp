@@ -9,7 +9,7 @@
 #include "tests/particles/systems.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/particle_runs/io/restart.hpp"
-#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/steps/current_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -9,8 +9,8 @@
 #include "tests/immersed/stand_in_fluid.hpp"
 #include "tests/particles/systems.hpp"
 #include "viscontact/common/error.hpp"
-#include "viscontact/particles/current_contacts.hpp"
-#include "viscontact/particles/outline.hpp"
+#include "viscontact/particles/setting/outline.hpp"
+#include "viscontact/particles/steps/current_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {

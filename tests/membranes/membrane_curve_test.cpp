@@ -8,7 +8,7 @@
 #include <random>
 
 #include "viscontact/membranes/membrane_shape.hpp"
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
 
 namespace viscontact::particles {
 namespace {

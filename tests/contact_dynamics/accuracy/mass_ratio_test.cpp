@@ -11,7 +11,7 @@
 
 #include "tests/particles/systems.hpp"
 #include "viscontact/contact_solver/refinement.hpp"
-#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/steps/current_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {

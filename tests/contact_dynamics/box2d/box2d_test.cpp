@@ -7,7 +7,7 @@
 
 #include "tests/contact_dynamics/box2d/box2d_case.hpp"
 #include "tests/particles/systems.hpp"
-#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/steps/current_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {

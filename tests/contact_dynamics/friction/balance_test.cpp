@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "tests/particles/systems.hpp"
-#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/steps/current_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "tests/particles/systems.hpp"
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
 
 namespace viscontact::particles {
 namespace {

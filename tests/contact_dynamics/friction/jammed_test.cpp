@@ -8,7 +8,7 @@
 
 #include "tests/contact_dynamics/box2d/box2d_case.hpp"
 #include "viscontact/contact_dynamics/simulation.hpp"
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tests/particles/systems.hpp"
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
 #include "viscontact/particles/steps/step_times.hpp"
 
 namespace viscontact::particles {

@@ -9,7 +9,7 @@
 
 #include "tests/particles/systems.hpp"
 #include "viscontact/particle_runs/io/restart.hpp"
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "tests/contact_dynamics/impacts/scene.hpp"
-#include "viscontact/particles/bodies/rigid_bodies.hpp"
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
+#include "viscontact/particles/state/rigid_bodies.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "tests/contact_dynamics/impacts/scene.hpp"
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
 
 namespace viscontact::particles {
 namespace {

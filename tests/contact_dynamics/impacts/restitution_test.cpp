@@ -11,9 +11,9 @@
 
 #include "tests/contact_dynamics/impacts/scene.hpp"
 #include "viscontact/common/error.hpp"
-#include "viscontact/particles/bodies/rigid_bodies.hpp"
-#include "viscontact/particles/current_contacts.hpp"
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
+#include "viscontact/particles/state/rigid_bodies.hpp"
+#include "viscontact/particles/steps/current_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {

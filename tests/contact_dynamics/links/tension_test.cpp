@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "tests/particles/systems.hpp"
-#include "viscontact/particles/bodies/rigid_bodies.hpp"
+#include "viscontact/particles/state/rigid_bodies.hpp"
 
 namespace viscontact::particles {
 namespace {

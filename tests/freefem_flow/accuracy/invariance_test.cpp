@@ -10,7 +10,7 @@
 
 #include "tests/freefem_flow/accuracy/exact_flows.hpp"
 #include "tests/freefem_flow/placed_flow.hpp"
-#include "viscontact/freefem_flow/solver_units.hpp"
+#include "viscontact/freefem_flow/process/solver_units.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "tests/freefem_flow/placed_flow.hpp"
 #include "viscontact/immersed/fluid_simulation.hpp"
-#include "viscontact/particles/bodies/rigid_bodies.hpp"
-#include "viscontact/particles/outline.hpp"
+#include "viscontact/particles/setting/outline.hpp"
+#include "viscontact/particles/state/rigid_bodies.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {

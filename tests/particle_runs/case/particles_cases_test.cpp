@@ -9,7 +9,7 @@
 
 #include "viscontact/contact_dynamics/simulation.hpp"
 #include "viscontact/particle_runs/case/particles_case.hpp"
-#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/steps/current_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {

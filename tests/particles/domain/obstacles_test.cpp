@@ -6,8 +6,8 @@
 
 #include "tests/particles/systems.hpp"
 #include "viscontact/particles/contact/contact.hpp"
-#include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/domain/domain.hpp"
+#include "viscontact/particles/steps/current_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {

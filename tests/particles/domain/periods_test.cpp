@@ -15,9 +15,9 @@
 #include "tests/particles/systems.hpp"
 #include "viscontact/particle_runs/io/restart.hpp"
 #include "viscontact/particles/contact/contact.hpp"
-#include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
+#include "viscontact/particles/steps/current_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {

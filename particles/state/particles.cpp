@@ -1,5 +1,5 @@
 // Rotations by unit quaternions.
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
 
 #include <cassert>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "viscontact/particles/vector.hpp"
+#include "viscontact/particles/values/vector.hpp"
 
 namespace viscontact::particles {
 

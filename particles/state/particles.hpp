@@ -10,9 +10,9 @@
 #include <span>
 #include <vector>
 
-#include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/domain/periods.hpp"
-#include "viscontact/particles/vector.hpp"
+#include "viscontact/particles/state/rigid_bodies.hpp"
+#include "viscontact/particles/values/vector.hpp"
 
 namespace viscontact::particles {
 

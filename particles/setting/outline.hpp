@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/fluid.hpp"
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/setting/fluid.hpp"
+#include "viscontact/particles/state/particles.hpp"
 
 namespace viscontact::particles {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "viscontact/particles/links/membrane.hpp"
-#include "viscontact/particles/piecewise_constant.hpp"
+#include "viscontact/particles/values/piecewise_constant.hpp"
 
 namespace viscontact::particles {
 

@@ -1,5 +1,5 @@
 // Due times are the same on every machine: compiled with -ffp-contract=off.
-#include "viscontact/particles/source.hpp"
+#include "viscontact/particles/setting/source.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -13,11 +13,11 @@
 #include "viscontact/particles/contact/contact_laws.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/domain/periods.hpp"
-#include "viscontact/particles/fluid.hpp"
 #include "viscontact/particles/links/links.hpp"
-#include "viscontact/particles/particles.hpp"
-#include "viscontact/particles/piecewise_constant.hpp"
-#include "viscontact/particles/source.hpp"
+#include "viscontact/particles/setting/fluid.hpp"
+#include "viscontact/particles/setting/source.hpp"
+#include "viscontact/particles/state/particles.hpp"
+#include "viscontact/particles/values/piecewise_constant.hpp"
 
 namespace viscontact::particles {
 

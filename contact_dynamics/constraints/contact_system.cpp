@@ -1,5 +1,5 @@
 // The bodies and islands of (5.4), docs/physics.md.
-#include "viscontact/contact_dynamics/contact_system.hpp"
+#include "viscontact/contact_dynamics/constraints/contact_system.hpp"
 
 #include <algorithm>
 #include <array>

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/particles/vector.hpp"
+#include "viscontact/particles/values/vector.hpp"
 
 namespace viscontact::particles {
 

@@ -12,7 +12,7 @@
 #include "viscontact/constraint_rows/solver_names.hpp"
 #include "viscontact/contact_solver/mass_dual_problem.hpp"
 #include "viscontact/particles/contact/contact.hpp"
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
 
 namespace viscontact::particles {
 

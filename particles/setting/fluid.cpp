@@ -1,12 +1,12 @@
 // Quantities of the fluid that depend on time, and sizes and moments of inertia of particles in it.
-#include "viscontact/particles/fluid.hpp"
+#include "viscontact/particles/setting/fluid.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
 
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
 
 namespace viscontact::particles {
 

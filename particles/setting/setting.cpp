@@ -1,9 +1,9 @@
 // Obstacles and the periodic cell of a setting.
-#include "viscontact/particles/setting.hpp"
+#include "viscontact/particles/setting/setting.hpp"
 
 #include <cassert>
 
-#include "viscontact/particles/state.hpp"
+#include "viscontact/particles/state/state.hpp"
 
 namespace viscontact::particles {
 

@@ -1,12 +1,12 @@
 // Motion of rigid bodies, docs/physics.md (5.11).
-#include "viscontact/particles/bodies/rigid_bodies.hpp"
+#include "viscontact/particles/state/rigid_bodies.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
 
-#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state/particles.hpp"
 
 namespace viscontact::particles {
 namespace {

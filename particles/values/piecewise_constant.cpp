@@ -1,5 +1,5 @@
 // Exact integrals and means.
-#include "viscontact/particles/piecewise_constant.hpp"
+#include "viscontact/particles/values/piecewise_constant.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "viscontact/particles/vector.hpp"
+#include "viscontact/particles/values/vector.hpp"
 
 namespace viscontact::particles {
 

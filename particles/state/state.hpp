@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "viscontact/particles/pair_memory.hpp"
-#include "viscontact/particles/particles.hpp"
-#include "viscontact/particles/steps/rebound.hpp"
+#include "viscontact/particles/state/pair_memory.hpp"
+#include "viscontact/particles/state/particles.hpp"
+#include "viscontact/particles/state/rebound.hpp"
 
 namespace viscontact::particles {
 

@@ -1,6 +1,6 @@
 // Rigid bodies of several particles: free flight, contact, and a body of one particle, which moves
 // as the particle alone.
-#include "viscontact/particles/bodies/rigid_bodies.hpp"
+#include "viscontact/particles/state/rigid_bodies.hpp"
 
 #include <gtest/gtest.h>
 

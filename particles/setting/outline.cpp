@@ -1,5 +1,5 @@
 // Distances to and between circles, ellipses and plates, and the points at which circles meet.
-#include "viscontact/particles/outline.hpp"
+#include "viscontact/particles/setting/outline.hpp"
 
 #include <algorithm>
 #include <cassert>

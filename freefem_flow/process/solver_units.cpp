@@ -1,5 +1,5 @@
 // Changes a fluid, its domain and its particles to the units of the solver.
-#include "viscontact/freefem_flow/solver_units.hpp"
+#include "viscontact/freefem_flow/process/solver_units.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "viscontact/particles/domain/periods.hpp"
-#include "viscontact/particles/vector.hpp"
+#include "viscontact/particles/values/vector.hpp"
 
 namespace viscontact::particles {
 

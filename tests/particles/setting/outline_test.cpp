@@ -1,6 +1,6 @@
 // Distances to discs and ellipses against closed forms and a search over many points of the
 // outline. Lengths are in one unit.
-#include "viscontact/particles/outline.hpp"
+#include "viscontact/particles/setting/outline.hpp"
 
 #include <gtest/gtest.h>
 
