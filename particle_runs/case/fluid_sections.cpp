@@ -397,7 +397,7 @@ void fluid_keys(case_file::Keys& keys, Fluid& fluid, const Domain& domain) {
       {"a particle is a very viscous fluid, or the motions of the particles are unknowns"});
   keys.optional("penalty", case_file::number(fluid.penalty, kPenalty),
                 {"epsilon of (6.1) in "
-                 "[physics.md](physics.md#6-fluid-around-particles-freefem_flow-particlesfluid), "
+                 "[physics.md](physics.md#6-fluid-around-particles-freefem_flow-immersed), "
                  "used with `constraint = \"penalty\"`; with bodies or links at least 1e-10"});
   keys.optional(
       "mesh",

@@ -9,7 +9,7 @@ namespace viscontact::particles {
 namespace {
 
 /// Vector `a` turned by `angle` [rad] about the unit vector `axis` (Rodrigues' formula).
-Vector turned(const Vector& a, const Vector& axis, double angle) {
+Vector rotated_about(const Vector& a, const Vector& axis, double angle) {
   const double c = std::cos(angle);
   return c * a + std::sin(angle) * cross(axis, a) + (1 - c) * dot(axis, a) * axis;
 }
@@ -20,8 +20,8 @@ PlanePosition Plane::at(double t) const {
   PlanePosition place = start;
   if (const double speed = norm(angular_velocity); speed > 0 && t > 0) {
     const Vector axis = (1 / speed) * angular_velocity;
-    place.point = pivot + turned(start.point - pivot, axis, speed * t);
-    place.normal = turned(start.normal, axis, speed * t);
+    place.point = pivot + rotated_about(start.point - pivot, axis, speed * t);
+    place.normal = rotated_about(start.normal, axis, speed * t);
   }
   place.point = place.point + velocity.integral(t);
   return place;
@@ -33,7 +33,7 @@ Vector Plane::displacement(const Vector& point, double from, double to) const {
   if (!(speed > 0)) return shift;
   const Vector arm = point - pivot - velocity.integral(to);
   const Vector axis = (1 / speed) * angular_velocity;
-  return shift + arm - turned(arm, axis, speed * (from - to));
+  return shift + arm - rotated_about(arm, axis, speed * (from - to));
 }
 
 Vector Plane::surface_velocity(const Vector& point, double t) const {
