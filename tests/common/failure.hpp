@@ -1,35 +1,66 @@
-// Calls what must fail, and returns the message of its Error, for tests of messages.
+// Calls what must fail, and matches the Error by its facts: kind, file, line and key.
 #pragma once
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <exception>
 #include <string>
 
+#include "tests/common/names.hpp"
 #include "viscontact/common/error.hpp"
 
 namespace viscontact {
 
-/// The message of the Error of this kind that `call` throws. Anything else fails the test and gives
-/// "".
+/// Expects that the message of an Error names the file, the line and the key that it carries.
+inline void expect_named_place(const Error& error) {
+  const auto at = error.at();
+  const std::string message = error.what();
+  EXPECT_TRUE(at.file.empty() || message.find(located(at, "")) != std::string::npos) << message;
+  EXPECT_NE(message.find(at.key), std::string::npos) << message << ", key " << at.key;
+}
+
+/// The Error of this kind that `call` throws. Anything else fails the test and gives an Error with
+/// an empty message.
 template <class Call>
-std::string failure(ErrorKind kind, Call&& call) {
+Error failure(ErrorKind kind, Call&& call) {
   try {
     call();
     ADD_FAILURE() << "nothing was thrown";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), kind) << error.what();
-    return error.what();
+    expect_named_place(error);
+    return error;
   } catch (const std::exception& error) {
     ADD_FAILURE() << "not a viscontact::Error: " << error.what();
   }
-  return "";
+  return {kind, ""};
 }
 
 /// failure() of the usual kind, Error(kBadInput).
 template <class Call>
-std::string bad_input(Call&& call) {
+Error bad_input(Call&& call) {
   return failure(ErrorKind::kBadInput, call);
+}
+
+/// Matches an Error at `place`, "FILE" or "FILE:LINE" with or without the folder, whose key is
+/// `key`; without one any key matches.
+MATCHER_P2(IsAt, place, key, "is at " + std::string(place) + ", key '" + std::string(key) + "'") {
+  const FilePosition at = arg.at();
+  const std::string expected(place);
+  const auto here = at.file + (at.line > 0 ? ":" + std::to_string(at.line) : "");
+  *result_listener << "which is at " << here << ", key '" << at.key << "': " << arg.what();
+  return (here == expected || here.ends_with("/" + expected)) &&
+         (std::string(key).empty() || at.key == std::string(key));
+}
+template <class Place>
+auto IsAt(const Place& place) {
+  return IsAt(std::string(place), std::string());
+}
+
+/// Matches an Error whose message has the text, where the wording matters to the user.
+template <class Text>
+auto Says(const Text& text) {
+  return ::testing::Property("what", &Error::what, ::testing::HasSubstr(std::string(text)));
 }
 
 }  // namespace viscontact
