@@ -12,10 +12,7 @@
 namespace viscontact::case_file {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::StartsWith;
 
 constexpr LectureKey kForce = {
     "motion.external_force", "[motion]", "external_force",

@@ -62,4 +62,8 @@ auto Names(const Facts&... facts) {
   return ::testing::MakePolymorphicMatcher(NamesMatcher({std::string(facts)...}));
 }
 
+inline auto NamesAll(const std::vector<std::string>& facts) {
+  return ::testing::MakePolymorphicMatcher(NamesMatcher(facts));
+}
+
 }  // namespace viscontact
