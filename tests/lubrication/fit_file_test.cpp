@@ -116,10 +116,10 @@ class Refusal : public ::testing::Test {
 };
 
 TEST_F(Refusal, OfWhatIsNoJsonNamesTheLine) {
-  EXPECT_THAT(of(""), StartsWith(":1: is not valid JSON"));
-  EXPECT_THAT(of("{\n  \"basis\": \"x\",\n  oops\n}\n"), StartsWith(":3: is not valid JSON"));
-  EXPECT_THAT(of("gap,force\n1,2\n"), StartsWith(":1: is not valid JSON"));
-  EXPECT_THAT(with("\"viscosity\": 3.0", "\"viscosity\": NaN"), HasSubstr("is not valid JSON"));
+  EXPECT_THAT(of(""), IsAt("fit.json:1"));
+  EXPECT_THAT(of("{\n  \"basis\": \"x\",\n  oops\n}\n"), IsAt("fit.json:3"));
+  EXPECT_THAT(of("gap,force\n1,2\n"), IsAt("fit.json:1"));
+  EXPECT_THAT(with("\"viscosity\": 3.0", "\"viscosity\": NaN"), IsAt("fit.json"));
 }
 
 TEST_F(Refusal, OfAnotherJsonSaysWhatItMustBe) {
@@ -130,7 +130,7 @@ TEST_F(Refusal, OfAnotherJsonSaysWhatItMustBe) {
 TEST_F(Refusal, OfAFileCutAnywhere) {
   const std::string text = write_fit(complete_fit());
   for (std::size_t length = 0; length + 2 < text.size(); length += 7)  // all but its last brace
-    EXPECT_THAT(of(text.substr(0, length)), HasSubstr("is not valid JSON"));
+    EXPECT_THAT(of(text.substr(0, length)), IsAt("fit.json"));
 }
 
 TEST_F(Refusal, OfAnUnknownKeyNamesIt) {
@@ -145,29 +145,23 @@ TEST_F(Refusal, OfAValueOutOfRangeNamesTheKey) {
   EXPECT_EQ(with("\"viscosity\": 3.0", "\"viscosity\": 0"), ":4: viscosity is 0; it must be > 0");
   EXPECT_EQ(with("\"radius\": 1.0", "\"radius\": -1"), ":5: radius is -1; it must be > 0");
   EXPECT_THAT(with("\"condition_number\": 1.0", "\"condition_number\": 0.5"),
-              HasSubstr(": condition_number is 0.5; it must be >= 1"));
-  EXPECT_THAT(with("0.125", "2"),
-              HasSubstr("gap_interval is [2,2.0]; it must be two gaps with 0 < first < second"));
-  EXPECT_THAT(with("0.125", "0"),
-              HasSubstr("gap_interval is [0,2.0]; it must be two gaps with 0 < first < second"));
+              IsAt("fit.json:28", "condition_number"));
+  EXPECT_THAT(with("0.125", "2"), IsAt("fit.json:6", "gap_interval"));
+  EXPECT_THAT(with("0.125", "0"), AllOf(IsAt("fit.json:6", "gap_interval"), Names("2.0")));
   EXPECT_EQ(with("0.125", "0.125, 1"), ":6: gap_interval has 3 elements; it must be two numbers");
   EXPECT_THAT(with("\"weights\": \"relative\"", "\"weights\": \"cubic\""),
-              HasSubstr(": weights is 'cubic'; they must be relative or absolute"));
+              IsAt("fit.json:10", "weights"));
 }
 
 TEST_F(Refusal, OfANumberThatNoDoubleHolds) {
-  EXPECT_THAT(with("\"viscosity\": 3.0", "\"viscosity\": 1e400"),
-              AllOf(StartsWith(":4: is not valid JSON at column"), HasSubstr("overflow"),
-                    HasSubstr("1e400")));
+  EXPECT_THAT(with("\"viscosity\": 3.0", "\"viscosity\": 1e400"), IsAt("fit.json:4"));
 }
 
 TEST_F(Refusal, OfATermNamesItsPlace) {
-  EXPECT_THAT(with("\"name\": \"q\"", "\"name\": \"q^9\""),
-              HasSubstr(": terms[1].name is 'q^9', which is not a term; the terms are: 1/q, ln q"));
-  EXPECT_THAT(with("\"name\": \"q\"", "\"name\": \"1/q\""),
-              HasSubstr(": terms[1].name is '1/q' for the second time"));
+  EXPECT_THAT(with("\"name\": \"q\"", "\"name\": \"q^9\""), IsAt("fit.json:20", "terms[1].name"));
+  EXPECT_THAT(with("\"name\": \"q\"", "\"name\": \"1/q\""), IsAt("fit.json:20", "terms[1].name"));
   EXPECT_THAT(with("\"coefficient\": 0.25", "\"coefficient\": \"0.25\""),
-              HasSubstr(": terms[1].coefficient is \"0.25\"; it must be a finite number"));
+              IsAt("fit.json:21", "terms[1].coefficient"));
 }
 
 TEST_F(Refusal, OfACovarianceOfAnotherSize) {

@@ -126,7 +126,7 @@ TEST(TableOfTheApproach, MayHaveAForceAlongTheVelocityWhereTheNeighbourMovesOnly
        {"# geometry: sphere, radius 1, velocity_ratio 0\n", "# geometry: plane\n"}) {
     const auto path = folder.file("resting.csv", kHead + (line + rows));
     EXPECT_THAT(bad_input([&] { read_force_table(path); }),
-                AllOf(StartsWith(path.string() + ":5: "), HasSubstr("opposed to the velocity")))
+                AllOf(StartsWith(path.string() + ":5: "), IsAt("resting.csv:5", "force")))
         << line;
   }
 }
@@ -288,11 +288,10 @@ TEST_F(MotionTableFile, IsRefusedWithLineAndValue) {
   const auto failure = [&](const std::string& from, const std::string& to) {
     return bad_input([&] { (void)read(changed(from, to)); });
   };
-  EXPECT_THAT(failure("slide", "glide"), HasSubstr("# motion: no motion is named 'glide'"));
-  EXPECT_THAT(failure("# motion: slide\n", "# viscontact: motion table\n"),
-              HasSubstr("has no line '# motion: ...'"));
-  EXPECT_THAT(failure("-40", "40"), HasSubstr("force is 40 at velocity 1; a drag must be opposed"));
-  EXPECT_THAT(failure(",torque", ",moment"), HasSubstr("column 'torque' is missing"));
+  EXPECT_THAT(failure("slide", "glide"), IsAt("table.csv", "motion"));
+  EXPECT_THAT(failure("# motion: slide\n", "# viscontact: motion table\n"), IsAt("table.csv"));
+  EXPECT_THAT(failure("-40", "40"), IsAt("table.csv:5", "force"));
+  EXPECT_THAT(failure(",torque", ",moment"), IsAt("table.csv", "torque"));
 }
 
 TEST_F(MotionTableFile, IsToldFromATableOfTheApproach) {

@@ -83,7 +83,7 @@ TEST(TrajectoryFile, MayHaveTheFilmUnderItsNameInEarlierVersions) {
   EXPECT_THAT(bad_input([&] {
                 read_trajectory(folder.file("w.csv", "# recovered_minimal_gap: thin\n" + rows));
               }),
-              HasSubstr("recovered_minimal_gap"));
+              IsAt("w.csv", "recovered_minimal_gap"));
 }
 
 TEST(TrajectoryFile, HasTheColumnsOfTheInterfaces) {

@@ -66,14 +66,12 @@ TEST_F(RollingCaseFile, WeightMayFollowFromDensitiesAndGravity) {
   EXPECT_DOUBLE_EQ(c.motion.moment_of_inertia, 0.4 * 5 * volume);
   EXPECT_DOUBLE_EQ(c.motion.force, 30 * volume * std::sin(0.3));
   EXPECT_DOUBLE_EQ(c.motion.normal_force, -30 * volume * std::cos(0.3));
-  EXPECT_THAT(
-      bad_input([&] { (void)changed("weight = 1.0", "weight = 1.0\ngravity = -1.0"); }),
-      HasSubstr("rolling.gravity must be left out, because weight is given; only one of force, "
-                "weight and gravity may be given"));
+  EXPECT_THAT(bad_input([&] { (void)changed("weight = 1.0", "weight = 1.0\ngravity = -1.0"); }),
+              IsAt("case.toml:21", "rolling.gravity"));
   EXPECT_THAT(bad_input([&] { (void)changed("weight = 1.0", ""); }),
-              HasSubstr("rolling.force is missing; it must be two numbers, or weight or gravity"));
+              IsAt("case.toml:18", "rolling.force"));
   EXPECT_THAT(bad_input([&] { (void)changed("mass = 0.1", "mass = 0.1\ndensity = 5.0"); }),
-              HasSubstr("sphere.mass must be left out, because the mass follows from density"));
+              IsAt("case.toml:13", "sphere.mass"));
 }
 
 TEST_F(RollingCaseFile, TablesAreMadeOfTheMotionsThatItNeeds) {
@@ -85,11 +83,11 @@ TEST_F(RollingCaseFile, TablesAreMadeOfTheMotionsThatItNeeds) {
   };
   EXPECT_EQ(with_tabulation("motion = \"all\"").tabulation->motions.size(), 4U);
   EXPECT_THAT(bad_input([&] { (void)with_tabulation("motion = [\"approach\", \"slide\"]"); }),
-              HasSubstr("lacks roll; a sphere that rolls needs approach, slide and roll"));
+              IsAt("case.toml:20", "tabulation.motion"));
   EXPECT_THAT(bad_input([&] {
                 (void)with_tabulation("motion = \"all\"\ngeometry = { kind = \"free_surface\" }");
               }),
-              HasSubstr("is free_surface; a sphere rolls on a plane"));
+              IsAt("case.toml:21", "tabulation.geometry"));
 }
 
 struct RefusedRolling {
@@ -105,7 +103,7 @@ class RollingCaseRefusal : public RollingCaseFile,
 TEST_P(RollingCaseRefusal, NamesFileLineValueAndWhatIsAllowed) {
   const auto& p = GetParam();
   EXPECT_THAT(bad_input([&] { (void)changed(p.from, p.to); }),
-              AllOf(HasSubstr("case.toml:"), HasSubstr(p.message)));
+              AllOf(IsAt("case.toml"), HasSubstr(p.message)));
 }
 
 INSTANTIATE_TEST_SUITE_P(

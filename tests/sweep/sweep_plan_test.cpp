@@ -18,23 +18,21 @@ namespace {
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::Ge;
-using ::testing::HasSubstr;
 using ::testing::Lt;
 
 TEST(SweepPlanCheck, FirstAndLastPointMustBeCases) {
   for (const std::string values : {"-1,1", "1,-1"})
-    EXPECT_THAT(
-        bad_input([&] {
-          sphere_study(varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosity=" + values}),
-                       "");
-        }),
-        AllOf(HasSubstr("vanishing_viscosity.toml"), HasSubstr("fluid.viscosity is -1"),
-              HasSubstr("must be a number > 0"), HasSubstr("at the point fluid.viscosity = -1")));
+    EXPECT_THAT(bad_input([&] {
+                  sphere_study(
+                      varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosity=" + values}),
+                      "");
+                }),
+                AllOf(IsAt("vanishing_viscosity.toml", "fluid.viscosity"), Names("-1")));
   EXPECT_THAT(bad_input([] {
                 sphere_study(varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosty=1,2"}),
                              "");
               }),
-              HasSubstr("fluid.viscosty"));
+              IsAt("vanishing_viscosity.toml", "fluid.viscosty"));
 }
 
 TEST(SweepPlanCheck, CaseNeedsAMotion) {
@@ -78,8 +76,8 @@ TEST(SweepPlanCheck, DensitiesAreVariedWhereTheMotionDependsOnThem) {
       sphere_study(with_models(varied(plan, {std::string(key) + "=1,2"}), {model}, model), "");
     });
   };
-  EXPECT_THAT(refused("fluid.density", "viscous_contact"), HasSubstr("none of the models"));
-  EXPECT_THAT(refused("sphere.density", "reference_exact"), HasSubstr("none of the models"));
+  EXPECT_THAT(refused("fluid.density", "viscous_contact"), Says("none of the models"));
+  EXPECT_THAT(refused("sphere.density", "reference_exact"), Says("none of the models"));
   const auto film = [](const SpherePlan& p, std::size_t i) {
     return number(row_of(p, i), "reference_exact.minimal_gap");
   };
@@ -100,14 +98,13 @@ TEST(SweepPlanCheck, NothingIsThereTwiceAndTheReferenceIsOneOfTheModels) {
     return failure(ErrorKind::kWrongUsage, [&] { sphere_study(p, ""); });
   };
   EXPECT_THAT(wrong(varied(plan, {"sphere.mass=1,2", "fluid.viscosity=1", "motion.mass=3"})),
-              HasSubstr("the key sphere.mass is given twice"));
+              Names("sphere.mass"));
   EXPECT_THAT(wrong(with_models(plan, {"inertial", "inertial"}, "inertial")),
-              HasSubstr("the model inertial is given twice"));
-  EXPECT_THAT(
-      wrong(with_models(plan, {"inertial"}, "viscous_contact")),
-      AllOf(HasSubstr("'viscous_contact' is not one of the models"), HasSubstr("inertial")));
+              Says("the model inertial is given twice"));
+  EXPECT_THAT(wrong(with_models(plan, {"inertial"}, "viscous_contact")),
+              AllOf(Names("viscous_contact"), Names("inertial")));
   EXPECT_THAT(bad_input([&] { sphere_study(with_models(plan, {"inertia"}, "inertia"), ""); }),
-              HasSubstr("inertia"));
+              Names("inertia"));
 }
 
 class RunSweep : public ::testing::Test {
@@ -171,7 +168,7 @@ TEST_F(RunSweep, EndsEarlyWhenAStopIsRequested) {
   };
   EXPECT_THAT(run(0, 2, take, StopToken(flag)), AllOf(Ge(6U), Lt(200U)));
   EXPECT_THAT(failure(ErrorKind::kInterrupted, [&] { (void)sweep_.row(0, StopToken(flag)); }),
-              HasSubstr("interrupted; everything finished so far is kept"));
+              Says("interrupted; everything finished so far is kept"));
 }
 
 TEST(RunRows, EndsWhenARowFailsAfterAStopWhileAThreadWaitsForIt) {

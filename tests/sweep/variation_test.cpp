@@ -123,9 +123,9 @@ TEST(Variation, OtherTextsAreRefusedWithWhatIsWrongAndWhatIsAllowed) {
                                       {"a=0:2:log:3", "must not contain 0 or change sign"},
                                       {"a=2:0:log:3", "must not contain 0 or change sign"},
                                       {"a=-1:1:log:3", "must not contain 0 or change sign"}}) {
-    EXPECT_THAT(bad_input([&] { parse_variation(text); }),
-                AllOf(StartsWith(std::string(text) + ":"), HasSubstr(words),
-                      HasSubstr("KEY=FROM:TO:log:COUNT")))
+    EXPECT_THAT(
+        bad_input([&] { parse_variation(text); }),
+        AllOf(StartsWith(std::string(text) + ":"), HasSubstr(words), Names("KEY=FROM:TO:log:COUNT")))
         << text;
   }
 }
@@ -150,10 +150,9 @@ TEST(Grid, SizeIsLimited) {
                       [&] {
                         (void)grid_size({billion, billion, billion});
                       }),
-              AllOf(HasSubstr("1e+27 points"), HasSubstr("at most 1e+12")));
+              AllOf(Names("1e+27"), Names("1e+12")));
   const std::vector<Variation> beyond = {million, million, parse_variation("b=1,2")};
-  EXPECT_THAT(failure(ErrorKind::kWrongUsage, [&] { (void)grid_size(beyond); }),
-              HasSubstr("2e+12 points"));
+  EXPECT_THAT(failure(ErrorKind::kWrongUsage, [&] { (void)grid_size(beyond); }), Names("2e+12"));
 }
 
 class RandomPoints : public ::testing::Test {

@@ -15,7 +15,6 @@
 namespace viscontact {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 class GrowingTable : public ::testing::Test {
@@ -91,15 +90,15 @@ TEST_F(GrowingTable, IsRefusedIfItsEndIsNotThere) {
     put_text(path_, text);
     for (const auto& message :
          {bad_input([&] { file().check(end); }), bad_input([&] { file().resume(end); })})
-      EXPECT_THAT(message, HasSubstr("table.csv: does not have the lines"));
+      EXPECT_THAT(message, IsAt("table.csv"));
     EXPECT_EQ(read_file(path_), text);  // it is not cut
   };
   refused("# head\nn\n1\n22");
   refused("# head\nn\n1.0\n22.0\nend\n");
   refused("");
-  EXPECT_THAT(bad_input([&] { file().check(FileEnd{}); }), HasSubstr("does not have the lines"));
+  EXPECT_THAT(bad_input([&] { file().check(FileEnd{}); }), IsAt("table.csv"));
   std::filesystem::remove(path_);
-  EXPECT_THAT(bad_input([&] { file().check(end); }), HasSubstr("table.csv: cannot be read"));
+  EXPECT_THAT(bad_input([&] { file().check(end); }), IsAt("table.csv"));
 }
 
 /// While it lives, no file of this process can become longer.

@@ -19,7 +19,7 @@ TEST(LockedFolder, IsHeldByOneAtATime) {
   const TemporaryFolder scratch;
   std::optional<LockedFolder> first(std::in_place, scratch.path(), "is held");
   EXPECT_THAT(bad_input([&] { const LockedFolder second(scratch.path(), "is held"); }),
-              AllOf(HasSubstr(scratch.path().string()), HasSubstr("is held")));
+              AllOf(HasSubstr(scratch.path().string()), Says("is held")));
   first.reset();
   EXPECT_NO_THROW(const LockedFolder third(scratch.path(), "is held"));
   EXPECT_TRUE(fs::exists(scratch.path()));  // it was there before
@@ -44,7 +44,7 @@ TEST(LockedFolder, InPlaceOfWhichIsAFileIsRefused) {
   const TemporaryFolder scratch;
   const auto path = scratch.file("file", "text");
   EXPECT_THAT(bad_input([&] { const LockedFolder folder(path, "is held"); }),
-              HasSubstr("cannot be made"));
+              Says("cannot be made"));
 }
 
 TEST(RemoveFile, TakesAFileAwayAndMindsNoneThatIsNotThere) {
@@ -56,7 +56,7 @@ TEST(RemoveFile, TakesAFileAwayAndMindsNoneThatIsNotThere) {
   // A folder with something in it stays.
   fs::create_directories(scratch.path() / "full" / "inner");
   EXPECT_THAT(bad_input([&] { remove_file(scratch.path() / "full"); }),
-              HasSubstr("full: cannot be removed"));
+              Says("full: cannot be removed"));
 }
 
 }  // namespace

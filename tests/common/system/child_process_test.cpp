@@ -18,7 +18,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using State = ChildProcess::State;
 
 /// A shell that is asked, and reads of its words that must come within ten minutes.
@@ -171,7 +170,7 @@ TEST(ChildProcess, AStopRequestEndsTheWaiting) {
   Shell shell("exec sleep 3600", StopToken(stop));
   stop = true;
   EXPECT_THAT(failure(ErrorKind::kInterrupted, [&] { shell.state_of_next_word(); }),
-              HasSubstr("interrupted"));
+              Names("interrupted"));
   EXPECT_EQ(shell.finish(10min), "had to be stopped");
 }
 

@@ -16,7 +16,6 @@ namespace {
 using namespace std::chrono_literals;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 /// One disc in a round container and a shell script as the solver of its fluid.
 class OneDisc {
@@ -70,11 +69,11 @@ TEST_P(FailingSolver, IsNamedWithItsLastLines) {
   OneDisc one(placed_and_asked("solve") + GetParam().script);
   one.place();
   const auto said = failure(ErrorKind::kExternalProgram, [&] { one.solve(); });
-  EXPECT_THAT(said, HasSubstr("the fluid solver (sh -c"));
-  EXPECT_THAT(said, HasSubstr("failed at request 3, 'solve', "));
+  EXPECT_THAT(said, Says("the fluid solver (sh -c"));
+  EXPECT_THAT(said, Names("solve", "3"));
   for (const auto& part : GetParam().said) EXPECT_THAT(said, HasSubstr(part));
   EXPECT_THAT(failure(ErrorKind::kExternalProgram, [&] { one.solve(); }),
-              HasSubstr("has ended after an earlier error"));
+              Says("has ended after an earlier error"));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -123,8 +122,7 @@ TEST(FailingSolver, ThatIsSilentIsStoppedAtTheLimit) {
   OneDisc one(placed_and_asked("solve") + "echo slow >&2; exec sleep 3600", 2s);
   one.place();
   EXPECT_THAT(failure(ErrorKind::kExternalProgram, [&] { one.solve(); }),
-              AllOf(HasSubstr("it had not answered after 2 s"), HasSubstr("it had to be stopped"),
-                    HasSubstr("slow")));
+              AllOf(Names("2"), Says("it had to be stopped"), Names("slow")));
 }
 
 TEST(FailingSolver, ThatIsNoSolverIsWaitedForAsLongAsOneThatIsNotReady) {
@@ -140,8 +138,7 @@ TEST(FailingSolver, ThatIsNoSolverIsWaitedForAsLongAsOneThatIsNotReady) {
         fluid, particles::DiscDomain{{}, 8}, std::vector{1.0}, 2, {{"cat"}},
         [](const particles::FluidParticles&, double) { return MeshBoundary{}; }, limits);
   });
-  EXPECT_THAT(said, AllOf(HasSubstr("the fluid solver (cat) failed at request 1"),
-                          HasSubstr("it had not answered after 1 s ('ready' was awaited)")));
+  EXPECT_THAT(said, AllOf(Names("1"), Names("ready", "1")));
 }
 
 TEST(FailingSolver, ThatNeverCompletesItsAnswerIsStoppedAtTheLimit) {
@@ -149,17 +146,15 @@ TEST(FailingSolver, ThatNeverCompletesItsAnswerIsStoppedAtTheLimit) {
   OneDisc one(placed_and_asked("solve") + "echo velocities 1; sleep 1.5; echo 2; exec sleep 3600",
               2s);
   one.place();
-  EXPECT_THAT(failure(ErrorKind::kExternalProgram, [&] { one.solve(); }),
-              HasSubstr("it had not answered after 2 s"));
+  EXPECT_THAT(failure(ErrorKind::kExternalProgram, [&] { one.solve(); }), Names("2"));
 }
 
 TEST(FailingSolver, ThatAnswersMoreIsFoundAtTheNextRequest) {
   OneDisc one(placed_and_asked("solve") + "echo velocities 1 2 3 4; read next");
   one.place();
   one.solve();
-  EXPECT_THAT(
-      failure(ErrorKind::kExternalProgram, [&] { one.solver().quantities(); }),
-      AllOf(HasSubstr("'solve'"), HasSubstr("more than the answer"), HasSubstr("last lines: 4")));
+  EXPECT_THAT(failure(ErrorKind::kExternalProgram, [&] { one.solver().quantities(); }),
+              AllOf(Names("solve"), Says("more than the answer"), Names("4")));
 }
 
 TEST(FailingSolver, ThatIsNotReadySaysWhy) {
@@ -167,12 +162,10 @@ TEST(FailingSolver, ThatIsNotReadySaysWhy) {
     return failure(ErrorKind::kExternalProgram, [&] { const OneDisc one(script); });
   };
   EXPECT_THAT(start("echo init; echo compile error; exit 1"),
-              AllOf(HasSubstr("request 1, 'viscontact-fluid'"), HasSubstr("status 1"),
-                    HasSubstr("init | compile error")));
-  EXPECT_THAT(start("echo ready nothing; read end"),
-              HasSubstr("'nothing' in place of 'boundary' or 'places'"));
-  EXPECT_THAT(start("echo error wrong version"), HasSubstr("it says: wrong version"));
-  EXPECT_THAT(start("exec yes and on"), HasSubstr("1000 other lines and not 'ready'"));
+              AllOf(Names("viscontact-fluid", "1"), Names("1"), Says("init | compile error")));
+  EXPECT_THAT(start("echo ready nothing; read end"), Names("nothing", "boundary", "places"));
+  EXPECT_THAT(start("echo error wrong version"), Says("it says: wrong version"));
+  EXPECT_THAT(start("exec yes and on"), Names("ready", "1000"));
 }
 
 TEST(FailingSolver, ThatIsMissingIsNamedWithTheRemedy) {
@@ -197,7 +190,7 @@ TEST(FailingSolver, MayNotEstimateANegativeError) {
   OneDisc one(placed_and_asked("vary") + "echo varied 1 -1 0; read end");
   one.place();
   EXPECT_THAT(failure(ErrorKind::kExternalProgram, [&] { one.solver().vary_mesh(); }),
-              HasSubstr("'-1' in place of a number >= 0"));
+              Names("-1", "0"));
 }
 
 std::string said_of_flow(const std::string& answer) {
@@ -207,15 +200,14 @@ std::string said_of_flow(const std::string& answer) {
 }
 
 TEST(FailingSolver, MayNotNameNodesThatAreNotThere) {
-  EXPECT_THAT(said_of_flow("1 1  0 0 0 0 0  0 0 0 0 0 1"),
-              HasSubstr("'1' in place of a whole number from 0 to 0"));
-  EXPECT_THAT(said_of_flow("0 1  0 0 0 0 0 0"), HasSubstr("as there are no nodes"));
-  EXPECT_THAT(said_of_flow("1 0  0 0 nan 0 0"), HasSubstr("'nan'"));
+  EXPECT_THAT(said_of_flow("1 1  0 0 0 0 0  0 0 0 0 0 1"), Names("1", "0"));
+  EXPECT_THAT(said_of_flow("0 1  0 0 0 0 0 0"), Says("as there are no nodes"));
+  EXPECT_THAT(said_of_flow("1 0  0 0 nan 0 0"), Names("nan"));
 }
 
 TEST(FailingSolver, TakesNoMemoryForAWrongCount) {
   // Two thousand million nodes would be 80 GB.
-  EXPECT_THAT(said_of_flow("2000000000 0  0 0 stop"), HasSubstr("'stop'"));
+  EXPECT_THAT(said_of_flow("2000000000 0  0 0 stop"), Names("stop"));
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
   EXPECT_LT(usage.ru_maxrss, 1'000'000);  // kB; a sanitizer's own memory is below this

@@ -13,7 +13,6 @@ namespace viscontact::swimmer {
 namespace {
 
 using ::testing::AllOf;
-using ::testing::HasSubstr;
 using ::testing::UnorderedElementsAre;
 
 class ResistancePlan : public ::testing::Test {
@@ -63,9 +62,7 @@ TEST_F(ResistancePlan, FinishedRowsAreNotComputedAgainNorIsAFinishedTable) {
   compute(plan, failing);
   EXPECT_TRUE(plan.needs_all_rows);
   EXPECT_THAT(freefem_axi::failures_of(freefem_axi::read_row_record(path(), plan), plan.points),
-              ::testing::ElementsAre(
-                  AllOf(HasSubstr("FreeFEM failed at gaps 0.25, 0.5"), HasSubstr("no luck")),
-                  HasSubstr("FreeFEM failed at gaps 0.5, 0.5")));
+              ::testing::ElementsAre(AllOf(Names("0.25", "0.5"), Says("no luck")), Names("0.5")));
   put_text(scratch_.path() / "mended", "");
   compute(plan, failing);
   EXPECT_EQ(failing.answered().size(), 3U);
@@ -107,7 +104,7 @@ TEST_F(ResistancePlan, AnswerWithoutAllEntriesIsAFailure) {
       [&] {
         (void)solve_resistance(fake.freefem(), spheres_, {1, 1});
       },
-      ErrorKind::kExternalProgram, HasSubstr("FreeFEM failed at gaps 1, 1"));
+      ErrorKind::kExternalProgram, Names("1"));
 }
 
 }  // namespace
