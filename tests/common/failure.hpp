@@ -60,10 +60,4 @@ auto IsAt(const Place& place) {
   return IsAt(std::string(place), std::string());
 }
 
-/// Matches an Error whose message has the text, where the wording matters to the user.
-template <class Text>
-auto Says(const Text& text) {
-  return ::testing::Property("what", &Error::what, ::testing::HasSubstr(std::string(text)));
-}
-
 }  // namespace viscontact

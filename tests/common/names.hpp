@@ -8,6 +8,7 @@
 #include <ostream>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -62,8 +63,18 @@ auto Names(const Facts&... facts) {
   return ::testing::MakePolymorphicMatcher(NamesMatcher({std::string(facts)...}));
 }
 
+/// The same for a list.
 inline auto NamesAll(const std::vector<std::string>& facts) {
   return ::testing::MakePolymorphicMatcher(NamesMatcher(facts));
+}
+
+/// Matches an Error or a text that has this part, for the one test of a wording that matters to the
+/// user, such as a remedy.
+MATCHER_P(Says, part, "says \"" + std::string(part) + "\"") {
+  if constexpr (std::is_base_of_v<Error, std::decay_t<decltype(arg)>>)
+    return std::string_view(arg.what()).find(part) != std::string_view::npos;
+  else
+    return std::string_view(arg).find(part) != std::string_view::npos;
 }
 
 }  // namespace viscontact

@@ -117,7 +117,8 @@ TEST(Loss, IsNamedAndReadBack) {
   for (const auto loss :
        {lubrication::Loss::kSquared, lubrication::Loss::kHuber, lubrication::Loss::kCauchy})
     EXPECT_EQ(lubrication::parse_loss(lubrication::to_string(loss)), loss);
-  EXPECT_THAT(bad_input([] { lubrication::parse_loss("tukey"); }), Says("none, huber, cauchy"));
+  EXPECT_THAT(bad_input([] { lubrication::parse_loss("tukey"); }),
+              Names("none", "huber", "cauchy"));
 }
 
 }  // namespace

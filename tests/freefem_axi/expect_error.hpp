@@ -1,4 +1,4 @@
-// Expects an Error with its kind and message, for tests of tabulations.
+// Expects an Error with its kind, for tests of tabulations.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -9,11 +9,11 @@
 
 namespace viscontact::freefem_axi {
 
-/// Expects `action()` to throw an Error of this kind whose message satisfies `message`.
+/// Expects `action()` to throw an Error of this kind that satisfies `error`.
 template <class Action>
 void expect_error(const Action& action, ErrorKind kind,
-                  const ::testing::Matcher<std::string>& message) {
-  EXPECT_THAT(failure(kind, action), message);
+                  const ::testing::Matcher<const Error&>& error) {
+  EXPECT_THAT(failure(kind, action), error);
 }
 
 }  // namespace viscontact::freefem_axi

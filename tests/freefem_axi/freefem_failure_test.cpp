@@ -176,8 +176,7 @@ TEST(FreeFemThatHangs, IsStoppedAtTheLimitOfItsRow) {
   auto freefem = fake.freefem();
   freefem.row_limit = std::chrono::seconds(1);
   expect_error([&] { (void)solve_row(freefem, kTabulation, 0.25, -1); },
-               ErrorKind::kExternalProgram,
-               AllOf(Names("0.25", "-1"), Names("1"), Names("VISCONTACT_FREEFEM_TIME_LIMIT")));
+               ErrorKind::kExternalProgram, Names("0.25", "-1", "VISCONTACT_FREEFEM_TIME_LIMIT"));
 }
 
 TEST(FreeFemThatHangs, IsStoppedWhenItIsAskedForItsVersion) {
@@ -187,7 +186,7 @@ TEST(FreeFemThatHangs, IsStoppedWhenItIsAskedForItsVersion) {
   FreeFem freefem{(scratch.path() / "sleeper").string(), scratch.path()};
   freefem.version_limit = std::chrono::seconds(1);
   expect_error([&] { (void)freefem_version(freefem); }, ErrorKind::kExternalProgram,
-               AllOf(Says("sleeper does not say which version it is"), Names("1")));
+               Names("sleeper", "1"));
 }
 
 TEST(LineAfter, IsTheRestOfTheFirstLineThatStartsSo) {

@@ -61,10 +61,9 @@ TEST(LargestContainer, ReachesTheUsualAccuracy) {
 TEST(ContainerThatIsTooLarge, IsSaidInPlaceOfAnAssertionOfFreeFem) {
   auto row = exact_row("plane", 0.1, {}, kAccuracy, bispherical_plane_factor(0.1));
   row.tabulation.container = Container{1e6, 1e6};
-  expect_error(
-      [&] { (void)solve_row(default_freefem(), row.tabulation, 0.1, -1); },
-      ErrorKind::kExternalProgram,
-      ::testing::AllOf(::testing::Names("0.1"), ::testing::Says("take a smaller container")));
+  expect_error([&] { (void)solve_row(default_freefem(), row.tabulation, 0.1, -1); },
+               ErrorKind::kExternalProgram,
+               ::testing::AllOf(Names("0.1"), Says("take a smaller container")));
 }
 
 TEST(ContainerThatIsTooLarge, ForTheFinerMeshesLeavesTheResultOfTheFirstOnes) {

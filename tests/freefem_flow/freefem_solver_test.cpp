@@ -64,7 +64,7 @@ TEST(StartFluidSolver, RefusesAParticleTooSmallForTheDomain) {
   const auto said = failure(ErrorKind::kBadInput, [&] {
     start_fluid_solver(fluid, box, std::array{1.0, 1e-6}, 2);
   });
-  EXPECT_THAT(said, AllOf(Names("1e-06"), Names("24"), Says("the radius must be at least ")));
+  EXPECT_THAT(said, Names("1e-06", "24"));
   // In other units the same.
   const particles::BoxDomain small = {{0, 0}, {4e-9, 4e-9}, {}};
   EXPECT_THAT(failure(ErrorKind::kBadInput,
@@ -124,8 +124,7 @@ TEST(StartFluidSolver, SaysHowToInstallFreeFem) {
               [] {
                 start_fluid_solver(fluid_of_solver({}), particles::DiscDomain{{}, 1}, {}, 2, {});
               }),
-      AllOf(Says("no-such-freefem cannot be run"), Says("apt-get install"),
-            Names("VISCONTACT_FREEFEM")));
+      AllOf(Names("no-such-freefem"), Says("apt-get install"), Names("VISCONTACT_FREEFEM")));
 }
 
 TEST(StartFluidSolver, SaysWhatToDoWithoutAProgram) {
@@ -134,8 +133,7 @@ TEST(StartFluidSolver, SaysWhatToDoWithoutAProgram) {
                       [&] {
                         start_fluid_solver(fluid, particles::DiscDomain{{}, 1}, {}, 2, {});
                       }),
-              AllOf(Says("viscontact-no-such-solver cannot be run"),
-                    Says("first word of the fluid's solver")));
+              AllOf(Names("viscontact-no-such-solver"), Names("solver")));
 }
 
 }  // namespace

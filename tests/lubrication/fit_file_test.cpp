@@ -18,9 +18,6 @@ namespace viscontact::lubrication {
 namespace {
 
 using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::MatchesRegex;
-using ::testing::StartsWith;
 
 Fit complete_fit() {
   Fit fit =
@@ -95,20 +92,18 @@ TEST(FitFile, ThatIsShippedIsReadAndUsable) {
 
 class Refusal : public ::testing::Test {
  protected:
-  /// The message, behind the file's name, with which this text is refused.
-  std::string of(const std::string& text) const {
+  /// The Error with which this text is refused.
+  Error of(const std::string& text) const {
     const auto path = folder_.file("fit.json", text);
-    const auto message = bad_input([&] { read_fit(path); });
-    EXPECT_THAT(message, StartsWith(path.string() + ":"));
-    return message.substr(std::min(message.size(), path.string().size()));
+    return bad_input([&] { read_fit(path); });
   }
 
   /// The same for a good file in which `from` is replaced by `to`.
-  std::string with(const std::string& from, const std::string& to) const {
+  Error with(const std::string& from, const std::string& to) const {
     std::string text = write_fit(fitting::planted_fit({{"1/q", 56.5}, {"q", 0.25}}, 0.125, 2));
     const auto at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from << " is not in " << text;
-    return at == std::string::npos ? "" : of(text.replace(at, from.size(), to));
+    return of(at == std::string::npos ? "" : text.replace(at, from.size(), to));
   }
 
  private:
@@ -123,8 +118,8 @@ TEST_F(Refusal, OfWhatIsNoJsonNamesTheLine) {
 }
 
 TEST_F(Refusal, OfAnotherJsonSaysWhatItMustBe) {
-  EXPECT_EQ(of("[]"), ":1: the file is an array; it must be an object");
-  EXPECT_EQ(of("\n3"), ":2: the file is 3; it must be an object");
+  EXPECT_THAT(of("[]"), IsAt("fit.json:1"));
+  EXPECT_THAT(of("\n3"), IsAt("fit.json:2"));
 }
 
 TEST_F(Refusal, OfAFileCutAnywhere) {
@@ -134,21 +129,21 @@ TEST_F(Refusal, OfAFileCutAnywhere) {
 }
 
 TEST_F(Refusal, OfAnUnknownKeyNamesIt) {
-  EXPECT_EQ(with("\"basis\"", "\"colour\": 1, \"basis\""), ":2: colour is not a key of this file");
+  EXPECT_THAT(with("\"basis\"", "\"colour\": 1, \"basis\""), IsAt("fit.json:2", "colour"));
   EXPECT_THAT(with("\"name\": \"q\"", "\"unit\": 1,\n \"name\": \"q\""),
-              MatchesRegex(":[0-9]+: terms\\[1\\]\\.unit is not a key of this file"));
+              IsAt("fit.json", "terms[1].unit"));
 }
 
 TEST_F(Refusal, OfAValueOutOfRangeNamesTheKey) {
-  EXPECT_EQ(with("\"reference_velocity\": -1.0", "\"reference_velocity\": 0"),
-            ":3: reference_velocity is 0; it must be different from 0");
-  EXPECT_EQ(with("\"viscosity\": 3.0", "\"viscosity\": 0"), ":4: viscosity is 0; it must be > 0");
-  EXPECT_EQ(with("\"radius\": 1.0", "\"radius\": -1"), ":5: radius is -1; it must be > 0");
+  EXPECT_THAT(with("\"reference_velocity\": -1.0", "\"reference_velocity\": 0"),
+              IsAt("fit.json:3", "reference_velocity"));
+  EXPECT_THAT(with("\"viscosity\": 3.0", "\"viscosity\": 0"), IsAt("fit.json:4", "viscosity"));
+  EXPECT_THAT(with("\"radius\": 1.0", "\"radius\": -1"), IsAt("fit.json:5", "radius"));
   EXPECT_THAT(with("\"condition_number\": 1.0", "\"condition_number\": 0.5"),
               IsAt("fit.json:28", "condition_number"));
   EXPECT_THAT(with("0.125", "2"), IsAt("fit.json:6", "gap_interval"));
   EXPECT_THAT(with("0.125", "0"), AllOf(IsAt("fit.json:6", "gap_interval"), Names("2.0")));
-  EXPECT_EQ(with("0.125", "0.125, 1"), ":6: gap_interval has 3 elements; it must be two numbers");
+  EXPECT_THAT(with("0.125", "0.125, 1"), IsAt("fit.json:6", "gap_interval"));
   EXPECT_THAT(with("\"weights\": \"relative\"", "\"weights\": \"cubic\""),
               IsAt("fit.json:10", "weights"));
 }
@@ -166,22 +161,19 @@ TEST_F(Refusal, OfATermNamesItsPlace) {
 
 TEST_F(Refusal, OfACovarianceOfAnotherSize) {
   Fit fit = fitting::planted_fit({{"1/q", 56.5}, {"q", 0.25}}, 0.125, 2);
-  const std::string size = ": covariance must be a matrix of 2 rows with 2 numbers each";
   fit.covariance = {{1, 2}, {3}};
-  EXPECT_THAT(of(write_fit(fit)), HasSubstr(size));
+  EXPECT_THAT(of(write_fit(fit)), IsAt("fit.json", "covariance"));
   fit.covariance = {{1, 2}};
-  EXPECT_THAT(of(write_fit(fit)), HasSubstr(size));
+  EXPECT_THAT(of(write_fit(fit)), IsAt("fit.json", "covariance"));
   fit.covariance = {{1, 2}, {3, 4}, {5, 6}};
-  EXPECT_THAT(of(write_fit(fit)), HasSubstr(size));
+  EXPECT_THAT(of(write_fit(fit)), IsAt("fit.json", "covariance"));
 }
 
 TEST(FitFile, InPlaceOfWhichIsAFolderOrNothingIsNamed) {
   const TemporaryFolder folder;
-  EXPECT_THAT(bad_input([&] { read_fit(folder.path()); }),
-              StartsWith(folder.path().string() + ": cannot be read"));
+  EXPECT_THAT(bad_input([&] { read_fit(folder.path()); }), IsAt(folder.path().string()));
   const auto missing = folder.path() / "none.json";
-  EXPECT_THAT(bad_input([&] { read_fit(missing); }),
-              StartsWith(missing.string() + ": cannot be read"));
+  EXPECT_THAT(bad_input([&] { read_fit(missing); }), IsAt(missing.string()));
 }
 
 }  // namespace

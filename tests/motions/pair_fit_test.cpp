@@ -96,8 +96,7 @@ TEST(PairFitFile, IsRefusedWithTheKey) {
 TEST(PairFit, LacksEntriesOfWhichThereWasNoTable) {
   auto fit = read_pair_fit(kPlane);
   fit.entries.erase(PairEntry::kSpin);
-  EXPECT_THAT(bad_input([&] { (void)entry_value(fit, PairEntry::kSpin, 0.1); }),
-              Says("lacks the entry spin"));
+  EXPECT_THAT(bad_input([&] { (void)entry_value(fit, PairEntry::kSpin, 0.1); }), Names("spin"));
 }
 
 }  // namespace

@@ -12,7 +12,6 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::StartsWith;
 
 using Function = std::function<double(double)>;
 
@@ -110,8 +109,7 @@ TEST(Comparison, IsOfOneInstantWhereTheTimesTouch) {
 TEST(Comparison, RefusesTrajectoriesWithoutATimeInCommon) {
   const auto a = sampled("early", {0, 1}, constant(1));
   const auto b = sampled("late", {1.5, 2}, constant(1));
-  EXPECT_THAT(bad_input([&] { compared(a, b); }),
-              AllOf(Names("early"), Names("late"), Says("no time in common")));
+  EXPECT_THAT(bad_input([&] { compared(a, b); }), Names("early", "late"));
 }
 
 TEST(Comparison, RefusesTwoTrajectoriesOfOneName) {
@@ -125,7 +123,7 @@ TEST(Comparison, RefusesAReferenceThatIsNotThereAndListsWhatIs) {
   EXPECT_THAT(bad_input([&] {
                 compare_trajectories({a, b}, "three");
               }),
-              AllOf(Names("three"), Says("one, two")));
+              Names("three", "one", "two"));
   EXPECT_THAT(bad_input([&] { compare_trajectories({}, "three"); }), Names("three"));
 }
 
@@ -240,14 +238,14 @@ TEST(ComparisonFile, IsRefusedWhenItIsSomethingElse) {
         std::string(R"({"reference_model": "a", "models": 5})"), without_a_key, cut_off}) {
     const auto path = folder.file("wrong.json", text);
     // A syntax error has its line, too.
-    EXPECT_THAT(bad_input([&] { read_comparison(path); }), StartsWith(path.string() + ":")) << text;
+    EXPECT_THAT(bad_input([&] { read_comparison(path); }), IsAt(path.string())) << text;
   }
 }
 
 TEST(ComparisonFile, IsRefusedWhenItIsAFolderOrMissing) {
   const TemporaryFolder folder;
   for (const auto& path : {folder.path(), folder.path() / "missing.json"})
-    EXPECT_THAT(bad_input([&] { read_comparison(path); }), StartsWith(path.string() + ": "));
+    EXPECT_THAT(bad_input([&] { read_comparison(path); }), IsAt(path.string()));
 }
 
 }  // namespace

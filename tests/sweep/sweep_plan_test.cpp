@@ -19,6 +19,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::Ge;
 using ::testing::Lt;
+using ::testing::Not;
 
 TEST(SweepPlanCheck, FirstAndLastPointMustBeCases) {
   for (const std::string values : {"-1,1", "1,-1"})
@@ -42,8 +43,8 @@ TEST(SweepPlanCheck, CaseNeedsAMotion) {
   auto plan = shipped("vanishing_viscosity.toml");
   plan.case_path = folder.file("case.toml", text);
   // The ranges of the sweep are not named, because the case has no motion without them, either.
-  EXPECT_EQ(bad_input([&] { sphere_study(plan, ""); }),
-            plan.case_path.string() + ": has no section [motion], which this command needs");
+  EXPECT_THAT(bad_input([&] { sphere_study(plan, ""); }),
+              AllOf(IsAt(plan.case_path.string(), "motion"), Not(Names("--vary"))));
 }
 
 TEST(SweepPlanCheck, FitIsScaledToTheRadius) {
@@ -76,8 +77,8 @@ TEST(SweepPlanCheck, DensitiesAreVariedWhereTheMotionDependsOnThem) {
       sphere_study(with_models(varied(plan, {std::string(key) + "=1,2"}), {model}, model), "");
     });
   };
-  EXPECT_THAT(refused("fluid.density", "viscous_contact"), Says("none of the models"));
-  EXPECT_THAT(refused("sphere.density", "reference_exact"), Says("none of the models"));
+  EXPECT_THAT(refused("fluid.density", "viscous_contact"), Names("fluid.density"));
+  EXPECT_THAT(refused("sphere.density", "reference_exact"), Names("sphere.density"));
   const auto film = [](const SpherePlan& p, std::size_t i) {
     return number(row_of(p, i), "reference_exact.minimal_gap");
   };
@@ -99,10 +100,9 @@ TEST(SweepPlanCheck, NothingIsThereTwiceAndTheReferenceIsOneOfTheModels) {
   };
   EXPECT_THAT(wrong(varied(plan, {"sphere.mass=1,2", "fluid.viscosity=1", "motion.mass=3"})),
               Names("sphere.mass"));
-  EXPECT_THAT(wrong(with_models(plan, {"inertial", "inertial"}, "inertial")),
-              Says("the model inertial is given twice"));
+  EXPECT_THAT(wrong(with_models(plan, {"inertial", "inertial"}, "inertial")), Names("inertial"));
   EXPECT_THAT(wrong(with_models(plan, {"inertial"}, "viscous_contact")),
-              AllOf(Names("viscous_contact"), Names("inertial")));
+              Names("viscous_contact", "inertial"));
   EXPECT_THAT(bad_input([&] { sphere_study(with_models(plan, {"inertia"}, "inertia"), ""); }),
               Names("inertia"));
 }
@@ -167,8 +167,7 @@ TEST_F(RunSweep, EndsEarlyWhenAStopIsRequested) {
     if (index == 5) flag = true;
   };
   EXPECT_THAT(run(0, 2, take, StopToken(flag)), AllOf(Ge(6U), Lt(200U)));
-  EXPECT_THAT(failure(ErrorKind::kInterrupted, [&] { (void)sweep_.row(0, StopToken(flag)); }),
-              Says("interrupted; everything finished so far is kept"));
+  failure(ErrorKind::kInterrupted, [&] { (void)sweep_.row(0, StopToken(flag)); });
 }
 
 TEST(RunRows, EndsWhenARowFailsAfterAStopWhileAThreadWaitsForIt) {

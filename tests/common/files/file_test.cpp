@@ -40,8 +40,7 @@ TEST(ReadFile, NamesAMissingFile) {
 
 TEST(ReadFile, NamesAFolderInPlaceOfAFile) {
   const TemporaryFolder folder;
-  EXPECT_THAT(bad_input([&] { read_file(folder.path()); }),
-              StartsWith(folder.path().string() + ": cannot be read (Is a directory"));
+  EXPECT_THAT(bad_input([&] { read_file(folder.path()); }), IsAt(folder.path().string()));
 }
 
 TEST(WriteFile, WritesWhatReadFileReads) {
@@ -82,9 +81,8 @@ TEST(WriteFile, LeavesAFolderInTheWayAsItIs) {
 TEST(WriteFile, RefusesAPathBelowAFileAndLeavesTheFile) {
   const TemporaryFolder folder;
   const auto file = folder.file("file", "old");
-  EXPECT_THAT(bad_input([&] { write_file(file / "fit.json", "x"); }), StartsWith(file.string()));
-  EXPECT_THAT(bad_input([&] { write_file(file / "deep" / "fit.json", "x"); }),
-              StartsWith(file.string()));
+  EXPECT_THAT(bad_input([&] { write_file(file / "fit.json", "x"); }), IsAt(file.string()));
+  EXPECT_THAT(bad_input([&] { write_file(file / "deep" / "fit.json", "x"); }), IsAt(file.string()));
   EXPECT_EQ(read_file(file), "old");
   EXPECT_THAT(folder.names(), ElementsAre("file"));
 }
@@ -92,7 +90,7 @@ TEST(WriteFile, RefusesAPathBelowAFileAndLeavesTheFile) {
 TEST(WriteFile, RefusesANameThatNoFileSystemTakes) {
   const TemporaryFolder folder;
   const auto path = folder.path() / std::string(300, 'x');  // 255 bytes is the limit of a name
-  EXPECT_THAT(bad_input([&] { write_file(path, "x"); }), Says("xxx: cannot be written"));
+  EXPECT_THAT(bad_input([&] { write_file(path, "x"); }), IsAt(path.string()));
   EXPECT_THAT(folder.names(), IsEmpty());
 }
 
@@ -155,10 +153,8 @@ TEST(CheckOutputFile, AcceptsWhatCanBeWrittenAndMakesNothing) {
 
 TEST(CheckOutputFile, RefusesAFolderAndADevice) {
   const TemporaryFolder folder;
-  EXPECT_THAT(bad_input([&] { check_output_file(folder.path()); }),
-              StartsWith(folder.path().string() + ": cannot be written (Is a directory"));
-  EXPECT_THAT(bad_input([] { check_output_file("/dev/null"); }),
-              Says("/dev/null: cannot be written"));
+  EXPECT_THAT(bad_input([&] { check_output_file(folder.path()); }), IsAt(folder.path().string()));
+  EXPECT_THAT(bad_input([] { check_output_file("/dev/null"); }), IsAt("/dev/null"));
 }
 
 TEST(CheckOutputFile, RefusesALinkToAPipe) {
@@ -166,9 +162,8 @@ TEST(CheckOutputFile, RefusesALinkToAPipe) {
   int ends[2];
   ASSERT_EQ(::pipe(ends), 0);
   for (const int end : ends) {
-    const auto message =
-        bad_input([&] { (void)check_output_file(fmt::format("/proc/self/fd/{}", end)); });
-    EXPECT_THAT(message, Says("cannot be written (not a regular file)"));
+    const auto file = fmt::format("/proc/self/fd/{}", end);
+    EXPECT_THAT(bad_input([&] { (void)check_output_file(file); }), IsAt(file));
     ::close(end);
   }
 }
@@ -227,13 +222,11 @@ TEST(WriteUnflushed, ReplacesAFileThatIsFlushedLater) {
   EXPECT_EQ(read_file(path), "new");
   EXPECT_THAT(folder.names(), ElementsAre("frame"));
   EXPECT_NO_THROW(flush_files(std::vector{path}));
-  EXPECT_THAT(bad_input([&] { flush_files(std::vector{folder.path() / "none"}); }),
-              Says("none: cannot be written"));
+  EXPECT_THAT(bad_input([&] { flush_files(std::vector{folder.path() / "none"}); }), IsAt("none"));
 }
 
 TEST(ReadFile, RefusesADeviceWhichMayHaveNoEnd) {
-  EXPECT_THAT(bad_input([] { (void)read_file("/dev/zero"); }),
-              Says("/dev/zero: cannot be read (a device"));
+  EXPECT_THAT(bad_input([] { (void)read_file("/dev/zero"); }), IsAt("/dev/zero"));
 }
 
 TEST(MakeFolder, MakesParentsAndIsContentWithAFolderThatIsThere) {
@@ -247,10 +240,8 @@ TEST(MakeFolder, MakesParentsAndIsContentWithAFolderThatIsThere) {
 TEST(MakeFolder, NamesAFileInTheWay) {
   const TemporaryFolder folder;
   const auto file = folder.file("file", "old");
-  EXPECT_THAT(bad_input([&] { make_folder(file); }),
-              StartsWith(file.string() + ": cannot be made"));
-  EXPECT_THAT(bad_input([&] { make_folder(file / "below"); }),
-              StartsWith((file / "below").string() + ": cannot be made"));
+  EXPECT_THAT(bad_input([&] { make_folder(file); }), IsAt(file.string()));
+  EXPECT_THAT(bad_input([&] { make_folder(file / "below"); }), IsAt((file / "below").string()));
   EXPECT_EQ(read_file(file), "old");
 }
 

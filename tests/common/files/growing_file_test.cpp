@@ -15,8 +15,6 @@
 namespace viscontact {
 namespace {
 
-using ::testing::HasSubstr;
-
 class GrowingTable : public ::testing::Test {
  protected:
   GrowingFile file() const { return {path_, "# head\nn\n", "end\n"}; }
@@ -88,9 +86,8 @@ TEST_F(GrowingTable, IsRefusedIfItsEndIsNotThere) {
   EXPECT_NO_THROW(file().check(end));
   const auto refused = [&](const std::string& text) {
     put_text(path_, text);
-    for (const auto& message :
-         {bad_input([&] { file().check(end); }), bad_input([&] { file().resume(end); })})
-      EXPECT_THAT(message, IsAt("table.csv"));
+    EXPECT_THAT(bad_input([&] { file().check(end); }), IsAt("table.csv"));
+    EXPECT_THAT(bad_input([&] { file().resume(end); }), IsAt("table.csv"));
     EXPECT_EQ(read_file(path_), text);  // it is not cut
   };
   refused("# head\nn\n1\n22");
@@ -123,13 +120,12 @@ TEST_F(GrowingTable, ThatDoesNotFitEndsWithAWholeLineAndGoesOnIfThereIsRoomAgain
   growing.append("1\n");
   growing.sync();
   growing.append("22222\n33333\n");
-  std::string said, left;
+  std::string left;
   {
     const LimitOfFiles limit(20);
-    said = bad_input([&] { growing.sync(); });
+    EXPECT_THAT(bad_input([&] { growing.sync(); }), IsAt("table.csv"));
     left = text();
   }
-  EXPECT_THAT(said, HasSubstr("table.csv: cannot be written (File too large)"));
   EXPECT_EQ(left, "# head\nn\n1\nend\n");
   growing.sync();
   EXPECT_EQ(text(), "# head\nn\n1\n22222\n33333\nend\n");
@@ -138,12 +134,10 @@ TEST_F(GrowingTable, ThatDoesNotFitEndsWithAWholeLineAndGoesOnIfThereIsRoomAgain
 TEST_F(GrowingTable, OfWhichNotEvenTheHeadFitsIsNotThere) {
   ASSERT_NE(std::signal(SIGXFSZ, SIG_IGN), SIG_ERR);
   auto growing = file();
-  std::string said;
   {
     const LimitOfFiles limit(10);
-    said = bad_input([&] { growing.sync(); });
+    EXPECT_THAT(bad_input([&] { growing.sync(); }), IsAt("table.csv"));
   }
-  EXPECT_THAT(said, HasSubstr("table.csv: cannot be written (File too large)"));
   EXPECT_TRUE(std::filesystem::is_empty(scratch_.path()));
 }
 
