@@ -19,7 +19,6 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-using ::testing::StartsWith;
 using ::testing::UnorderedElementsAre;
 
 TEST(ReadFile, GivesEveryByte) {
@@ -34,8 +33,7 @@ TEST(ReadFile, GivesEveryByte) {
 TEST(ReadFile, NamesAMissingFile) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "missing.csv";
-  EXPECT_THAT(bad_input([&] { read_file(path); }),
-              StartsWith(path.string() + ": cannot be read (No such file"));
+  EXPECT_THAT(bad_input([&] { read_file(path); }), IsAt(path.string()));
 }
 
 TEST(ReadFile, NamesAFolderInPlaceOfAFile) {
@@ -71,8 +69,7 @@ TEST(WriteFile, LeavesAFolderInTheWayAsItIs) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "fit.json";
   std::filesystem::create_directory(path);
-  EXPECT_THAT(bad_input([&] { write_file(path, "x"); }),
-              StartsWith(path.string() + ": cannot be written (Is a directory"));
+  EXPECT_THAT(bad_input([&] { write_file(path, "x"); }), IsAt(path.string()));
   EXPECT_TRUE(std::filesystem::is_directory(path));
   EXPECT_THAT(folder.names(), ElementsAre("fit.json"));
 }
@@ -99,8 +96,7 @@ TEST(WriteFile, LeavesTheOldFileWhenTheNewOneCannotBeWrittenBesideIt) {
   // The old name just fits; the longer one of the new file beside it does not.
   const std::string name(250, 'x');
   const auto path = folder.file(name, "old");
-  EXPECT_THAT(bad_input([&] { write_file(path, "new"); }),
-              StartsWith(path.string() + ": cannot be written"));
+  EXPECT_THAT(bad_input([&] { write_file(path, "new"); }), IsAt(path.string()));
   EXPECT_EQ(read_file(path), "old");
   EXPECT_THAT(folder.names(), ElementsAre(name));
 }
@@ -136,8 +132,7 @@ TEST(WriteFile, RefusesALinkToItself) {
   const TemporaryFolder folder;
   const auto link = folder.path() / "link";
   std::filesystem::create_symlink("link", link);
-  EXPECT_THAT(bad_input([&] { write_file(link, "x"); }),
-              StartsWith(link.string() + ": cannot be written"));
+  EXPECT_THAT(bad_input([&] { write_file(link, "x"); }), IsAt(link.string()));
   EXPECT_TRUE(std::filesystem::is_symlink(link));
 }
 
@@ -209,8 +204,7 @@ TEST(WriteFileBy, PutsWhatAnotherWritesInPlaceInOneStep) {
                                throw std::runtime_error("no more");
                              }),
                std::runtime_error);
-  EXPECT_THAT(bad_input([&] { write_file_by(path, [](const auto&) {}); }),
-              StartsWith(path.string() + ": cannot be written (No such file"));
+  EXPECT_THAT(bad_input([&] { write_file_by(path, [](const auto&) {}); }), IsAt(path.string()));
   EXPECT_EQ(read_file(path), "new");
   EXPECT_THAT(folder.names(), ElementsAre("frames.h5"));
 }

@@ -50,7 +50,7 @@ TEST_F(Run, ThatFailsKeepsTheResultsOfTheOneBefore) {
   const auto before = files_below(folder());
   const auto made = write_times(folder());
   put_text(case_file(), case_that_no_model_can_follow());
-  expect_refusal(run(), ErrorKind::kBadInput, Names(case_file().string()));
+  expect_refusal(run(), ErrorKind::kBadInput, Names(case_file().string(), "reference"));
   EXPECT_EQ(files_below(folder()), before);
   EXPECT_EQ(write_times(folder()), made);
   put_text(case_file(), gentle_case_text());

@@ -1,8 +1,8 @@
 // The table of resistance matrices, with a script in FreeFEM's place.
 #include <gmock/gmock.h>
 
+#include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
-#include "tests/freefem_axi/expect_error.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
@@ -99,11 +99,11 @@ TEST_F(ResistancePlan, HashChangesWithEverythingThatTheMatricesDependOn) {
 TEST_F(ResistancePlan, AnswerWithoutAllEntriesIsAFailure) {
   const freefem_axi::FakeFreeFem fake(scratch_.path(),
                                       "echo viscontact-result 1e-6 1000 4; exit 0\n");
-  freefem_axi::expect_error(
-      [&] {
-        (void)solve_resistance(fake.freefem(), spheres_, {1, 1});
-      },
-      ErrorKind::kExternalProgram, Names("1"));
+  freefem_axi::EXPECT_THAT(failure(ErrorKind::kExternalProgram,
+                                   [&] {
+                                     (void)solve_resistance(fake.freefem(), spheres_, {1, 1});
+                                   }),
+                           Names("1"));
 }
 
 }  // namespace
