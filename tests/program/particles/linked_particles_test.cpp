@@ -141,8 +141,8 @@ TEST_F(ParticlesCommand, ARestartIntoACaseWithOtherLinksIsRefused) {
                        {"--restart", (out() / "restart.bin").string()}),
                    ErrorKind::kBadInput, Names(said));
   };
-  refused("[[spring]]\nbetween = [2, 3]\nstiffness = 3.0\n", "", "springs or arms");
-  refused("[[body]]\nparticles = [0, 1]\n[[hinge]]\nbody = 0", "[[hinge]]\nparticle = 0", "bod");
+  refused("[[spring]]\nbetween = [2, 3]\nstiffness = 3.0\n", "", "springs");
+  refused("[[body]]\nparticles = [0, 1]\n[[hinge]]\nbody = 0", "[[hinge]]\nparticle = 0", "bodies");
 }
 
 TEST_F(ParticlesCommand, LinksThatContradictEachOtherWhileRunningAreNamed) {
