@@ -16,7 +16,6 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 const std::string kCase =
     std::string(VISCONTACT_SOURCE_FOLDER) + "/data/cases/swimmer/three_spheres.toml";

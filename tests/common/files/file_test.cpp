@@ -79,7 +79,8 @@ TEST(WriteFile, RefusesAPathBelowAFileAndLeavesTheFile) {
   const TemporaryFolder folder;
   const auto file = folder.file("file", "old");
   EXPECT_THAT(bad_input([&] { write_file(file / "fit.json", "x"); }), IsAt(file.string()));
-  EXPECT_THAT(bad_input([&] { write_file(file / "deep" / "fit.json", "x"); }), IsAt(file.string()));
+  EXPECT_THAT(bad_input([&] { write_file(file / "deep" / "fit.json", "x"); }),
+              IsAt((file / "deep").string()));
   EXPECT_EQ(read_file(file), "old");
   EXPECT_THAT(folder.names(), ElementsAre("file"));
 }

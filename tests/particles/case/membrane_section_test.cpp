@@ -15,6 +15,7 @@
 namespace viscontact::particles {
 namespace {
 
+using ::testing::AllOf;
 
 class MembraneSection : public ::testing::Test {
  protected:

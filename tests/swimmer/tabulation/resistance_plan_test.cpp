@@ -99,11 +99,11 @@ TEST_F(ResistancePlan, HashChangesWithEverythingThatTheMatricesDependOn) {
 TEST_F(ResistancePlan, AnswerWithoutAllEntriesIsAFailure) {
   const freefem_axi::FakeFreeFem fake(scratch_.path(),
                                       "echo viscontact-result 1e-6 1000 4; exit 0\n");
-  freefem_axi::EXPECT_THAT(failure(ErrorKind::kExternalProgram,
-                                   [&] {
-                                     (void)solve_resistance(fake.freefem(), spheres_, {1, 1});
-                                   }),
-                           Names("1"));
+  EXPECT_THAT(failure(ErrorKind::kExternalProgram,
+                      [&] {
+                        (void)solve_resistance(fake.freefem(), spheres_, {1, 1});
+                      }),
+              Names("1"));
 }
 
 }  // namespace
