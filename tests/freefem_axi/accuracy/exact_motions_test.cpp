@@ -15,7 +15,6 @@ namespace {
 
 using lubrication::MotionKind;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 Tabulation in_unbounded_fluid(const std::string& geometry, std::vector<double> parameters,
                               double accuracy) {
