@@ -4,12 +4,16 @@
 #include <gmock/gmock.h>
 
 #include <exception>
+#include <ostream>
 #include <string>
 
 #include "tests/common/names.hpp"
 #include "viscontact/common/error.hpp"
 
 namespace viscontact {
+
+/// For the messages of GoogleTest.
+inline void PrintTo(const Error& error, std::ostream* out) { *out << error.what(); }
 
 /// Expects that the message of an Error names the file, the line and the key that it carries.
 inline void expect_named_place(const Error& error) {
@@ -51,7 +55,7 @@ MATCHER_P2(IsAt, place, key, "is at " + std::string(place) + ", key '" + std::st
     return here == expected || here.ends_with("/" + expected);
   };
   const auto line = at.file + ":" + std::to_string(at.line);
-  *result_listener << "which is at " << line << ", key '" << at.key << "': " << arg.what();
+  *result_listener << "which is at " << line << ", key '" << at.key << "'";
   return (is_expected(line) || is_expected(at.file)) &&
          (std::string(key).empty() || at.key == std::string(key));
 }

@@ -37,7 +37,6 @@ class NamesMatcher {
  public:
   explicit NamesMatcher(std::vector<std::string> facts) : facts_(std::move(facts)) {}
   bool MatchAndExplain(const Error& error, ::testing::MatchResultListener* listener) const {
-    *listener << error.what();
     return MatchAndExplain(std::string(error.what()), listener);
   }
   bool MatchAndExplain(const std::string& text, ::testing::MatchResultListener*) const {

@@ -22,6 +22,7 @@
 namespace viscontact::lubrication {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 /// A finite double > 0 of any magnitude.
@@ -276,7 +277,7 @@ TEST_F(MotionTableFile, IsRefusedWithLineAndValue) {
   const auto failure = [&](const std::string& from, const std::string& to) {
     return bad_input([&] { (void)read(changed(from, to)); });
   };
-  EXPECT_THAT(failure("slide", "glide"), IsAt("table.csv", "motion"));
+  EXPECT_THAT(failure("slide", "glide"), AllOf(IsAt("table.csv"), Names("# motion", "glide")));
   EXPECT_THAT(failure("# motion: slide\n", "# viscontact: motion table\n"),
               IsAt("table.csv", "motion"));
   EXPECT_THAT(failure("-40", "40"), IsAt("table.csv:5", "force"));

@@ -158,7 +158,7 @@ TEST_F(MotionsCommand, RefusesMotionsThatThereAreNot) {
 TEST_F(MotionsCommand, FitsAndExportsAPair) {
   const auto fit = run_viscontact({"fit", kData + "tables/pairs/plane", "-o", path("pair.json")});
   expect_done(fit);
-  EXPECT_THAT(fit.errors, Names("5 entries", "0.001", "-10.053"));
+  EXPECT_THAT(fit.errors, AllOf(Names("5 entries", "0.001"), HasSubstr("ln q: -10.053")));
   const auto code = run_viscontact({"export", path("pair.json"), "--to", "c-header"});
   expect_done(code);
   EXPECT_THAT(code.output, AllOf(HasSubstr("viscontact_slide_roll(double gap)"),

@@ -131,7 +131,7 @@ TEST_F(ParticlesCommand, ARestartIsOfTheSameParticles) {
                    ErrorKind::kBadInput, Names(said));
     EXPECT_FALSE(fs::exists(out("no")));
   };
-  refused(kCase, "end_time", restart);
+  refused(kCase, "time 10", restart);
   refused(replaced(longer, "\nmass = 1.0", "\nmass = 2.0"), "masses", restart);
   refused(replaced(longer, "radius = 1.0", "radius = 1.01"), "radii", restart);
   refused(replaced(longer, "[particles]\nfile = \"discs.csv\"\n", ""), "3 particles", restart);

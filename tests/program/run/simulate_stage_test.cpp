@@ -246,7 +246,8 @@ TEST_F(Stages, GapBelowTheFitIsAnErrorUnlessTheLubricationLimitIsAskedFor) {
   fit("asymptotic");
   const std::vector<std::string> arguments = {
       "simulate", path("case.toml"), "--fit", path("fit.json"), "-o", path("run")};
-  expect_refusal(run_viscontact(arguments), ErrorKind::kBadInput, Names("0.01"));
+  expect_refusal(run_viscontact(arguments), ErrorKind::kBadInput,
+                 Names("case.toml", "model reference", "lubrication_limit"));
 
   auto with_limit = arguments;
   with_limit.emplace_back("--lubrication-limit");
