@@ -217,7 +217,7 @@ TEST_F(Stages, FitThatIsScaledHasTheGeometryOfTheCaseInRadii) {
                "geometry = { kind = \"plane\" }", "geometry = { kind = \"free_surface\" }"));
   expect_refusal(run_viscontact({"simulate", path("other.toml"), "--fit", path("fit.json"), "-o",
                                  path("other"), "--models", "inertial"}),
-                 ErrorKind::kBadInput, Names(path("fit.json"), "geometry"));
+                 ErrorKind::kBadInput, Names(path("fit.json"), "container"));
 }
 
 TEST_F(Stages, SimulateRunsTheAskedModelsOnly) {

@@ -209,7 +209,7 @@ TEST_F(SweepOfParticles, OptionsOfTheOtherKindOfCaseAreRefused) {
   refused({}, "--draws");
   refused({"--draws", "2", "--task", "2/2"}, "--task");
   refused({"--draws", "2", "--tasks", "2"}, "--launcher");
-  refused({"--draws", "2", "--plot", path("x.svg")}, "--plot");
+  refused({"--draws", "2", "--plot", path("x.svg")}, "--vary");
   refused({"--draws", "2", "--task", "0/2", "--plot", path("x.svg")}, "--gather");
   refused({"--vary", "arrangement.area_fraction=0.2,0.4", "--plot", path("x.svg"), "--column", "u"},
           "'u'");

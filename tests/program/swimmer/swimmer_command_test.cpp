@@ -61,7 +61,7 @@ class SwimmerCommand : public ::testing::Test {
 TEST_F(SwimmerCommand, SwimsWithTheShippedTableAsThePublishedSwimmerDoesAndSweeps) {
   const auto result = swim(kThreeSpheres, path("out"), {"--json"});
   expect_done(result);
-  EXPECT_THAT(result.errors, AllOf(Names("0.15980", "report"), IsUpToDate("table.csv")));
+  EXPECT_THAT(result.errors, AllOf(HasSubstr("0.15980"), Names("report"), IsUpToDate("table.csv")));
   const auto json = nlohmann::json::parse(read_file(path("out/swimmer.json")));
   EXPECT_EQ(nlohmann::json::parse(result.output)["displacement"], json["displacement"]);
   // data/reference/swimmer.csv
