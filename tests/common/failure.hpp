@@ -12,8 +12,10 @@
 
 namespace viscontact {
 
-/// For the messages of GoogleTest.
-inline void PrintTo(const Error& error, std::ostream* out) { *out << error.what(); }
+/// What GoogleTest shows of an Error.
+inline std::ostream& operator<<(std::ostream& out, const Error& error) {
+  return out << error.what();
+}
 
 /// Expects that the message of an Error names the file, the line and the key that it carries.
 inline void expect_named_place(const Error& error) {

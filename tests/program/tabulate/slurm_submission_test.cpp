@@ -122,7 +122,7 @@ TEST_F(SlurmSubmission, PassesTheUsersOptionsBeforeItsOwn) {
                     HasSubstr("\n--cpus-per-task=3\n")));
   EXPECT_THAT(read_file(path("table.csv.slurm/task.sh")), HasSubstr("--jobs 3"));
   expect_refusal(submit({"--slurm-options", "-A 'my account"}), ErrorKind::kWrongUsage,
-                 Names("--slurm-options"));
+                 Names("-A 'my account"));
 }
 
 TEST_F(SlurmSubmission, TakesNamesThatAShellOrSlurmWouldChange) {
