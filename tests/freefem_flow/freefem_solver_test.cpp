@@ -54,7 +54,8 @@ TEST(SolverLimits, AreThoseOfTheEnvironment) {
     EXPECT_EQ(solver_limits().ready, 5s);
   }
   const Variable wrong("VISCONTACT_FREEFEM_TIME_LIMIT", "5 s");
-  EXPECT_THAT(failure(ErrorKind::kWrongUsage, [] { solver_limits(); }), Names("5"));
+  EXPECT_THAT(failure(ErrorKind::kWrongUsage, [] { solver_limits(); }),
+              Names("VISCONTACT_FREEFEM_TIME_LIMIT", "'5 s'"));
 }
 
 TEST(StartFluidSolver, RefusesAParticleTooSmallForTheDomain) {

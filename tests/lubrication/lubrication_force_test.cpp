@@ -171,10 +171,10 @@ TEST(LubricationForce, RefusesAFitThatIsNotADrag) {
 TEST(LubricationForce, WithoutALeadingTermHasNoLubricationLimit) {
   const Fit fit = fitting::planted_fit({{"1", 2}}, 1e-3, 1);
   EXPECT_EQ(LubricationForce(fit).resistance(0.5), 2);
-  EXPECT_THAT(bad_input([&] { LubricationForce(fit).leading_coefficient(); }), Names("1"));
+  EXPECT_THAT(bad_input([&] { LubricationForce(fit).leading_coefficient(); }), Names("1/q"));
   const LubricationForce force(fit, {BelowInterval::kLubricationLimit});
-  EXPECT_THAT(bad_input([&] { force.resistance(1e-4); }), Names("1"));
-  EXPECT_THAT(bad_input([&] { force.impulse(1e-4); }), Names("1"));
+  EXPECT_THAT(bad_input([&] { force.resistance(1e-4); }), Names("1/q"));
+  EXPECT_THAT(bad_input([&] { force.impulse(1e-4); }), Names("1/q"));
 }
 
 TEST(LubricationForce, CoversAnIntervalWiderThanADoublesQuotient) {

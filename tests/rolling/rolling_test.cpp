@@ -243,7 +243,7 @@ TEST(ViscousContact, FailsIfItsContactForceLeavesTheRangeOfADouble) {
 TEST(Rolling, OutOfTheGapsOfTheFitIsRefused) {
   auto motion = on_incline(0);
   motion.normal_force = 50;
-  EXPECT_THAT(bad_input([&] { (void)roll_smooth(motion, plane()); }), Names("1"));
+  EXPECT_THAT(bad_input([&] { (void)roll_smooth(motion, plane()); }), Names("gap 1"));
 }
 
 }  // namespace

@@ -130,7 +130,7 @@ TEST(FailingSolver, ThatNeverCompletesItsAnswerIsStoppedAtTheLimit) {
   OneDisc one(placed_and_asked("solve") + "echo velocities 1; sleep 1.5; echo 2; exec sleep 3600",
               2s);
   one.place();
-  EXPECT_THAT(failure(ErrorKind::kExternalProgram, [&] { one.solve(); }), Names("2"));
+  EXPECT_THAT(failure(ErrorKind::kExternalProgram, [&] { one.solve(); }), Names("2 s"));
 }
 
 TEST(FailingSolver, ThatAnswersMoreIsFoundAtTheNextRequest) {
@@ -173,7 +173,7 @@ TEST(FailingSolver, MayNotEstimateANegativeError) {
   OneDisc one(placed_and_asked("vary") + "echo varied 1 -1 0; read end");
   one.place();
   EXPECT_THAT(failure(ErrorKind::kExternalProgram, [&] { one.solver().vary_mesh(); }),
-              Names("-1", "0"));
+              Names("'-1'", "0"));
 }
 
 Error said_of_flow(const std::string& answer) {
@@ -183,8 +183,8 @@ Error said_of_flow(const std::string& answer) {
 }
 
 TEST(FailingSolver, MayNotNameNodesThatAreNotThere) {
-  EXPECT_THAT(said_of_flow("1 1  0 0 0 0 0  0 0 0 0 0 1"), Names("1", "0"));
-  EXPECT_THAT(said_of_flow("0 1  0 0 0 0 0 0"), Names("1"));
+  EXPECT_THAT(said_of_flow("1 1  0 0 0 0 0  0 0 0 0 0 1"), Names("'1'", "0"));
+  EXPECT_THAT(said_of_flow("0 1  0 0 0 0 0 0"), Names("'1'"));
   EXPECT_THAT(said_of_flow("1 0  0 0 nan 0 0"), Names("nan"));
 }
 

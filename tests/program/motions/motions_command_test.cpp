@@ -368,7 +368,7 @@ TEST_F(MotionsCommand, RollingRefusesWhatIsWrongWithItsLine) {
   const auto scaled =
       run_viscontact({"rolling", incline("radius = 1.0", "radius = 2.0"), "-o", path("scaled")});
   expect_done(scaled);
-  EXPECT_THAT(scaled.errors, Names("2"));
+  EXPECT_THAT(scaled.errors, Names("radius 2"));
   refused("time_step = 0.01", "time_step = 0.01\nmodels = [\"rigid\"]", "rolling.models");
   refused("plane.json", "equal_spheres.json", "equal_spheres.json");
 }

@@ -103,7 +103,7 @@ TEST_F(ResistancePlan, AnswerWithoutAllEntriesIsAFailure) {
                       [&] {
                         (void)solve_resistance(fake.freefem(), spheres_, {1, 1});
                       }),
-              Names("1"));
+              Names("gaps 1, 1"));
 }
 
 }  // namespace
