@@ -49,8 +49,8 @@ class Error : public std::runtime_error {
 
  private:
   ErrorKind kind_;
-  std::shared_ptr<const FilePosition>
-      at_;  ///< shared, because copies of an exception must not throw
+  /// Shared, because copies of an exception must not throw.
+  std::shared_ptr<const FilePosition> at_;
 };
 
 /// Returns call(). An Error that it throws is thrown again with "PLACE: " before its message,
@@ -64,6 +64,7 @@ auto with_place(const std::string& place, const Call& call) {
     throw Error(error.kind(), place + ": " + error.what(), error.at());
   }
 }
+
 /// The same with the place `file`, which also becomes the file of an Error that has none.
 template <class Call>
 auto in_file(const std::string& file, const Call& call) {
