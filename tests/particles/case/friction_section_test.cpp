@@ -11,7 +11,6 @@
 namespace viscontact::particles {
 namespace {
 
-
 using ::testing::ElementsAre;
 
 class FrictionSection : public ::testing::Test {

@@ -12,7 +12,6 @@
 namespace viscontact::particles {
 namespace {
 
-
 class ShearedPackings : public ::testing::Test {
  protected:
   ParticlesCase read(const std::string& contact, const std::string& sections,
