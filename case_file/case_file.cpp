@@ -367,7 +367,8 @@ void check_exact_drag(const TomlSection& root, const Case& c) {
 template <class Part>
 const Part& required(const std::optional<Part>& part, const Case& c, std::string_view section) {
   if (!part)
-    throw_bad_input({c.path.string()}, "has no section [{}], which this command needs", section);
+    throw_bad_input({c.path.string(), 0, std::string(section)},
+                    "has no section [{}], which this command needs", section);
   return *part;
 }
 
@@ -414,7 +415,7 @@ lubrication::Fit fit_for(const Case& c, lubrication::Fit fit, const fs::path& fi
   const auto check = [&](std::string_view key, const std::string& of_fit,
                          const std::string& of_case) {
     if (!of_fit.empty() && !lubrication::same_words(of_fit, of_case))
-      throw_bad_input({file.string()},
+      throw_bad_input({file.string(), 0, std::string(key)},
                       "the {} of the fit, scaled from the radius {} to {}, is '{}'; that of the "
                       "case is '{}'. Both must be equal in radii",
                       key, radius, c.radius, of_fit, of_case);

@@ -67,10 +67,6 @@ void Keys::required(std::string_view key, const KeyValue& value, const Help& hel
     describe(key, value, "required", help);
 }
 
-bool names_missing_key(const Error& error) {
-  return std::string_view(error.what()).find("is missing") != std::string_view::npos;
-}
-
 void refuse_unknown_keys(const TomlSection& section, const KeyTable& table) {
   for (const auto& row : table.rows) (void)section.has(row.key);
   section.finish();

@@ -123,7 +123,6 @@ class Keys {
   KeyTable* table_ = nullptr;
 };
 
-bool names_missing_key(const Error& error);
 /// Throws Error(kBadInput) for a key that is not in the table.
 void refuse_unknown_keys(const TomlSection& section, const KeyTable& table);
 
@@ -134,14 +133,12 @@ void read_keys(const TomlSection& section, const Declaration& declaration, Place
   Keys keys(section);
   try {
     declaration(keys, places...);
-  } catch (const Error& error) {
+  } catch (const MissingKey&) {
     // A key that is not known may be a misspelt one, and is named before the missing one.
-    if (names_missing_key(error)) {
-      KeyTable table;
-      Keys all(table);
-      declaration(all, places...);
-      refuse_unknown_keys(section, table);
-    }
+    KeyTable table;
+    Keys all(table);
+    declaration(all, places...);
+    refuse_unknown_keys(section, table);
     throw;
   }
   section.finish();

@@ -155,12 +155,16 @@ std::string TomlSection::full_name(std::string_view key) const {
 }
 
 void TomlSection::fail_of_section(std::string_view key, const std::string& what) const {
-  if (node_->path.empty()) throw_bad_input({node_->file}, "section [{}] {}", key, what);
+  if (node_->path.empty())
+    throw_bad_input({node_->file, 0, std::string(key)}, "section [{}] {}", key, what);
   fail(key, what);
 }
 
 void TomlSection::fail(std::string_view key, const std::string& what) const {
-  throw_bad_input({node_->file, line(key)}, full_name(key) + " " + what);
+  const FilePosition at{node_->file, line(key), full_name(key)};
+  const auto message = located(at, at.key + " " + what);
+  if (!node_->table->contains(key)) throw MissingKey(ErrorKind::kBadInput, message, at);
+  throw Error(ErrorKind::kBadInput, message, at);
 }
 
 bool TomlSection::has(std::string_view key) const {
@@ -316,8 +320,9 @@ TomlSection TomlSection::section(std::string_view key) const {
     for (const auto& [name, value] : *node_->table)
       if (value.is_table() && !node_->asked.contains(std::string(name.str())) &&
           is_similar(name.str(), key))
-        throw_bad_input({node_->file, static_cast<int>(name.source().begin.line)},
-                        "section [{}] is not known here; section [{}] is missing", name.str(), key);
+        throw_bad_input(
+            {node_->file, static_cast<int>(name.source().begin.line), std::string(name.str())},
+            "section [{}] is not known here; section [{}] is missing", name.str(), key);
   if (!has(key))
     fail_of_section(key, node_->path.empty() ? "is missing" : "is missing; it must be a table");
   const auto* table = node_->table->get(key)->as_table();
@@ -344,9 +349,10 @@ void TomlSection::finish() const {
       std::string known;
       for (const auto& name : node_->asked)
         known += fmt::format("{}{}", known.empty() ? "" : ", ", name);
-      throw_bad_input({node_->file, static_cast<int>(key.source().begin.line)},
-                      "{} is not a key that is known here; the known keys are: {}",
-                      full_name(key.str()), known);
+      throw_bad_input(
+          {node_->file, static_cast<int>(key.source().begin.line), full_name(key.str())},
+          "{} is not a key that is known here; the known keys are: {}", full_name(key.str()),
+          known);
     }
 }
 
@@ -358,7 +364,7 @@ TomlSection TomlSection::with_numbers(
     const std::string& path = number.first;
     const double value = number.second;
     const auto refuse = [&](const std::string& what) {
-      throw_bad_input({node_->file}, "{} {}", path, what);
+      throw_bad_input({node_->file, 0, path}, "{} {}", path, what);
     };
     auto* place = root->at_path(path).node();
     // Puts a new node at `path`, because the existing node of an integer cannot store a fraction.
@@ -395,7 +401,8 @@ TomlSection TomlSection::with_texts(
   assert(node_->path.empty());
   for (const auto& [path, text] : texts) {
     auto* place = root->at_path(path).as_string();
-    if (place == nullptr) throw_bad_input({node_->file}, "{} is not a text in this case", path);
+    if (place == nullptr)
+      throw_bad_input({node_->file, 0, path}, "{} is not a text in this case", path);
     **place = text;
   }
   return TomlSection(Node{root, root.get(), node_->file, "", {}});

@@ -12,8 +12,15 @@
 #include <vector>
 
 #include "viscontact/common/allowed.hpp"
+#include "viscontact/common/error.hpp"
 
 namespace viscontact::case_file {
+
+/// An Error(kBadInput) for a key that a table lacks.
+class MissingKey : public Error {
+ public:
+  using Error::Error;
+};
 
 /// A table of a TOML file. All functions that read a value throw Error(kBadInput), with the file,
 /// the line, the key and what is allowed, if the key is missing, the value has the wrong type, or
@@ -77,7 +84,7 @@ class TomlSection {
   std::string shown(std::string_view key) const;  ///< the value, for a message; empty if missing
 
   /// Throws Error(kBadInput) with the message "section.key what" at the line of this key, or of
-  /// this table if the key does not exist.
+  /// this table if the key does not exist; the Error is then a MissingKey.
   [[noreturn]] void fail(std::string_view key, const std::string& what) const;
   template <class First, class... Rest>
   [[noreturn]] void fail(std::string_view key, fmt::format_string<First, Rest...> what,

@@ -76,11 +76,12 @@ void check(const TableHead& head, const MotionRow& row, const FilePosition& here
   const double factor = turning ? row.torque_factor : row.force_factor;
   if (!head.neighbour_moves && (!(own * row.reference_velocity < 0) ||
                                 (head.motion != MotionKind::kApproach && !(factor > 0))))
-    throw_bad_input(here, "{} is {} at velocity {}; a drag must be opposed to the velocity",
+    throw_bad_input({here.file, here.line, turning ? "torque" : "force"},
+                    "{} is {} at velocity {}; a drag must be opposed to the velocity",
                     turning ? "torque" : "force", own, row.reference_velocity);
   const auto check_finite = [&](const char* name, double value, double of_stokes) {
     if (!std::isfinite(of_stokes))
-      throw_bad_input(here,
+      throw_bad_input({here.file, here.line, name},
                       "{} is {}, which is {} times Stokes' drag; it must be a finite multiple",
                       name, value, of_stokes);
   };
@@ -118,7 +119,7 @@ MotionTable read_motion_table(const std::filesystem::path& path) {
 MotionTable read_force_table(const std::filesystem::path& path) {
   auto table = read_motion_table(path);
   if (table.motion != MotionKind::kApproach)
-    throw_bad_input({path.string()}, "# motion: is {}; it must be approach here",
+    throw_bad_input({path.string(), 0, "motion"}, "# motion: is {}; it must be approach here",
                     to_string(table.motion));
   return table;
 }

@@ -78,12 +78,13 @@ std::vector<double> radii_in(const std::string& text, const std::string& file) {
   for (std::string word; words >> word;) {
     const auto radius = parse_number(word);
     if (!radius || !(*radius > 0))
-      throw_bad_input({file}, "# radii: contains '{}'; each must be a number > 0", word);
+      throw_bad_input({file, 0, "radii"}, "# radii: contains '{}'; each must be a number > 0",
+                      word);
     radii.push_back(*radius);
   }
   if (radii.size() < kFewestSpheres || radii.size() > kMostSpheres)
-    throw_bad_input({file}, "# radii: has {} numbers; it must have {} to {}", radii.size(),
-                    kFewestSpheres, kMostSpheres);
+    throw_bad_input({file, 0, "radii"}, "# radii: has {} numbers; it must have {} to {}",
+                    radii.size(), kFewestSpheres, kMostSpheres);
   return radii;
 }
 
@@ -95,29 +96,34 @@ TableHead read_head(const std::string& text, const std::string& file, bool is_of
   for (const auto& key : contradictions)
     if (key == "motion" || key == "viscosity" || key.starts_with("radi") ||
         key.starts_with("leading_"))
-      throw_bad_input({file}, "# {}: stands twice with different values; it must stand once", key);
+      throw_bad_input({file, 0, key},
+                      "# {}: stands twice with different values; it must stand once", key);
   const auto number = [&](const std::string& key, bool is_positive) {
     const double value = csv_comment_number(lines, key, file);
     if (is_positive && !(value > 0))
-      throw_bad_input({file}, "# {}: is {}; it must be > 0", key, value);
+      throw_bad_input({file, 0, key}, "# {}: is {}; it must be > 0", key, value);
     return value;
   };
   TableHead head;
   if (is_of_line && !lines.contains("radii"))
-    throw_bad_input({file}, "the line '# radii: NUMBER NUMBER ...' is missing");
+    throw_bad_input({file, 0, "radii"}, "the line '# radii: NUMBER NUMBER ...' is missing");
   if (is_of_line) head.radii = radii_in(lines["radii"], file);
   if (lines.contains("motion"))
-    head.motion = with_place(file + ": # motion", [&] { return parse_motion(lines["motion"]); });
+    head.motion = in_file(file, [&] {
+      return with_place("# motion", [&] { return parse_motion(lines["motion"]); });
+    });
   else if (lines["viscontact"] == kMotionTable)
-    throw_bad_input({file}, "has no line '# motion: ...'; it must name slide, roll or spin");
+    throw_bad_input({file, 0, "motion"},
+                    "has no line '# motion: ...'; it must name slide, roll or spin");
   head.viscosity = number("viscosity", true);
   if (!is_of_line) head.radius = number("radius", true);
   for (const auto& [key, member, is_positive] : kOptionalNumbers)
     if (lines.contains(key)) head.*member = number(key, is_positive);
   for (const auto& [key, member, is_written_if_empty] : kTexts) head.*member = lines[key];
   head.neighbour_moves = lines["neighbour_moves"] == "yes";
-  head.tabulated_motions =
-      with_place(file + ": # motions", [&] { return parse_motions_in_words(lines["motions"]); });
+  head.tabulated_motions = in_file(file, [&] {
+    return with_place("# motions", [&] { return parse_motions_in_words(lines["motions"]); });
+  });
   for (const auto& [key, value] : lines) {
     if (key.starts_with(kFailedRow)) head.failed_rows[key.substr(kFailedRow.size())] = value;
     if (key.starts_with(kVersionOf)) head.versions[key.substr(kVersionOf.size())] = value;
@@ -159,11 +165,12 @@ void set_numbers(const std::vector<Column>& columns, std::span<const std::option
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const auto& [name, number, if_absent, allowed] = columns[i];
     if (!fields[i] && if_absent == IfAbsent::kRefused)
-      throw_bad_input(here, name + " is empty; it must be a number");
+      throw_bad_input({here.file, here.line, name}, name + " is empty; it must be a number");
     *number = fields[i].value_or(
         if_absent == IfAbsent::kZero ? 0 : std::numeric_limits<double>::quiet_NaN());
     if (fields[i] && !allowed.test(*number))
-      throw_bad_input(here, "{} is {}; it must be {}", name, *number, allowed.words);
+      throw_bad_input({here.file, here.line, name}, "{} is {}; it must be {}", name, *number,
+                      allowed.words);
   }
 }
 

@@ -22,8 +22,8 @@ void fit_stage(const fs::path& table_path, const fs::path& fit_path,
                const StopToken& stop) {
   const auto table = lubrication::read_force_table(table_path);
   stop.throw_if_stop_requested();
-  lubrication::Fit fit = with_place(
-      table_path.string(), [&] { return fitting::fit_force_table(table, settings, stop); });
+  lubrication::Fit fit =
+      in_file(table_path.string(), [&] { return fitting::fit_force_table(table, settings, stop); });
   if (fs::is_regular_file(table_path))  // a pipe cannot be read a second time
     fit.table_sha256 = results::content_sha256(read_file(table_path));
   fit.versions = results::library_versions();

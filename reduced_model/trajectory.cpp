@@ -38,7 +38,7 @@ long steps_of(const CsvComments& comments, const std::string& file) {
   constexpr double kMost = 1e15;  // below 2^53, so every integer up to it is a double
   const double steps = csv_comment_number(comments, "steps", file);
   if (!(steps >= 0 && steps <= kMost))
-    throw_bad_input({file}, "# steps: is {}; it must be from 0 to {}", steps, kMost);
+    throw_bad_input({file, 0, "steps"}, "# steps: is {}; it must be from 0 to {}", steps, kMost);
   return static_cast<long>(steps);
 }
 
@@ -61,8 +61,8 @@ std::vector<GapTime> read_gap_times(const std::string& text, const FilePosition&
     words >> gap >> time;
     const auto number = parse_number(gap), at = parse_number(time);
     if (!number || (!at && time != "never"))
-      throw_bad_input(file, "time_to_gap in its head has '{}'; it must be a gap and its time",
-                      part);
+      throw_bad_input({file.file, file.line, "time_to_gap"},
+                      "time_to_gap in its head has '{}'; it must be a gap and its time", part);
     times.push_back({*number, at});
   }
   return times;
@@ -90,7 +90,7 @@ std::vector<Rebound> read_rebounds(const std::string& text, const FilePosition& 
     for (std::string word; words >> word;)
       if (const auto number = parse_number(word)) numbers.push_back(*number);
     if (numbers.size() != 5)
-      throw_bad_input(file,
+      throw_bad_input({file.file, file.line, "rebound"},
                       "the rebound '{}' in its head is not five numbers: time, approach_velocity, "
                       "solid_impulse, velocity, coefficient",
                       part);
@@ -147,10 +147,11 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
     if (fields.fields[4]) row.external_force = *fields.fields[4];
     if (fields.fields[5]) row.gamma = *fields.fields[5];
     if (fields.fields[6]) row.solid_force = *fields.fields[6];
-    const FilePosition here{file, fields.line};
-    if (row.gap < 0) throw_bad_input(here, "gap is {}; it must be >= 0", row.gap);
+    if (row.gap < 0)
+      throw_bad_input({file, fields.line, "gap"}, "gap is {}; it must be >= 0", row.gap);
     if (!trajectory.rows.empty() && !(row.time > trajectory.rows.back().time))
-      throw_bad_input(here, "time is {} after {}; it must increase from row to row", row.time,
+      throw_bad_input({file, fields.line, "time"},
+                      "time is {} after {}; it must increase from row to row", row.time,
                       trajectory.rows.back().time);
     trajectory.rows.push_back(row);
   }

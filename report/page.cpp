@@ -185,7 +185,7 @@ void warn_of_missing_pictures(const std::exception_ptr& failure) {
   } catch (const GnuplotMissing& missing) {
     terminal::warn("report: warning: {}; {}", on_one_line(missing.what()), kWritten);
   } catch (const Error& error) {
-    throw Error(error.kind(), "{}; {}", on_one_line(error.what()), kWritten);
+    throw Error(error.kind(), on_one_line(error.what()) + "; " + kWritten, error.at());
   }
 }
 

@@ -129,11 +129,12 @@ Points points_of_case(const std::vector<std::string>& ranges, const fs::path& ca
 Error with_origin(const Points& points, const Error& error) {
   if (error.kind() == ErrorKind::kInterrupted) return error;
   std::string message = error.what();
-  if (!points.place) return {error.kind(), "--vary: " + message};
+  if (!points.place) return {error.kind(), "--vary: " + message, error.at()};
   const auto& [file, line] = *points.place;
   if (message.starts_with(file + ": ")) message.erase(0, file.size() + 2);
   return {error.kind() == ErrorKind::kWrongUsage ? ErrorKind::kBadInput : error.kind(),
-          fmt::format("{}:{}: sweep.vary: {}", file, line, message)};
+          fmt::format("{}:{}: sweep.vary: {}", file, line, message),
+          {file, line, error.at().key.empty() ? "sweep.vary" : error.at().key}};
 }
 
 void check_ranges(const Points& points) {

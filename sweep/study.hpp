@@ -101,7 +101,8 @@ auto at_point(const Points& points, std::uint64_t index, const Make& make) {
   try {
     return make(numbers);
   } catch (const Error& error) {
-    throw Error(error.kind(), error.what() + (" (at the point" + in_words(numbers) + ")"));
+    throw Error(error.kind(), error.what() + (" (at the point" + in_words(numbers) + ")"),
+                error.at());
   }
 }
 

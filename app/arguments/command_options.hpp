@@ -48,7 +48,7 @@ auto from_option(std::string_view option, const Read& read) {
     return read();
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kBadInput) throw;
-    throw Error(ErrorKind::kWrongUsage, std::string(option) + ": " + error.what());
+    throw Error(ErrorKind::kWrongUsage, std::string(option) + ": " + error.what(), error.at());
   }
 }
 
@@ -141,7 +141,7 @@ void with_remedy(std::string_view remedy, const Call& call) {
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kNotConverged && error.kind() != ErrorKind::kExternalProgram)
       throw;
-    throw Error(error.kind(), std::string(error.what()) + "; " + std::string(remedy));
+    throw Error(error.kind(), std::string(error.what()) + "; " + std::string(remedy), error.at());
   }
 }
 

@@ -156,7 +156,7 @@ std::string exported(const ExportOptions& o, const std::string& source) {
     const double viscosity = or_of_fit(o.viscosity, pair.viscosity);
     const double radius = or_of_fit(o.radius, pair.radius);
     pair = motions::scaled_to(std::move(pair), viscosity, radius);
-    return with_place(o.fit, [&] { return motions::export_pair(pair, o.target, source); });
+    return in_file(o.fit, [&] { return motions::export_pair(pair, o.target, source); });
   }
   auto fit = lubrication::read_fit(o.fit);
   const double viscosity = or_of_fit(o.viscosity, fit.viscosity);
@@ -167,7 +167,7 @@ std::string exported(const ExportOptions& o, const std::string& source) {
     outside.below = o.below == "theory_limit" ? lubrication::BelowInterval::kTheoryLimit
                                               : lubrication::BelowInterval::kLubricationLimit;
   if (!o.above.empty()) outside.above = lubrication::AboveInterval::kStokesLimit;
-  return with_place(o.fit, [&] { return fitting::export_fit(fit, o.target, source, outside); });
+  return in_file(o.fit, [&] { return fitting::export_fit(fit, o.target, source, outside); });
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ std::vector<pipeline::CaseTable> read_case_tables(const std::vector<std::string>
             ? rolling::read_rolling_case(file).tabulation
             : std::optional(case_file::required_tabulation(case_file::read_case(file)));
     if (!tabulation)
-      throw Error(ErrorKind::kBadInput, "{}: the section [tabulation] is missing", file);
+      throw_bad_input({file, 0, "tabulation"}, "the section [tabulation] is missing");
     if (!motions.empty())
       tabulation->motions = with_place(
           "--motion", [&] { return freefem_axi::parse_motions(motions, tabulation->geometry); });

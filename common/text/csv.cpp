@@ -58,7 +58,8 @@ std::optional<double> number_of(const char* field, const std::string& column,
   if (field == nullptr || *field == '\0') return {};
   const auto number = parse_number(field);
   if (!number)
-    throw_bad_input({file, line}, column + " is not a finite number ('" + shortened(field) + "')");
+    throw_bad_input({file, line, column},
+                    column + " is not a finite number ('" + shortened(field) + "')");
   return number;
 }
 
@@ -107,8 +108,9 @@ void read_columns(const std::string& text, const std::string& file,
         all_names);
     for (std::size_t i = 0; i < std::min(required, names.size()); ++i)
       if (!reader.has_column(names[i]))
-        throw_bad_input({file}, "column '" + names[i] + "' is missing from the header line" +
-                                    hint_of_separator(text));
+        throw_bad_input(
+            {file, 0, names[i]},
+            "column '" + names[i] + "' is missing from the header line" + hint_of_separator(text));
     std::array<char*, kColumnsAtOnce> fields{};
     std::array<std::optional<double>, kColumnsAtOnce> numbers;
     while (std::apply([&](auto&... field) { return reader.read_row(field...); }, fields)) {
@@ -118,7 +120,7 @@ void read_columns(const std::string& text, const std::string& file,
       add_row(std::span(numbers).first(names.size()), line);
     }
   } catch (const io::error::duplicated_column_in_header& e) {
-    throw_bad_input({file},
+    throw_bad_input({file, 0, e.column_name},
                     std::string("column '") + e.column_name + "' stands twice in the header line");
   } catch (const io::error::header_missing&) {
     throw_bad_input({file},
@@ -201,11 +203,11 @@ double csv_comment_number(const CsvComments& comments, const std::string& key,
                           const std::string& file) {
   const auto found = comments.find(key);
   if (found == comments.end())
-    throw_bad_input({file}, fmt::format("the line '# {}: NUMBER' is missing", key));
+    throw_bad_input({file, 0, key}, fmt::format("the line '# {}: NUMBER' is missing", key));
   const auto value = parse_number(found->second);
   if (!value)
-    throw_bad_input(
-        {file}, fmt::format("the line '# {}: {}' must give a finite number", key, found->second));
+    throw_bad_input({file, 0, key}, fmt::format("the line '# {}: {}' must give a finite number",
+                                                key, found->second));
   return *value;
 }
 

@@ -102,7 +102,7 @@ double required_field(const CsvRow<columns>& row, const std::array<std::string, 
                       std::size_t i, const std::string& file) {
   assert(i < columns);
   if (!row.fields[i])
-    throw_bad_input({file, row.line}, names[i] + " is empty; it must be a number");
+    throw_bad_input({file, row.line, names[i]}, names[i] + " is empty; it must be a number");
   return *row.fields[i];
 }
 

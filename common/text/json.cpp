@@ -47,7 +47,7 @@ class LineRecorder {
                       "is not valid JSON at column {} ({})", column, cause_);
     }
     if (repeated_key_line_ > 0)
-      throw_bad_input({file, repeated_key_line_},
+      throw_bad_input({file, repeated_key_line_, repeated_key_},
                       repeated_key_ + " stands twice; a key must stand once in its object");
   }
 

@@ -46,7 +46,7 @@ class JsonFields {
       JsonFields(document, document.root(), "").read_into(value);
       return value;
     } catch (const Error& error) {
-      throw Error(error.kind(), error.what() + remedy);
+      throw Error(error.kind(), error.what() + remedy, error.at());
     }
   }
 
@@ -73,7 +73,7 @@ class JsonFields {
   [[noreturn]] void fail(const std::string& key, const std::string& what) const {
     assert(reads());
     const std::string where = path_of(key);
-    throw_bad_input({document_->file(), document_->line_of(where)}, "{} {}",
+    throw_bad_input({document_->file(), document_->line_of(where), where}, "{} {}",
                     where.empty() ? "the file" : where, what);
   }
   template <class First, class... Rest>

@@ -97,9 +97,8 @@ std::vector<fs::path> pair_table_files(const std::vector<std::string>& paths) {
     for (const auto& motion : lubrication::all_motions())
       if (const auto file = table_of(path, motion.kind); fs::exists(file)) tables.push_back(file);
     if (tables.empty())
-      throw Error(ErrorKind::kBadInput,
-                  "{}: has none of the tables approach.csv, slide.csv, roll.csv and spin.csv",
-                  path);
+      throw_bad_input({path},
+                      "has none of the tables approach.csv, slide.csv, roll.csv and spin.csv");
     check_complete(path, tables);
     files.insert(files.end(), tables.begin(), tables.end());
   }
@@ -118,8 +117,7 @@ PairTables read_pair_tables(const std::vector<fs::path>& files) {
   for (const auto& file : files) {
     auto table = lubrication::read_motion_table(file);
     if (!tables.try_emplace(table.motion, table).second)
-      throw Error(ErrorKind::kBadInput, "{}: is the second table of its motion; give one of each",
-                  file.string());
+      throw_bad_input({file.string()}, "is the second table of its motion; give one of each");
   }
   return tables;
 }

@@ -29,7 +29,7 @@ void check_case_without_fluid(const case_file::TomlSection& root, const Particle
 /// membranes.
 void check_case_in_fluid(const case_file::TomlSection& root, const case_file::TomlSection& first,
                          const ParticlesCase& c) {
-  const FilePosition at{c.path.string(), first.line()};
+  const FilePosition at{c.path.string(), first.line(), "membrane"};
   for (const auto* key : {"body", "hinge", "spring", "arm", "plane"})
     if (root.has(key))
       throw_bad_input(at,
@@ -144,7 +144,7 @@ void check_in_fluid(const case_file::TomlSection& section, const ParticlesCase& 
 void check_case_of_membranes(const case_file::TomlSection& root,
                              const case_file::TomlSection& first, const ParticlesCase& c) {
   if (c.particles.dimension != 2)
-    throw_bad_input({c.path.string(), first.line()},
+    throw_bad_input({c.path.string(), first.line(), "membrane"},
                     "section [[membrane]] belongs to the plane; space.dimension must be 2");
   if (c.setting.fluid)
     check_case_in_fluid(root, first, c);
@@ -249,7 +249,7 @@ void check_place(const case_file::TomlSection& section, const ParticlesCase& c) 
 void check_others(const case_file::TomlSection& first, const ParticlesCase& c) {
   if (!c.setting.fluid) return;
   const auto& p = c.particles;
-  const FilePosition at{c.path.string(), first.line()};
+  const FilePosition at{c.path.string(), first.line(), "membrane"};
   std::vector<char> is_bead(p.count(), 0);
   for (const auto& membrane : c.setting.fluid->membranes)
     for (const auto bead : membrane.beads) is_bead[index_of(bead)] = 1;

@@ -334,7 +334,7 @@ void read_domain_and_fluid(const case_file::TomlSection& root, ParticlesCase& c)
   root.section("space").require(dimension != 3, "dimension",
                                 "is 3; in a case with [fluid] it must be 2 or \"axisymmetric\"");
   if (!root.has("domain"))
-    throw_bad_input({c.path.string(), section.line()},
+    throw_bad_input({c.path.string(), section.line(), "fluid"},
                     "section [fluid] belongs to a case without a section [domain]; the case must "
                     "have one, because walls or periods must hold the fluid");
   c.setting.fluid = read_fluid(section, c.setting.domain);

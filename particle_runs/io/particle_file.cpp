@@ -102,14 +102,14 @@ double allowed(const Row& row, const Names& names, std::size_t column, Sign sign
   // Squares and cubes of numbers up to this one and of their inverses are finite and not 0.
   constexpr double kLargest = 1e100;
   if (sign == Sign::kNotNegative && !(value == 0 || value >= 1 / kLargest))
-    throw_bad_input({file, row.line}, "{} is {}; it must be 0 or at least 1e-100", names[column],
-                    value);
+    throw_bad_input({file, row.line, names[column]}, "{} is {}; it must be 0 or at least 1e-100",
+                    names[column], value);
   if (sign == Sign::kPositive && !(value >= 1 / kLargest))
-    throw_bad_input({file, row.line}, "{} is {}; it must be > 0, at least 1e-100", names[column],
-                    value);
+    throw_bad_input({file, row.line, names[column]}, "{} is {}; it must be > 0, at least 1e-100",
+                    names[column], value);
   if (!(std::abs(value) <= kLargest))
-    throw_bad_input({file, row.line}, "{} is {}; it must be at most {} in magnitude", names[column],
-                    value, kLargest);
+    throw_bad_input({file, row.line, names[column]}, "{} is {}; it must be at most {} in magnitude",
+                    names[column], value, kLargest);
   return value;
 }
 
@@ -122,12 +122,11 @@ void check_header(const std::string& text, const std::string& file, const Names&
   const std::span known(kDiscs.begin(), kId + 1);
   const auto of_fluid = in_fluid ? fluid_columns(dimension) : turning_columns(dimension);
   const auto header = csv_header(text);
-  const FilePosition here{file, header.line};
   std::vector<std::string> velocities;
   for (const auto& name : header.names) {
     if (name.starts_with("semi_axis_"))
       throw_bad_input(
-          here,
+          {file, header.line, name},
           "has a column '{}' of ellipses or plates; the particles of a file must be discs or "
           "spheres, and each ellipse or plate a table [[particle]] with semi_axes or length",
           name);
@@ -136,7 +135,7 @@ void check_header(const std::string& text, const std::string& file, const Names&
     if (!is_load && std::ranges::find(known, name) == known.end() &&
         std::ranges::find(of_fluid, name) == of_fluid.end())
       throw_bad_input(
-          here,
+          {file, header.line, name},
           "has a column '{}', which is not known{}; the known columns are id, x, y, z, vx, vy, vz, "
           "radius, mass{}{}",
           shortened(name),
@@ -147,7 +146,7 @@ void check_header(const std::string& text, const std::string& file, const Names&
   const auto d = static_cast<std::size_t>(dimension);
   for (const auto& name : std::span(names).subspan(d + 2, d))
     if (!velocities.empty() && std::ranges::find(velocities, name) == velocities.end())
-      throw_bad_input(here,
+      throw_bad_input({file, header.line, name},
                       "has the column {} of the velocity, but not {}; it must have all components "
                       "of the velocity or none",
                       velocities.front(), name);
@@ -164,12 +163,12 @@ std::vector<std::int32_t> read_ids(const std::vector<Row>& rows, const std::stri
   for (const auto& row : rows) {
     const double id = required_field(row, kDiscs, kId, file);
     if (!(id >= 0 && id <= kLargest && id == std::floor(id)))
-      throw_bad_input({file, row.line}, "id is {}; it must be a whole number from 0 to {}", id,
-                      kLargest);
+      throw_bad_input({file, row.line, "id"}, "id is {}; it must be a whole number from 0 to {}",
+                      id, kLargest);
     ids.push_back(static_cast<std::int32_t>(id));
     const auto [other, is_new] = line_of.emplace(ids.back(), row.line);
     if (!is_new)
-      throw_bad_input({file, row.line},
+      throw_bad_input({file, row.line, "id"},
                       "id is {}, which is the id of the particle in line {}; each particle must "
                       "have an id of its own",
                       ids.back(), other->second);

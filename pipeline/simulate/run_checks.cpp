@@ -28,7 +28,7 @@ lubrication::LubricationForce exact_drag(const case_file::Case& c) {
 
 void check_parameters(const case_file::Case& c, const std::vector<std::string>& models) {
   const auto exact = exact_drag(c);
-  with_place(c.path.string(), [&] {
+  in_file(c.path.string(), [&] {
     for (const auto& name : models)
       reduced_model::check_model(reduced_model::find_model(name), case_file::required_motion(c),
                                  exact);
@@ -45,13 +45,13 @@ void check_run(const case_file::Case& c, const std::vector<std::string>& models)
   const std::size_t terms =
       request.settings.basis.terms.size() - (request.settings.fix_leading ? 1 : 0);
   if (different < terms)
-    throw_bad_input({c.path.string()},
+    throw_bad_input({c.path.string(), 0, "tabulation.gaps"},
                     "tabulation.gaps has {} gap(s); the basis {} needs at least {}", different,
                     request.settings.basis.name, terms);
   const auto [smallest, largest] = std::ranges::minmax(gaps);
   const auto refuse = [&](const std::string& model, const char* what, double bound,
                           const char* remedy) {
-    throw_bad_input({c.path.string()},
+    throw_bad_input({c.path.string(), 0, "motion.initial_gap"},
                     "motion.initial_gap is {}, which is {} gap of tabulation.gaps, {}; the model "
                     "{} needs the drag there: tabulate further, or write {} into the section [fit]",
                     motion.initial_gap, what, bound, model, remedy);

@@ -135,8 +135,8 @@ Simulated simulate_case(const case_file::Case& c, const FitFile& fit_file,
   Simulated simulated;
   simulated.fit_text = fit_file.text;
   const lubrication::Fit fit = fit_of_text(c, fit_file);
-  const auto force = with_place(fit_file.path.string(),
-                                [&] { return lubrication::LubricationForce(fit, outside); });
+  const auto force =
+      in_file(fit_file.path.string(), [&] { return lubrication::LubricationForce(fit, outside); });
   const auto names = models_to_run(c, models);
   check_parameters(c, names);
   simulated.made_from = identity_of_trajectory(c, simulated.fit_text, outside);

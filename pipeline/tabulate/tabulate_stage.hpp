@@ -59,7 +59,7 @@ void with_failure(const RowFailure& failure, const Call& call) {
     call();
   } catch (const Error& error) {
     if (!failure || error.kind() == ErrorKind::kInterrupted) throw;
-    throw Error(failure->kind(), std::string(failure->what()) + "; " + error.what());
+    throw Error(failure->kind(), std::string(failure->what()) + "; " + error.what(), failure->at());
   }
 }
 

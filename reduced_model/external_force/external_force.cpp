@@ -278,7 +278,7 @@ ExternalForce read_external_force(const std::filesystem::path& path, double end)
   bool jumped = false;
   for (std::size_t i = 0; i < csv.rows.size(); ++i) {
     const auto& row = csv.rows[i];
-    const FilePosition here{file, row.line};
+    const FilePosition here{file, row.line, "time"};
     const double time = required_field(row, columns, 0, file);
     const double force = required_field(row, columns, 1, file);
     if (i == 0 && time != 0) throw_bad_input(here, "the first time is {}; it must be 0", time);

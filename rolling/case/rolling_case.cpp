@@ -189,8 +189,8 @@ RollingCase read_rolling_case(const std::filesystem::path& path) {
 motions::PairFit fit_for(const RollingCase& c, motions::PairFit fit,
                          const std::filesystem::path& file) {
   if (!fit.geometry.empty() && fit.geometry != freefem_axi::default_geometry().name)
-    throw Error(ErrorKind::kBadInput, "{}: is the fit of a sphere beside: {}; it must be a plane",
-                file.string(), fit.geometry);
+    throw_bad_input({file.string()}, "is the fit of a sphere beside: {}; it must be a plane",
+                    fit.geometry);
   return motions::scaled_to(std::move(fit), c.viscosity, c.radius);
 }
 

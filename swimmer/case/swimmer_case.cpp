@@ -104,8 +104,8 @@ void read_given_table(const case_file::TomlSection& section, std::string_view ke
   section.require(table.radii.size() == c.spheres.radii.size(), key,
                   "is a table of {} spheres; it must have {}, as many as `radii`",
                   table.radii.size(), c.spheres.radii.size());
-  c.table = with_place(c.table_file->string(),
-                       [&] { return scaled_to(table, c.spheres.viscosity, c.spheres.radii); });
+  c.table = in_file(c.table_file->string(),
+                    [&] { return scaled_to(table, c.spheres.viscosity, c.spheres.radii); });
   c.gaps = gap_grid(c.table);
 }
 
@@ -229,11 +229,11 @@ void read_samples(const case_file::TomlSection& section, std::string_view key, d
   std::vector<Eigen::VectorXd> samples;
   read_csv_rows(read_file(path), file, columns, columns.size(),
                 [&](std::span<const std::optional<double>> fields, int line) {
-                  const FilePosition here{file, line};
                   for (std::size_t i = 0; i < columns.size(); ++i)
-                    if (!fields[i]) throw_bad_input(here, columns[i] + " is empty");
+                    if (!fields[i])
+                      throw_bad_input({file, line, columns[i]}, columns[i] + " is empty");
                   if (!times.empty() && !(*fields[0] > times.back()))
-                    throw_bad_input(here,
+                    throw_bad_input({file, line, "time"},
                                     "time is {}; it must be greater than in the row above, {}",
                                     *fields[0], times.back());
                   times.push_back(*fields[0]);
@@ -241,7 +241,7 @@ void read_samples(const case_file::TomlSection& section, std::string_view key, d
                   for (std::size_t k = 0; k < c.gaps.size(); ++k) {
                     arms[static_cast<Eigen::Index>(k)] = *fields[k + 1];
                     if (const auto fault = fault_of_arm(*fields[k + 1], k, c); !fault.empty())
-                      throw_bad_input(here, fault);
+                      throw_bad_input({file, line, columns[k + 1]}, fault);
                   }
                   samples.push_back(arms);
                 });
@@ -250,7 +250,7 @@ void read_samples(const case_file::TomlSection& section, std::string_view key, d
                     "has {} rows; a stroke needs at least 3, of which the last one closes the loop",
                     samples.size());
   c.stroke_files.push_back(path);
-  c.stroke = with_place(file, [&] { return sampled_stroke(times, samples); });
+  c.stroke = in_file(file, [&] { return sampled_stroke(times, samples); });
 }
 
 /// Reads the corners of a stroke that takes the time `period` [T].

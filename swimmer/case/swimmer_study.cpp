@@ -58,7 +58,7 @@ sweep::Study swimmer_study(const std::filesystem::path& case_path, sweep::Points
   SwimmerCase last;
   sweep::check_ends(points, [&](const auto& numbers) {
     last = cases.with(numbers);
-    const auto scaled = with_place(case_path.string(), [&] {
+    const auto scaled = in_file(case_path.string(), [&] {
       return scaled_to(fit, last.spheres.viscosity, last.spheres.radii);
     });
     const auto around = surroundings_in_words(last.spheres);

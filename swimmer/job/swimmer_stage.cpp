@@ -48,7 +48,7 @@ void check_files(const SwimmerFolder& folder) {
 
 ResistanceFit fit_table(const SwimmerFolder& folder, const ResistanceTable& table,
                         const results::Provenance& provenance) {
-  auto fit = with_place(folder.table().string(), [&] { return fit_resistance(table); });
+  auto fit = in_file(folder.table().string(), [&] { return fit_resistance(table); });
   fit.table_sha256 = results::content_sha256(read_file(folder.table()));
   fit.versions = results::library_versions();
   if (const auto text = write_resistance_fit(fit); results::has_content(folder.fit(), text))
@@ -127,8 +127,9 @@ std::string results_json(const SwimmerResults& results) {
 void compute_strokes(SwimmerResults& results, const StopToken& stop) {
   const std::string place = results.c.path.string();
   if (results.c.stroke)
-    results.stroke =
-        with_place(place + ": [stroke]", [&] { return result_of(results, *results.c.stroke, 0); });
+    results.stroke = in_file(place, [&] {
+      return with_place("[stroke]", [&] { return result_of(results, *results.c.stroke, 0); });
+    });
   if (!results.c.optimal) return;
   terminal::show_progress("swimmer: searching for the optimal stroke");
   results.optimal = with_place(place + ": [optimal]", [&] {

@@ -16,8 +16,6 @@
 namespace viscontact::particles {
 namespace {
 
-using ::testing::HasSubstr;
-
 constexpr double kGap = 0.05;
 
 std::vector<double> equal(std::size_t count) { return std::vector<double>(count, 1); }
@@ -204,13 +202,11 @@ TEST(Arrangement, WhatDoesNotFitIsRefused) {
     return bad_input([&] { arrange(asked, domain, {}); });
   };
   const Domain box = BoxDomain{{0, 0}, {20, 20}, {}};
-  EXPECT_THAT(refused({equal(110), kGap, 1}, box), HasSubstr("the densest lattice has no room"));
-  EXPECT_THAT(refused({equal(95), 0, 1}, BoxDomain{{0, 0}, {2.1, 180}, {}}),
-              HasSubstr("95 discs of radius 1 with gaps of at least 0 do not fit (10 random"));
-  EXPECT_THAT(refused({equal(1), kGap, 1}, DiscDomain{{}, 1.04}),
-              HasSubstr("narrower than one of them"));
+  EXPECT_THAT(refused({equal(110), kGap, 1}, box), Names("110"));
+  EXPECT_THAT(refused({equal(95), 0, 1}, BoxDomain{{0, 0}, {2.1, 180}, {}}), Names("95"));
+  EXPECT_THAT(refused({equal(1), kGap, 1}, DiscDomain{{}, 1.04}), Names("domain"));
   EXPECT_THAT(refused({equal(1), kGap, 1}, BoxDomain{{0, 0}, {2.04, 9}, {true, true}}),
-              HasSubstr("a period is shorter than one of them"));
+              Names("period"));
 }
 
 }  // namespace

@@ -10,8 +10,6 @@
 namespace viscontact::case_file {
 namespace {
 
-using ::testing::HasSubstr;
-
 /// "a.a.a", of that many parts joined by `dot`.
 std::string key_of(int parts, const std::string& part = "a", const std::string& dot = ".") {
   std::string key = part;
@@ -25,23 +23,21 @@ TEST(DottedKeys, OfVeryManyPartsAreRefusedWithTheirLine) {
   const std::string deep = key_of(kVeryMany);
   for (const auto& text : {"\n\n" + deep + " = 1\n", "\n\n[" + deep + "]\n",
                            "\n\n[[" + deep + "]]\n", "\n\nb = { " + deep + " = 1 }\n"}) {
-    const auto said = bad_input([&] { (void)read_text(text); });
-    EXPECT_THAT(said, HasSubstr(".toml:3: has a key of more than 16 parts joined by dots"));
+    EXPECT_THAT(bad_input([&] { (void)read_text(text); }), IsAt("case.toml:3"));
   }
 }
 
 TEST(DottedKeys, OfVeryManyPartsAreRefusedInACaseOfParticlesToo) {
   const TemporaryFolder folder;
   const auto file = folder.file("case.toml", key_of(kVeryMany) + " = 1\n");
-  EXPECT_THAT(bad_input([&] { (void)particles::read_particles_case(file); }),
-              HasSubstr("case.toml:1: has a key of more than 16 parts"));
+  EXPECT_THAT(bad_input([&] { (void)particles::read_particles_case(file); }), IsAt("case.toml:1"));
 }
 
 TEST(DottedKeys, OfQuotedPartsWithSpacesBetweenCountToo) {
   for (const auto* part : {"\"b c\"", "'b.c'", "\"\\\"\""}) {
     EXPECT_NO_THROW((void)TomlSection::parse(key_of(16, part, " . ") + " = 1", "f"));
     EXPECT_THAT(bad_input([&] { (void)TomlSection::parse(key_of(17, part, " . ") + " = 1", "f"); }),
-                HasSubstr("f:1: "));
+                IsAt("f:1"));
   }
 }
 
@@ -58,7 +54,7 @@ TEST(DottedKeys, CountLinesOfLongTexts) {
   EXPECT_THAT(bad_input([&] {
                 (void)TomlSection::parse("x = \"\"\"\n\n\"\"\"\ny = '''\n'''\n" + key_of(17), "f");
               }),
-              HasSubstr("f:6: "));
+              IsAt("f:6"));
 }
 
 TEST(DottedKeys, OfTheLongestLengthInNestedTablesAreRead) {
@@ -68,7 +64,7 @@ TEST(DottedKeys, OfTheLongestLengthInNestedTablesAreRead) {
   for (int i = 0; i < kTables; ++i) text += key_of(16) + " = { ";
   text += "b = 1";
   for (int i = 0; i < kTables; ++i) text += " }";
-  EXPECT_THAT(bad_input([&] { (void)read_text(text + "\n"); }), HasSubstr("title is missing"));
+  EXPECT_THAT(bad_input([&] { (void)read_text(text + "\n"); }), IsAt("case.toml:1", "title"));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "tests/case_file/edited_case.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -83,15 +84,11 @@ Case read_text(const std::string& text) {
 }
 
 void expect_refused(const EditedCase& edited, const std::string& path, const std::string& words) {
-  using ::testing::AllOf;
-  using ::testing::HasSubstr;
-  using ::testing::StartsWith;
   const TemporaryFolder folder;
   const auto file = folder.file("case.toml", edited.text);
   EXPECT_THAT(
       bad_input([&] { read_case(file); }),
-      AllOf(StartsWith(file.string() + ":" + std::to_string(edited.line) + ": " + path + " "),
-            HasSubstr(words)));
+      ::testing::AllOf(IsAt(fmt::format("{}:{}", file.string(), edited.line), path), Says(words)));
 }
 
 }  // namespace viscontact::case_file

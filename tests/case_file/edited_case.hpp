@@ -44,8 +44,9 @@ std::string text_with(const std::string& path, std::string_view from, std::strin
 /// Reads a case from a file with this text in a temporary folder. Throws the errors of read_case().
 Case read_text(const std::string& text);
 
-/// Expects that the case is refused as bad input with a message "FILE:LINE: path ..." that also has
-/// `words`.
-void expect_refused(const EditedCase& edited, const std::string& path, const std::string& words);
+/// Expects that the case is refused as bad input at the line and the key `path`. `words` are a part
+/// of the message that matters to the user.
+void expect_refused(const EditedCase& edited, const std::string& path,
+                    const std::string& words = "");
 
 }  // namespace viscontact::case_file

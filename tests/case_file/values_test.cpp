@@ -12,10 +12,7 @@
 namespace viscontact::case_file {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::StartsWith;
 
 constexpr LectureKey kForce = {
     "motion.external_force", "[motion]", "external_force",
@@ -55,12 +52,11 @@ TEST(FitSection, MayNameOwnTermsALossAndAHeldCoefficient) {
 
 TEST(FitSection, RefusesWhatItDoesNotKnow) {
   const std::string weights = "weights = \"relative\"\n";
-  expect_refused(with_text(kFitKeys, "terms = \"1/q, q^9\"\n" + weights), "fit.terms", "q^9");
-  expect_refused(with_text(kFitKeys, kFitKeys + "terms = \"1/q\"\n"), "fit.basis",
-                 "must be left out, because the key terms defines the basis");
-  expect_refused(with_text(kFitKeys, "loss = \"tukey\"\n" + kFitKeys), "fit.loss", "huber");
-  expect_refused(with_text(kFitKeys, "fix = \"free\"\n" + kFitKeys), "fit.fix", "theory");
-  expect_refused(with_text(kFitKeys, "fix = true\n" + kFitKeys), "fit.fix", "number");
+  expect_refused(with_text(kFitKeys, "terms = \"1/q, q^9\"\n" + weights), "fit.terms");
+  expect_refused(with_text(kFitKeys, kFitKeys + "terms = \"1/q\"\n"), "fit.basis");
+  expect_refused(with_text(kFitKeys, "loss = \"tukey\"\n" + kFitKeys), "fit.loss");
+  expect_refused(with_text(kFitKeys, "fix = \"free\"\n" + kFitKeys), "fit.fix");
+  expect_refused(with_text(kFitKeys, "fix = true\n" + kFitKeys), "fit.fix");
 }
 
 TEST(CaseValues, MayBeWholeNumbers) {
@@ -81,8 +77,7 @@ TEST(ExternalForceOfACase, MayLastLongerThanTheMotion) {
 }
 
 TEST(ExternalForceOfACase, MustLastToTheEndOfTheMotion) {
-  expect_refused(with_value(kForce, "[ { until = 3.5, value = -3 } ]"), kForce.path,
-                 "must reach motion.end_time, 4");
+  expect_refused(with_value(kForce, "[ { until = 3.5, value = -3 } ]"), kForce.path);
 }
 
 TEST(ExternalForceOfACase, MayBeWrittenAsTables) {
@@ -121,13 +116,12 @@ TEST(ExternalForceOfACase, IsFoundBesideTheCaseWhereARunKeepsItsCopies) {
 TEST(ExternalForceOfACase, SaysWhatIsWrongInAnEntry) {
   const std::string entry = std::string(kForce.path) + "[0]";
   expect_refused(with_value(kForce, "[ { until = 4, value = 1, polynomial = [ 1 ] } ]"),
-                 entry + ".value", "must be left out, because the first coefficient of polynomial");
+                 entry + ".value");
   expect_refused(with_value(kForce, "[ { amplitude = 1, angular_frequency = 0 } ]"),
-                 entry + ".angular_frequency", "> 0");
+                 entry + ".angular_frequency");
   expect_refused(with_value(kForce, "[ { amplitude = 1, angular_frequency = 1, until = 3 } ]"),
-                 entry + ".until", "not a key");
-  expect_refused(with_value(kForce, "[ { until = 4, polynomial = [] } ]"), entry + ".polynomial",
-                 "list of at least one number");
+                 entry + ".until");
+  expect_refused(with_value(kForce, "[ { until = 4, polynomial = [] } ]"), entry + ".polynomial");
 }
 
 TEST(TimeScale, DrawsOutForceEndAndSteps) {
@@ -145,7 +139,7 @@ TEST(TimeScale, DrawsOutForceEndAndSteps) {
 TEST(FitOfACase, MayBeTheExactDrag) {
   const Case c = read_text(with_text(kFitKeys, "exact = \"plane\"\n").text);
   EXPECT_TRUE(required_fit(c).exact);
-  expect_refused(with_text(kFitKeys, "exact = \"sphere\"\n"), "fit.exact", "must be \"plane\"");
+  expect_refused(with_text(kFitKeys, "exact = \"sphere\"\n"), "fit.exact");
 }
 
 TEST(FitOfACase, MayReachBeyondItsInterval) {
@@ -158,7 +152,7 @@ TEST(FitOfACase, MayReachBeyondItsInterval) {
   EXPECT_EQ(required_fit(c).outside.above, lubrication::AboveInterval::kStokesLimit);
   auto refused = with_limits("below = \"no\"\n");
   ++refused.line;
-  expect_refused(refused, "fit.below", "\"lubrication_limit\" or \"theory_limit\"");
+  expect_refused(refused, "fit.below");
 }
 
 TEST(SweepOfACase, IsRead) {
@@ -178,8 +172,7 @@ TEST(Roughness, MayBeAnythingBelowTheRadius) {
 }
 
 TEST(Roughness, SaysWhatItsTwoNumbersAre) {
-  expect_refused(with_value(kRoughness, "[0.1]"), kRoughness.path,
-                 "on the sphere and on the plane");
+  expect_refused(with_value(kRoughness, "[0.1]"), kRoughness.path);
 }
 
 TEST(Restitution, NeedsARoughness) {
@@ -192,9 +185,9 @@ TEST(Restitution, NeedsARoughness) {
   EXPECT_EQ(required_motion(read_text(with("[0.0, 0.0]", "0.0").text)).restitution(), 0);
   constexpr LectureKey kRestitution = {"viscous_contact.restitution", "[viscous_contact]",
                                        "restitution", "0.97"};
-  expect_refused(with("[0.0, 0.0]", "0.97"), kRestitution.path, "roughness");
-  expect_refused(with("[1e-3, 0.0]", "1.1"), kRestitution.path, "from 0 to 1");
-  expect_refused(with("[1e-3, 0.0]", "-0.1"), kRestitution.path, "from 0 to 1");
+  expect_refused(with("[0.0, 0.0]", "0.97"), kRestitution.path);
+  expect_refused(with("[1e-3, 0.0]", "1.1"), kRestitution.path);
+  expect_refused(with("[1e-3, 0.0]", "-0.1"), kRestitution.path);
 }
 
 TEST(FitOfACase, MayBeAFileBesideTheCase) {
@@ -212,19 +205,16 @@ TEST(FitOfACase, MayBeAFileElsewhere) {
 }
 
 TEST(FitOfACase, IsEitherAFileOrABasis) {
-  expect_refused(with_text(kFitKeys, "basis = \"lecture\"\nfile = \"a.json\"\n"), "fit.basis",
-                 "the known keys are: above, below, file");
+  expect_refused(with_text(kFitKeys, "basis = \"lecture\"\nfile = \"a.json\"\n"), "fit.basis");
 }
 
 TEST(FitOfACase, HasAFileThatIsText) {
-  expect_refused(with_text(kFitKeys, "file = 3\n"), "fit.file", "must be a text in quotes");
+  expect_refused(with_text(kFitKeys, "file = 3\n"), "fit.file");
 }
 
 TEST(FitOfACase, ListsTheBasesThereAre) {
-  expect_refused(with_value({"", "[fit]", "basis", "\"lecture\""}, "\"cubic\""), "fit.basis",
-                 "lecture, asymptotic");
-  expect_refused(with_value({"", "[fit]", "weights", "\"relative\""}, "\"none\""), "fit.weights",
-                 "relative or absolute");
+  expect_refused(with_value({"", "[fit]", "basis", "\"lecture\""}, "\"cubic\""), "fit.basis");
+  expect_refused(with_value({"", "[fit]", "weights", "\"relative\""}, "\"none\""), "fit.weights");
 }
 
 TEST(ModelsOfACase, AreAListOfNames) {
@@ -239,18 +229,16 @@ TEST(ModelsOfACase, AreRefusedWhenThereIsNoneOfThatName) {
     SCOPED_TRACE(value);
     auto edited =
         with_text("end_time = 4.0\n", std::string("models = ") + value + "\nend_time = 4.0\n");
-    expect_refused(edited, "motion.models", "");
+    expect_refused(edited, "motion.models");
   }
   expect_refused(with_text("end_time = 4.0\n", "models = [\"gluey\"]\nend_time = 4.0\n"),
-                 "motion.models", "no model is named 'gluey'; there are: reference,");
+                 "motion.models", "gluey");
 }
 
 TEST(CaseParts, AreAskedForByTheCommandsThatNeedThem) {
   const auto expect_missing = [](const std::string& section, const auto& ask) {
     const Case c = read_text(without_section(section));
-    EXPECT_THAT(bad_input([&] { ask(c); }),
-                AllOf(StartsWith(c.path.string() + ": "), HasSubstr("[" + section + "]")))
-        << section;
+    EXPECT_THAT(bad_input([&] { ask(c); }), IsAt(c.path.string(), section));
   };
   expect_missing("tabulation", [](const Case& c) { required_tabulation(c); });
   expect_missing("fit", [](const Case& c) { required_fit(c); });

@@ -36,8 +36,8 @@ static_assert(!CanBeSearched<std::array<Row, 2>>);
 
 TEST(Named, AnUnknownNameIsNothingOrAnErrorThatListsTheNames) {
   EXPECT_EQ(find_named(kRows, "three"), nullptr);
-  EXPECT_EQ(bad_input([] { (void)require_named(kRows, "three", "row"); }),
-            "no row is named 'three'; there are: one, two");
+  EXPECT_THAT(bad_input([] { (void)require_named(kRows, "three", "row"); }),
+              Names("row", "three", "one", "two"));
 }
 
 }  // namespace

@@ -375,8 +375,8 @@ TEST(GivenMotion, ThatMeetsAnotherIsAnErrorThatNamesBoth) {
   row.state.particles.positions[2] = 3;
   row.setting.given_motions[1];
   Simulation simulation(row.setting, row.state, 1);
-  const auto message = failure(ErrorKind::kNotConverged, [&] { run(simulation, 2); });
-  EXPECT_NE(message.find("particles 0 and 1"), std::string::npos) << message;
+  EXPECT_THAT(failure(ErrorKind::kNotConverged, [&] { run(simulation, 2); }),
+              Names("particles 0 and 1"));
   EXPECT_NEAR(simulation.state().time, 1, 0.02);
 }
 

@@ -17,7 +17,6 @@ namespace viscontact::fitting {
 namespace {
 
 using ::testing::AllOf;
-using ::testing::HasSubstr;
 
 /// A figure of docs/theory.md, section 2, and half a unit of its last printed digit.
 struct Printed {
@@ -122,7 +121,7 @@ TEST(Fit, WithEveryCoefficientHeldIsRefused) {
   settings.leading_value = 56.5;
   EXPECT_THAT(
       bad_input([&] { fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), settings); }),
-      HasSubstr("nothing to fit"));
+      Says("nothing to fit"));
 }
 
 TEST(Fit, NeedsAScaleForEachRow) {
@@ -135,11 +134,9 @@ TEST(Fit, NeedsAScaleForEachRow) {
   };
   EXPECT_NO_THROW(fitted_with(50, 1));
   for (const std::size_t scales : {std::size_t{1}, std::size_t{49}, std::size_t{51}})
-    EXPECT_THAT(bad_input([&] { fitted_with(scales, 1); }),
-                HasSubstr("one number > 0 for each of the 50 rows"));
+    EXPECT_THAT(bad_input([&] { fitted_with(scales, 1); }), Names("0", "50"));
   for (const double last : {0.0, -1.0, std::nan("")})
-    EXPECT_THAT(bad_input([&] { fitted_with(50, last); }),
-                HasSubstr("one number > 0 for each of the 50 rows"));
+    EXPECT_THAT(bad_input([&] { fitted_with(50, last); }), Names("0", "50"));
 }
 
 TEST(Fit, OfForcesThatNoDoubleCanSquareIsRefused) {
@@ -147,7 +144,7 @@ TEST(Fit, OfForcesThatNoDoubleCanSquareIsRefused) {
   table.rows[3].force = 1e305;
   EXPECT_THAT(
       bad_input([&] { fit_force_table(table, "lecture", lubrication::Weights::kAbsolute); }),
-      HasSubstr("too large or too different"));
+      Says("too large or too different"));
 }
 
 TEST(Fit, OfSeveralVelocitiesIsTheFitOfOne) {
@@ -177,7 +174,7 @@ TEST(Fit, RefusesForcesThatAreNotLinearInTheVelocity) {
   table.rows.back().force *= 1 + 1e-6;
   EXPECT_THAT(
       bad_input([&] { fit_force_table(table, "lecture", lubrication::Weights::kRelative); }),
-      HasSubstr("not linear in the velocity"));
+      Says("not linear in the velocity"));
 }
 
 TEST(Fit, IsAtTheVelocityOfTheFirstRow) {
@@ -239,12 +236,12 @@ TEST(Fit, NeedsAsManyDifferentGapsAsTerms) {
   const auto table = exact_drag_table({0.1, 0.2, 0.3, 0.3, 0.4}, {-1, -2}, 3, 1);
   EXPECT_THAT(
       bad_input([&] { fit_force_table(table, "lecture", lubrication::Weights::kRelative); }),
-      AllOf(HasSubstr("4 different gap"), HasSubstr("at least 5")));
+      Names("4 different", "5"));
   EXPECT_THAT(bad_input([] {
                 fit_force_table(lubrication::MotionTable{}, "lecture",
                                 lubrication::Weights::kRelative);
               }),
-              HasSubstr("0 different gap"));
+              Names("0 different"));
 }
 
 TEST(Fit, OfGapsTooCloseTogetherDoesNotConverge) {
@@ -253,7 +250,7 @@ TEST(Fit, OfGapsTooCloseTogetherDoesNotConverge) {
   const auto table = exact_drag_table(gaps, {-1}, 3, 1);
   EXPECT_THAT(failure(ErrorKind::kNotConverged,
                       [&] { fit_force_table(table, "lecture", lubrication::Weights::kRelative); }),
-              HasSubstr("cannot be told apart"));
+              Names("apart"));
 }
 
 TEST(Fit, NamesAnUnknownBasis) {
@@ -261,7 +258,7 @@ TEST(Fit, NamesAnUnknownBasis) {
                 fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), "cubic",
                                 lubrication::Weights::kRelative);
               }),
-              AllOf(HasSubstr("'cubic'"), HasSubstr("lecture")));
+              AllOf(Names("cubic"), Names("lecture")));
 }
 
 TEST(Weights, AreNamedAndReadBack) {
@@ -269,7 +266,7 @@ TEST(Weights, AreNamedAndReadBack) {
     EXPECT_EQ(lubrication::parse_weights(lubrication::to_string(weights)), weights);
   EXPECT_EQ(lubrication::to_string(lubrication::Weights::kRelative), "relative");
   EXPECT_THAT(bad_input([] { lubrication::parse_weights("squared"); }),
-              AllOf(HasSubstr("'squared'"), HasSubstr("relative or absolute")));
+              AllOf(Names("squared"), Names("relative", "absolute")));
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 #include <ostream>
 #include <string>
 
+#include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
-#include "tests/freefem_axi/expect_error.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
 #include "tests/freefem_axi/tabulations.hpp"
 #include "viscontact/common/system/process.hpp"
@@ -28,19 +28,21 @@ const Tabulation kTabulation = unit_tabulation({0.25}, 5, 1e-3);
 
 TEST(MissingFreeFem, ErrorSaysHowToInstallIt) {
   const FreeFem missing{"no-such-freefem", "."};
-  const auto said = AllOf(HasSubstr("no-such-freefem"), HasSubstr("apt-get install"),
-                          HasSubstr("VISCONTACT_FREEFEM"));
-  expect_error([&] { (void)solve_row(missing, kTabulation, 0.25, -1); },
-               ErrorKind::kExternalProgram, said);
-  expect_error([&] { (void)freefem_version(missing); }, ErrorKind::kExternalProgram, said);
+  const auto said =
+      AllOf(Names("no-such-freefem"), Says("apt-get install"), Names("VISCONTACT_FREEFEM"));
+  EXPECT_THAT(failure(ErrorKind::kExternalProgram,
+                      [&] { (void)solve_row(missing, kTabulation, 0.25, -1); }),
+              said);
+  EXPECT_THAT(failure(ErrorKind::kExternalProgram, [&] { (void)freefem_version(missing); }), said);
 }
 
 TEST(MissingFreeFem, FileThatIsNoProgramIsAnError) {
   const TemporaryFolder scratch;
   put_text(scratch.path() / "text", "not a program");
   const FreeFem text{(scratch.path() / "text").string(), scratch.path()};
-  expect_error([&] { (void)solve_row(text, kTabulation, 0.25, -1); }, ErrorKind::kExternalProgram,
-               HasSubstr("text"));
+  EXPECT_THAT(
+      failure(ErrorKind::kExternalProgram, [&] { (void)solve_row(text, kTabulation, 0.25, -1); }),
+      Names("text"));
 }
 
 TEST(FreeFemVersion, IsThatOfTheDebianPackageIfItHasInstalledTheProgram) {
@@ -128,8 +130,9 @@ TEST_P(FailingFreeFem, ErrorNamesTheRowAndItsLastLines) {
   auto said = GetParam().said;
   said.insert(said.end(), {"gap 0.25", "velocity -1"});
   for (const auto& part : said)
-    expect_error([&] { (void)solve_row(fake.freefem(), kTabulation, 0.25, -1); },
-                 ErrorKind::kExternalProgram, AllOf(HasSubstr(part), Not(HasSubstr("\n"))));
+    EXPECT_THAT(failure(ErrorKind::kExternalProgram,
+                        [&] { (void)solve_row(fake.freefem(), kTabulation, 0.25, -1); }),
+                AllOf(Says(part), Not(Says("\n"))));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -162,11 +165,12 @@ TEST(OtherProgram, HasNoFreeFemVersion) {
   const TemporaryFolder scratch;
   put_text(scratch.path() / "other", "#!/bin/sh\necho hello\n");
   make_executable(scratch.path() / "other");
-  expect_error(
-      [&] {
-        (void)freefem_version({(scratch.path() / "other").string(), scratch.path()});
-      },
-      ErrorKind::kExternalProgram, HasSubstr("other"));
+  EXPECT_THAT(
+      failure(ErrorKind::kExternalProgram,
+              [&] {
+                (void)freefem_version({(scratch.path() / "other").string(), scratch.path()});
+              }),
+      Names("other"));
 }
 
 // Each would sleep for an hour without the limits.
@@ -175,10 +179,9 @@ TEST(FreeFemThatHangs, IsStoppedAtTheLimitOfItsRow) {
   const FakeFreeFem fake(scratch.path(), "exec sleep 3600\n");
   auto freefem = fake.freefem();
   freefem.row_limit = std::chrono::seconds(1);
-  expect_error([&] { (void)solve_row(freefem, kTabulation, 0.25, -1); },
-               ErrorKind::kExternalProgram,
-               AllOf(HasSubstr("gap 0.25, velocity -1"), HasSubstr("not ended after 1 s"),
-                     HasSubstr("VISCONTACT_FREEFEM_TIME_LIMIT")));
+  EXPECT_THAT(failure(ErrorKind::kExternalProgram,
+                      [&] { (void)solve_row(freefem, kTabulation, 0.25, -1); }),
+              Names("0.25", "-1", "VISCONTACT_FREEFEM_TIME_LIMIT"));
 }
 
 TEST(FreeFemThatHangs, IsStoppedWhenItIsAskedForItsVersion) {
@@ -187,9 +190,8 @@ TEST(FreeFemThatHangs, IsStoppedWhenItIsAskedForItsVersion) {
   make_executable(scratch.path() / "sleeper");
   FreeFem freefem{(scratch.path() / "sleeper").string(), scratch.path()};
   freefem.version_limit = std::chrono::seconds(1);
-  expect_error([&] { (void)freefem_version(freefem); }, ErrorKind::kExternalProgram,
-               AllOf(HasSubstr("sleeper does not say which version it is"),
-                     HasSubstr("not ended after 1 s")));
+  EXPECT_THAT(failure(ErrorKind::kExternalProgram, [&] { (void)freefem_version(freefem); }),
+              Names("sleeper", "1"));
 }
 
 TEST(LineAfter, IsTheRestOfTheFirstLineThatStartsSo) {

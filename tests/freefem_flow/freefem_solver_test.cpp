@@ -16,7 +16,6 @@ namespace {
 using namespace std::chrono_literals;
 using ::testing::AllOf;
 using ::testing::EndsWith;
-using ::testing::HasSubstr;
 
 /// Sets a variable of the environment as long as the object lives.
 class Variable {
@@ -56,7 +55,7 @@ TEST(SolverLimits, AreThoseOfTheEnvironment) {
   }
   const Variable wrong("VISCONTACT_FREEFEM_TIME_LIMIT", "5 s");
   EXPECT_THAT(failure(ErrorKind::kWrongUsage, [] { solver_limits(); }),
-              HasSubstr("VISCONTACT_FREEFEM_TIME_LIMIT is '5 s'"));
+              Names("VISCONTACT_FREEFEM_TIME_LIMIT", "'5 s'"));
 }
 
 TEST(StartFluidSolver, RefusesAParticleTooSmallForTheDomain) {
@@ -66,13 +65,12 @@ TEST(StartFluidSolver, RefusesAParticleTooSmallForTheDomain) {
   const auto said = failure(ErrorKind::kBadInput, [&] {
     start_fluid_solver(fluid, box, std::array{1.0, 1e-6}, 2);
   });
-  EXPECT_THAT(said, AllOf(HasSubstr("a particle of radius 1e-06 is too small for the domain"),
-                          HasSubstr("24 edges"), HasSubstr("the radius must be at least ")));
+  EXPECT_THAT(said, Names("1e-06", "24"));
   // In other units the same.
   const particles::BoxDomain small = {{0, 0}, {4e-9, 4e-9}, {}};
   EXPECT_THAT(failure(ErrorKind::kBadInput,
                       [&] { start_fluid_solver(fluid, small, std::array{1e-15}, 2); }),
-              HasSubstr("too small for the domain"));
+              Says("too small for the domain"));
 }
 
 TEST(StartFluidSolver, StartsTheSolverOfAUser) {
@@ -127,8 +125,7 @@ TEST(StartFluidSolver, SaysHowToInstallFreeFem) {
               [] {
                 start_fluid_solver(fluid_of_solver({}), particles::DiscDomain{{}, 1}, {}, 2, {});
               }),
-      AllOf(HasSubstr("no-such-freefem cannot be run"), HasSubstr("apt-get install"),
-            HasSubstr("VISCONTACT_FREEFEM")));
+      AllOf(Names("no-such-freefem"), Says("apt-get install"), Names("VISCONTACT_FREEFEM")));
 }
 
 TEST(StartFluidSolver, SaysWhatToDoWithoutAProgram) {
@@ -137,8 +134,7 @@ TEST(StartFluidSolver, SaysWhatToDoWithoutAProgram) {
                       [&] {
                         start_fluid_solver(fluid, particles::DiscDomain{{}, 1}, {}, 2, {});
                       }),
-              AllOf(HasSubstr("viscontact-no-such-solver cannot be run"),
-                    HasSubstr("first word of the fluid's solver")));
+              AllOf(Names("viscontact-no-such-solver"), Names("solver")));
 }
 
 }  // namespace

@@ -18,9 +18,6 @@ namespace viscontact::lubrication {
 namespace {
 
 using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::MatchesRegex;
-using ::testing::StartsWith;
 
 Fit complete_fit() {
   Fit fit =
@@ -95,20 +92,18 @@ TEST(FitFile, ThatIsShippedIsReadAndUsable) {
 
 class Refusal : public ::testing::Test {
  protected:
-  /// The message, behind the file's name, with which this text is refused.
-  std::string of(const std::string& text) const {
+  /// The Error with which this text is refused.
+  Error of(const std::string& text) const {
     const auto path = folder_.file("fit.json", text);
-    const auto message = bad_input([&] { read_fit(path); });
-    EXPECT_THAT(message, StartsWith(path.string() + ":"));
-    return message.substr(std::min(message.size(), path.string().size()));
+    return bad_input([&] { read_fit(path); });
   }
 
   /// The same for a good file in which `from` is replaced by `to`.
-  std::string with(const std::string& from, const std::string& to) const {
+  Error with(const std::string& from, const std::string& to) const {
     std::string text = write_fit(fitting::planted_fit({{"1/q", 56.5}, {"q", 0.25}}, 0.125, 2));
     const auto at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from << " is not in " << text;
-    return at == std::string::npos ? "" : of(text.replace(at, from.size(), to));
+    return of(at == std::string::npos ? "" : text.replace(at, from.size(), to));
   }
 
  private:
@@ -116,78 +111,69 @@ class Refusal : public ::testing::Test {
 };
 
 TEST_F(Refusal, OfWhatIsNoJsonNamesTheLine) {
-  EXPECT_THAT(of(""), StartsWith(":1: is not valid JSON"));
-  EXPECT_THAT(of("{\n  \"basis\": \"x\",\n  oops\n}\n"), StartsWith(":3: is not valid JSON"));
-  EXPECT_THAT(of("gap,force\n1,2\n"), StartsWith(":1: is not valid JSON"));
-  EXPECT_THAT(with("\"viscosity\": 3.0", "\"viscosity\": NaN"), HasSubstr("is not valid JSON"));
+  EXPECT_THAT(of(""), IsAt("fit.json:1"));
+  EXPECT_THAT(of("{\n  \"basis\": \"x\",\n  oops\n}\n"), IsAt("fit.json:3"));
+  EXPECT_THAT(of("gap,force\n1,2\n"), IsAt("fit.json:1"));
+  EXPECT_THAT(with("\"viscosity\": 3.0", "\"viscosity\": NaN"), IsAt("fit.json"));
 }
 
 TEST_F(Refusal, OfAnotherJsonSaysWhatItMustBe) {
-  EXPECT_EQ(of("[]"), ":1: the file is an array; it must be an object");
-  EXPECT_EQ(of("\n3"), ":2: the file is 3; it must be an object");
+  EXPECT_THAT(of("[]"), IsAt("fit.json:1"));
+  EXPECT_THAT(of("\n3"), IsAt("fit.json:2"));
 }
 
 TEST_F(Refusal, OfAFileCutAnywhere) {
   const std::string text = write_fit(complete_fit());
   for (std::size_t length = 0; length + 2 < text.size(); length += 7)  // all but its last brace
-    EXPECT_THAT(of(text.substr(0, length)), HasSubstr("is not valid JSON"));
+    EXPECT_THAT(of(text.substr(0, length)), IsAt("fit.json"));
 }
 
 TEST_F(Refusal, OfAnUnknownKeyNamesIt) {
-  EXPECT_EQ(with("\"basis\"", "\"colour\": 1, \"basis\""), ":2: colour is not a key of this file");
+  EXPECT_THAT(with("\"basis\"", "\"colour\": 1, \"basis\""), IsAt("fit.json:2", "colour"));
   EXPECT_THAT(with("\"name\": \"q\"", "\"unit\": 1,\n \"name\": \"q\""),
-              MatchesRegex(":[0-9]+: terms\\[1\\]\\.unit is not a key of this file"));
+              IsAt("fit.json", "terms[1].unit"));
 }
 
 TEST_F(Refusal, OfAValueOutOfRangeNamesTheKey) {
-  EXPECT_EQ(with("\"reference_velocity\": -1.0", "\"reference_velocity\": 0"),
-            ":3: reference_velocity is 0; it must be different from 0");
-  EXPECT_EQ(with("\"viscosity\": 3.0", "\"viscosity\": 0"), ":4: viscosity is 0; it must be > 0");
-  EXPECT_EQ(with("\"radius\": 1.0", "\"radius\": -1"), ":5: radius is -1; it must be > 0");
+  EXPECT_THAT(with("\"reference_velocity\": -1.0", "\"reference_velocity\": 0"),
+              IsAt("fit.json:3", "reference_velocity"));
+  EXPECT_THAT(with("\"viscosity\": 3.0", "\"viscosity\": 0"), IsAt("fit.json:4", "viscosity"));
+  EXPECT_THAT(with("\"radius\": 1.0", "\"radius\": -1"), IsAt("fit.json:5", "radius"));
   EXPECT_THAT(with("\"condition_number\": 1.0", "\"condition_number\": 0.5"),
-              HasSubstr(": condition_number is 0.5; it must be >= 1"));
-  EXPECT_THAT(with("0.125", "2"),
-              HasSubstr("gap_interval is [2,2.0]; it must be two gaps with 0 < first < second"));
-  EXPECT_THAT(with("0.125", "0"),
-              HasSubstr("gap_interval is [0,2.0]; it must be two gaps with 0 < first < second"));
-  EXPECT_EQ(with("0.125", "0.125, 1"), ":6: gap_interval has 3 elements; it must be two numbers");
+              IsAt("fit.json:28", "condition_number"));
+  EXPECT_THAT(with("0.125", "2"), IsAt("fit.json:6", "gap_interval"));
+  EXPECT_THAT(with("0.125", "0"), AllOf(IsAt("fit.json:6", "gap_interval"), Names("2.0")));
+  EXPECT_THAT(with("0.125", "0.125, 1"), IsAt("fit.json:6", "gap_interval"));
   EXPECT_THAT(with("\"weights\": \"relative\"", "\"weights\": \"cubic\""),
-              HasSubstr(": weights is 'cubic'; they must be relative or absolute"));
+              IsAt("fit.json:10", "weights"));
 }
 
 TEST_F(Refusal, OfANumberThatNoDoubleHolds) {
-  EXPECT_THAT(with("\"viscosity\": 3.0", "\"viscosity\": 1e400"),
-              AllOf(StartsWith(":4: is not valid JSON at column"), HasSubstr("overflow"),
-                    HasSubstr("1e400")));
+  EXPECT_THAT(with("\"viscosity\": 3.0", "\"viscosity\": 1e400"), IsAt("fit.json:4"));
 }
 
 TEST_F(Refusal, OfATermNamesItsPlace) {
-  EXPECT_THAT(with("\"name\": \"q\"", "\"name\": \"q^9\""),
-              HasSubstr(": terms[1].name is 'q^9', which is not a term; the terms are: 1/q, ln q"));
-  EXPECT_THAT(with("\"name\": \"q\"", "\"name\": \"1/q\""),
-              HasSubstr(": terms[1].name is '1/q' for the second time"));
+  EXPECT_THAT(with("\"name\": \"q\"", "\"name\": \"q^9\""), IsAt("fit.json:20", "terms[1].name"));
+  EXPECT_THAT(with("\"name\": \"q\"", "\"name\": \"1/q\""), IsAt("fit.json:20", "terms[1].name"));
   EXPECT_THAT(with("\"coefficient\": 0.25", "\"coefficient\": \"0.25\""),
-              HasSubstr(": terms[1].coefficient is \"0.25\"; it must be a finite number"));
+              IsAt("fit.json:21", "terms[1].coefficient"));
 }
 
 TEST_F(Refusal, OfACovarianceOfAnotherSize) {
   Fit fit = fitting::planted_fit({{"1/q", 56.5}, {"q", 0.25}}, 0.125, 2);
-  const std::string size = ": covariance must be a matrix of 2 rows with 2 numbers each";
   fit.covariance = {{1, 2}, {3}};
-  EXPECT_THAT(of(write_fit(fit)), HasSubstr(size));
+  EXPECT_THAT(of(write_fit(fit)), IsAt("fit.json", "covariance"));
   fit.covariance = {{1, 2}};
-  EXPECT_THAT(of(write_fit(fit)), HasSubstr(size));
+  EXPECT_THAT(of(write_fit(fit)), IsAt("fit.json", "covariance"));
   fit.covariance = {{1, 2}, {3, 4}, {5, 6}};
-  EXPECT_THAT(of(write_fit(fit)), HasSubstr(size));
+  EXPECT_THAT(of(write_fit(fit)), IsAt("fit.json", "covariance"));
 }
 
 TEST(FitFile, InPlaceOfWhichIsAFolderOrNothingIsNamed) {
   const TemporaryFolder folder;
-  EXPECT_THAT(bad_input([&] { read_fit(folder.path()); }),
-              StartsWith(folder.path().string() + ": cannot be read"));
+  EXPECT_THAT(bad_input([&] { read_fit(folder.path()); }), IsAt(folder.path().string()));
   const auto missing = folder.path() / "none.json";
-  EXPECT_THAT(bad_input([&] { read_fit(missing); }),
-              StartsWith(missing.string() + ": cannot be read"));
+  EXPECT_THAT(bad_input([&] { read_fit(missing); }), IsAt(missing.string()));
 }
 
 }  // namespace

@@ -18,7 +18,6 @@
 namespace viscontact::lubrication {
 namespace {
 
-using ::testing::HasSubstr;
 using Json = nlohmann::json;
 using nlohmann::literals::operator""_json_pointer;
 
@@ -82,7 +81,7 @@ class Schema : public ::testing::Test {
   }
 
   void expect_refused(const Json& json, const std::string& key) const {
-    EXPECT_THAT(bad_input([&] { read(json); }), HasSubstr(key)) << json.dump();
+    EXPECT_THAT(bad_input([&] { read(json); }), Says(key)) << json.dump();
   }
 
  private:

@@ -17,8 +17,6 @@
 namespace viscontact::lubrication {
 namespace {
 
-using ::testing::HasSubstr;
-
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 /// What round-off allows the inverse at `gap`, relative: it works on ln q, whose own rounding is
@@ -147,13 +145,11 @@ TEST(ImpulseInverse, IsMonotonicAcrossTheLowerEnd) {
 TEST(ImpulseInverse, NamesTheIntervalItLeaves) {
   const LubricationForce force(fitting::planted_fit({{"1/q", 56.5}}, 1e-3, 2));
   EXPECT_THAT(bad_input([&] { force.gap_of_impulse(force.impulse(1e-3) - 1); }),
-              HasSubstr("thinner than the fitted interval [0.001, 2]"));
-  EXPECT_THAT(bad_input([&] { force.gap_of_impulse(force.impulse(2) + 1); }),
-              HasSubstr("wider than the fitted interval [0.001, 2]"));
+              Names("0.001", "2"));
+  EXPECT_THAT(bad_input([&] { force.gap_of_impulse(force.impulse(2) + 1); }), Names("0.001", "2"));
   const LubricationForce limit(fitting::planted_fit({{"1/q", 56.5}}, 1e-3, 2),
                                {BelowInterval::kLubricationLimit});
-  EXPECT_THAT(bad_input([&] { limit.gap_of_impulse(limit.impulse(2) + 1); }),
-              HasSubstr("wider than the fitted interval [0.001, 2]"));
+  EXPECT_THAT(bad_input([&] { limit.gap_of_impulse(limit.impulse(2) + 1); }), Names("0.001", "2"));
 }
 
 TEST(ImpulseInverse, RefusesWhatIsNoImpulse) {
@@ -167,7 +163,7 @@ TEST(ImpulseInverse, SaysThatAFilmIsTooThinForADouble) {
   const LubricationForce force(fitting::planted_fit({{"1/q", 1}}, 1e-3, 2),
                                {BelowInterval::kLubricationLimit});
   EXPECT_THAT(failure(ErrorKind::kNotConverged, [&] { force.gap_of_impulse(-1000); }),
-              HasSubstr("thinner than the smallest number"));
+              Says("thinner than the smallest number"));
 }
 
 TEST(ImpulseInverse, GivesTheLecturesMinimalGap) {

@@ -14,9 +14,6 @@
 namespace viscontact::lubrication {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-
 Fit exact_fit(std::string_view basis, double velocity = -1) {
   return fitting::fit_force_table(
       fitting::exact_drag_table(fitting::fifty_gaps(), {velocity}, 3, 1), basis,
@@ -121,22 +118,21 @@ TEST_P(OnBothBases, RefusesGapsOutsideItsIntervalAndNamesIt) {
   const LubricationForce force(exact_fit(GetParam()));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double gap : {0.9e-3, 1.1, 0.0, -1.0, nan}) {
-    const auto names_interval =
-        AllOf(HasSubstr("[0.001, 1]"), HasSubstr("outside the fitted interval"));
+    const auto names_interval = Names("0.001");
     EXPECT_THAT(bad_input([&] { force.resistance(gap); }), names_interval) << gap;
     EXPECT_THAT(bad_input([&] { force.resistance_log_slope(gap); }), names_interval) << gap;
     EXPECT_THAT(bad_input([&] { force.impulse(gap); }), names_interval) << gap;
   }
-  EXPECT_THAT(bad_input([&] { force.resistance(1e-4); }), HasSubstr("lubrication limit"));
-  EXPECT_THAT(bad_input([&] { force.regular_resistance(1.1); }), HasSubstr("[0.001, 1]"));
+  EXPECT_THAT(bad_input([&] { force.resistance(1e-4); }), Names("0.0001"));
+  EXPECT_THAT(bad_input([&] { force.regular_resistance(1.1); }), Names("0.001"));
   EXPECT_EQ(force.interval(), (std::array{1e-3, 1.0}));
 }
 
 TEST_P(OnBothBases, WithTheLubricationLimitRefusesOnlyWhatIsNoGap) {
   const LubricationForce force(exact_fit(GetParam()), {BelowInterval::kLubricationLimit});
   for (const double gap : {0.0, -1.0, 1.1, std::numeric_limits<double>::infinity()}) {
-    EXPECT_THAT(bad_input([&] { force.resistance(gap); }), HasSubstr("[0.001, 1]")) << gap;
-    EXPECT_THAT(bad_input([&] { force.impulse(gap); }), HasSubstr("[0.001, 1]")) << gap;
+    EXPECT_THAT(bad_input([&] { force.resistance(gap); }), Names("0.001")) << gap;
+    EXPECT_THAT(bad_input([&] { force.impulse(gap); }), Names("0.001")) << gap;
   }
   EXPECT_EQ(force.interval(), (std::array{0.0, 1.0}));
 }
@@ -165,20 +161,20 @@ TEST(LubricationForce, RefusesAFitThatIsNotADrag) {
   EXPECT_THAT(bad_input([] {
                 LubricationForce(fitting::planted_fit({{"1/q", 1}, {"1", -10}}, 1e-3, 1));
               }),
-              AllOf(HasSubstr("resistance"), HasSubstr("must be positive")));
+              Names("resistance"));
   // A force along its velocity.
   Fit fit = fitting::planted_fit({{"1/q", 1}}, 1e-3, 1);
   fit.reference_velocity = 1;
-  EXPECT_THAT(bad_input([&] { LubricationForce{fit}; }), HasSubstr("must be positive"));
+  EXPECT_THAT(bad_input([&] { LubricationForce{fit}; }), Says("must be positive"));
 }
 
 TEST(LubricationForce, WithoutALeadingTermHasNoLubricationLimit) {
   const Fit fit = fitting::planted_fit({{"1", 2}}, 1e-3, 1);
   EXPECT_EQ(LubricationForce(fit).resistance(0.5), 2);
-  EXPECT_THAT(bad_input([&] { LubricationForce(fit).leading_coefficient(); }), HasSubstr("1/q"));
+  EXPECT_THAT(bad_input([&] { LubricationForce(fit).leading_coefficient(); }), Names("1/q"));
   const LubricationForce force(fit, {BelowInterval::kLubricationLimit});
-  EXPECT_THAT(bad_input([&] { force.resistance(1e-4); }), HasSubstr("1/q"));
-  EXPECT_THAT(bad_input([&] { force.impulse(1e-4); }), HasSubstr("1/q"));
+  EXPECT_THAT(bad_input([&] { force.resistance(1e-4); }), Names("1/q"));
+  EXPECT_THAT(bad_input([&] { force.impulse(1e-4); }), Names("1/q"));
 }
 
 TEST(LubricationForce, OfThePlaneRefusesWhatIsNoGap) {

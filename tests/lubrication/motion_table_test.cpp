@@ -24,7 +24,6 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::StartsWith;
 
 /// A finite double > 0 of any magnitude.
 double random_positive(std::mt19937_64& random) {
@@ -125,16 +124,15 @@ TEST(TableOfTheApproach, MayHaveAForceAlongTheVelocityWhereTheNeighbourMovesOnly
   for (const auto* line :
        {"# geometry: sphere, radius 1, velocity_ratio 0\n", "# geometry: plane\n"}) {
     const auto path = folder.file("resting.csv", kHead + (line + rows));
-    EXPECT_THAT(bad_input([&] { read_force_table(path); }),
-                AllOf(StartsWith(path.string() + ":5: "), HasSubstr("opposed to the velocity")))
-        << line;
+    EXPECT_THAT(bad_input([&] { read_force_table(path); }), IsAt("resting.csv:5", "force")) << line;
   }
 }
 
 struct WrongTable {
   const char* what;
   std::string text;
-  const char* message;  // behind the file's name
+  int line;  ///< 0: of the file as a whole
+  const char* key = "";
 };
 
 void PrintTo(const WrongTable& table, std::ostream* stream) {
@@ -147,7 +145,7 @@ TEST_P(Wrong, TableIsRefusedWithFileAndLine) {
   const TemporaryFolder folder;
   const auto path = folder.file("table.csv", GetParam().text);
   EXPECT_THAT(bad_input([&] { read_force_table(path); }),
-              StartsWith(path.string() + GetParam().message));
+              IsAt(fmt::format("{}:{}", path.string(), GetParam().line), GetParam().key));
 }
 
 const std::string kColumnsLine = "gap,reference_velocity,force\n";
@@ -156,66 +154,57 @@ const std::string kGoodHead = kHead + kColumnsLine;  // three lines
 INSTANTIATE_TEST_SUITE_P(
     TableOfTheApproach, Wrong,
     ::testing::Values(
-        WrongTable{"Empty", "", ": the line '# viscosity: NUMBER' is missing"},
-        WrongTable{"HeadAlone", kHead, ": has no header line"},
-        WrongTable{"NoRows", kGoodHead, ": has no rows"},
-        WrongTable{"NoViscosity", "# radius: 1\n" + kColumnsLine + "1,-1,1\n",
-                   ": the line '# viscosity: NUMBER' is missing"},
-        WrongTable{"NoRadius", "# viscosity: 1\n" + kColumnsLine + "1,-1,1\n",
-                   ": the line '# radius: NUMBER' is missing"},
-        WrongTable{"ViscosityZero", "# viscosity: 0\n# radius: 1\n" + kColumnsLine + "1,-1,1\n",
-                   ": # viscosity: is 0; it must be > 0"},
+        WrongTable{"Empty", "", 0, "viscosity"}, WrongTable{"HeadAlone", kHead, 0},
+        WrongTable{"NoRows", kGoodHead, 0},
+        WrongTable{"NoViscosity", "# radius: 1\n" + kColumnsLine + "1,-1,1\n", 0, "viscosity"},
+        WrongTable{"NoRadius", "# viscosity: 1\n" + kColumnsLine + "1,-1,1\n", 0, "radius"},
+        WrongTable{"ViscosityZero", "# viscosity: 0\n# radius: 1\n" + kColumnsLine + "1,-1,1\n", 0,
+                   "viscosity"},
         WrongTable{"RadiusNegative", "# viscosity: 1\n# radius: -1\n" + kColumnsLine + "1,-1,1\n",
-                   ": # radius: is -1; it must be > 0"},
+                   0, "radius"},
         WrongTable{"ViscosityTwice",
-                   "# viscosity: 3\n# radius: 1\n# viscosity: 6\n" + kColumnsLine + "1,-1,1\n",
-                   ": # viscosity: stands twice"},
+                   "# viscosity: 3\n# radius: 1\n# viscosity: 6\n" + kColumnsLine + "1,-1,1\n", 0,
+                   "viscosity"},
         WrongTable{"LeadingCoefficientNegative",
-                   "# leading_coefficient: -5\n" + kGoodHead + "1,-1,1\n",
-                   ": # leading_coefficient: is -5; it must be > 0"},
+                   "# leading_coefficient: -5\n" + kGoodHead + "1,-1,1\n", 0,
+                   "leading_coefficient"},
         WrongTable{"ViscosityNoNumber",
-                   "# viscosity: nan\n# radius: 1\n" + kColumnsLine + "1,-1,1\n",
-                   ": the line '# viscosity: nan' must give a finite number"},
-        WrongTable{"NoForceColumn", kHead + std::string("gap,reference_velocity\n1,-1\n"),
-                   ": column 'force' is missing from the header line"},
-        WrongTable{"GapZero", kGoodHead + "1,-1,1\n0,-1,1\n", ":5: gap is 0; it must be > 0"},
-        WrongTable{"GapNegative", kGoodHead + "-0.5,-1,1\n", ":4: gap is -0.5; it must be > 0"},
-        WrongTable{"GapEmpty", kGoodHead + ",-1,1\n", ":4: gap is empty"},
-        WrongTable{"VelocityZero", kGoodHead + "1,0,1\n",
-                   ":4: reference_velocity is 0; it must be different from 0"},
-        WrongTable{"ForceAlongVelocity", kGoodHead + "1,-1,-1\n", ":4: force is -1 at velocity -1"},
-        WrongTable{"ForceZero", kGoodHead + "1,-1,0\n", ":4: force is 0 at velocity -1"},
-        WrongTable{"ForceNan", kGoodHead + "1,-1,1\n1,-1,1\n1,-1,nan\n",
-                   ":6: force is not a finite number ('nan')"},
-        WrongTable{"ForceOverflows", kGoodHead + "1,-1,1e400\n",
-                   ":4: force is not a finite number ('1e400')"},
-        WrongTable{"ShortRow", kGoodHead + "1,-1\n", ":4: has fewer fields"},
-        WrongTable{"LongRow", kGoodHead + "1,-1,1,1\n", ":4: has more fields"},
+                   "# viscosity: nan\n# radius: 1\n" + kColumnsLine + "1,-1,1\n", 0, "viscosity"},
+        WrongTable{"NoForceColumn", kHead + std::string("gap,reference_velocity\n1,-1\n"), 0,
+                   "force"},
+        WrongTable{"GapZero", kGoodHead + "1,-1,1\n0,-1,1\n", 5, "gap"},
+        WrongTable{"GapNegative", kGoodHead + "-0.5,-1,1\n", 4, "gap"},
+        WrongTable{"GapEmpty", kGoodHead + ",-1,1\n", 4, "gap"},
+        WrongTable{"VelocityZero", kGoodHead + "1,0,1\n", 4, "reference_velocity"},
+        WrongTable{"ForceAlongVelocity", kGoodHead + "1,-1,-1\n", 4, "force"},
+        WrongTable{"ForceZero", kGoodHead + "1,-1,0\n", 4, "force"},
+        WrongTable{"ForceNan", kGoodHead + "1,-1,1\n1,-1,1\n1,-1,nan\n", 6, "force"},
+        WrongTable{"ForceOverflows", kGoodHead + "1,-1,1e400\n", 4, "force"},
+        WrongTable{"ShortRow", kGoodHead + "1,-1\n", 4},
+        WrongTable{"LongRow", kGoodHead + "1,-1,1,1\n", 4},
         WrongTable{
             "NegativeErrorEstimate",
             kHead +
                 std::string("gap,reference_velocity,force,relative_error_estimate\n1,-1,1,-1e-5\n"),
-            ":4: relative_error_estimate is -1e-05; it must be >= 0"},
-        WrongTable{"Truncated", "# rows: 2\n" + kGoodHead + "1,-1,1\n",
-                   ": has 1 rows where its header says 2"}),
+            4, "relative_error_estimate"},
+        WrongTable{"Truncated", "# rows: 2\n" + kGoodHead + "1,-1,1\n", 0}),
     [](const auto& tested) { return tested.param.what; });
 
 TEST(TableOfTheApproach, CutAnywhereIsRefused) {
   const TemporaryFolder folder;
   const auto text = write_motion_table(fitting::exact_drag_table({0.25, 0.75}, {-1}, 3, 1));
   for (std::size_t length = 0; length < text.size(); ++length)
-    EXPECT_NE(bad_input([&] { read_force_table(folder.file("cut.csv", text.substr(0, length))); }),
-              "")
+    EXPECT_THAT(
+        bad_input([&] { read_force_table(folder.file("cut.csv", text.substr(0, length))); }),
+        IsAt("cut.csv"))
         << "cut to " << length << " of " << text.size() << " bytes";
 }
 
 TEST(TableOfTheApproach, InPlaceOfWhichIsAFolderOrNothingIsNamed) {
   const TemporaryFolder folder;
-  EXPECT_THAT(bad_input([&] { read_force_table(folder.path()); }),
-              StartsWith(folder.path().string() + ": cannot be read"));
+  EXPECT_THAT(bad_input([&] { read_force_table(folder.path()); }), IsAt(folder.path().string()));
   const auto missing = folder.path() / "none.csv";
-  EXPECT_THAT(bad_input([&] { read_force_table(missing); }),
-              StartsWith(missing.string() + ": cannot be read"));
+  EXPECT_THAT(bad_input([&] { read_force_table(missing); }), IsAt(missing.string()));
 }
 
 MotionTable table_of_a_pair() {
@@ -288,11 +277,11 @@ TEST_F(MotionTableFile, IsRefusedWithLineAndValue) {
   const auto failure = [&](const std::string& from, const std::string& to) {
     return bad_input([&] { (void)read(changed(from, to)); });
   };
-  EXPECT_THAT(failure("slide", "glide"), HasSubstr("# motion: no motion is named 'glide'"));
+  EXPECT_THAT(failure("slide", "glide"), AllOf(IsAt("table.csv"), Names("# motion", "glide")));
   EXPECT_THAT(failure("# motion: slide\n", "# viscontact: motion table\n"),
-              HasSubstr("has no line '# motion: ...'"));
-  EXPECT_THAT(failure("-40", "40"), HasSubstr("force is 40 at velocity 1; a drag must be opposed"));
-  EXPECT_THAT(failure(",torque", ",moment"), HasSubstr("column 'torque' is missing"));
+              IsAt("table.csv", "motion"));
+  EXPECT_THAT(failure("-40", "40"), IsAt("table.csv:5", "force"));
+  EXPECT_THAT(failure(",torque", ",moment"), IsAt("table.csv", "torque"));
 }
 
 TEST_F(MotionTableFile, IsToldFromATableOfTheApproach) {
@@ -301,8 +290,7 @@ TEST_F(MotionTableFile, IsToldFromATableOfTheApproach) {
   EXPECT_FALSE(is_motion_table(approach));
   EXPECT_EQ(read_force_table(approach).motion, MotionKind::kApproach);
   const auto slide = folder_.file("table.csv", changed("", ""));
-  EXPECT_EQ(bad_input([&] { (void)read_force_table(slide); }),
-            slide.string() + ": # motion: is slide; it must be approach here");
+  EXPECT_THAT(bad_input([&] { (void)read_force_table(slide); }), IsAt(slide.string(), "motion"));
 }
 
 TEST(ShippedTables, AreWrittenAsTheyWereRead) {

@@ -30,7 +30,7 @@ ProgramResult run_viscontact(const std::vector<std::string>& arguments,
 void expect_done(const ProgramResult& result) { EXPECT_EQ(result.exit_status, 0) << result.errors; }
 
 void expect_refusal(const ProgramResult& result, ErrorKind kind,
-                    const ::testing::Matcher<std::string>& message) {
+                    const ::testing::Matcher<std::string>& matcher) {
   EXPECT_EQ(result.exit_status, results::exit_code_of(kind)) << result.errors;
   std::istringstream stream(result.errors);
   std::vector<std::string> lines;
@@ -38,7 +38,7 @@ void expect_refusal(const ProgramResult& result, ErrorKind kind,
   const auto error = std::ranges::find_if(
       lines, [](const std::string& line) { return line.starts_with("viscontact: "); });
   ASSERT_NE(error, lines.end()) << result.errors;
-  EXPECT_THAT(*error, message);
+  EXPECT_THAT(*error, matcher);
   EXPECT_LE(lines.end() - error, 2) << result.errors;
   for (auto line = lines.begin(); line != error; ++line)
     EXPECT_THAT(*line, ::testing::MatchesRegex(

@@ -12,7 +12,6 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::StartsWith;
 
 using Function = std::function<double(double)>;
 
@@ -110,13 +109,12 @@ TEST(Comparison, IsOfOneInstantWhereTheTimesTouch) {
 TEST(Comparison, RefusesTrajectoriesWithoutATimeInCommon) {
   const auto a = sampled("early", {0, 1}, constant(1));
   const auto b = sampled("late", {1.5, 2}, constant(1));
-  EXPECT_THAT(bad_input([&] { compared(a, b); }),
-              AllOf(HasSubstr("early"), HasSubstr("late"), HasSubstr("no time in common")));
+  EXPECT_THAT(bad_input([&] { compared(a, b); }), Names("early", "late"));
 }
 
 TEST(Comparison, RefusesTwoTrajectoriesOfOneName) {
   const auto a = sampled("twin", {0, 1}, constant(1));
-  EXPECT_THAT(bad_input([&] { compare_trajectories({a, a}, "twin"); }), HasSubstr("'twin'"));
+  EXPECT_THAT(bad_input([&] { compare_trajectories({a, a}, "twin"); }), Names("twin"));
 }
 
 TEST(Comparison, RefusesAReferenceThatIsNotThereAndListsWhatIs) {
@@ -125,8 +123,8 @@ TEST(Comparison, RefusesAReferenceThatIsNotThereAndListsWhatIs) {
   EXPECT_THAT(bad_input([&] {
                 compare_trajectories({a, b}, "three");
               }),
-              AllOf(HasSubstr("'three'"), HasSubstr("one, two")));
-  EXPECT_THAT(bad_input([&] { compare_trajectories({}, "three"); }), HasSubstr("'three'"));
+              Names("three", "one", "two"));
+  EXPECT_THAT(bad_input([&] { compare_trajectories({}, "three"); }), Names("three"));
 }
 
 TEST(Comparison, FindsTheFirstOfTheLowestRows) {
@@ -226,14 +224,14 @@ TEST(ComparisonFile, IsRefusedWhenItIsSomethingElse) {
         std::string(R"({"reference_model": "a", "models": 5})"), without_a_key, cut_off}) {
     const auto path = folder.file("wrong.json", text);
     // A syntax error has its line, too.
-    EXPECT_THAT(bad_input([&] { read_comparison(path); }), StartsWith(path.string() + ":")) << text;
+    EXPECT_THAT(bad_input([&] { read_comparison(path); }), IsAt(path.string())) << text;
   }
 }
 
 TEST(ComparisonFile, IsRefusedWhenItIsAFolderOrMissing) {
   const TemporaryFolder folder;
   for (const auto& path : {folder.path(), folder.path() / "missing.json"})
-    EXPECT_THAT(bad_input([&] { read_comparison(path); }), StartsWith(path.string() + ": "));
+    EXPECT_THAT(bad_input([&] { read_comparison(path); }), IsAt(path.string()));
 }
 
 }  // namespace

@@ -129,7 +129,7 @@ TEST(FitUncertainty, IsReadBackAsItWasWritten) {
   const auto read = read_uncertainty(folder.file("u.json", write_uncertainty(written)));
   EXPECT_EQ(write_uncertainty(read), write_uncertainty(written));
   const auto other = folder.file("other.json", "{\"draws\": 3}");
-  EXPECT_THAT(bad_input([&] { read_uncertainty(other); }), ::testing::HasSubstr(other.string()));
+  EXPECT_THAT(bad_input([&] { read_uncertainty(other); }), IsAt(other.string()));
 }
 
 }  // namespace

@@ -18,7 +18,6 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::StartsWith;
 
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
@@ -111,7 +110,7 @@ struct WrongFile {
   const char* name;
   const char* content;
   int line;  // 0: of the file as a whole
-  const char* words;
+  const char* key = "";
 };
 
 /// For the messages of GoogleTest.
@@ -124,41 +123,34 @@ TEST_P(WrongTrajectoryFile, IsRefusedWithItsLine) {
   const auto path = folder.file("wrong.csv", GetParam().content);
   const auto line = GetParam().line > 0 ? ":" + std::to_string(GetParam().line) : "";
   EXPECT_THAT(bad_input([&] { read_trajectory(path); }),
-              AllOf(StartsWith(path.string() + line + ": "), HasSubstr(GetParam().words)));
+              IsAt(path.string() + line, GetParam().key));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     With, WrongTrajectoryFile,
     ::testing::Values(
-        WrongFile{"NothingInIt", "", 0, "header"},  //
-        WrongFile{"OnlyComments", "# model: a\n# b: c\n", 0, "header"},
-        WrongFile{"NoRows", "time,gap,velocity\n", 0, "no rows"},
-        WrongFile{"NoTime", "gap,velocity\n1,0\n", 0, "'time'"},
-        WrongFile{"NoGap", "time,velocity\n1,0\n", 0, "'gap'"},
-        WrongFile{"NoVelocity", "time,gap\n1,0\n", 0, "'velocity'"},
-        WrongFile{"AColumnTwice", "time,gap,velocity,gap\n0,1,0,1\n", 0, "'gap' stands twice"},
-        WrongFile{"ANegativeGap", "time,gap,velocity\n0,1,0\n1,-1e-9,0\n", 3, "must be >= 0"},
-        WrongFile{"NaN", "# a: b\n# c: d\ntime,gap,velocity\n0,1,0\n1,nan,0\n", 5,
-                  "gap is not a finite number ('nan')"},
-        WrongFile{"Infinity", "time,gap,velocity\n0,1,inf\n", 2,
-                  "velocity is not a finite number ('inf')"},
-        WrongFile{"ANumberTooLarge", "time,gap,velocity\n0,1e400,0\n", 2, "'1e400'"},
-        WrongFile{"Words", "time,gap,velocity\n0,1,0\n0.5,one,0\n", 3, "'one'"},
-        WrongFile{"ACommaForAPoint", "time,gap,velocity\n0,5,1,0\n", 2, "more fields"},
-        WrongFile{"AnEmptyGap", "time,gap,velocity\n0,1,0\n1,,0\n", 3, "gap is empty"},
-        WrongFile{"AnEmptyTime", "time,gap,velocity\n,1,0\n", 2, "time is empty"},
-        WrongFile{"AWrongGamma", "time,gap,velocity,gamma\n0,1,0,\n1,1,0,x\n", 3,
-                  "gamma is not a finite number ('x')"},
-        WrongFile{"ARowTooShort", "time,gap,velocity\n0,1,0\n1,2\n", 3, "fewer fields"},
-        WrongFile{"TheSameTimeTwice", "time,gap,velocity\n0,1,0\n1,1,0\n1,2,0\n", 4,
-                  "must increase"},
-        WrongFile{"TimeThatGoesBack", "time,gap,velocity\n0,1,0\n1,1,0\n0.5,2,0\n", 4,
-                  "must increase"},
-        WrongFile{"RowsCutOff", "# rows: 3\ntime,gap,velocity\n0,1,0\n1,1,0\n", 0,
-                  "its header says 3"},
+        WrongFile{"NothingInIt", "", 0},  //
+        WrongFile{"OnlyComments", "# model: a\n# b: c\n", 0},
+        WrongFile{"NoRows", "time,gap,velocity\n", 0},
+        WrongFile{"NoTime", "gap,velocity\n1,0\n", 0, "time"},
+        WrongFile{"NoGap", "time,velocity\n1,0\n", 0, "gap"},
+        WrongFile{"NoVelocity", "time,gap\n1,0\n", 0, "velocity"},
+        WrongFile{"AColumnTwice", "time,gap,velocity,gap\n0,1,0,1\n", 0, "gap"},
+        WrongFile{"ANegativeGap", "time,gap,velocity\n0,1,0\n1,-1e-9,0\n", 3, "gap"},
+        WrongFile{"NaN", "# a: b\n# c: d\ntime,gap,velocity\n0,1,0\n1,nan,0\n", 5, "gap"},
+        WrongFile{"Infinity", "time,gap,velocity\n0,1,inf\n", 2, "velocity"},
+        WrongFile{"ANumberTooLarge", "time,gap,velocity\n0,1e400,0\n", 2, "gap"},
+        WrongFile{"Words", "time,gap,velocity\n0,1,0\n0.5,one,0\n", 3, "gap"},
+        WrongFile{"ACommaForAPoint", "time,gap,velocity\n0,5,1,0\n", 2},
+        WrongFile{"AnEmptyGap", "time,gap,velocity\n0,1,0\n1,,0\n", 3, "gap"},
+        WrongFile{"AnEmptyTime", "time,gap,velocity\n,1,0\n", 2, "time"},
+        WrongFile{"AWrongGamma", "time,gap,velocity,gamma\n0,1,0,\n1,1,0,x\n", 3, "gamma"},
+        WrongFile{"ARowTooShort", "time,gap,velocity\n0,1,0\n1,2\n", 3},
+        WrongFile{"TheSameTimeTwice", "time,gap,velocity\n0,1,0\n1,1,0\n1,2,0\n", 4, "time"},
+        WrongFile{"TimeThatGoesBack", "time,gap,velocity\n0,1,0\n1,1,0\n0.5,2,0\n", 4, "time"},
+        WrongFile{"RowsCutOff", "# rows: 3\ntime,gap,velocity\n0,1,0\n1,1,0\n", 0, ""},
         WrongFile{"ReboundsOfFourNumbers",
-                  "# rebounds: 1 -2 3 1 0.5; 1 -2 3 1\ntime,gap,velocity\n0,1,0\n", 0,
-                  "the rebound ' 1 -2 3 1' in its head is not five numbers"},
+                  "# rebounds: 1 -2 3 1 0.5; 1 -2 3 1\ntime,gap,velocity\n0,1,0\n", 0, "rebound"},
         WrongFile{"AWrongNumberAtItsHead", "# film_from_gamma: thin\ntime,gap,velocity\n0,1,0\n", 0,
                   "film_from_gamma"}),
     [](const auto& parameter) { return parameter.param.name; });
@@ -166,7 +158,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(TrajectoryFile, IsRefusedWhenItIsAFolderOrMissing) {
   const TemporaryFolder folder;
   for (const auto& path : {folder.path(), folder.path() / "missing.csv"})
-    EXPECT_THAT(bad_input([&] { read_trajectory(path); }), StartsWith(path.string() + ": "));
+    EXPECT_THAT(bad_input([&] { read_trajectory(path); }), IsAt(path.string()));
 }
 
 }  // namespace

@@ -8,8 +8,6 @@
 namespace viscontact::results {
 namespace {
 
-using ::testing::HasSubstr;
-
 const std::vector<FailedModel> kFailed = {
     {"reference", "the gap is below the fit", ErrorKind::kBadInput, {{"case", "1"}}},
     {"inertial", "it said \"no\"\nand stopped", ErrorKind::kNotConverged, {{"case", "2"}}}};
@@ -38,8 +36,7 @@ TEST(RecordOfFailedModels, ThatIsDamagedIsRefused) {
                            "{\"failed_models\": {\"inertial\": {\"reason\": \"r\", \"exit_code\": "
                            "77, \"made_from\": {}}}}"}) {
     const auto file = folder.file("failed_models.json", text);
-    EXPECT_THAT(bad_input([&] { read_failed_models(file); }),
-                HasSubstr("failed_models.json: is not a record of failed models"));
+    EXPECT_THAT(bad_input([&] { read_failed_models(file); }), IsAt("failed_models.json"));
     EXPECT_TRUE(recorded_failures({folder.path()}, {}).empty());
   }
 }
@@ -74,7 +71,7 @@ TEST(FailedModels, AreNotTheReference) {
   EXPECT_THAT(bad_input([&] {
                 reference_among({computed}, {{"inertial", "why"}}, "inertial");
               }),
-              HasSubstr("because it failed: why"));
+              Names("why"));
 }
 
 }  // namespace

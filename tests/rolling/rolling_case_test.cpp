@@ -15,9 +15,7 @@
 namespace viscontact::rolling {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 const std::string kIncline =
     std::string(VISCONTACT_SOURCE_FOLDER) + "/data/cases/rolling/incline.toml";
@@ -66,14 +64,12 @@ TEST_F(RollingCaseFile, WeightMayFollowFromDensitiesAndGravity) {
   EXPECT_DOUBLE_EQ(c.motion.moment_of_inertia, 0.4 * 5 * volume);
   EXPECT_DOUBLE_EQ(c.motion.force, 30 * volume * std::sin(0.3));
   EXPECT_DOUBLE_EQ(c.motion.normal_force, -30 * volume * std::cos(0.3));
-  EXPECT_THAT(
-      bad_input([&] { (void)changed("weight = 1.0", "weight = 1.0\ngravity = -1.0"); }),
-      HasSubstr("rolling.gravity must be left out, because weight is given; only one of force, "
-                "weight and gravity may be given"));
+  EXPECT_THAT(bad_input([&] { (void)changed("weight = 1.0", "weight = 1.0\ngravity = -1.0"); }),
+              IsAt("case.toml:21", "rolling.gravity"));
   EXPECT_THAT(bad_input([&] { (void)changed("weight = 1.0", ""); }),
-              HasSubstr("rolling.force is missing; it must be two numbers, or weight or gravity"));
+              IsAt("case.toml:18", "rolling.force"));
   EXPECT_THAT(bad_input([&] { (void)changed("mass = 0.1", "mass = 0.1\ndensity = 5.0"); }),
-              HasSubstr("sphere.mass must be left out, because the mass follows from density"));
+              IsAt("case.toml:13", "sphere.mass"));
 }
 
 TEST_F(RollingCaseFile, TablesAreMadeOfTheMotionsThatItNeeds) {
@@ -85,15 +81,15 @@ TEST_F(RollingCaseFile, TablesAreMadeOfTheMotionsThatItNeeds) {
   };
   EXPECT_EQ(with_tabulation("motion = \"all\"").tabulation->motions.size(), 4U);
   EXPECT_THAT(bad_input([&] { (void)with_tabulation("motion = [\"approach\", \"slide\"]"); }),
-              HasSubstr("lacks roll; a sphere that rolls needs approach, slide and roll"));
+              IsAt("case.toml:20", "tabulation.motion"));
   EXPECT_THAT(bad_input([&] {
                 (void)with_tabulation("motion = \"all\"\ngeometry = { kind = \"free_surface\" }");
               }),
-              HasSubstr("is free_surface; a sphere rolls on a plane"));
+              IsAt("case.toml:21", "tabulation.geometry"));
 }
 
 struct RefusedRolling {
-  std::string name, from, to, message;
+  std::string name, from, to, key;
 };
 std::ostream& operator<<(std::ostream& out, const RefusedRolling& refused) {
   return out << refused.name;
@@ -104,35 +100,28 @@ class RollingCaseRefusal : public RollingCaseFile,
 
 TEST_P(RollingCaseRefusal, NamesFileLineValueAndWhatIsAllowed) {
   const auto& p = GetParam();
-  EXPECT_THAT(bad_input([&] { (void)changed(p.from, p.to); }),
-              AllOf(HasSubstr("case.toml:"), HasSubstr(p.message)));
+  EXPECT_THAT(bad_input([&] { (void)changed(p.from, p.to); }), IsAt("case.toml", p.key));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Of, RollingCaseRefusal,
     ::testing::Values(
-        RefusedRolling{"AnAngleInDegrees", "incline = 0.3", "incline = 17.0",
-                       "rolling.incline is 17; it must be a number of radians from -1.6 to 1.6"},
-        RefusedRolling{"InclineOfAForce", "weight = 1.0", "force = [1.0, -1.0]",
-                       "belongs to weight and gravity; give one of them in place of force"},
+        RefusedRolling{"AnAngleInDegrees", "incline = 0.3", "incline = 17.0", "rolling.incline"},
+        RefusedRolling{"InclineOfAForce", "weight = 1.0", "force = [1.0, -1.0]", "rolling.incline"},
         RefusedRolling{"ForceOfThreeNumbers", "weight = 1.0\nincline = 0.3",
-                       "force = [1.0, 2.0, 3.0]", "has 3 numbers; it must have two"},
+                       "force = [1.0, 2.0, 3.0]", "rolling.force"},
         RefusedRolling{"RoughnessOfARadius", "roughness = 1e-3", "roughness = 1.0",
-                       "it must be less than the sphere's radius, 1"},
+                       "rolling.roughness"},
         RefusedRolling{"GapInTheRoughness", "initial_gap = 0.5", "initial_gap = 5e-4",
-                       "it must be at least the roughness, 0.001"},
-        RefusedRolling{"LongStep", "time_step = 0.01", "time_step = 30.0",
-                       "it must be at most end_time, 20"},
+                       "rolling.initial_gap"},
+        RefusedRolling{"LongStep", "time_step = 0.01", "time_step = 30.0", "rolling.time_step"},
         RefusedRolling{"ModelTwice", "time_step = 0.01",
-                       "time_step = 0.01\nmodels = [\"smooth\", \"smooth\"]", "twice"},
+                       "time_step = 0.01\nmodels = [\"smooth\", \"smooth\"]", "rolling.models"},
         RefusedRolling{"Tolerance", "time_step = 0.01",
-                       "time_step = 0.01\nrelative_tolerance = 0.5", "from 1e-13 to 0.01"},
-        RefusedRolling{"UnknownKey", "friction = 0.3", "frction = 0.3",
-                       "is not a key that is known here"},
-        RefusedRolling{"FitWithoutName", "../../fits/pairs/plane.json", "",
-                       "fit.file is empty; it must be the name of a file"},
-        RefusedRolling{"NoFit", "[fit]\nfile = \"../../fits/pairs/plane.json\"", "",
-                       "or fit must be there, one of the two"}),
+                       "time_step = 0.01\nrelative_tolerance = 0.5", "rolling.relative_tolerance"},
+        RefusedRolling{"UnknownKey", "friction = 0.3", "frction = 0.3", "rolling.frction"},
+        RefusedRolling{"FitWithoutName", "../../fits/pairs/plane.json", "", "fit.file"},
+        RefusedRolling{"NoFit", "[fit]\nfile = \"../../fits/pairs/plane.json\"", "", "tabulation"}),
     [](const auto& p) { return p.param.name; });
 
 }  // namespace

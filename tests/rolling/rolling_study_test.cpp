@@ -14,7 +14,6 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using ::testing::StartsWith;
 
 const std::string kFit = std::string(VISCONTACT_SOURCE_FOLDER) + "/data/fits/pairs/plane.json";
 
@@ -33,7 +32,7 @@ class RollingStudy : public ::testing::Test {
     for (const auto& text : vary) plan.points.variations.push_back(sweep::parse_variation(text));
     return plan;
   }
-  std::string refusal(const RollingPlan& plan) const {
+  Error refusal(const RollingPlan& plan) const {
     return failure(ErrorKind::kWrongUsage, [&] { (void)rolling_study(plan, ""); });
   }
 
@@ -73,7 +72,7 @@ TEST_F(RollingStudy, RowHasTheColumnsOfEachModelAndTheReasonsOfThoseThatFail) {
                   "smooth.angle", "smooth.velocity", "smooth.angular_velocity", "smooth.slip",
                   "smooth.contact", "smooth.contact_time", "failure"));
   EXPECT_THAT(study.row(1), ::testing::StartsWith("1000,,,,,,,,,,"));
-  EXPECT_THAT(study.row(1), HasSubstr("rises above the gap"));
+  EXPECT_THAT(study.row(1), HasSubstr("model"));
 }
 
 TEST_F(RollingStudy, SectionOfTheCaseGivesThePlan) {
@@ -85,22 +84,19 @@ TEST_F(RollingStudy, SectionOfTheCaseGivesThePlan) {
 }
 
 TEST_F(RollingStudy, WrongPlansAreRefused) {
-  EXPECT_THAT(refusal(plan({})), HasSubstr("nothing to vary"));
+  EXPECT_THAT(refusal(plan({})), Names("--vary"));
   EXPECT_THAT(refusal(plan({"tabulation.relative_accuracy=1e-3,1e-4"})),
-              HasSubstr("tabulation.relative_accuracy cannot be varied with one fit"));
-  EXPECT_THAT(refusal(plan({"sphere.mass=1,2", "motion.mass=1,2"})),
-              HasSubstr("sphere.mass is given twice"));
+              Names("tabulation.relative_accuracy"));
+  EXPECT_THAT(refusal(plan({"sphere.mass=1,2", "motion.mass=1,2"})), Names("sphere.mass"));
   auto other = plan({"sphere.mass=1,2"});
   other.models = {"inertial"};
-  EXPECT_THAT(refusal(other), HasSubstr("the models are: smooth, rough, viscous_contact"));
+  EXPECT_THAT(refusal(other), Names("viscous_contact"));
   other.models = {"rough", "rough"};
-  EXPECT_THAT(refusal(other), HasSubstr("rough is given twice"));
+  EXPECT_THAT(refusal(other), Names("rough"));
   EXPECT_THAT(refusal(plan({"rolling.friction=0.1,0.2"}, "models = [\"smooth\"]\n")),
-              AllOf(StartsWith("--vary: rolling.friction cannot be varied, because none"),
-                    Not(HasSubstr("at the point"))));
-  EXPECT_THAT(
-      bad_input([&] { (void)rolling_study(plan({"rolling.friction=0,-1"}), ""); }),
-      AllOf(HasSubstr("rolling.friction is -1"), HasSubstr("at the point rolling.friction = -1")));
+              AllOf(Names("--vary", "rolling.friction"), Not(Names("at the point"))));
+  EXPECT_THAT(bad_input([&] { (void)rolling_study(plan({"rolling.friction=0,-1"}), ""); }),
+              AllOf(IsAt("case.toml", "rolling.friction"), Names("-1")));
 }
 
 }  // namespace

@@ -14,7 +14,6 @@ namespace viscontact::rolling {
 namespace {
 
 using motions::PairEntry;
-using ::testing::HasSubstr;
 
 const motions::PairFit& plane() {
   static const auto fit =
@@ -60,7 +59,7 @@ TEST(RollingFluid, HasSlopesThatAreTheDerivativesOfItsValues) {
 TEST(RollingFluid, NeedsFourEntries) {
   auto fit = plane();
   fit.entries.erase(PairEntry::kRoll);
-  EXPECT_THAT(bad_input([&] { RollingFluid fluid(fit); }), HasSubstr("lacks the entry roll"));
+  EXPECT_THAT(bad_input([&] { RollingFluid fluid(fit); }), Names("roll"));
 }
 
 TEST(SmoothSphere, MovesAtTheVelocitiesThatBalanceTheForceAtItsGap) {
@@ -238,16 +237,13 @@ TEST(ViscousContact, FailsIfItsContactForceLeavesTheRangeOfADouble) {
   motion.mass = 1e200;
   motion.normal_velocity = -1e100;
   motion.time_step = motion.end_time = 1e-10;
-  EXPECT_THAT(
-      failure(ErrorKind::kNotConverged, [&] { (void)roll_with_viscous_contact(motion, plane()); }),
-      HasSubstr("leaves the range of a double"));
+  failure(ErrorKind::kNotConverged, [&] { (void)roll_with_viscous_contact(motion, plane()); });
 }
 
 TEST(Rolling, OutOfTheGapsOfTheFitIsRefused) {
   auto motion = on_incline(0);
   motion.normal_force = 50;
-  EXPECT_THAT(bad_input([&] { (void)roll_smooth(motion, plane()); }),
-              HasSubstr("rises above the gap 1, up to which the fit is known"));
+  EXPECT_THAT(bad_input([&] { (void)roll_smooth(motion, plane()); }), Names("gap 1"));
 }
 
 }  // namespace

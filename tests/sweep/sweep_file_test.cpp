@@ -208,9 +208,9 @@ TEST_F(SweepFile, IsMadeAgainForWhateverDecidesItsRows) {
 TEST_F(SweepFile, MakesItsFolderAndSaysWhereItCannotWrite) {
   EXPECT_EQ(write("new/folder/table.csv"), kRows);
   put_text(path("file"), "");
-  EXPECT_THAT(bad_input([&] { write("file/table.csv"); }), HasSubstr("file"));
+  EXPECT_THAT(bad_input([&] { write("file/table.csv"); }), IsAt(path("file")));
   std::filesystem::create_directory(path("folder.csv"));
-  EXPECT_THAT(bad_input([&] { write("folder.csv"); }), HasSubstr("folder.csv"));
+  EXPECT_THAT(bad_input([&] { write("folder.csv"); }), IsAt("folder.csv"));
   EXPECT_TRUE(std::filesystem::is_empty(path("folder.csv")));
 }
 

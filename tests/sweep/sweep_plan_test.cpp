@@ -18,23 +18,22 @@ namespace {
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::Ge;
-using ::testing::HasSubstr;
 using ::testing::Lt;
+using ::testing::Not;
 
 TEST(SweepPlanCheck, FirstAndLastPointMustBeCases) {
   for (const std::string values : {"-1,1", "1,-1"})
-    EXPECT_THAT(
-        bad_input([&] {
-          sphere_study(varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosity=" + values}),
-                       "");
-        }),
-        AllOf(HasSubstr("vanishing_viscosity.toml"), HasSubstr("fluid.viscosity is -1"),
-              HasSubstr("must be a number > 0"), HasSubstr("at the point fluid.viscosity = -1")));
+    EXPECT_THAT(bad_input([&] {
+                  sphere_study(
+                      varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosity=" + values}),
+                      "");
+                }),
+                AllOf(IsAt("vanishing_viscosity.toml", "fluid.viscosity"), Names("-1")));
   EXPECT_THAT(bad_input([] {
                 sphere_study(varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosty=1,2"}),
                              "");
               }),
-              HasSubstr("fluid.viscosty"));
+              IsAt("vanishing_viscosity.toml", "fluid.viscosty"));
 }
 
 TEST(SweepPlanCheck, CaseNeedsAMotion) {
@@ -44,8 +43,8 @@ TEST(SweepPlanCheck, CaseNeedsAMotion) {
   auto plan = shipped("vanishing_viscosity.toml");
   plan.case_path = folder.file("case.toml", text);
   // The ranges of the sweep are not named, because the case has no motion without them, either.
-  EXPECT_EQ(bad_input([&] { sphere_study(plan, ""); }),
-            plan.case_path.string() + ": has no section [motion], which this command needs");
+  EXPECT_THAT(bad_input([&] { sphere_study(plan, ""); }),
+              AllOf(IsAt(plan.case_path.string(), "motion"), Not(Names("--vary"))));
 }
 
 TEST(SweepPlanCheck, FitIsScaledToTheRadius) {
@@ -78,8 +77,8 @@ TEST(SweepPlanCheck, DensitiesAreVariedWhereTheMotionDependsOnThem) {
       sphere_study(with_models(varied(plan, {std::string(key) + "=1,2"}), {model}, model), "");
     });
   };
-  EXPECT_THAT(refused("fluid.density", "viscous_contact"), HasSubstr("none of the models"));
-  EXPECT_THAT(refused("sphere.density", "reference_exact"), HasSubstr("none of the models"));
+  EXPECT_THAT(refused("fluid.density", "viscous_contact"), Names("fluid.density"));
+  EXPECT_THAT(refused("sphere.density", "reference_exact"), Names("sphere.density"));
   const auto film = [](const SpherePlan& p, std::size_t i) {
     return number(row_of(p, i), "reference_exact.minimal_gap");
   };
@@ -100,14 +99,12 @@ TEST(SweepPlanCheck, NothingIsThereTwiceAndTheReferenceIsOneOfTheModels) {
     return failure(ErrorKind::kWrongUsage, [&] { sphere_study(p, ""); });
   };
   EXPECT_THAT(wrong(varied(plan, {"sphere.mass=1,2", "fluid.viscosity=1", "sphere.mass=3"})),
-              HasSubstr("the key sphere.mass is given twice"));
-  EXPECT_THAT(wrong(with_models(plan, {"inertial", "inertial"}, "inertial")),
-              HasSubstr("the model inertial is given twice"));
-  EXPECT_THAT(
-      wrong(with_models(plan, {"inertial"}, "viscous_contact")),
-      AllOf(HasSubstr("'viscous_contact' is not one of the models"), HasSubstr("inertial")));
+              Names("sphere.mass"));
+  EXPECT_THAT(wrong(with_models(plan, {"inertial", "inertial"}, "inertial")), Names("inertial"));
+  EXPECT_THAT(wrong(with_models(plan, {"inertial"}, "viscous_contact")),
+              Names("viscous_contact", "inertial"));
   EXPECT_THAT(bad_input([&] { sphere_study(with_models(plan, {"inertia"}, "inertia"), ""); }),
-              HasSubstr("inertia"));
+              Names("inertia"));
 }
 
 class RunSweep : public ::testing::Test {
@@ -170,8 +167,7 @@ TEST_F(RunSweep, EndsEarlyWhenAStopIsRequested) {
     if (index == 5) flag = true;
   };
   EXPECT_THAT(run(0, 2, take, StopToken(flag)), AllOf(Ge(6U), Lt(200U)));
-  EXPECT_THAT(failure(ErrorKind::kInterrupted, [&] { (void)sweep_.row(0, StopToken(flag)); }),
-              HasSubstr("interrupted; everything finished so far is kept"));
+  failure(ErrorKind::kInterrupted, [&] { (void)sweep_.row(0, StopToken(flag)); });
 }
 
 TEST(RunRows, EndsWhenARowFailsAfterAStopWhileAThreadWaitsForIt) {

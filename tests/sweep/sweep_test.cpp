@@ -135,7 +135,7 @@ SpherePlan plan_of_short_fit() {
 }
 
 /// What the inertial model says to that fit: its film is exp(-4/mu), 3.4e-4.
-std::string failure_of_inertial(const SpherePlan& plan) {
+Error failure_of_inertial(const SpherePlan& plan) {
   const auto c = case_file::CaseTemplate<case_file::Case>(plan.case_path)
                      .with(std::array{std::pair(std::string("fluid.viscosity"), 0.5)});
   const lubrication::LubricationForce force(lubrication::with_viscosity(plan.fit, 0.5));
@@ -152,8 +152,8 @@ TEST(SweepRow, ModelThatLeavesTheFitsIntervalLeavesItsFieldsEmptyAndSaysWhy) {
   const auto plan = plan_of_short_fit();
   ASSERT_EQ(plan.reference, "viscous_contact_exact");
   const auto row = row_of(plan, 0);
-  const auto message = failure_of_inertial(plan);
-  ASSERT_THAT(message, AllOf(HasSubstr("model inertial: "), HasSubstr(",")));
+  const std::string message = failure_of_inertial(plan).what();
+  ASSERT_THAT(message, AllOf(Names("inertial"), HasSubstr(",")));
   EXPECT_EQ(row.at("failure"), without_commas(message));
   const auto alone = row_of(with_models(plan, {"viscous_contact_exact"}, plan.reference), 0);
   for (const auto& [name, value] : row) {
@@ -184,8 +184,7 @@ TEST(SweepRow, WithoutItsReferenceAModelKeepsWhatIsItsOwn) {
 
 TEST(SweepRow, AllFailuresAreNamed) {
   const auto plan = with_models(plan_of_short_fit(), {"inertial", "reference_exact"}, "inertial");
-  EXPECT_THAT(row_of(plan, 0).at("failure"),
-              AllOf(HasSubstr("model inertial: "), HasSubstr(" | model reference_exact: ")));
+  EXPECT_THAT(row_of(plan, 0).at("failure"), Names("inertial", "reference_exact"));
 }
 
 TEST(SweepRow, PointInTheMiddleThatIsNoCaseIsARowThatSaysSo) {
@@ -193,7 +192,7 @@ TEST(SweepRow, PointInTheMiddleThatIsNoCaseIsARowThatSaysSo) {
       sphere_study(varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosity=1,-1,2"}), "");
   const auto row = fields_of(sweep, sweep.row(1));
   EXPECT_EQ(row.at("fluid.viscosity"), "-1");
-  EXPECT_THAT(row.at("failure"), HasSubstr("fluid.viscosity is -1; it must be a number > 0"));
+  EXPECT_THAT(row.at("failure"), Names("vanishing_viscosity.toml", "fluid.viscosity", "-1"));
   for (const auto& [name, value] : row) {
     if (name != "fluid.viscosity" && name != "failure") {
       EXPECT_EQ(value, "") << name;

@@ -16,9 +16,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::Pair;
-using ::testing::StartsWith;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
@@ -92,37 +90,35 @@ TEST(Variation, MassIsFoundUnderItsOtherName) {}
 TEST(Variation, OtherTextsAreRefusedWithWhatIsWrongAndWhatIsAllowed) {
   struct Refusal {
     const char* text;
-    const char* words;
+    const char* named;
   };
-  for (const auto& [text, words] :
-       std::initializer_list<Refusal>{{"", "KEY= is missing"},
-                                      {"fluid.viscosity", "KEY= is missing"},
-                                      {"=1,2", "KEY= is missing"},
-                                      {"a=", "'' is not a finite number"},
-                                      {"a=1,", "'' is not a finite number"},
-                                      {"a=1,,2", "'' is not a finite number"},
-                                      {"a=one", "'one' is not a finite number"},
-                                      {"a=1,nan", "'nan' is not a finite number"},
-                                      {"a=inf:1:3", "'inf' is not a finite number"},
-                                      {"a=1:1e400:3", "'1e400' is not a finite number"},
-                                      {"a=1:2x:3", "'2x' is not a finite number"},
-                                      {"a=1:2", "this is not a range"},
-                                      {"a=1:2:lin:3", "this is not a range"},
-                                      {"a=1:2:Log:3", "this is not a range"},
-                                      {"a=1:2:log:3:4", "this is not a range"},
-                                      {"a=1:2:log", "'log' is not a finite number"},
-                                      {"a=1:2:", "'' is not a finite number"},
-                                      {"a=1:2:0", "COUNT is 0"},
-                                      {"a=1:2:-3", "COUNT is -3"},
-                                      {"a=1:2:2.5", "COUNT is 2.5"},
-                                      {"a=1:2:1e10", "COUNT is 1e10"},
-                                      {"a=1:2:log:0", "COUNT is 0"},
-                                      {"a=0:2:log:3", "must not contain 0 or change sign"},
-                                      {"a=2:0:log:3", "must not contain 0 or change sign"},
-                                      {"a=-1:1:log:3", "must not contain 0 or change sign"}}) {
+  for (const auto& [text, named] : std::initializer_list<Refusal>{{"", "KEY="},
+                                                                  {"fluid.viscosity", "KEY="},
+                                                                  {"=1,2", "KEY="},
+                                                                  {"a=", "''"},
+                                                                  {"a=1,", "''"},
+                                                                  {"a=1,,2", "''"},
+                                                                  {"a=one", "'one'"},
+                                                                  {"a=1,nan", "'nan'"},
+                                                                  {"a=inf:1:3", "'inf'"},
+                                                                  {"a=1:1e400:3", "'1e400'"},
+                                                                  {"a=1:2x:3", "'2x'"},
+                                                                  {"a=1:2", "range"},
+                                                                  {"a=1:2:lin:3", "range"},
+                                                                  {"a=1:2:Log:3", "range"},
+                                                                  {"a=1:2:log:3:4", "range"},
+                                                                  {"a=1:2:log", "'log'"},
+                                                                  {"a=1:2:", "''"},
+                                                                  {"a=1:2:0", "COUNT"},
+                                                                  {"a=1:2:-3", "COUNT"},
+                                                                  {"a=1:2:2.5", "COUNT"},
+                                                                  {"a=1:2:1e10", "COUNT"},
+                                                                  {"a=1:2:log:0", "COUNT"},
+                                                                  {"a=0:2:log:3", "0"},
+                                                                  {"a=2:0:log:3", "0"},
+                                                                  {"a=-1:1:log:3", "0"}}) {
     EXPECT_THAT(bad_input([&] { parse_variation(text); }),
-                AllOf(StartsWith(std::string(text) + ":"), HasSubstr(words),
-                      HasSubstr("KEY=FROM:TO:log:COUNT")))
+                Names(std::string(text) + ":", named, "KEY=FROM:TO:log:COUNT"))
         << text;
   }
 }
@@ -147,10 +143,9 @@ TEST(Grid, SizeIsLimited) {
                       [&] {
                         (void)grid_size({billion, billion, billion});
                       }),
-              AllOf(HasSubstr("1e+27 points"), HasSubstr("at most 1e+12")));
+              AllOf(Names("1e+27"), Names("1e+12")));
   const std::vector<Variation> beyond = {million, million, parse_variation("b=1,2")};
-  EXPECT_THAT(failure(ErrorKind::kWrongUsage, [&] { (void)grid_size(beyond); }),
-              HasSubstr("2e+12 points"));
+  EXPECT_THAT(failure(ErrorKind::kWrongUsage, [&] { (void)grid_size(beyond); }), Names("2e+12"));
 }
 
 class RandomPoints : public ::testing::Test {

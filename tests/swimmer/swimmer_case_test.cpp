@@ -15,9 +15,7 @@ namespace viscontact::swimmer {
 namespace {
 
 using ::testing::AllOf;
-using ::testing::DoubleNear;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 const std::string kCase =
     std::string(VISCONTACT_SOURCE_FOLDER) + "/data/cases/swimmer/three_spheres.toml";
@@ -110,56 +108,53 @@ TEST_F(SwimmerCaseFile, TemplateChangesNumbersOfTheStroke) {
   EXPECT_EQ(c.optimal->displacement, 0.1);
 }
 
-/// A change of the shipped case that must be refused, with the line and the words of the error.
+/// A change of the shipped case that must be refused, with the line and the key of the error.
 struct Refusal {
   const char* from;
   const char* to;
   int line;
-  const char* words;
+  const char* key;
 };
 std::ostream& operator<<(std::ostream& out, const Refusal& refusal) { return out << refusal.to; }
 
 class RefusedSwimmer : public SwimmerCaseFile, public ::testing::WithParamInterface<Refusal> {};
 
-TEST_P(RefusedSwimmer, HasAnErrorWithLineAndRemedy) {
-  const auto& [from, to, line, words] = GetParam();
+TEST_P(RefusedSwimmer, HasAnErrorWithLineAndKey) {
+  const auto& [from, to, line, key] = GetParam();
   EXPECT_THAT(bad_input([&] { (void)changed(from, to); }),
-              AllOf(HasSubstr("case.toml:" + std::to_string(line) + ": "), HasSubstr(words)));
+              IsAt("case.toml:" + std::to_string(line), key));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Keys, RefusedSwimmer,
     ::testing::Values(
-        Refusal{"viscosity = 1.0", "viscosity = 0", 6, "it must be a number > 0"},
-        Refusal{"radii = [1.0, 1.0, 1.0]", "radii = [1.0]", 9, "it must have 2 to 10"},
-        Refusal{"radii = [1.0, 1.0, 1.0]", "radii = [1.0, 1.0, 1000.0]", 9, "ratio"},
-        Refusal{"from = 2.2", "from = 2.0", 10,
-                "it must be greater than 2, the sum of the radii of spheres 1 and 2"},
-        Refusal{"from = 2.2", "from = 2.0000001", 10, "a gap must be at least"},
-        Refusal{"to = 12.0", "to = 2.1", 10, "it must be greater than from, 2.2"},
-        Refusal{"count = 12", "count = 2", 10, "from 3 to 200"},
-        Refusal{"count = 12 }", "count = 12, spacing = \"log\" }", 10, "spacing"},
-        Refusal{"1e-5 ", "1.5 ", 11, "> 0 and < 1"},
+        Refusal{"viscosity = 1.0", "viscosity = 0", 6, "fluid.viscosity"},
+        Refusal{"radii = [1.0, 1.0, 1.0]", "radii = [1.0]", 9, "swimmer.radii"},
+        Refusal{"radii = [1.0, 1.0, 1.0]", "radii = [1.0, 1.0, 1000.0]", 9, "swimmer.radii"},
+        Refusal{"from = 2.2", "from = 2.0", 10, "swimmer.arms.from"},
+        Refusal{"from = 2.2", "from = 2.0000001", 10, "swimmer.arms.from"},
+        Refusal{"to = 12.0", "to = 2.1", 10, "swimmer.arms.to"},
+        Refusal{"count = 12", "count = 2", 10, "swimmer.arms.count"},
+        Refusal{"count = 12 }", "count = 12, spacing = \"log\" }", 10, "swimmer.arms.spacing"},
+        Refusal{"1e-5 ", "1.5 ", 11, "swimmer.relative_accuracy"},
         Refusal{"relative_accuracy", "container = { radius = 0.5 }\nrelative_accuracy", 11,
-                "swimmer.container.radius is 0.5"},
+                "swimmer.container.radius"},
         Refusal{"relative_accuracy",
                 "container = { radius = 3.0, height = 20.0 }\nrelative_accuracy", 11,
-                "it must be greater than 26"},
-        Refusal{"[10.0, 6.0]", "[13.0, 6.0]", 14, "the table has arms from 2.2 to 12"},
-        Refusal{"[10.0, 6.0]", "[1.5, 6.0]", 14, "spheres 1 and 2 would overlap"},
-        Refusal{"[10.0, 6.0]", "[10.0]", 14, "2"},
-        Refusal{"[10.0, 6.0]", "[6.0, 6.0]", 14, "the same corner twice in a row"},
-        Refusal{", [10.0, 6.0], [10.0, 10.0], [6.0, 10.0]", "", 14, "has one corner"},
-        Refusal{"period = 1.0", "period = -1.0", 15, "it must be a number > 0"},
-        Refusal{"period = 1.0", "file = \"loop.csv\"", 14,
-                "exactly one of corners, ellipse and file"},
-        Refusal{"displacement = 0.2", "displacement = 0.0", 18, "different from 0"},
-        Refusal{"through = [6.0, 6.0]", "through = [6.0, 16.0]", 19, "makes arm x2 16"},
-        Refusal{"through = [6.0, 6.0]", "through = [6.0]", 19, "it must have 2, one for each arm"},
+                "swimmer.container.height"},
+        Refusal{"[10.0, 6.0]", "[13.0, 6.0]", 14, "stroke.corners"},
+        Refusal{"[10.0, 6.0]", "[1.5, 6.0]", 14, "stroke.corners"},
+        Refusal{"[10.0, 6.0]", "[10.0]", 14, "stroke.corners"},
+        Refusal{"[10.0, 6.0]", "[6.0, 6.0]", 14, "stroke.corners"},
+        Refusal{", [10.0, 6.0], [10.0, 10.0], [6.0, 10.0]", "", 14, "stroke.corners"},
+        Refusal{"period = 1.0", "period = -1.0", 15, "stroke.period"},
+        Refusal{"period = 1.0", "file = \"loop.csv\"", 14, "stroke.corners"},
+        Refusal{"displacement = 0.2", "displacement = 0.0", 18, "optimal.displacement"},
+        Refusal{"through = [6.0, 6.0]", "through = [6.0, 16.0]", 19, "optimal.through"},
+        Refusal{"through = [6.0, 6.0]", "through = [6.0]", 19, "optimal.through"},
         Refusal{"through = [6.0, 6.0]", "through = [6.0, 6.0]\npolynomials = 73", 20,
-                "more than the 144 rows of the table can determine; take at most 72"},
-        Refusal{"relative_accuracy", "table = \"t.csv\"\nrelative_accuracy", 10,
-                "swimmer.arms must be left out, because `table` gives a table"},
+                "optimal.polynomials"},
+        Refusal{"relative_accuracy", "table = \"t.csv\"\nrelative_accuracy", 10, "swimmer.arms"},
         Refusal{"title", "titel = 3\ntitle", 3, "titel"}));
 
 TEST_F(SwimmerCaseFile, NamesATableThatIsScaledToItsSpheres) {
@@ -175,14 +170,11 @@ TEST_F(SwimmerCaseFile, NamesATableThatIsScaledToItsSpheres) {
   const auto refusal = [&](const std::string& keys) {
     return bad_input([&] { (void)with(keys); });
   };
-  EXPECT_THAT(refusal("radii = [1.0, 1.0, 2.0]\n"),
-              AllOf(HasSubstr("three_spheres.csv: "), HasSubstr("[1, 1, 2] of the case"),
-                    HasSubstr("give a table of the same ratios")));
+  EXPECT_THAT(refusal("radii = [1.0, 1.0, 2.0]\n"), IsAt("three_spheres.csv"));
   EXPECT_THAT(refusal("radii = [1.0, 1.0]\n"),
-              AllOf(HasSubstr("scaled.toml:4: "), HasSubstr("is a table of 3 spheres")));
+              AllOf(IsAt("scaled.toml:4", "swimmer.table"), Names("3")));
   EXPECT_THAT(refusal("radii = [1.0, 1.0, 1.0]\ncontainer = { radius = 3.0 }\n"),
-              AllOf(HasSubstr("scaled.toml:4: "), HasSubstr("'unbounded'"),
-                    HasSubstr("the case has 'tube of radius 3'")));
+              IsAt("scaled.toml:4", "swimmer.table"));
 }
 
 TEST_F(SwimmerCaseFile, FileOfAStrokeIsRefusedWithItsLine) {
@@ -195,24 +187,21 @@ TEST_F(SwimmerCaseFile, FileOfAStrokeIsRefusedWithItsLine) {
           "file = \"loop.csv\"");
     });
   };
-  EXPECT_THAT(refused("0,6,6\n1,8,6\n3,8,8\n4,6,6.5\n"),
-              AllOf(HasSubstr("loop.csv"), HasSubstr("the loop is open"), HasSubstr("add a row")));
-  EXPECT_THAT(
-      refused("0,6,6\n1,8,6\n1,8,8\n4,6,6\n"),
-      AllOf(HasSubstr("loop.csv:4: time is 1"), HasSubstr("greater than in the row above")));
-  EXPECT_THAT(refused("0,6,6\n1,18,6\n2,8,8\n4,6,6\n"), HasSubstr("loop.csv:3: makes arm x1 18"));
-  EXPECT_THAT(refused("0,6,6\n1,6,6\n"), HasSubstr("needs at least 3"));
-  EXPECT_THAT(refused("0,6\n"), HasSubstr("loop.csv:2"));
+  EXPECT_THAT(refused("0,6,6\n1,8,6\n3,8,8\n4,6,6.5\n"), IsAt("loop.csv"));
+  EXPECT_THAT(refused("0,6,6\n1,8,6\n1,8,8\n4,6,6\n"), IsAt("loop.csv:4", "time"));
+  EXPECT_THAT(refused("0,6,6\n1,18,6\n2,8,8\n4,6,6\n"), IsAt("loop.csv:3"));
+  EXPECT_THAT(refused("0,6,6\n1,6,6\n"), IsAt("loop.csv"));
+  EXPECT_THAT(refused("0,6\n"), IsAt("loop.csv:2"));
 }
 
 TEST_F(SwimmerCaseFile, OfTwoSpheresHasNoOptimalStroke) {
   EXPECT_THAT(bad_input([&] { (void)changed("radii = [1.0, 1.0, 1.0]", "radii = [1.0, 1.0]"); }),
-              HasSubstr("stroke.corners"));
+              IsAt("case.toml:14", "stroke.corners"));
   const auto text =
       "[fluid]\nviscosity = 1\n[swimmer]\nradii = [1, 1]\narms = { from = 3, to = 9, "
       "count = 5 }\nrelative_accuracy = 1e-3\n[optimal]\ndisplacement = 1\nthrough = [5]\n";
   EXPECT_THAT(bad_input([&] { (void)read_swimmer_case(folder_.file("two.toml", text)); }),
-              AllOf(HasSubstr("two.toml:8"), HasSubstr("strokes are reciprocal")));
+              IsAt("two.toml:8", "optimal.displacement"));
 }
 
 }  // namespace

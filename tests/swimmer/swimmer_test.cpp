@@ -13,8 +13,6 @@
 namespace viscontact::swimmer {
 namespace {
 
-using ::testing::HasSubstr;
-
 /// Three equal spheres of radius 1, arms from 2.2 to 12: twelve values each, the shipped table of
 /// the case three_spheres.toml.
 const Swimmer& swimmer() {
@@ -103,8 +101,8 @@ TEST(Swim, SmallStrokesOfDistantSpheresApproachGolestanianAndAjdarisFormula) {
 
 TEST(Swim, StrokeThatLeavesTheTableSaysWhere) {
   const auto message = bad_input([] { (void)swim_sums(swimmer(), square(6, 13)); });
-  EXPECT_THAT(message, HasSubstr("arm x1 is 12."));
-  EXPECT_THAT(message, HasSubstr("the table has arms from 2.2 to 12"));
+  EXPECT_THAT(message, Names("12"));
+  EXPECT_THAT(message, Names("2.2", "12"));
   // The border itself belongs to the table.
   EXPECT_NO_THROW((void)swim_sums(swimmer(), square(2.2, 12)));
 }
@@ -113,7 +111,7 @@ TEST(Stroke, LoopThatDoesNotCloseIsRefused) {
   EXPECT_THAT(bad_input([] {
                 (void)sampled_stroke({0, 1, 2}, {arms(6, 6), arms(7, 6), arms(6, 6.1)});
               }),
-              HasSubstr("the loop is open: its last arms differ from its first ones by 0.1"));
+              Names("0.1"));
 }
 
 TEST(ShapeMechanics, SlopesAreThoseOfDifferences) {
@@ -191,7 +189,7 @@ TEST(OptimalStroke, TooLargeADisplacementIsRefusedWithARemedy) {
   EXPECT_THAT(bad_input([] {
                 (void)find_optimal_stroke(swimmer(), {50, arms(6, 6), 8}, {});
               }),
-              HasSubstr("make a table of more arms"));
+              Says("make a table of more arms"));
 }
 
 }  // namespace

@@ -18,9 +18,7 @@ namespace viscontact {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::StartsWith;
 using ::testing::UnorderedElementsAre;
 
 TEST(ReadFile, GivesEveryByte) {
@@ -35,14 +33,12 @@ TEST(ReadFile, GivesEveryByte) {
 TEST(ReadFile, NamesAMissingFile) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "missing.csv";
-  EXPECT_THAT(bad_input([&] { read_file(path); }),
-              StartsWith(path.string() + ": cannot be read (No such file"));
+  EXPECT_THAT(bad_input([&] { read_file(path); }), IsAt(path.string()));
 }
 
 TEST(ReadFile, NamesAFolderInPlaceOfAFile) {
   const TemporaryFolder folder;
-  EXPECT_THAT(bad_input([&] { read_file(folder.path()); }),
-              StartsWith(folder.path().string() + ": cannot be read (Is a directory"));
+  EXPECT_THAT(bad_input([&] { read_file(folder.path()); }), IsAt(folder.path().string()));
 }
 
 TEST(WriteFile, WritesWhatReadFileReads) {
@@ -73,8 +69,7 @@ TEST(WriteFile, LeavesAFolderInTheWayAsItIs) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "fit.json";
   std::filesystem::create_directory(path);
-  EXPECT_THAT(bad_input([&] { write_file(path, "x"); }),
-              StartsWith(path.string() + ": cannot be written (Is a directory"));
+  EXPECT_THAT(bad_input([&] { write_file(path, "x"); }), IsAt(path.string()));
   EXPECT_TRUE(std::filesystem::is_directory(path));
   EXPECT_THAT(folder.names(), ElementsAre("fit.json"));
 }
@@ -83,9 +78,9 @@ TEST(WriteFile, LeavesAFolderInTheWayAsItIs) {
 TEST(WriteFile, RefusesAPathBelowAFileAndLeavesTheFile) {
   const TemporaryFolder folder;
   const auto file = folder.file("file", "old");
-  EXPECT_THAT(bad_input([&] { write_file(file / "fit.json", "x"); }), StartsWith(file.string()));
+  EXPECT_THAT(bad_input([&] { write_file(file / "fit.json", "x"); }), IsAt(file.string()));
   EXPECT_THAT(bad_input([&] { write_file(file / "deep" / "fit.json", "x"); }),
-              StartsWith(file.string()));
+              IsAt((file / "deep").string()));
   EXPECT_EQ(read_file(file), "old");
   EXPECT_THAT(folder.names(), ElementsAre("file"));
 }
@@ -93,7 +88,7 @@ TEST(WriteFile, RefusesAPathBelowAFileAndLeavesTheFile) {
 TEST(WriteFile, RefusesANameThatNoFileSystemTakes) {
   const TemporaryFolder folder;
   const auto path = folder.path() / std::string(300, 'x');  // 255 bytes is the limit of a name
-  EXPECT_THAT(bad_input([&] { write_file(path, "x"); }), HasSubstr("xxx: cannot be written"));
+  EXPECT_THAT(bad_input([&] { write_file(path, "x"); }), IsAt(path.string()));
   EXPECT_THAT(folder.names(), IsEmpty());
 }
 
@@ -102,8 +97,7 @@ TEST(WriteFile, LeavesTheOldFileWhenTheNewOneCannotBeWrittenBesideIt) {
   // The old name just fits; the longer one of the new file beside it does not.
   const std::string name(250, 'x');
   const auto path = folder.file(name, "old");
-  EXPECT_THAT(bad_input([&] { write_file(path, "new"); }),
-              StartsWith(path.string() + ": cannot be written"));
+  EXPECT_THAT(bad_input([&] { write_file(path, "new"); }), IsAt(path.string()));
   EXPECT_EQ(read_file(path), "old");
   EXPECT_THAT(folder.names(), ElementsAre(name));
 }
@@ -139,8 +133,7 @@ TEST(WriteFile, RefusesALinkToItself) {
   const TemporaryFolder folder;
   const auto link = folder.path() / "link";
   std::filesystem::create_symlink("link", link);
-  EXPECT_THAT(bad_input([&] { write_file(link, "x"); }),
-              StartsWith(link.string() + ": cannot be written"));
+  EXPECT_THAT(bad_input([&] { write_file(link, "x"); }), IsAt(link.string()));
   EXPECT_TRUE(std::filesystem::is_symlink(link));
 }
 
@@ -156,10 +149,8 @@ TEST(CheckOutputFile, AcceptsWhatCanBeWrittenAndMakesNothing) {
 
 TEST(CheckOutputFile, RefusesAFolderAndADevice) {
   const TemporaryFolder folder;
-  EXPECT_THAT(bad_input([&] { check_output_file(folder.path()); }),
-              StartsWith(folder.path().string() + ": cannot be written (Is a directory"));
-  EXPECT_THAT(bad_input([] { check_output_file("/dev/null"); }),
-              StartsWith("/dev/null: cannot be written"));
+  EXPECT_THAT(bad_input([&] { check_output_file(folder.path()); }), IsAt(folder.path().string()));
+  EXPECT_THAT(bad_input([] { check_output_file("/dev/null"); }), IsAt("/dev/null"));
 }
 
 TEST(CheckOutputFile, RefusesALinkToAPipe) {
@@ -167,9 +158,8 @@ TEST(CheckOutputFile, RefusesALinkToAPipe) {
   int ends[2];
   ASSERT_EQ(::pipe(ends), 0);
   for (const int end : ends) {
-    const auto message =
-        bad_input([&] { (void)check_output_file(fmt::format("/proc/self/fd/{}", end)); });
-    EXPECT_THAT(message, HasSubstr("cannot be written (not a regular file)"));
+    const auto file = fmt::format("/proc/self/fd/{}", end);
+    EXPECT_THAT(bad_input([&] { (void)check_output_file(file); }), IsAt(file));
     ::close(end);
   }
 }
@@ -215,8 +205,7 @@ TEST(WriteFileBy, PutsWhatAnotherWritesInPlaceInOneStep) {
                                throw std::runtime_error("no more");
                              }),
                std::runtime_error);
-  EXPECT_THAT(bad_input([&] { write_file_by(path, [](const auto&) {}); }),
-              StartsWith(path.string() + ": cannot be written (No such file"));
+  EXPECT_THAT(bad_input([&] { write_file_by(path, [](const auto&) {}); }), IsAt(path.string()));
   EXPECT_EQ(read_file(path), "new");
   EXPECT_THAT(folder.names(), ElementsAre("frames.h5"));
 }
@@ -228,13 +217,11 @@ TEST(WriteUnflushed, ReplacesAFileThatIsFlushedLater) {
   EXPECT_EQ(read_file(path), "new");
   EXPECT_THAT(folder.names(), ElementsAre("frame"));
   EXPECT_NO_THROW(flush_files(std::vector{path}));
-  EXPECT_THAT(bad_input([&] { flush_files(std::vector{folder.path() / "none"}); }),
-              HasSubstr("none: cannot be written"));
+  EXPECT_THAT(bad_input([&] { flush_files(std::vector{folder.path() / "none"}); }), IsAt("none"));
 }
 
 TEST(ReadFile, RefusesADeviceWhichMayHaveNoEnd) {
-  EXPECT_THAT(bad_input([] { (void)read_file("/dev/zero"); }),
-              StartsWith("/dev/zero: cannot be read (a device"));
+  EXPECT_THAT(bad_input([] { (void)read_file("/dev/zero"); }), IsAt("/dev/zero"));
 }
 
 TEST(MakeFolder, MakesParentsAndIsContentWithAFolderThatIsThere) {
@@ -248,10 +235,8 @@ TEST(MakeFolder, MakesParentsAndIsContentWithAFolderThatIsThere) {
 TEST(MakeFolder, NamesAFileInTheWay) {
   const TemporaryFolder folder;
   const auto file = folder.file("file", "old");
-  EXPECT_THAT(bad_input([&] { make_folder(file); }),
-              StartsWith(file.string() + ": cannot be made"));
-  EXPECT_THAT(bad_input([&] { make_folder(file / "below"); }),
-              StartsWith((file / "below").string() + ": cannot be made"));
+  EXPECT_THAT(bad_input([&] { make_folder(file); }), IsAt(file.string()));
+  EXPECT_THAT(bad_input([&] { make_folder(file / "below"); }), IsAt((file / "below").string()));
   EXPECT_EQ(read_file(file), "old");
 }
 

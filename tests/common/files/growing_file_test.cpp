@@ -15,9 +15,6 @@
 namespace viscontact {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-
 class GrowingTable : public ::testing::Test {
  protected:
   GrowingFile file() const { return {path_, "# head\nn\n", "end\n"}; }
@@ -89,17 +86,16 @@ TEST_F(GrowingTable, IsRefusedIfItsEndIsNotThere) {
   EXPECT_NO_THROW(file().check(end));
   const auto refused = [&](const std::string& text) {
     put_text(path_, text);
-    for (const auto& message :
-         {bad_input([&] { file().check(end); }), bad_input([&] { file().resume(end); })})
-      EXPECT_THAT(message, HasSubstr("table.csv: does not have the lines"));
+    EXPECT_THAT(bad_input([&] { file().check(end); }), IsAt("table.csv"));
+    EXPECT_THAT(bad_input([&] { file().resume(end); }), IsAt("table.csv"));
     EXPECT_EQ(read_file(path_), text);  // it is not cut
   };
   refused("# head\nn\n1\n22");
   refused("# head\nn\n1.0\n22.0\nend\n");
   refused("");
-  EXPECT_THAT(bad_input([&] { file().check(FileEnd{}); }), HasSubstr("does not have the lines"));
+  EXPECT_THAT(bad_input([&] { file().check(FileEnd{}); }), IsAt("table.csv"));
   std::filesystem::remove(path_);
-  EXPECT_THAT(bad_input([&] { file().check(end); }), HasSubstr("table.csv: cannot be read"));
+  EXPECT_THAT(bad_input([&] { file().check(end); }), IsAt("table.csv"));
 }
 
 /// While it lives, no file of this process can become longer.
@@ -124,13 +120,12 @@ TEST_F(GrowingTable, ThatDoesNotFitEndsWithAWholeLineAndGoesOnIfThereIsRoomAgain
   growing.append("1\n");
   growing.sync();
   growing.append("22222\n33333\n");
-  std::string said, left;
+  std::string left;
   {
     const LimitOfFiles limit(20);
-    said = bad_input([&] { growing.sync(); });
+    EXPECT_THAT(bad_input([&] { growing.sync(); }), IsAt("table.csv"));
     left = text();
   }
-  EXPECT_THAT(said, HasSubstr("table.csv: cannot be written (File too large)"));
   EXPECT_EQ(left, "# head\nn\n1\nend\n");
   growing.sync();
   EXPECT_EQ(text(), "# head\nn\n1\n22222\n33333\nend\n");
@@ -139,12 +134,10 @@ TEST_F(GrowingTable, ThatDoesNotFitEndsWithAWholeLineAndGoesOnIfThereIsRoomAgain
 TEST_F(GrowingTable, OfWhichNotEvenTheHeadFitsIsNotThere) {
   ASSERT_NE(std::signal(SIGXFSZ, SIG_IGN), SIG_ERR);
   auto growing = file();
-  std::string said;
   {
     const LimitOfFiles limit(10);
-    said = bad_input([&] { growing.sync(); });
+    EXPECT_THAT(bad_input([&] { growing.sync(); }), IsAt("table.csv"));
   }
-  EXPECT_THAT(said, HasSubstr("table.csv: cannot be written (File too large)"));
   EXPECT_TRUE(std::filesystem::is_empty(scratch_.path()));
 }
 

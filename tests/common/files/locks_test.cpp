@@ -13,13 +13,12 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::AllOf;
-using ::testing::HasSubstr;
 
 TEST(LockedFolder, IsHeldByOneAtATime) {
   const TemporaryFolder scratch;
   std::optional<LockedFolder> first(std::in_place, scratch.path(), "is held");
   EXPECT_THAT(bad_input([&] { const LockedFolder second(scratch.path(), "is held"); }),
-              AllOf(HasSubstr(scratch.path().string()), HasSubstr("is held")));
+              AllOf(IsAt(scratch.path().string()), Says("is held")));
   first.reset();
   EXPECT_NO_THROW(const LockedFolder third(scratch.path(), "is held"));
   EXPECT_TRUE(fs::exists(scratch.path()));  // it was there before
@@ -43,8 +42,7 @@ TEST(LockedFolder, ThatWasMadeIsGoneIfNothingWasPutThere) {
 TEST(LockedFolder, InPlaceOfWhichIsAFileIsRefused) {
   const TemporaryFolder scratch;
   const auto path = scratch.file("file", "text");
-  EXPECT_THAT(bad_input([&] { const LockedFolder folder(path, "is held"); }),
-              HasSubstr("cannot be made"));
+  EXPECT_THAT(bad_input([&] { const LockedFolder folder(path, "is held"); }), IsAt(path.string()));
 }
 
 TEST(RemoveFile, TakesAFileAwayAndMindsNoneThatIsNotThere) {
@@ -55,8 +53,7 @@ TEST(RemoveFile, TakesAFileAwayAndMindsNoneThatIsNotThere) {
   EXPECT_NO_THROW(remove_file(path));
   // A folder with something in it stays.
   fs::create_directories(scratch.path() / "full" / "inner");
-  EXPECT_THAT(bad_input([&] { remove_file(scratch.path() / "full"); }),
-              HasSubstr("full: cannot be removed"));
+  EXPECT_THAT(bad_input([&] { remove_file(scratch.path() / "full"); }), IsAt("full"));
 }
 
 }  // namespace

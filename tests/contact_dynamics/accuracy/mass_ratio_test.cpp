@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "tests/particles/systems.hpp"
+#include "viscontact/constraint_rows/contact_rows.hpp"
+#include "viscontact/constraint_rows/solver_names.hpp"
 #include "viscontact/contact_solver/refinement.hpp"
 #include "viscontact/particles/steps/current_contacts.hpp"
 

@@ -431,7 +431,7 @@ TEST_F(Export, JsonHasTheLimitsAndCsvRefusesThem) {
       force.resistance(7), 1e-14 * force.resistance(7));
   EXPECT_FALSE(nlohmann::json::parse(export_fit(fit_, "json")).contains("below"));
   EXPECT_THAT(failure(ErrorKind::kWrongUsage, [&] { export_fit(fit_, "csv", "", limits); }),
-              HasSubstr("within the interval of the fit only"));
+              Says("within the interval of the fit only"));
 }
 
 TEST_F(Export, CsvHasTheValuesAtTheReferenceVelocity) {
@@ -489,15 +489,14 @@ TEST_F(Export, SaysIntervalErrorAndSource) {
 }
 
 TEST_F(Export, ToAnUnknownLanguageIsRefusedWithTheNamesThereAre) {
-  EXPECT_THAT(bad_input([&] { export_fit(fit_, "cobol"); }),
-              HasSubstr("c-header, fortran, python, matlab, json, csv"));
+  EXPECT_THAT(bad_input([&] { export_fit(fit_, "cobol"); }), Names("cobol", "c-header", "csv"));
 }
 
 TEST_F(Export, OfADragThatIsNotPositiveIsRefused) {
   EXPECT_THAT(bad_input([] {
                 export_fit(planted_fit({{"1/q", 1}, {"1", -10}}, 1e-3, 1), "csv");
               }),
-              HasSubstr("positive"));
+              Names("positive"));
 }
 
 }  // namespace

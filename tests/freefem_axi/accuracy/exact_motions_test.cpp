@@ -15,7 +15,6 @@ namespace {
 
 using lubrication::MotionKind;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 Tabulation in_unbounded_fluid(const std::string& geometry, std::vector<double> parameters,
                               double accuracy) {
@@ -161,13 +160,10 @@ TEST(Motions, OfAGeometry) {
   EXPECT_THAT(parse_motions({"spin", "approach"}, "cavity"),
               ElementsAre(MotionKind::kApproach, MotionKind::kSpin));
   EXPECT_THAT(bad_input([] { (void)parse_motions({"slide"}, "rough_plane"); }),
-              HasSubstr("beside a rough_plane a sphere has the motions approach, spin"));
+              Names("rough_plane", "approach", "spin"));
   EXPECT_THAT(bad_input([] { (void)parse_motions({"glide"}, "plane"); }),
-              HasSubstr("approach, slide, roll or spin"));
-  EXPECT_THAT(bad_input([] {
-                (void)parse_motions({"roll", "roll"}, "plane");
-              }),
-              HasSubstr("names roll twice"));
+              Names("approach", "slide", "roll", "spin"));
+  EXPECT_THAT(bad_input([] { (void)parse_motions({"roll", "roll"}, "plane"); }), Names("roll"));
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 
 #include <csignal>
 
+#include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
-#include "tests/freefem_axi/expect_error.hpp"
 #include "tests/freefem_axi/tabulations.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
@@ -15,8 +15,6 @@
 namespace viscontact::freefem_axi {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 constexpr const char* kHash = "hash-of-this-tabulation";
@@ -142,9 +140,8 @@ TEST_F(RowJournalFile, RowAppendedAfterTheDiskWasFullForAWhileIsWhole) {
   full.rlim_cur = room;
   RowJournal journal(path(), kHash);
   ::setrlimit(RLIMIT_FSIZE, &full);
-  expect_error([&] { journal.append(kSecond); }, ErrorKind::kBadInput,
-               AllOf(HasSubstr(path().string()), HasSubstr("File too large"),
-                     HasSubstr("the same command continues")));
+  EXPECT_THAT(failure(ErrorKind::kBadInput, [&] { journal.append(kSecond); }),
+              IsAt(path().string()));
   ::setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_EQ(record().finished.size(), 1U);
   journal.append(kSecond);
@@ -155,8 +152,8 @@ TEST_F(RowJournalFile, SecondHolderIsRefusedUntilTheFirstLetsGo) {
   {
     RowJournal journal(path(), kHash);
     journal.append(kFirst);
-    expect_error([&] { const RowJournal second(path(), kHash); }, ErrorKind::kBadInput,
-                 HasSubstr("another tabulation"));
+    EXPECT_THAT(failure(ErrorKind::kBadInput, [&] { const RowJournal second(path(), kHash); }),
+                IsAt(path().string()));
     journal.append(kSecond);
   }
   write({});
@@ -225,12 +222,12 @@ TEST_F(RowJournalFile, PlaceThatCannotBeWrittenIsBadInputThatNamesIt) {
   // well.
   const auto folder = scratch_.path() / "folder.rows";
   std::filesystem::create_directory(folder);
-  expect_error([&] { const RowJournal journal(folder, kHash); }, ErrorKind::kBadInput,
-               HasSubstr(folder.string()));
+  EXPECT_THAT(failure(ErrorKind::kBadInput, [&] { const RowJournal journal(folder, kHash); }),
+              IsAt(folder.string()));
   put_text(scratch_.path() / "file", "");
   const auto below = scratch_.path() / "file" / "table.csv.rows";
-  expect_error([&] { const RowJournal journal(below, kHash); }, ErrorKind::kBadInput,
-               HasSubstr((scratch_.path() / "file").string()));
+  EXPECT_THAT(failure(ErrorKind::kBadInput, [&] { const RowJournal journal(below, kHash); }),
+              Says((scratch_.path() / "file").string()));
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 
 #include <thread>
 
+#include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
-#include "tests/freefem_axi/expect_error.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
 #include "tests/freefem_axi/tabulations.hpp"
 #include "tests/oracles/brenner.hpp"
@@ -158,11 +158,12 @@ TEST_F(Tabulate, WithAllRowsFinishedNeedsNoFreeFem) {
 TEST_F(Tabulate, WorkerOfAClusterLeavesInItsJournalThatFreeFemIsMissing) {
   const RowWorker worker = {{"no-such-freefem", "."}, 1, "0-of-1.node.1"};
   const auto plan = force_table_plan(tabulation_);
-  expect_error([&] { compute_rows(worker, plan, plan.points, table_path(), no_report); },
-               ErrorKind::kExternalProgram, HasSubstr("no-such-freefem"));
+  EXPECT_THAT(failure(ErrorKind::kExternalProgram,
+                      [&] { compute_rows(worker, plan, plan.points, table_path(), no_report); }),
+              Names("no-such-freefem"));
   const auto record = read_row_record(table_path(), plan);
   EXPECT_EQ(record.failed.size(), 4U);
-  EXPECT_THAT(record.failed.at({0.5, -1}), HasSubstr("no-such-freefem"));
+  EXPECT_THAT(record.failed.at({0.5, -1}), Names("no-such-freefem"));
 }
 
 TEST_F(Tabulate, JournalOfAnotherTabulationIsNotUsed) {

@@ -18,8 +18,6 @@ using particles::BoxDomain;
 using particles::CylinderDomain;
 using particles::DiscDomain;
 using std::numbers::pi;
-using ::testing::Each;
-using ::testing::Le;
 
 EdgeLengths lengths_of(const particles::Domain& domain, const std::vector<Body>& bodies,
                        int edges = 24, double coarsening = 1) {

@@ -248,7 +248,7 @@ TEST(MeshBoundary, OfParticlesThatTouchIsRefused) {
                           boundary_of(fluid_with(24), DiscDomain{{}, 6},
                                       {{-1 - gap / 2, 0, 1}, {1 + gap / 2, 0, 1}});
                         }),
-                ::testing::HasSubstr("overlap or have too narrow a gap"));
+                Says("overlap or have too narrow a gap"));
 }
 
 TEST(MeshBoundary, OfManyDiscsIsMadeFast) {

@@ -12,8 +12,6 @@
 namespace viscontact::freefem_flow {
 namespace {
 
-using ::testing::HasSubstr;
-
 /// Places an octagon of radius 0.25 in the unit square, with a corner straight above a point of the
 /// floor at the distance `gap`. Its edges of 0.19 are the shortest ones.
 void place_octagon(double gap, particles::RigidConstraint constraint) {
@@ -50,7 +48,7 @@ TEST(WholeBorder, PointsThatFreefemJoinsAreAnError) {
   for (const auto constraint :
        {particles::RigidConstraint::kRigid, particles::RigidConstraint::kPenalty}) {
     EXPECT_THAT(failure(ErrorKind::kExternalProgram, [&] { place_octagon(0.01, constraint); }),
-                HasSubstr("1/16 of the shortest edge"));
+                Names("1/16"));
     EXPECT_NO_THROW(place_octagon(0.015, constraint));
   }
 }

@@ -15,8 +15,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 /// One disc in a round container and a shell script as the solver of its fluid.
 class OneDisc {
@@ -57,8 +55,8 @@ std::string placed_and_asked(const std::string& word) {
 
 struct Failure {
   std::string name;
-  std::string script;             ///< what the solver does when it is asked to solve
-  std::vector<std::string> said;  ///< parts of the error
+  std::string script;              ///< what the solver does when it is asked to solve
+  std::vector<std::string> names;  ///< numbers and words that the error must name
 };
 
 // What GoogleTest shows of the parameter.
@@ -70,50 +68,36 @@ TEST_P(FailingSolver, IsNamedWithItsLastLines) {
   OneDisc one(placed_and_asked("solve") + GetParam().script);
   one.place();
   const auto said = failure(ErrorKind::kExternalProgram, [&] { one.solve(); });
-  EXPECT_THAT(said, HasSubstr("the fluid solver (sh -c"));
-  EXPECT_THAT(said, HasSubstr("failed at request 3, 'solve', "));
-  for (const auto& part : GetParam().said) EXPECT_THAT(said, HasSubstr(part));
-  EXPECT_THAT(failure(ErrorKind::kExternalProgram, [&] { one.solve(); }),
-              HasSubstr("has ended after an earlier error"));
+  EXPECT_THAT(said, Names("solve", "3"));
+  EXPECT_THAT(said, NamesAll(GetParam().names));
+  failure(ErrorKind::kExternalProgram, [&] { one.solve(); });
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Ways, FailingSolver,
     ::testing::Values(
-        Failure{"Dies",
-                "echo singular matrix >&2; exit 7",
-                {"closed its output", "it ended with status 7", "its last lines: singular matrix"}},
-        Failure{"IsKilled", "kill -KILL $$", {"it ended by signal 9", "it wrote nothing else"}},
-        Failure{"DiesWithinItsAnswer",
-                "printf 'velocities 1 2'; exit 0",
-                {"before the answer was complete", "status 0"}},
-        Failure{"AnswersTooFewNumbers",
-                "echo velocities 1 2",
-                {"before the answer was complete", "status 0"}},
-        Failure{"AnswersNan",
-                "echo velocities 1 nan 0; read end",
-                {"it answered 'nan' in place of a finite number", "last lines: nan 0"}},
+        Failure{"Dies", "echo singular matrix >&2; exit 7", {"status 7", "singular matrix"}},
+        Failure{"IsKilled", "kill -KILL $$", {"signal 9"}},
+        Failure{"DiesWithinItsAnswer", "printf 'velocities 1 2'; exit 0", {"status 0"}},
+        Failure{"AnswersTooFewNumbers", "echo velocities 1 2", {"status 0"}},
+        Failure{"AnswersNan", "echo velocities 1 nan 0; read end", {"'nan'", "nan 0"}},
         Failure{"AnswersInfinity", "echo velocities 1 -inf 0; read end", {"'-inf'"}},
         Failure{"LeavesTheRangeOfADouble", "echo velocities 1e400 0 0; read end", {"'1e400'"}},
         Failure{"AnswersAWord", "echo velocities 1 2.5x 0; read end", {"'2.5x'"}},
         Failure{"AnswersSomethingElse",
                 "echo '  Error line number 3'; echo sorry >&2; exit 1",
-                {"it answered 'Error' in place of 'velocities'", "sorry", "Error line number 3",
-                 "status 1"}},
-        Failure{
-            "StaysAfterAWrongAnswer", "echo no; exec sleep 3600", {"'no'", "it had to be stopped"}},
+                {"'Error'", "'velocities'", "sorry", "Error line number 3", "status 1"}},
+        Failure{"StaysAfterAWrongAnswer", "echo no; exec sleep 3600", {"'no'"}},
         Failure{"SaysItsError",
                 "echo 'error the mesh has no triangles'; exit 1",
-                {"it says: the mesh has no triangles", "status 1"}},
+                {"the mesh has no triangles", "status 1"}},
         Failure{"SaysItsErrorWithinAnAnswer",
                 "echo velocities 1; echo error at node 7",
-                {"it says: at node 7", "status 0"}},
-        Failure{"SaysItsErrorWithoutALineEnd",
-                "printf 'error no memory'; exit 1",
-                {"it says: no memory"}},
-        Failure{"SaysAnEmptyError", "echo error; exit 1", {"an error without a text"}},
-        Failure{"WritesAWordWithoutEnd", "exec cat /dev/zero", {"more than 4096 bytes"}},
-        Failure{"WritesWithoutEnd", "exec yes and on", {"'and'", "it had to be stopped", "and on"}},
+                {"at node 7", "status 0"}},
+        Failure{"SaysItsErrorWithoutALineEnd", "printf 'error no memory'; exit 1", {"no memory"}},
+        Failure{"SaysAnEmptyError", "echo error; exit 1", {}},
+        Failure{"WritesAWordWithoutEnd", "exec cat /dev/zero", {"4096"}},
+        Failure{"WritesWithoutEnd", "exec yes and on", {"'and'", "and on"}},
         Failure{"WritesMegabytesOfMessages",
                 "seq 1000000 >&2; echo velocities none; exit 3",
                 {"'none'", "status 3", "999983 | 999984", "1000000"}}),
@@ -122,9 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(FailingSolver, ThatIsSilentIsStoppedAtTheLimit) {
   OneDisc one(placed_and_asked("solve") + "echo slow >&2; exec sleep 3600", 2s);
   one.place();
-  EXPECT_THAT(failure(ErrorKind::kExternalProgram, [&] { one.solve(); }),
-              AllOf(HasSubstr("it had not answered after 2 s"), HasSubstr("it had to be stopped"),
-                    HasSubstr("slow")));
+  EXPECT_THAT(failure(ErrorKind::kExternalProgram, [&] { one.solve(); }), Names("2", "slow"));
 }
 
 TEST(FailingSolver, ThatIsNoSolverIsWaitedForAsLongAsOneThatIsNotReady) {
@@ -140,8 +122,7 @@ TEST(FailingSolver, ThatIsNoSolverIsWaitedForAsLongAsOneThatIsNotReady) {
         fluid, particles::DiscDomain{{}, 8}, std::vector{1.0}, 2, {{"cat"}},
         [](const particles::FluidParticles&, double) { return MeshBoundary{}; }, limits);
   });
-  EXPECT_THAT(said, AllOf(HasSubstr("the fluid solver (cat) failed at request 1"),
-                          HasSubstr("it had not answered after 1 s ('ready' was awaited)")));
+  EXPECT_THAT(said, Names("ready", "1"));
 }
 
 TEST(FailingSolver, ThatNeverCompletesItsAnswerIsStoppedAtTheLimit) {
@@ -149,17 +130,15 @@ TEST(FailingSolver, ThatNeverCompletesItsAnswerIsStoppedAtTheLimit) {
   OneDisc one(placed_and_asked("solve") + "echo velocities 1; sleep 1.5; echo 2; exec sleep 3600",
               2s);
   one.place();
-  EXPECT_THAT(failure(ErrorKind::kExternalProgram, [&] { one.solve(); }),
-              HasSubstr("it had not answered after 2 s"));
+  EXPECT_THAT(failure(ErrorKind::kExternalProgram, [&] { one.solve(); }), Names("2 s"));
 }
 
 TEST(FailingSolver, ThatAnswersMoreIsFoundAtTheNextRequest) {
   OneDisc one(placed_and_asked("solve") + "echo velocities 1 2 3 4; read next");
   one.place();
   one.solve();
-  EXPECT_THAT(
-      failure(ErrorKind::kExternalProgram, [&] { one.solver().quantities(); }),
-      AllOf(HasSubstr("'solve'"), HasSubstr("more than the answer"), HasSubstr("last lines: 4")));
+  EXPECT_THAT(failure(ErrorKind::kExternalProgram, [&] { one.solver().quantities(); }),
+              Names("solve", "4"));
 }
 
 TEST(FailingSolver, ThatIsNotReadySaysWhy) {
@@ -167,12 +146,10 @@ TEST(FailingSolver, ThatIsNotReadySaysWhy) {
     return failure(ErrorKind::kExternalProgram, [&] { const OneDisc one(script); });
   };
   EXPECT_THAT(start("echo init; echo compile error; exit 1"),
-              AllOf(HasSubstr("request 1, 'viscontact-fluid'"), HasSubstr("status 1"),
-                    HasSubstr("init | compile error")));
-  EXPECT_THAT(start("echo ready nothing; read end"),
-              HasSubstr("'nothing' in place of 'boundary' or 'places'"));
-  EXPECT_THAT(start("echo error wrong version"), HasSubstr("it says: wrong version"));
-  EXPECT_THAT(start("exec yes and on"), HasSubstr("1000 other lines and not 'ready'"));
+              Names("viscontact-fluid", "1", "init | compile error"));
+  EXPECT_THAT(start("echo ready nothing; read end"), Names("nothing", "boundary", "places"));
+  EXPECT_THAT(start("echo error wrong version"), Names("wrong version"));
+  EXPECT_THAT(start("exec yes and on"), Names("ready", "1000"));
 }
 
 TEST(FailingSolver, ThatIsMissingIsNamedWithTheRemedy) {
@@ -180,16 +157,15 @@ TEST(FailingSolver, ThatIsMissingIsNamedWithTheRemedy) {
     FlowProcess(particles::Fluid{}, particles::DiscDomain{{}, 8}, {}, 2,
                 {{"viscontact-no-such-solver"}, {}, {}, "install it"}, {});
   };
-  EXPECT_EQ(failure(ErrorKind::kExternalProgram, start),
-            "the fluid solver viscontact-no-such-solver cannot be run (No such file or directory); "
-            "install it");
+  EXPECT_THAT(failure(ErrorKind::kExternalProgram, start),
+              AllOf(Names("viscontact-no-such-solver"), Says("; install it")));
 }
 
 TEST(FailingSolver, MayNotCountUnknownsInFractions) {
   for (const std::string count : {"-1", "1.5", "1e3", "99999999999999999999"}) {
     OneDisc one("echo ready places; " + await("inertia") + "echo placed " + count + "; read end");
     EXPECT_THAT(failure(ErrorKind::kExternalProgram, [&] { one.place(); }),
-                HasSubstr("'" + count + "' in place of a whole number from 0"));
+                Names("'" + count + "'"));
   }
 }
 
@@ -197,25 +173,24 @@ TEST(FailingSolver, MayNotEstimateANegativeError) {
   OneDisc one(placed_and_asked("vary") + "echo varied 1 -1 0; read end");
   one.place();
   EXPECT_THAT(failure(ErrorKind::kExternalProgram, [&] { one.solver().vary_mesh(); }),
-              HasSubstr("'-1' in place of a number >= 0"));
+              Names("'-1'", "0"));
 }
 
-std::string said_of_flow(const std::string& answer) {
+Error said_of_flow(const std::string& answer) {
   OneDisc one(placed_and_asked("flow") + "echo flow " + answer + "; read end");
   one.place();
   return failure(ErrorKind::kExternalProgram, [&] { one.solver().flow(); });
 }
 
 TEST(FailingSolver, MayNotNameNodesThatAreNotThere) {
-  EXPECT_THAT(said_of_flow("1 1  0 0 0 0 0  0 0 0 0 0 1"),
-              HasSubstr("'1' in place of a whole number from 0 to 0"));
-  EXPECT_THAT(said_of_flow("0 1  0 0 0 0 0 0"), HasSubstr("as there are no nodes"));
-  EXPECT_THAT(said_of_flow("1 0  0 0 nan 0 0"), HasSubstr("'nan'"));
+  EXPECT_THAT(said_of_flow("1 1  0 0 0 0 0  0 0 0 0 0 1"), Names("'1'", "0"));
+  EXPECT_THAT(said_of_flow("0 1  0 0 0 0 0 0"), Names("'1'"));
+  EXPECT_THAT(said_of_flow("1 0  0 0 nan 0 0"), Names("nan"));
 }
 
 TEST(FailingSolver, TakesNoMemoryForAWrongCount) {
   // Two thousand million nodes would be 80 GB.
-  EXPECT_THAT(said_of_flow("2000000000 0  0 0 stop"), HasSubstr("'stop'"));
+  EXPECT_THAT(said_of_flow("2000000000 0  0 0 stop"), Names("stop"));
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
   EXPECT_LT(usage.ru_maxrss, 1'000'000);  // kB; a sanitizer's own memory is below this

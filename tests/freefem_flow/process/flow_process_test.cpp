@@ -28,7 +28,6 @@ using particles::Particles;
 using std::numbers::pi;
 using ::testing::DoubleNear;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::Pointwise;
 
 // Of numbers of order 1: products of a few factors in another order.
@@ -211,7 +210,7 @@ TEST(FlowProcess, RefusesNumbersThatAreNotFinite) {
   solver.place({&disc, angles, {}, {}});
   const std::vector<double> forces = {0, std::numeric_limits<double>::quiet_NaN(), 0};
   EXPECT_THAT(failure(ErrorKind::kNotConverged, [&] { solver.velocities(forces, true); }),
-              HasSubstr("a force"));
+              Says("a force"));
   // The solver was not asked and answers the next request.
   EXPECT_THAT(solver.velocities(std::vector{0.0, 0.0, 0.0}, true), ElementsAre(0, 0, 0));
 }
@@ -228,7 +227,7 @@ TEST(FlowProcess, EndsAtAStopRequest) {
                       [&] {
                         solver.place({&disc, angles, {}, {}});
                       }),
-              HasSubstr("interrupted"));
+              Names("interrupted"));
 }
 
 }  // namespace

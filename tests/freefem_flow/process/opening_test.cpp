@@ -96,20 +96,19 @@ TEST(Opening, LeavesOutPeriodicSides) {
 
 TEST(Opening, RefusesADomainThatDoesNotFit) {
   const auto at_rest = fluid_with(LinearFlow{});
-  EXPECT_THAT(bad_input([&] { opening(at_rest, std::monostate{}, {}, 2); }),
-              HasSubstr("no domain"));
+  EXPECT_THAT(bad_input([&] { opening(at_rest, std::monostate{}, {}, 2); }), Says("no domain"));
   EXPECT_THAT(bad_input([&] {
                 opening(at_rest, DiscDomain{{}, 1}, {}, 1);
               }),
-              HasSubstr("must be a cylinder"));
+              Says("must be a cylinder"));
   EXPECT_THAT(bad_input([&] {
                 opening(at_rest, CylinderDomain{1, 1}, {}, 2);
               }),
-              HasSubstr("a disc or a box"));
+              Says("a disc or a box"));
   EXPECT_THAT(bad_input([&] {
                 opening(fluid_with(SideVelocities{}), DiscDomain{{}, 1}, {}, 2);
               }),
-              HasSubstr("must be a box"));
+              Says("must be a box"));
 }
 
 }  // namespace

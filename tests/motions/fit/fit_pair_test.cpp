@@ -131,18 +131,17 @@ TEST(PairFits, RefuseTablesThatDoNotBelongTogether) {
     return bad_input([&] { (void)fit_pair(tables, {}); });
   };
   EXPECT_THAT(refused([](PairTables& t) { t[MotionKind::kRoll].rows[3].force_factor *= 1.01; }),
-              HasSubstr("the matrix is not symmetric: slide_roll is"));
-  EXPECT_THAT(refused([](PairTables& t) { t[MotionKind::kSpin].viscosity = 2; }),
-              HasSubstr("different pairs: the viscosity is 1 in one and 2"));
+              Names("slide_roll"));
+  EXPECT_THAT(refused([](PairTables& t) { t[MotionKind::kSpin].viscosity = 2; }), Names("1", "2"));
   EXPECT_THAT(refused([](PairTables& t) { t[MotionKind::kSlide].geometry = "free_surface"; }),
-              HasSubstr("different pairs: the geometry"));
+              Names("geometry"));
   EXPECT_THAT(refused([](PairTables& t) { t[MotionKind::kSlide].neighbour_moves = true; }),
-              HasSubstr("a velocity of its own"));
+              Names("velocity"));
   EXPECT_THAT(refused([](PairTables& t) {
                 t[MotionKind::kRoll].rows.erase(t[MotionKind::kRoll].rows.begin());
               }),
-              HasSubstr("the table of rolling has no row at gap 0.001"));
-  EXPECT_THAT(refused([](PairTables& t) { t = {}; }), HasSubstr("no table"));
+              Names("0.001"));
+  EXPECT_THAT(refused([](PairTables& t) { t = {}; }), Says("no table"));
 }
 
 }  // namespace

@@ -17,7 +17,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::Each;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
@@ -82,29 +81,27 @@ TEST(ArrangementSection, WrongKeysAreRefusedAtTheirLine) {
   const auto refused = [](const std::string& keys, const Domain& domain = kBox) {
     return bad_input([&] { read(keys, domain); });
   };
-  EXPECT_THAT(refused("count = 2\nradius = 1.0\n"),
-              HasSubstr("case.toml:2: arrangement.mass is missing"));
-  EXPECT_THAT(refused("radius = 1.0\nmass = 1.0\n"), HasSubstr("arrangement.count is missing"));
+  EXPECT_THAT(refused("count = 2\nradius = 1.0\n"), IsAt("case.toml:2", "arrangement.mass"));
+  EXPECT_THAT(refused("radius = 1.0\nmass = 1.0\n"), IsAt("case.toml:2", "arrangement.count"));
   EXPECT_THAT(refused("count = 2\narea_fraction = 0.1\nradius = 1.0\nmass = 1.0\n"),
-              HasSubstr("case.toml:3: arrangement.count must be left out"));
+              IsAt("case.toml:3", "arrangement.count"));
   EXPECT_THAT(refused("area_fraction = 1.2\nradius = 1.0\nmass = 1.0\n"),
-              HasSubstr("area_fraction is 1.2; it must be a number > 0 and < 1"));
+              IsAt("case.toml:3", "arrangement.area_fraction"));
   EXPECT_THAT(refused("area_fraction = 0.5\nradius = 1e-5\nmass = 1.0\n"),
-              HasSubstr("at most 1000000 are allowed"));
+              IsAt("case.toml:3", "arrangement.area_fraction"));
   EXPECT_THAT(refused("count = 60\nradius = 1.0\nmass = 1.0\n"),
-              AllOf(HasSubstr("case.toml:3: arrangement.count is not accepted: 60 discs"),
-                    HasSubstr("0.9425 of the area of the domain")));
-  EXPECT_THAT(refused("count = 2\nradius = 1.0\nmass = 0.0\n"), HasSubstr("arrangement.mass is 0"));
+              AllOf(IsAt("case.toml:3", "arrangement.count"), Names("0.9425")));
+  EXPECT_THAT(refused("count = 2\nradius = 1.0\nmass = 0.0\n"),
+              IsAt("case.toml:5", "arrangement.mass"));
   EXPECT_THAT(refused("count = 2\nradius = 1.0\nmass = 1.0\nseeds = 1\n"),
-              HasSubstr("arrangement.seeds is not a key that is known here"));
-  EXPECT_THAT(refused("count = 2\nradius = 1.0\nmass = 1.0\n", {}),
-              HasSubstr("needs a section [domain] with a disc or a box"));
+              IsAt("case.toml:6", "arrangement.seeds"));
+  EXPECT_THAT(refused("count = 2\nradius = 1.0\nmass = 1.0\n", {}), IsAt("case.toml:4"));
   Particles spheres;
   spheres.dimension = 3;
   EXPECT_THAT(bad_input([&] { read("count = 2\nradius = 1.0\n", {}, false, spheres); }),
-              HasSubstr("needs a section [domain] with a disc or a box"));
+              IsAt("case.toml:4"));
   EXPECT_THAT(bad_input([] { read("count = 2\nspecies = [ { radius = 1.0 } ]\n", {}); }),
-              HasSubstr("case.toml:4: arrangement.species belongs to an arrangement, which needs"));
+              IsAt("case.toml:4", "arrangement.species"));
 }
 
 const Domain kCuboid = BoxDomain{{0, 0, 0}, {20, 10, 15}, {true, true, false}};
@@ -141,21 +138,20 @@ TEST(ArrangementSection, WrongSpeciesAreRefusedAtTheirLine) {
     return bad_input([&] { read_spheres("count = 2\n" + keys); });
   };
   EXPECT_THAT(refused("species = [ { radius = 1.0, mass = 1.0 } ]\nradius = 1.0\n"),
-              HasSubstr("case.toml:5: arrangement.radius must be left out, because species"));
-  EXPECT_THAT(refused("species = []\n"),
-              HasSubstr("arrangement.species is []; it must be a list of at least one table"));
+              IsAt("case.toml:5", "arrangement.radius"));
+  EXPECT_THAT(refused("species = []\n"), IsAt("case.toml:4", "arrangement.species"));
   EXPECT_THAT(refused("species = [ { radius = 1.0 } ]\n"),
-              HasSubstr("case.toml:4: arrangement.species[0].mass is missing"));
+              IsAt("case.toml:4", "arrangement.species[0].mass"));
   EXPECT_THAT(refused("radius = { uniform = [1.0, 0.5] }\nmass = 1.0\n"),
-              HasSubstr("arrangement.radius.uniform must be two numbers"));
+              IsAt("case.toml:4", "arrangement.radius.uniform"));
   EXPECT_THAT(refused("radius = { uniform = [0.5, 1.0], lognormal = { median = 1.0, sigma = 0.1 "
                       "} }\nmass = 1.0\n"),
-              HasSubstr("must have one of them"));
+              IsAt("case.toml:4", "arrangement.radius.uniform"));
   EXPECT_THAT(refused("radius = { lognormal = { median = 1.0, sigma = 2.0 } }\nmass = 1.0\n"),
-              HasSubstr("sigma is 2; it must be a number from 1e-6 to 1"));
-  EXPECT_THAT(refused("radius = 1.0\ndensity = 0.0\n"), HasSubstr("must have a mass"));
+              IsAt("case.toml:4", "arrangement.radius.lognormal.sigma"));
+  EXPECT_THAT(refused("radius = 1.0\ndensity = 0.0\n"), IsAt("case.toml:5", "arrangement.density"));
   EXPECT_THAT(bad_input([] { read_spheres("area_fraction = 0.1\nradius = 1.0\nmass = 1.0\n"); }),
-              HasSubstr("arrangement.area_fraction must be volume_fraction in 3 dimensions"));
+              IsAt("case.toml:3", "arrangement.area_fraction"));
 }
 
 /// A case of discs in a box, into which [[source]] pours others.
@@ -189,16 +185,16 @@ TEST(SourceSection, HasDefaultsAndRatesFromNumbers) {
 TEST(SourceSection, WrongKeysAreRefusedAtTheirLine) {
   const std::string region = "region = { from = [1.0, 15.0], to = [9.0, 19.0] }\n";
   const std::string disc = "radius = 0.5\nmass = 1.0\n";
-  expect_refused_at(poured(disc + region), "[[source]]", "rate and number are missing");
+  expect_refused_at(poured(disc + region), "[[source]]", "source[0].rate");
   expect_refused_at(poured(disc + region + "rate = 1.0\nbegin = 2.0\nend = 1.0\n"), "end = 1.0",
-                    "source[0].end is 1; it must be later than begin, 2");
+                    "source[0].end");
   expect_refused_at(poured(disc + "region = { from = [1.0, 15.0], to = [11.0, 19.0] }\nrate = 1.0"),
-                    "region", "has the corner (11, 15), which is outside the domain");
+                    "region", "source[0].region");
   expect_refused_at(poured(disc + "region = { from = [1.0, 15.0], to = [0.0, 19.0] }\nrate = 1.0"),
-                    "region", "it must be at least 1");
-  expect_refused_at(poured(disc + region + "rate = 1e9\n"), "rate", "at most 1000000 are allowed");
+                    "region", "source[0].region.to");
+  expect_refused_at(poured(disc + region + "rate = 1e9\n"), "rate", "source[0].rate");
   expect_refused_at(poured(disc + region + "rate = 1.0\n", "[fluid]\nviscosity = 1.0\n"), "region",
-                    "the case must not have a section [fluid]");
+                    "source[0].region");
 }
 
 TEST(SourceSection, MayHaveAMillionParticles) {
@@ -207,7 +203,7 @@ TEST(SourceSection, MayHaveAMillionParticles) {
   // 5 * 199999.8 + 1 = 1e6.
   const auto c = read_particles_text(poured(keys + "rate = 199999.8\n"));
   EXPECT_EQ(c.setting.sources[0].due(5), 1000000U);
-  expect_refused_at(poured(keys + "rate = 200000.0\n"), "rate", "makes more than 1000000");
+  expect_refused_at(poured(keys + "rate = 200000.0\n"), "rate", "source[0].rate");
 }
 
 TEST(SourceSection, MayBeginLaterThanACaseWithoutParticles) {
@@ -219,34 +215,29 @@ TEST(SourceSection, MayBeginLaterThanACaseWithoutParticles) {
 }
 
 TEST(SourceSection, RadiiThatCannotComeAreRefusedAtTheirLine) {
-  const auto refused = [](const std::string& radius, const std::string& words,
+  const auto refused = [](const std::string& radius, const std::string& named,
                           const std::string& more = "") {
     const auto text = poured(
         "mass = 1.0\nregion = { from = [1.0, 15.0], to = [9.0, 18.5] }\n"
         "rate = 10.0\nradius = " +
             radius + "\n",
         more);
-    expect_refused_at(text, "radius", words);
+    expect_refused_at(text, "radius", "source[0].radius", {named});
   };
   // The box is 10 x 20, and the region reaches from 15 to 18.5 below its top at 20.
-  refused("5.1",
-          "source[0].radius gives particles the radius 5.1, for which the region has no place; "
-          "between walls and planes it has places for radii up to 5");
-  refused("[0.4, 6.0]", "the radius 6");
-  refused("{ uniform = [0.4, 5.5] }", "the radius 5.5");
-  refused("{ lognormal = { median = 2.0, sigma = 1.0 } }", "for which the region has no place");
-  refused("4.0", "up to 3.6", "[[plane]]\npoint = [0.0, 18.6]\nnormal = [0.0, -1.0]\n");
-  refused("[0.0004, 1.0]", "a hundredth of each radius; the smallest one is 0.0004",
-          "[solver]\ntolerance = 1e-5\n");
+  refused("5.1", "5");
+  refused("[0.4, 6.0]", "6");
+  refused("{ uniform = [0.4, 5.5] }", "5.5");
+  refused("{ lognormal = { median = 2.0, sigma = 1.0 } }", "the region");
+  refused("4.0", "3.6", "[[plane]]\npoint = [0.0, 18.6]\nnormal = [0.0, -1.0]\n");
+  refused("[0.0004, 1.0]", "0.0004", "[solver]\ntolerance = 1e-5\n");
   const auto periodic = [](const std::string& radius) {
     return changed(poured("mass = 1.0\nregion = { from = [0.0, 9.0], to = [10.0, 9.5] }\n"
                           "rate = 10.0\nradius = " +
                           radius + "\n"),
                    "20.0] }", "20.0], periodic = [true, false] }");
   };
-  expect_refused_at(periodic("4.99"), "radius",
-                    "too large for the period of the domain, 10: they would touch their own "
-                    "images; it must be at most 4.97512");
+  expect_refused_at(periodic("4.99"), "radius", "source[0].radius", {"4.97512"});
   EXPECT_EQ(read_particles_text(periodic("4.97")).setting.sources.size(), 1U);
 }
 
@@ -258,7 +249,7 @@ TEST(SourceSection, ParticlesOfTheCaseMustNotBeTooSmallBesideThoseOfSources) {
         "[solver]\ntolerance = " + tolerance +
             "\n[[particle]]\ncentre = [5.0, 5.0]\nradius = 0.01\nmass = 1.0\n");
   };
-  expect_refused_at(text("2e-4"), "radius = 1.0", "the smallest one is 0.01");
+  expect_refused_at(text("2e-4"), "radius = 1.0", "source[0].radius", {"0.01"});
   EXPECT_EQ(read_particles_text(text("5e-5")).particles.count(), 1U);
 }
 
@@ -279,8 +270,7 @@ TEST(SourceSection, NeedsIdsForItsParticles) {
   };
   EXPECT_EQ(read("7"), 1U);
   EXPECT_THAT(bad_input([&] { read("8"); }),
-              HasSubstr("case.toml:5: source[0].number needs 8 of the ids above 2147483640, the "
-                        "largest one so far; ids are at most 2147483647"));
+              AllOf(IsAt("case.toml:5", "source[0].number"), Names("8", "2147483640")));
 }
 
 TEST(SourceSection, WithOneSeedPourDifferentParticles) {
@@ -308,7 +298,7 @@ TEST(ArrangementSection, NeedsIdsForItsParticles) {
   present.ids = {2147483646};
   EXPECT_THAT(
       bad_input([&] { read("count = 2\nradius = 1.0\nmass = 1.0\n", kBox, false, present); }),
-      HasSubstr("arrangement.count needs 2 of the ids above 2147483646"));
+      AllOf(IsAt("case.toml:3", "arrangement.count"), Names("2", "2147483646")));
 }
 
 TEST(ArrangementSection, GapInAFluidIsJudgedWithoutTheSeed) {
@@ -317,15 +307,11 @@ TEST(ArrangementSection, GapInAFluidIsJudgedWithoutTheSeed) {
     changed_text.resize(changed_text.find("[[particle]]"));
     return changed_text + "[arrangement]\ncount = 2\nradius = 0.2\nsmallest_gap = " + gap + "\n";
   };
-  expect_refused_at(
-      text("threshold_gap = 0.1", "0.05"), "smallest_gap",
-      "arrangement.smallest_gap is 0.05; it must be at least fluid.threshold_gap, 0.1");
-  expect_refused_at(
-      changed(text("", "0.05"), "end_time = 1.0", "end_time = 1.0\nroughness = 0.04"),
-      "smallest_gap",
-      "it must be at least twice viscous_contact.roughness, 0.08, at which the solids "
-      "touch");
-  expect_refused_at(text("", "1e-4"), "smallest_gap", "a thousandth of the radius, 0.0002");
+  expect_refused_at(text("threshold_gap = 0.1", "0.05"), "smallest_gap",
+                    "arrangement.smallest_gap");
+  expect_refused_at(changed(text("", "0.05"), "end_time = 1.0", "end_time = 1.0\nroughness = 0.04"),
+                    "smallest_gap", "arrangement.smallest_gap", {"0.08"});
+  expect_refused_at(text("", "1e-4"), "smallest_gap", "arrangement.smallest_gap", {"0.0002"});
   EXPECT_EQ(read_particles_text(text("threshold_gap = 0.05", "0.05")).particles.count(), 2U);
 }
 

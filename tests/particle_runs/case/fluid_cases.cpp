@@ -99,15 +99,14 @@ ParticlesCase read_particles_text(const std::string& text) {
   return read_particles_case(folder.file("case.toml", text));
 }
 
-void expect_refused_at(const std::string& text, std::string_view at, const std::string& words) {
-  using ::testing::AllOf;
-  using ::testing::HasSubstr;
+void expect_refused_at(const std::string& text, std::string_view at, const std::string& key,
+                       const std::vector<std::string>& names) {
   const auto position = text.find(at);
   if (position == std::string::npos) throw std::logic_error("not in the case: " + std::string(at));
   const auto line =
       1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(position), '\n');
   EXPECT_THAT(bad_input([&] { (void)read_particles_text(text); }),
-              AllOf(HasSubstr("case.toml:" + std::to_string(line) + ": "), HasSubstr(words)));
+              ::testing::AllOf(IsAt("case.toml:" + std::to_string(line), key), NamesAll(names)));
 }
 
 }  // namespace viscontact::particles

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "viscontact/particle_runs/case/particles_case.hpp"
 
@@ -22,8 +23,9 @@ std::string changed(std::string_view text, std::string_view from, std::string_vi
 /// read_particles_case().
 ParticlesCase read_particles_text(const std::string& text);
 
-/// Expects that the case is refused as bad input with a message "FILE:LINE: ..." that has `words`,
-/// where LINE is that of the first occurrence of `at` in the text.
-void expect_refused_at(const std::string& text, std::string_view at, const std::string& words);
+/// Expects that the case is refused as bad input at the line of the first occurrence of `at` in the
+/// text, with this key (empty: any) and with these names and values in the message.
+void expect_refused_at(const std::string& text, std::string_view at, const std::string& key,
+                       const std::vector<std::string>& names = {});
 
 }  // namespace viscontact::particles

@@ -12,7 +12,6 @@ namespace viscontact::particles {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 class FrictionSection : public ::testing::Test {
  protected:
@@ -29,8 +28,8 @@ class FrictionSection : public ::testing::Test {
                          (space ? "[3.0, 0.0, 0.0]" : "[3.0, 0.0]") +
                          "\nradius = 1.0\nmass = 2.0\n" + particle + "\n"));
   }
-  std::string refused(const std::string& contact, const std::string& sections,
-                      const std::string& particle, int dimension = 2) const {
+  Error refused(const std::string& contact, const std::string& sections,
+                const std::string& particle, int dimension = 2) const {
     return bad_input([&] { read(contact, sections, particle, dimension); });
   }
   TemporaryFolder folder_;
@@ -69,29 +68,23 @@ TEST_F(FrictionSection, InAFluidIsThatOfDiscsThatDoNotRebound) {
   const std::string friction = "[friction]\ncoefficient = 0.3\n";
   EXPECT_EQ(read("gamma_min = 0.0", fluid + friction, "").setting.laws.friction->coefficient, 0.3);
   EXPECT_THAT(refused("gamma_min = 0.0", fluid + friction + "method = \"convex\"\n", ""),
-              HasSubstr("friction.method is 'convex', which is for particles without a fluid; in a "
-                        "fluid it must be \"fixed_point\""));
+              IsAt("case.toml:15", "friction.method"));
   EXPECT_THAT(refused("gamma_min = 0.0\nrestitution = 0.5", fluid + friction, ""),
-              HasSubstr("friction.coefficient must not be there, because the case has a fluid and "
-                        "viscous_contact.restitution > 0"));
+              IsAt("case.toml:15", "friction.coefficient"));
 }
 
 TEST_F(FrictionSection, WrongValuesAreRefusedWithTheirLines) {
-  EXPECT_THAT(
-      refused("gamma_min = 0", "[friction]\ncoefficient = -0.1", ""),
-      HasSubstr(
-          "case.toml:9: friction.coefficient is -0.1; it must be a number 0, or from 1e-100"));
+  EXPECT_THAT(refused("gamma_min = 0", "[friction]\ncoefficient = -0.1", ""),
+              IsAt("case.toml:9", "friction.coefficient"));
   EXPECT_THAT(refused("gamma_min = 0", "[friction]\nmethod = \"convex\"", ""),
-              HasSubstr("friction.coefficient is missing"));
+              IsAt("case.toml:8", "friction.coefficient"));
   EXPECT_THAT(refused("gamma_min = 0", "[friction]\ncoefficient = 0.1\nmethod = \"fast\"", ""),
-              HasSubstr("friction.method is 'fast'; it must be \"fixed_point\" or \"convex\""));
-  EXPECT_THAT(
-      refused("", "[friction]\ncoefficient = 0.1", ""),
-      HasSubstr("friction.coefficient has no effect, because smooth particles never touch"));
+              IsAt("case.toml:10", "friction.method"));
+  EXPECT_THAT(refused("", "[friction]\ncoefficient = 0.1", ""),
+              IsAt("case.toml:9", "friction.coefficient"));
   EXPECT_THAT(refused("", "", "moment_of_inertia = 0.0"),
-              HasSubstr("particle[1].moment_of_inertia is 0; it must be a number from 1e-100"));
-  EXPECT_THAT(refused("", "", "angle = 1.0", 3),
-              HasSubstr("particle[1].angle must be left out, because the orientation of a sphere"));
+              IsAt("case.toml:17", "particle[1].moment_of_inertia"));
+  EXPECT_THAT(refused("", "", "angle = 1.0", 3), IsAt("case.toml:17", "particle[1].angle"));
 }
 
 TEST_F(FrictionSection, RestitutionIsAShareAndNeedsSolidContact) {
@@ -100,24 +93,23 @@ TEST_F(FrictionSection, RestitutionIsAShareAndNeedsSolidContact) {
             0.97);
   EXPECT_FALSE(read("restitution = 0.0", "", "").setting.laws.restitution.is_on());
   EXPECT_THAT(refused("gamma_min = 0\nrestitution = 1.01", "", ""),
-              HasSubstr("viscous_contact.restitution is 1.01; it must be a number from 0 to 1"));
+              IsAt("case.toml:8", "viscous_contact.restitution"));
   EXPECT_THAT(refused("restitution = 0.5", "", ""),
-              HasSubstr("viscous_contact.restitution has no effect, because smooth particles"));
+              IsAt("case.toml:7", "viscous_contact.restitution"));
 }
 
 TEST_F(FrictionSection, TheSchemeIsEulerUnlessGiven) {
   EXPECT_EQ(read("", "", "").setting.scheme, Scheme::kEuler);
   EXPECT_EQ(read("scheme = \"leapfrog\"", "", "").setting.scheme, Scheme::kLeapfrog);
-  EXPECT_THAT(
-      refused("scheme = \"verlet\"", "", ""),
-      HasSubstr("viscous_contact.scheme is 'verlet'; it must be \"euler\" or \"leapfrog\""));
+  EXPECT_THAT(refused("scheme = \"verlet\"", "", ""),
+              IsAt("case.toml:7", "viscous_contact.scheme"));
 }
 
 TEST_F(FrictionSection, MeansOverTimeBeginBeforeTheEnd) {
   EXPECT_EQ(read("", "", "").average_from, 0);
   EXPECT_EQ(read("", "[output]\naverage_from = 0.25", "").average_from, 0.25);
   EXPECT_THAT(refused("", "[output]\naverage_from = 1e9", ""),
-              HasSubstr("output.average_from is 1000000000; it must be earlier than end_time"));
+              IsAt("case.toml:9", "output.average_from"));
 }
 
 /// The tables that [output] asks for, in a case of two discs.
@@ -125,14 +117,11 @@ TEST_F(FrictionSection, TablesThatACaseCannotHaveAreRefused) {
   EXPECT_THAT(read("", "[output]\ntables = [\"contacts\", \"motion\"]", "").tables,
               ElementsAre("contacts", "motion"));
   EXPECT_THAT(refused("", "[output]\ntables = [\"forces\"]", ""),
-              HasSubstr("case.toml:9: output.tables has 'forces'; the tables are motion, contacts, "
-                        "walls, stress"));
+              IsAt("case.toml:9", "output.tables"));
   EXPECT_THAT(refused("", "[output]\ntables = [\"walls\"]", ""),
-              HasSubstr("case.toml:9: output.tables has 'walls', but the case has no walls"));
-  EXPECT_THAT(
-      refused("", "[output]\ntables = [\"stress\"]", ""),
-      HasSubstr("case.toml:9: output.tables has 'stress', which needs a [domain], or planes "
-                "that bound a region"));
+              IsAt("case.toml:9", "output.tables"));
+  EXPECT_THAT(refused("", "[output]\ntables = [\"stress\"]", ""),
+              IsAt("case.toml:9", "output.tables"));
 }
 
 }  // namespace

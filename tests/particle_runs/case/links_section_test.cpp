@@ -14,9 +14,7 @@ namespace viscontact::particles {
 namespace {
 
 using particles::operator-;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
-using ::testing::AllOf;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 // The first lines of a case, up to the particles at 0, 3 and 6 on the first axis, radius 1, and the
 // line of the first link.
@@ -37,10 +35,10 @@ class LinksSection : public ::testing::Test {
   ParticlesCase read(const std::string& links, int dimension = 2) const {
     return read_particles_case(folder_.file("case.toml", text(links, dimension)));
   }
-  void expect_refused(const std::string& links, const std::string& said, int line = kFirstLine + 1,
+  void expect_refused(const std::string& links, const std::string& key, int line = kFirstLine + 1,
                       int dimension = 2) const {
     EXPECT_THAT(bad_input([&] { read(links, dimension); }),
-                HasSubstr("case.toml:" + std::to_string(line) + ": " + said))
+                IsAt("case.toml:" + std::to_string(line), key))
         << links;
   }
   TemporaryFolder folder_;
@@ -79,13 +77,10 @@ TEST_F(LinksSection, ABodyMayLieAcrossAPeriodButNotFillIt) {
   EXPECT_NEAR(norm(body.offsets[0] - Vector{2, 0, 0}), 0, 1e-12);
   EXPECT_NEAR(norm(body.offsets[1] - Vector{-1, 0, 0}), 0, 1e-12);
   EXPECT_NEAR(norm(c.setting.links.hinges[0].point.offset - Vector{-0.5, 0, 0}), 0, 1e-12);
-  expect_refused("[[body]]\nparticles = [0, 1, 2]\n" + in_cell("7.7"),
-                 "body[0].particles make a body of diameter 9.5");
+  expect_refused("[[body]]\nparticles = [0, 1, 2]\n" + in_cell("7.7"), "body[0].particles");
   // With the period 8.5 the distances are 3, 3 and 2.5, with the period 9 they are 3 each.
   for (const auto* width : {"7.0", "7.5"})
-    expect_refused("[[body]]\nparticles = [0, 1, 2]\n" + in_cell(width),
-                   "body[0].particles do not determine which of their images make the body: along "
-                   "x the largest distance between neighbouring centres, 3, occurs more than once");
+    expect_refused("[[body]]\nparticles = [0, 1, 2]\n" + in_cell(width), "body[0].particles");
 }
 
 TEST_F(LinksSection, AHingeMayHaveStops) {
@@ -100,14 +95,12 @@ TEST_F(LinksSection, AHingeMayHaveStops) {
   EXPECT_EQ(hinges[1].lowest_angle, 0);
   EXPECT_EQ(hinges[1].highest_angle, 1.5);
   const std::string hinge = "[[hinge]]\nparticle = 0\nat = [0.0, 0.0]\n";
-  expect_refused(hinge + "lowest_angle = 0.5\n", "hinge[0].lowest_angle is 0.5", kFirstLine + 3);
-  expect_refused(hinge + "highest_angle = -0.5\n", "hinge[0].highest_angle is -0.5",
-                 kFirstLine + 3);
-  expect_refused(hinge + "lowest_angle = 0.0\nhighest_angle = 0.0\n",
-                 "hinge[0].lowest_angle is 0; it must be smaller than the highest_angle",
+  expect_refused(hinge + "lowest_angle = 0.5\n", "hinge[0].lowest_angle", kFirstLine + 3);
+  expect_refused(hinge + "highest_angle = -0.5\n", "hinge[0].highest_angle", kFirstLine + 3);
+  expect_refused(hinge + "lowest_angle = 0.0\nhighest_angle = 0.0\n", "hinge[0].lowest_angle",
                  kFirstLine + 3);
   expect_refused("[[hinge]]\nparticle = 0\nat = [0.0, 0.0, 0.0]\nlowest_angle = -0.5\n",
-                 "hinge[0].lowest_angle must be left out", kFirstLine + 3, 3);
+                 "hinge[0].lowest_angle", kFirstLine + 3, 3);
 }
 
 TEST_F(LinksSection, AHingeHoldsAPointOfABodyOrParticle) {
@@ -149,71 +142,57 @@ TEST_F(LinksSection, SpringsAndArmsJoinTwoParticles) {
 
 TEST_F(LinksSection, WrongBodiesAreRefused) {
   expect_refused("[[body]]\nparticles = []\n", "body[0].particles");
-  expect_refused("[[body]]\nparticles = [0, 3]\n",
-                 "body[0].particles contains 3, which is not the number of a particle");
-  expect_refused("[[body]]\nparticles = [0, 1, 0]\n",
-                 "body[0].particles contains particle 0 a second time");
+  expect_refused("[[body]]\nparticles = [0, 3]\n", "body[0].particles");
+  expect_refused("[[body]]\nparticles = [0, 1, 0]\n", "body[0].particles");
   expect_refused("[[body]]\nparticles = [0, 1]\n[[body]]\nparticles = [1, 2]\n",
-                 "body[1].particles contains particle 1, which belongs to body 0", kFirstLine + 3);
-  expect_refused("[[body]]\nparticles = [0, 1]\nmass = 0.0\n", "body[0].mass is 0", kFirstLine + 2);
-  expect_refused("[[body]]\nparticles = [0, 1]\nmass = -1.0\n", "body[0].mass is -1",
-                 kFirstLine + 2);
+                 "body[1].particles", kFirstLine + 3);
+  expect_refused("[[body]]\nparticles = [0, 1]\nmass = 0.0\n", "body[0].mass", kFirstLine + 2);
+  expect_refused("[[body]]\nparticles = [0, 1]\nmass = -1.0\n", "body[0].mass", kFirstLine + 2);
   expect_refused("[[body]]\nparticles = [0, 1]\nmoment_of_inertia = 1.0\n",
-                 "body[0].moment_of_inertia must be left out", kFirstLine + 2, 3);
+                 "body[0].moment_of_inertia", kFirstLine + 2, 3);
   expect_refused("[[body]]\nparticles = [0, 1]\ncolour = 1\n", "body[0].colour", kFirstLine + 2);
 }
 
 TEST_F(LinksSection, WrongHingesAreRefused) {
-  expect_refused("[[hinge]]\nbody = 0\nat = [0.0, 0.0]\n", "hinge[0].body names a body, but");
-  expect_refused("[[hinge]]\nparticle = 0\nat = [0.0, 1.5]\n",
-                 "hinge[0].at is [ 0.0, 1.5 ], which is outside the particle", kFirstLine + 2);
+  expect_refused("[[hinge]]\nbody = 0\nat = [0.0, 0.0]\n", "hinge[0].body");
+  expect_refused("[[hinge]]\nparticle = 0\nat = [0.0, 1.5]\n", "hinge[0].at", kFirstLine + 2);
   expect_refused("[[body]]\nparticles = [0, 1]\n[[hinge]]\nbody = 0\nat = [1.5, 0.0]\n",
-                 "hinge[0].at is [ 1.5, 0.0 ], which is outside all particles of the body",
-                 kFirstLine + 4);
+                 "hinge[0].at", kFirstLine + 4);
   expect_refused("[[body]]\nparticles = [0, 1]\n[[hinge]]\nparticle = 1\nat = [3.0, 0.0]\n",
-                 "hinge[0].particle is 1, which belongs to body 0", kFirstLine + 3);
+                 "hinge[0].particle", kFirstLine + 3);
   EXPECT_THAT(bad_input([&] { read("[[hinge]]\nat = [0.0, 0.0]\n"); }),
-              HasSubstr("hinge[0].body or particle must be there"));
+              IsAt("case.toml:22", "hinge[0].body"));
   expect_refused("[[hinge]]\nparticle = 0\nat = [0.0, 0.0]\nstiffness = -1.0\n",
-                 "hinge[0].stiffness is -1", kFirstLine + 3);
+                 "hinge[0].stiffness", kFirstLine + 3);
   expect_refused("[[hinge]]\nparticle = 0\nat = [0.0, 0.0]\nrest_angle = 1.0\n",
-                 "hinge[0].rest_angle has no effect without a stiffness", kFirstLine + 3);
+                 "hinge[0].rest_angle", kFirstLine + 3);
   expect_refused("[[hinge]]\nparticle = 0\nat = [0.0, 0.0, 0.0]\nstiffness = 1.0\n",
-                 "hinge[0].stiffness must be left out", kFirstLine + 3, 3);
+                 "hinge[0].stiffness", kFirstLine + 3, 3);
 }
 
 TEST_F(LinksSection, WrongSpringsAndArmsAreRefused) {
   const std::string arm = "[[arm]]\nbetween = [0, 1]\nlength = ";
-  expect_refused("[[spring]]\nbetween = [0]\nstiffness = 1.0\n",
-                 "spring[0].between is [ 0 ]; it must contain the ids of two different particles");
-  expect_refused("[[spring]]\nbetween = [1, 1]\nstiffness = 1.0\n",
-                 "spring[0].between is [ 1, 1 ]");
-  expect_refused("[[spring]]\nbetween = [0, 1]\nstiffness = 0.0\n", "spring[0].stiffness is 0",
+  expect_refused("[[spring]]\nbetween = [0]\nstiffness = 1.0\n", "spring[0].between");
+  expect_refused("[[spring]]\nbetween = [1, 1]\nstiffness = 1.0\n", "spring[0].between");
+  expect_refused("[[spring]]\nbetween = [0, 1]\nstiffness = 0.0\n", "spring[0].stiffness",
                  kFirstLine + 2);
   expect_refused("[[spring]]\nbetween = [0, 1]\nstiffness = 1.0\nlength = -1.0\n",
-                 "spring[0].length is -1", kFirstLine + 3);
-  expect_refused("[[body]]\nparticles = [0, 1]\n" + arm + "3.0\n",
-                 "arm[0].between names particles 0 and 1, which both belong to body 0",
+                 "spring[0].length", kFirstLine + 3);
+  expect_refused("[[body]]\nparticles = [0, 1]\n" + arm + "3.0\n", "arm[0].between",
                  kFirstLine + 3);
-  expect_refused(arm + "3.5\n", "arm[0].length is 3.5 at the start, but", kFirstLine + 2);
-  expect_refused(arm + "{ pieces = [[0.0, 3.0], [1.0, 1.5]] }\n",
-                 "arm[0].length is 1.5 at time 1, where its particles would overlap",
-                 kFirstLine + 2);
-  expect_refused(arm + "{ pieces = [[0.5, 3.0]] }\n",
-                 "arm[0].length.pieces contains the time 0.5; the first time must be 0",
-                 kFirstLine + 2);
+  expect_refused(arm + "3.5\n", "arm[0].length", kFirstLine + 2);
+  expect_refused(arm + "{ pieces = [[0.0, 3.0], [1.0, 1.5]] }\n", "arm[0].length", kFirstLine + 2);
+  expect_refused(arm + "{ pieces = [[0.5, 3.0]] }\n", "arm[0].length.pieces", kFirstLine + 2);
   expect_refused(arm + "{ pieces = [[0.0, 3.0], [1.0, 3.5], [1.0, 3.0]] }\n",
-                 "arm[0].length.pieces contains the time 1", kFirstLine + 2);
+                 "arm[0].length.pieces", kFirstLine + 2);
   expect_refused(arm + "{ pieces = [[0.0, 3.0], [2.0, 4.0]], period = 1.0 }\n",
-                 "arm[0].length.period is 1; it must be at least the last time", kFirstLine + 2);
+                 "arm[0].length.period", kFirstLine + 2);
   expect_refused(arm + "{ pieces = [[0.0, 3.0], [2.0, 4.0]], period = 2.0 }\n",
-                 "arm[0].length.pieces ends with the length 4 at the end of the period",
-                 kFirstLine + 2);
+                 "arm[0].length.pieces", kFirstLine + 2);
   expect_refused(arm + "{ mean = 3.0, amplitude = 3.0, angular_frequency = 1.0 }\n",
-                 "arm[0].length.amplitude is 3; it must be smaller than the mean length",
-                 kFirstLine + 2);
-  expect_refused(arm + "3.0\n[[arm]]\nbetween = [1, 0]\nlength = 3.0\n",
-                 "arm[1].between names the same particles as an arm before it", kFirstLine + 4);
+                 "arm[0].length.amplitude", kFirstLine + 2);
+  expect_refused(arm + "3.0\n[[arm]]\nbetween = [1, 0]\nlength = 3.0\n", "arm[1].between",
+                 kFirstLine + 4);
 }
 
 TEST_F(LinksSection, ThreeArmsThatCannotMeetAreRefused) {
@@ -224,9 +203,7 @@ TEST_F(LinksSection, ThreeArmsThatCannotMeetAreRefused) {
   expect_refused(
       arms +
           "[[arm]]\nbetween = [0, 2]\nlength = { pieces = [[0.0, 6.0], [1.0, 6.5], [2.0, 6.0]] }\n",
-      "arm[2].length is 6.5 at time 1, more than the sum 6 of the arms between particles 0 and 1 "
-      "and between particles 1 and 2",
-      kFirstLine + 8);
+      "arm[2].length", kFirstLine + 8);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 namespace viscontact::particles {
 namespace {
 
-using ::testing::HasSubstr;
+using ::testing::AllOf;
 
 class MembraneSection : public ::testing::Test {
  protected:
@@ -38,9 +38,10 @@ class MembraneSection : public ::testing::Test {
     return read_particles_case(folder_.file("case.toml", text));
   }
   // Line 12 is that of the first membrane.
-  void expect_refused(const std::string& text, int line, const std::string& said) const {
+  void expect_refused(const std::string& text, int line, const std::string& key,
+                      const std::string& named = "") const {
     EXPECT_THAT(bad_input([&] { read(text); }),
-                HasSubstr("case.toml:" + std::to_string(line) + ": " + said));
+                AllOf(IsAt("case.toml:" + std::to_string(line), key), Names(named)));
   }
   TemporaryFolder folder_;
 };
@@ -66,28 +67,27 @@ TEST_F(MembraneSection, MakesBeads) {
 }
 
 TEST_F(MembraneSection, ImpossibleMembranesAreErrorsWithTheirLine) {
-  expect_refused(text(membrane("0.0, 0.0", "1.1")), 15, "membrane[0].reduced_area is 1.1");
-  expect_refused(text(membrane("0.0, 0.0", "0.2")), 15, "membrane[0].reduced_area is 0.2");
+  expect_refused(text(membrane("0.0, 0.0", "1.1")), 15, "membrane[0].reduced_area");
+  expect_refused(text(membrane("0.0, 0.0", "0.2")), 15, "membrane[0].reduced_area");
   expect_refused(text(membrane("0.0, 0.0", "0.3", "beads = 12\n")), 15, "membrane[0].reduced_area");
-  expect_refused(text(membrane("0.0, 0.0", "0.8", "beads = 11\n")), 17, "membrane[0].beads is 11");
+  expect_refused(text(membrane("0.0, 0.0", "0.8", "beads = 11\n")), 17, "membrane[0].beads");
   expect_refused(text(membrane("0.0, 0.0", "0.8", "bead_radius = 1.0\n")), 17,
-                 "membrane[0].bead_radius is 1");
-  expect_refused(text(membrane("0.0, 0.0", "0.8", "colour = 1\n")), 17, "");
+                 "membrane[0].bead_radius");
+  expect_refused(text(membrane("0.0, 0.0", "0.8", "colour = 1\n")), 17, "membrane[0].colour");
   expect_refused(text("[[membrane]]\nperimeter = 7.0\n"), 12, "");
 }
 
 TEST_F(MembraneSection, MembranesThatMeetOrLeaveTheDomainAreErrors) {
-  expect_refused(text(membrane() + membrane("1.0, 0.0")), 18,
-                 "membrane[1].centre makes the membrane cross or contain membrane 0");
+  expect_refused(text(membrane() + membrane("1.0, 0.0")), 18, "membrane[1].centre");
   expect_refused(text(membrane() + "[[membrane]]\ncentre = [0.1, 0.0]\nperimeter = 2.0\n"
                                    "reduced_area = 0.8\nbending_rigidity = 3.0\n"),
-                 18, "membrane[1].centre makes the membrane cross or contain membrane 0");
+                 18, "membrane[1].centre");
   // Also across the period of 10: the second membrane is in the image of the first one.
   const std::string small = "perimeter = 2.0\nreduced_area = 0.8\nbending_rigidity = 3.0\n";
   for (const auto& [first, second] :
        {std::pair("4.5, 0.0", "-4.9, 0.0"), {"-4.5, 0.0", "4.9, 0.0"}})
     expect_refused(text(membrane(first) + "[[membrane]]\ncentre = [" + second + "]\n" + small), 18,
-                   "membrane[1].centre makes the membrane cross or contain membrane 0");
+                   "membrane[1].centre");
   expect_refused(text(membrane("0.0, 3.5")), 12, "");
 }
 
@@ -116,44 +116,41 @@ TEST_F(MembraneSection, WhatCannotBeComputedWithMembranesIsRefused) {
   const auto beside = [&](const std::string& centre, const std::string& more) {
     return text(membrane() + "[[particle]]\ncentre = [" + centre + "]\n" + more + "\n");
   };
-  const std::string radius = "radius = 0.1\n", stands = "section [[membrane]] stands beside ";
+  const std::string radius = "radius = 0.1\n";
   EXPECT_NO_THROW(read(beside("0.5, 0.0", radius)));
-  expect_refused(beside("3.0, 3.0", radius + "mass = 1.0"), 12,
-                 stands + "particle 0, which has a mass");
-  expect_refused(beside("3.0, 3.0", radius + "torque = 1.0"), 12,
-                 stands + "particle 0, which has a torque");
-  expect_refused(beside("3.0, 3.0", "semi_axes = [0.1, 0.2]"), 12,
-                 stands + "particle 0, which is an ellipse");
-  expect_refused(beside("0.0, 0.65", radius), 12, stands + "particle 0, which crosses a membrane");
+  expect_refused(beside("3.0, 3.0", radius + "mass = 1.0"), 12, "membrane", "mass");
+  expect_refused(beside("3.0, 3.0", radius + "torque = 1.0"), 12, "membrane", "torque");
+  expect_refused(beside("3.0, 3.0", "semi_axes = [0.1, 0.2]"), 12, "membrane", "ellipse");
+  expect_refused(beside("0.0, 0.65", radius), 12, "membrane", "particle 0");
   expect_refused(text(membrane() + "[[plane]]\npoint = [0.0, -3.0]\nnormal = [0.0, 1.0]\n"), 12,
-                 stands + "plane");
-  expect_refused(text(membrane(), "density = 1.0"), 11, "fluid.density is 1");
-  expect_refused(text(membrane(), "mesh = \"fixed\""), 11, "fluid.mesh is 'fixed'");
-  expect_refused(text(membrane(), "coupling = \"splitting\""), 11, "fluid.coupling is 'splitting'");
-  expect_refused(text(membrane(), "solver = [\"mine\"]"), 11, "fluid.solver is a program");
-  expect_refused(text(membrane(), "constraint = \"rigid\""), 11, "fluid.constraint is 'rigid'");
+                 "membrane", "plane");
+  expect_refused(text(membrane(), "density = 1.0"), 11, "fluid.density");
+  expect_refused(text(membrane(), "mesh = \"fixed\""), 11, "fluid.mesh");
+  expect_refused(text(membrane(), "coupling = \"splitting\""), 11, "fluid.coupling");
+  expect_refused(text(membrane(), "solver = [\"mine\"]"), 11, "fluid.solver");
+  expect_refused(text(membrane(), "constraint = \"rigid\""), 11, "fluid.constraint");
   const auto with = [&](const std::string& section, const std::string& key) {
     auto changed = text(membrane());
     return changed.insert(changed.find(section) + section.size(), "\n" + key);
   };
-  expect_refused(with("dimension = 2", "gravity = [0.0, -1.0]"), 4, "space.gravity has no effect");
+  expect_refused(with("dimension = 2", "gravity = [0.0, -1.0]"), 4, "space.gravity");
   expect_refused(with("end_time = 4.0", "gamma_min = 0.0\nrestitution = 0.5"), 10,
-                 "viscous_contact.restitution has no effect");
-  expect_refused(text(membrane(), "", "true, true"), 12, "section [[membrane]] stands in a box");
+                 "viscous_contact.restitution");
+  expect_refused(text(membrane(), "", "true, true"), 12, "membrane");
   expect_refused(text(membrane("0.0, 0.0", "0.8", "bead_mass = 1.0\n")), 17,
-                 "membrane[0].bead_mass has no effect in a fluid");
+                 "membrane[0].bead_mass");
   expect_refused(text(membrane("0.0, 0.0", "0.8", "velocity = [1.0, 0.0]\n")), 17,
-                 "membrane[0].velocity has no effect in a fluid");
+                 "membrane[0].velocity");
   expect_refused(text(membrane("0.0, 0.0", "0.8", "bending_viscosity = 1.0\n")), 17,
-                 "membrane[0].bending_viscosity belongs to a membrane without a fluid");
+                 "membrane[0].bending_viscosity");
   expect_refused(text(membrane("0.0, 0.0", "0.8", "inner_area = \"free\"\n")), 17,
-                 "membrane[0].inner_area is 'free'; in a fluid it must be \"kept\"");
+                 "membrane[0].inner_area");
 }
 
 TEST_F(MembraneSection, ViscosityRatiosThatCannotBeComputedAreErrors) {
   for (const auto* number : {"1e-8", "1e-5", "1e4", "1e100"})
     expect_refused(text(membrane("0.0, 0.0", "0.8", fmt::format("inner_viscosity = {}\n", number))),
-                   17, "membrane[0].inner_viscosity is ");
+                   17, "membrane[0].inner_viscosity");
   for (const auto* number : {"2.1e-4", "1.9e3"})
     EXPECT_NO_THROW(
         read(text(membrane("0.0, 0.0", "0.8", fmt::format("inner_viscosity = {}\n", number)))));
@@ -165,7 +162,7 @@ TEST_F(MembraneSection, StiffMembranesNeedBeads) {
     auto changed = text(membrane("0.0, 0.0", "0.8", beads), "velocity = { shear_rate = 1.0 }");
     return changed.replace(changed.find("= 3.0\n") + 2, 3, rigidity);
   };
-  expect_refused(stiff("250.0", "beads = 31\n"), 17, "membrane[0].beads makes 31 beads, too few");
+  expect_refused(stiff("250.0", "beads = 31\n"), 17, "membrane[0].beads");
   EXPECT_NO_THROW(read(stiff("250.0", "beads = 32\n")));
   EXPECT_NO_THROW(read(stiff("250.0", "")));
   EXPECT_NO_THROW(read(stiff("150.0", "beads = 31\n")));
@@ -221,8 +218,7 @@ TEST_F(MembraneSection, TakesGivenParticles) {
   EXPECT_NEAR(membrane.lengths[0], 2, 1e-5);
   EXPECT_NEAR(membrane.lengths[1], std::hypot(1, 1.6 * std::sin(std::numbers::pi / 3)), 1e-5);
   const auto shuffled = dry(ring(6, {0, 3, 4, 1, 2, 5}, "radius = 0.5\nmass = 1.0") + of_six);
-  EXPECT_THAT(bad_input([&] { read(shuffled); }),
-              HasSubstr("membrane[0].particles makes a membrane that crosses itself"));
+  EXPECT_THAT(bad_input([&] { read(shuffled); }), IsAt("case.toml:32", "membrane[0].particles"));
   std::string flat;
   for (int k = 0; k < 4; ++k)
     flat += fmt::format("[[particle]]\ncentre = [{}.0, 0.0]\nradius = 0.1\nmass = 1.0\n", k);
@@ -230,24 +226,20 @@ TEST_F(MembraneSection, TakesGivenParticles) {
                 read(dry(flat + "[[membrane]]\nparticles = [0, 1, 2, 3]\n"
                                 "bending_rigidity = 0.0\n"));
               }),
-              HasSubstr("membrane[0].particles makes a flat membrane, with the reduced area 0"));
-  for (const auto& [wrong, said] :
-       {std::pair("[0, 1, 2]", "has 3 beads; a membrane without a fluid must have at least 4"),
-        {"[0, 1, 2, 3, 0]", "contains particle 0 a second time"},
-        {"[0, 1, 2, 9]", "contains 9, which is not the number of a particle"},
-        {"[0, 1, 2, 3]\nbeads = 4", "beads must be left out, because the key particles"}}) {
+              IsAt("case.toml:24", "membrane[0].particles"));
+  for (const auto& [wrong, key] : {std::pair("[0, 1, 2]", "membrane[0].particles"),
+                                   {"[0, 1, 2, 3, 0]", "membrane[0].particles"},
+                                   {"[0, 1, 2, 9]", "membrane[0].particles"},
+                                   {"[0, 1, 2, 3]\nbeads = 4", "membrane[0].beads"}}) {
     const auto text = dry(ring(6, {0, 1, 2, 3, 4, 5}, "radius = 0.5\nmass = 1.0") +
                           "[[membrane]]\nbending_rigidity = 0.0\nparticles = " + wrong + "\n");
-    EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr(said));
+    EXPECT_THAT(bad_input([&] { read(text); }), IsAt("case.toml", key));
   }
   const auto twice = dry(ring(6, {0, 1, 2, 3, 4, 5}, "radius = 0.5\nmass = 1.0") + of_six + of_six);
-  EXPECT_THAT(
-      bad_input([&] { read(twice); }),
-      HasSubstr("membrane[1].particles contains particle 0, which is a bead of membrane 0"));
+  EXPECT_THAT(bad_input([&] { read(twice); }), IsAt("case.toml:35", "membrane[1].particles"));
   const auto body = dry(ring(6, {0, 1, 2, 3, 4, 5}, "radius = 0.5\nmass = 1.0") + of_six +
                         "[[body]]\nparticles = [0, 1]\n");
-  EXPECT_THAT(bad_input([&] { read(body); }),
-              HasSubstr("body[0].particles contains particle 0, which is a bead of a membrane"));
+  EXPECT_THAT(bad_input([&] { read(body); }), IsAt("case.toml:35", "body[0].particles"));
 }
 
 // In a fluid the beads are at equal distances along the curve.
@@ -268,29 +260,27 @@ TEST_F(MembraneSection, TakesGivenParticlesInAFluid) {
   EXPECT_NEAR(c.setting.fluid->membranes[0].area, made.setting.fluid->membranes[0].area, 1e-5);
   for (std::size_t k = 0; k < 16; ++k)
     EXPECT_NEAR(norm(c.particles.position(k) - made.particles.position(k)), 0, 1e-5);
-  EXPECT_THAT(bad_input([&] { read(given(0.05)); }),
-              HasSubstr("membrane[0].particles are not at equal distances along the membrane"));
+  EXPECT_THAT(bad_input([&] { read(given(0.05)); }), IsAt("case.toml:61", "membrane[0].particles"));
 }
 
 TEST_F(MembraneSection, WhatCannotStandBesideANecklaceIsRefused) {
-  const auto expect = [&](const std::string& text, const std::string& said) {
-    EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr(said));
+  const auto expect = [&](const std::string& text, const std::string& key) {
+    EXPECT_THAT(bad_input([&] { read(text); }), IsAt("case.toml", key));
   };
   const std::string mass = "bead_mass = 1.0\n";
   expect(dry(membrane("0.0, 0.0", "0.8")), "membrane[0].bead_mass");
   expect(dry(membrane("0.0, 0.0", "0.8", mass + "inner_viscosity = 1.0\n")),
-         "membrane[0].inner_viscosity belongs to a case with a fluid");
+         "membrane[0].inner_viscosity");
   expect(dry(membrane("0.0, 0.0", "0.8", mass) + membrane("1.0, 0.0", "0.8", mass)),
-         "membrane[1].centre makes the membrane cross membrane 0");
+         "membrane[1].centre");
   // The regular polygon of 20 corners has the reduced area 0.9918.
-  expect(dry(membrane("0.0, 0.0", "0.995", mass + "beads = 20\n")),
-         "membrane[0].reduced_area is 0.995, which 20 beads cannot have; it must be smaller");
+  expect(dry(membrane("0.0, 0.0", "0.995", mass + "beads = 20\n")), "membrane[0].reduced_area");
   auto rebound = dry(membrane("0.0, 0.0", "0.8", mass));
   rebound.insert(rebound.find("end_time"), "gamma_min = 0.0\nrestitution = 0.5\n");
-  expect(rebound, "viscous_contact.restitution must be left out, because the case has membranes");
+  expect(rebound, "viscous_contact.restitution");
   auto space = dry(membrane("0.0, 0.0", "0.8", mass));
   space.replace(space.find("= 2"), 3, "= 3");
-  expect(space, "section [[membrane]] belongs to the plane");
+  expect(space, "membrane");
   // A membrane may contain another one.
   EXPECT_NO_THROW(read(dry(membrane("0.0, 0.0", "0.8", mass) +
                            "[[membrane]]\ncentre = [0.0, 0.0]\nperimeter = 2.0\n"

@@ -61,7 +61,7 @@ TEST_F(RestartFile, HasThePositionsBeforeAStepOfMembranes) {
   const auto text = write_restart(state);
   EXPECT_EQ(read(text).earlier_positions, state.earlier_positions);
   state.earlier_positions = {0.5};
-  EXPECT_THAT(bad_input([&] { read(write_restart(state)); }), HasSubstr("restart.bin: is damaged"));
+  EXPECT_THAT(bad_input([&] { read(write_restart(state)); }), IsAt("restart.bin"));
 }
 
 TEST_F(RestartFile, HasWhatSourcesHaveDone) {
@@ -72,8 +72,7 @@ TEST_F(RestartFile, HasWhatSourcesHaveDone) {
   EXPECT_EQ(read(text).sources, state.sources);
   for (const int poured : {-1, 1}) {  // the disc comes from the first source
     state.sources[1].poured = poured;
-    EXPECT_THAT(bad_input([&] { read(write_restart(state)); }),
-                HasSubstr("restart.bin: is damaged"));
+    EXPECT_THAT(bad_input([&] { read(write_restart(state)); }), IsAt("restart.bin"));
   }
 }
 
@@ -93,8 +92,7 @@ TEST_F(RestartFile, HasTheBlowsOfTheLastStep) {
   const auto refused = [&](const std::function<void(State&)>& change) {
     auto other = state;
     change(other);
-    EXPECT_THAT(bad_input([&] { read(write_restart(other)); }),
-                HasSubstr("restart.bin: is damaged"));
+    EXPECT_THAT(bad_input([&] { read(write_restart(other)); }), IsAt("restart.bin"));
   };
   refused([](State& other) { other.blows[1].first = 1; });
   refused([](State& other) { other.blows[0].impulse[1] = std::nan(""); });
@@ -109,7 +107,7 @@ TEST_F(RestartFile, SaysWhichEndOfAPlateIsAtAnObstacle) {
   const auto text = write_restart(state);
   EXPECT_EQ(read(text).walls, state.walls);
   state.walls[1].place = 2;
-  EXPECT_THAT(bad_input([&] { read(write_restart(state)); }), HasSubstr("restart.bin: is damaged"));
+  EXPECT_THAT(bad_input([&] { read(write_restart(state)); }), IsAt("restart.bin"));
 }
 
 TEST_F(RestartFile, OfBodiesHasTheirMotion) {
@@ -161,7 +159,7 @@ TEST_F(RestartFile, OfFrictionHasWhatTheSolidsCarried) {
   const auto again = read(write_restart(state));
   EXPECT_EQ(again.memories.of(again.walls[0].memory), memory);
   state.memories.make(state.walls[0].memory)[Remembered::kCarried] = -1;
-  EXPECT_THAT(bad_input([&] { read(write_restart(state)); }), HasSubstr("restart.bin: is damaged"));
+  EXPECT_THAT(bad_input([&] { read(write_restart(state)); }), IsAt("restart.bin"));
 }
 
 TEST_F(RestartFile, OnAnAxisHasOneNumberForEachParticle) {
@@ -177,8 +175,7 @@ TEST_F(RestartFile, WithListsOfOtherLengthsIsRefused) {
   const auto refused = [&](const std::function<void(State&)>& change) {
     State state = disc_on_plane(-0.5);
     change(state);
-    EXPECT_THAT(bad_input([&] { read(write_restart(state)); }),
-                HasSubstr("restart.bin: is damaged"));
+    EXPECT_THAT(bad_input([&] { read(write_restart(state)); }), IsAt("restart.bin"));
   };
   refused([](State& state) { state.particles.angles = {1, 2}; });
   refused([](State& state) { state.particles.angles = {1}; });  // no angular velocity
@@ -200,15 +197,14 @@ TEST_F(RestartFile, OfAnotherVersionIsRefused) {
   for (const auto* version : {"version 14", "version :", "version 12", "version 13x"}) {
     auto text = write_restart(disc_on_plane(-0.5));
     text.replace(text.find("version 13"), 10, version);
-    EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr("it must be of version 13"));
+    EXPECT_THAT(bad_input([&] { read(text); }), IsAt("restart.bin"));
   }
 }
 
 TEST_F(RestartFile, WithoutAFiniteGammaIsRefused) {
   for (const double gamma :
        {std::numeric_limits<double>::quiet_NaN(), 0.5, -std::numeric_limits<double>::infinity()})
-    EXPECT_THAT(bad_input([&] { read(write_restart(disc_on_plane(gamma))); }),
-                HasSubstr("restart.bin: is damaged"));
+    EXPECT_THAT(bad_input([&] { read(write_restart(disc_on_plane(gamma))); }), IsAt("restart.bin"));
 }
 
 }  // namespace

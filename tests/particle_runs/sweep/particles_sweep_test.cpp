@@ -16,9 +16,10 @@
 namespace viscontact::particles {
 namespace {
 
+using ::testing::AllOf;
+
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using ::testing::Pair;
 
 class ParticlesSweepTest : public ::testing::Test {
@@ -156,7 +157,7 @@ TEST_F(ParticlesSweepTest, FileThatIsNotOfTheSweepHasNoMeans) {
   EXPECT_THAT(bad_input([&] {
                 table_of_means(ParticlesSweep(path("case.toml"), points_), path("rows.csv"));
               }),
-              HasSubstr("row 4 is not that of the sweep"));
+              AllOf(IsAt("rows.csv"), Names("4")));
 }
 
 TEST_F(ParticlesSweepTest, WithoutDrawsTheArrangementIsThatOfTheCase) {
@@ -175,42 +176,41 @@ TEST_F(ParticlesSweepTest, WholeNumbersStayWholeInTheCase) {
 }
 
 TEST_F(ParticlesSweepTest, WrongPlansAreRefused) {
-  const auto refused = [&](const std::string& words) {
+  const auto refused = [&](const std::string& name) {
     EXPECT_THAT(
         failure(ErrorKind::kWrongUsage, [&] { (void)ParticlesSweep(path("case.toml"), points_); }),
-        HasSubstr(words));
+        Names(name));
   };
   const auto good = points_;
   points_.variations.clear();
   points_.draws = 0;
-  refused("varies no key and has no draws");
+  refused("draws");
   points_ = good;
   points_.variations.push_back(points_.variations[0]);
-  refused("arrangement.area_fraction is given twice");
+  refused("arrangement.area_fraction");
   points_ = good;
   points_.variations = {sweep::parse_variation("arrangement.seed=1,2")};
-  refused("cannot be varied beside draws");
+  refused("arrangement.seed");
   points_.variations = {sweep::parse_variation("output.every=1,2")};
-  refused("changes no motion");
+  refused("output.every");
   points_ = good;
   points_.draws = 3000000000;
-  refused("at most 2147483647");
+  refused("2147483647");
   points_ = good;
   auto text = small_particles_case("[[particle]]\ncentre = [1.0, 1.0]\nradius = 0.5\nmass = 1\n");
   const auto at = text.find("[arrangement]");
   put_text(path("case.toml"), text.erase(at, text.find("[[particle]]") - at));
   points_.variations = {sweep::parse_variation("particle[0].mass=1,2")};
-  refused("has no section [arrangement]");
+  refused("[arrangement]");
 }
 
 TEST_F(ParticlesSweepTest, PointThatIsNoCaseIsRefusedAtTheEndsOfTheSweep) {
   points_.variations = {sweep::parse_variation("arrangement.area_fraction=0.1,0.95")};
   EXPECT_THAT(bad_input([&] { (void)ParticlesSweep(path("case.toml"), points_); }),
-              ::testing::AllOf(HasSubstr("case.toml:"), HasSubstr("do not fit"),
-                               HasSubstr("at the point arrangement.area_fraction = 0.95")));
+              ::testing::AllOf(IsAt("case.toml", "arrangement.area_fraction"), Names("0.95")));
   points_.variations = {sweep::parse_variation("arrangement.radus=1,2")};
   EXPECT_THAT(bad_input([&] { (void)ParticlesSweep(path("case.toml"), points_); }),
-              HasSubstr("arrangement.radus is not a key that is known here"));
+              IsAt("case.toml", "arrangement.radus"));
 }
 
 TEST_F(ParticlesSweepTest, SectionOfTheCaseGivesThePlan) {

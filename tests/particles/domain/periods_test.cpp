@@ -316,8 +316,7 @@ TEST(PeriodicSimulation, RefusesStepsOfHalfAPeriod) {
   auto setting = simulation.setting();
   setting.time_step = 10;
   Simulation fast(setting, simulation.state(), 1);
-  EXPECT_THAT(failure(ErrorKind::kNotConverged, [&] { fast.step(1e300); }),
-              ::testing::HasSubstr("period of 11; make the time step shorter"));
+  EXPECT_THAT(failure(ErrorKind::kNotConverged, [&] { fast.step(1e300); }), Names("period of 11"));
 }
 
 TEST(Wrapping, ChangesImagesSoThatSeparationsStay) {

@@ -13,8 +13,6 @@
 namespace viscontact {
 namespace {
 
-using ::testing::HasSubstr;
-
 struct BadInputCase {
   std::string name;
   std::vector<std::string> arguments;  ///< "@name" is a file of the folder below
@@ -67,7 +65,7 @@ TEST_P(BadInput, EndsWithExitCode3SaysWhatAndLeavesEveryFileAsItWas) {
     arguments.push_back(word.starts_with("@") ? (scratch.path() / word.substr(1)).string() : word);
   const auto before = files_below(scratch.path());
   const auto result = run_viscontact(arguments, {"VISCONTACT_FREEFEM=" + fake.executable()});
-  expect_refusal(result, ErrorKind::kBadInput, HasSubstr(GetParam().said));
+  expect_refusal(result, ErrorKind::kBadInput, Names(GetParam().said));
   EXPECT_EQ(result.output, "");
   EXPECT_EQ(files_below(scratch.path()), before);
   EXPECT_TRUE(fake.answered().empty());  // what can be refused is refused before it costs anything
@@ -78,41 +76,33 @@ using Cases = std::vector<BadInputCase>;
 std::string name_of(const ::testing::TestParamInfo<BadInputCase>& test) { return test.param.name; }
 
 const Cases kTabulate = {
-    {"MissingCase", {"tabulate", "@no.toml", "-o", "@t.csv"}, "no.toml: cannot be read"},
-    {"NotANumberInCase", {"tabulate", "@nan.toml", "-o", "@t.csv"}, "fluid.viscosity is nan"},
+    {"MissingCase", {"tabulate", "@no.toml", "-o", "@t.csv"}, "no.toml"},
+    {"NotANumberInCase", {"tabulate", "@nan.toml", "-o", "@t.csv"}, "fluid.viscosity"},
     {"UnknownKey", {"tabulate", "@unknown_key.toml", "-o", "@t.csv"}, "end_time"},
     {"NoTabulation", {"tabulate", "@no_tabulation.toml", "-o", "@t.csv"}, "[tabulation]"},
     {"OutputBelowAFile", {"tabulate", "@case.toml", "-o", "@empty/t.csv"}, "empty"},
     {"OutputIsAFolder", {"tabulate", "@case.toml", "-o", "@folder"}, "folder"},
-    {"OutputIsAnotherFile",
-     {"tabulate", "@case.toml", "-o", "@fit.json"},
-     "fit.json: is not a table"},
+    {"OutputIsAnotherFile", {"tabulate", "@case.toml", "-o", "@fit.json"}, "fit.json"},
 };
 INSTANTIATE_TEST_SUITE_P(Tabulate, BadInput, ::testing::ValuesIn(kTabulate), name_of);
 
 const Cases kFit = {
-    {"MissingTable", {"fit", "@no.csv", "-o", "@f.json"}, "no.csv: cannot be read"},
-    {"FolderAsTable",
-     {"fit", "@folder", "-o", "@f.json"},
-     "folder: has none of the tables approach.csv"},
-    {"NotANumberInTable", {"fit", "@nan.csv", "-o", "@f.json"}, "nan.csv:37: reference_velocity"},
+    {"MissingTable", {"fit", "@no.csv", "-o", "@f.json"}, "no.csv"},
+    {"FolderAsTable", {"fit", "@folder", "-o", "@f.json"}, "folder"},
+    {"NotANumberInTable", {"fit", "@nan.csv", "-o", "@f.json"}, "reference_velocity"},
     {"OutputBelowAFile", {"fit", "@table.csv", "-o", "@empty/f.json"}, "empty"},
-    {"OutputIsAFolder", {"fit", "@table.csv", "-o", "@folder"}, "folder: cannot be written"},
-    {"OutputIsItsInput", {"fit", "@table.csv", "-o", "@table.csv"}, "table.csv: is not a fit"},
+    {"OutputIsAFolder", {"fit", "@table.csv", "-o", "@folder"}, "folder"},
+    {"OutputIsItsInput", {"fit", "@table.csv", "-o", "@table.csv"}, "table.csv"},
 };
 INSTANTIATE_TEST_SUITE_P(Fit, BadInput, ::testing::ValuesIn(kFit), name_of);
 
 const Cases kSimulate = {
-    {"MissingCase",
-     {"simulate", "@no.toml", "--fit", "@fit.json", "-o", "@out"},
-     "no.toml: cannot be read"},
+    {"MissingCase", {"simulate", "@no.toml", "--fit", "@fit.json", "-o", "@out"}, "no.toml"},
     {"NoMotion", {"simulate", "@no_motion.toml", "--fit", "@fit.json", "-o", "@out"}, "[motion]"},
     {"UnknownModelInCase",
      {"simulate", "@unknown_model.toml", "--fit", "@fit.json", "-o", "@out"},
      "'magic'"},
-    {"MissingFit",
-     {"simulate", "@case.toml", "--fit", "@no.json", "-o", "@out"},
-     "no.json: cannot be read"},
+    {"MissingFit", {"simulate", "@case.toml", "--fit", "@no.json", "-o", "@out"}, "no.json"},
     {"UnknownKeyInFit",
      {"simulate", "@case.toml", "--fit", "@unknown_key.json", "-o", "@out"},
      "radios"},
@@ -127,31 +117,27 @@ const Cases kSimulate = {
 INSTANTIATE_TEST_SUITE_P(Simulate, BadInput, ::testing::ValuesIn(kSimulate), name_of);
 
 const Cases kCompareAndReport = {
-    {"CompareMissingFolder", {"compare", "@no", "-o", "@c.json"}, "no: is not a folder"},
-    {"CompareAFile", {"compare", "@case.toml", "-o", "@c.json"}, "case.toml: is not a folder"},
-    {"CompareFolderWithoutTrajectories",
-     {"compare", "@folder", "-o", "@c.json"},
-     "folder: has no trajectory"},
-    {"CompareNotANumber", {"compare", "@nan_run", "-o", "@c.json"}, "inertial.csv:3: gap"},
+    {"CompareMissingFolder", {"compare", "@no", "-o", "@c.json"}, "/no:"},
+    {"CompareAFile", {"compare", "@case.toml", "-o", "@c.json"}, "case.toml"},
+    {"CompareFolderWithoutTrajectories", {"compare", "@folder", "-o", "@c.json"}, "folder"},
+    {"CompareNotANumber", {"compare", "@nan_run", "-o", "@c.json"}, "inertial.csv:3"},
     {"CompareUnknownReference",
      {"compare", "@run", "--reference", "magic", "-o", "@c.json"},
      "'magic'"},
-    {"CompareMissingTrajectory",
-     {"compare", "@run", "@no.csv", "-o", "@c.json"},
-     "no.csv: cannot be read"},
+    {"CompareMissingTrajectory", {"compare", "@run", "@no.csv", "-o", "@c.json"}, "no.csv"},
     {"CompareOutputBelowAFile", {"compare", "@run", "-o", "@empty/c.json"}, "empty"},
-    {"ReportMissingFolder", {"report", "@no"}, "no"},
-    {"ReportOfAFolderWithoutCase", {"report", "@run"}, "case.toml: cannot be read"},
+    {"ReportMissingFolder", {"report", "@no"}, "/no:"},
+    {"ReportOfAFolderWithoutCase", {"report", "@run"}, "case.toml"},
     {"ReportOfAFile", {"report", "@table.csv"}, "table.csv"},
 };
 INSTANTIATE_TEST_SUITE_P(CompareAndReport, BadInput, ::testing::ValuesIn(kCompareAndReport),
                          name_of);
 
 const Cases kRun = {
-    {"MissingCase", {"run", "@no.toml", "-o", "@out"}, "no.toml: cannot be read"},
+    {"MissingCase", {"run", "@no.toml", "-o", "@out"}, "no.toml"},
     {"NoMotion", {"run", "@no_motion.toml", "-o", "@out"}, "[motion]"},
     {"UnknownModel", {"run", "@unknown_model.toml", "-o", "@out"}, "'magic'"},
-    {"FitFileMissing", {"run", "@no_tabulation.toml", "-o", "@out"}, "limit.json: cannot be read"},
+    {"FitFileMissing", {"run", "@no_tabulation.toml", "-o", "@out"}, "limit.json"},
     {"OutputIsAFile", {"run", "@case.toml", "-o", "@empty"}, "empty"},
 };
 INSTANTIATE_TEST_SUITE_P(Run, BadInput, ::testing::ValuesIn(kRun), name_of);

@@ -13,7 +13,6 @@ namespace viscontact {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -23,7 +22,7 @@ TEST_F(Rerun, RepeatsWhatMadeAFileInAnotherPlace) {
   fit();
   const auto again = run({"rerun", path("fit.json"), "-o", path("again.json")});
   expect_done(again);
-  EXPECT_THAT(again.errors, HasSubstr("rerun: cd "));
+  EXPECT_THAT(again.errors, Says("rerun: cd "));
   EXPECT_EQ(rest_of(path("again.json")), rest_of(path("fit.json")));
   EXPECT_EQ(provenance_of(path("again.json")).at("command").back(), path("again.json"));
   // And that of the repetition.
@@ -62,7 +61,7 @@ TEST_F(Rerun, GoesToAnotherFolderIfTheFilesHaveMoved) {
   // A copy under another name does not say where its inputs are now.
   fs::copy(path("new/fit.json"), path("copy.json"));
   expect_refusal(run({"rerun", path("copy.json")}), ErrorKind::kBadInput,
-                 AllOf(HasSubstr(path("old") + ": is not a folder"), HasSubstr("--folder")));
+                 Names(path("old"), "--folder"));
   EXPECT_FALSE(fs::exists(path("old")));
   expect_done(
       run({"rerun", path("new/fit.json"), "--folder", path("new"), "-o", path("again.json")}));
@@ -70,7 +69,7 @@ TEST_F(Rerun, GoesToAnotherFolderIfTheFilesHaveMoved) {
   EXPECT_EQ(provenance_of(path("again.json")).at("folder"), path("new"));
   put_text(path("new/table.csv"), "changed");
   expect_refusal(run({"rerun", path("new/fit.json"), "--folder", path("new")}),
-                 ErrorKind::kBadInput, HasSubstr(path("new/table.csv") + " has changed"));
+                 ErrorKind::kBadInput, Names(path("new/table.csv")));
 }
 
 TEST_F(Rerun, GoesToTheFolderInWhichTheFileAndItsInputsAreNow) {
@@ -145,7 +144,7 @@ TEST_F(Rerun, WorksOnEveryShippedTableAndFit) {
     const auto again =
         run_viscontact({"rerun", clone + "/" + file}, {"VISCONTACT_FREEFEM=no-freefem-is-needed"});
     expect_done(again);
-    EXPECT_THAT(again.errors, HasSubstr("is up to date"));
+    EXPECT_THAT(again.errors, IsUpToDate(""));
   }
   EXPECT_EQ(files_below(clone), before);
 }
@@ -179,15 +178,13 @@ TEST_F(Rerun, RefusesChangedInputsUnlessAllowed) {
   fit();
   put_text(path("table.csv"),
            replaced(exact_table_text(), "# radius: 1\n", "# radius: 1\n# note: new\n"));
-  expect_refusal(
-      run({"rerun", path("fit.json"), "-o", path("again.json")}), ErrorKind::kBadInput,
-      AllOf(HasSubstr(path("table.csv") + " has changed"), HasSubstr("--changed-inputs")));
+  expect_refusal(run({"rerun", path("fit.json"), "-o", path("again.json")}), ErrorKind::kBadInput,
+                 Names(path("table.csv"), "--changed-inputs"));
   EXPECT_FALSE(fs::exists(path("again.json")));
   expect_done(run({"rerun", path("fit.json"), "-o", path("again.json"), "--changed-inputs"}));
   EXPECT_TRUE(fs::exists(path("again.json")));
   fs::remove(path("table.csv"));
-  expect_refusal(run({"rerun", path("fit.json")}), ErrorKind::kBadInput,
-                 HasSubstr("no longer exists"));
+  expect_refusal(run({"rerun", path("fit.json")}), ErrorKind::kBadInput, Names(path("table.csv")));
 }
 
 TEST_F(Rerun, OfASweepAndOfItsPictureLeavesTheFirstOnesAsTheyAre) {
@@ -207,7 +204,7 @@ TEST_F(Rerun, OfOneFileOfARunRepeatsTheRunIntoAFolder) {
                     "weights = \"relative\"", ""));
   expect_done(run({"run", path("case.toml"), "-o", path("run")}));
   expect_refusal(run({"rerun", path("run/fit.json"), "-o", path("fit.json")}),
-                 ErrorKind::kWrongUsage, HasSubstr("-o must be a folder"));
+                 ErrorKind::kWrongUsage, Names("-o"));
   EXPECT_FALSE(fs::exists(path("fit.json")));
   expect_done(run_viscontact({"rerun", path("run/fit.json"), "-o", path("again")},
                              {"SOURCE_DATE_EPOCH=1000000001"}));
@@ -249,38 +246,35 @@ TEST_F(Rerun, DoesNothingButWriteFilesWhateverTheFileSays) {
         R"(["viscontact"])",
         R"(["viscontact","tabulate","case.toml","-o","t.csv","--launcher","slurm"])",
         R"(["viscontact","fit","a\u0000b","-o","f.json"])"})
-    expect_refusal(forged(command), ErrorKind::kBadInput,
-                   HasSubstr("contains a command that 'rerun' does not run"));
+    expect_refusal(forged(command), ErrorKind::kBadInput, Names("'rerun'"));
 }
 
 TEST_F(Provenance, OfAPipeHasNoHash) {
   expect_done(run_viscontact({"fit", "/dev/stdin", "-o", path("fit.json")}, {},
                              "cat '" + path("table.csv") + "' |"));
   EXPECT_EQ(provenance_of(path("fit.json")).at("inputs").at(0).at("sha256"), "");
-  expect_refusal(run({"rerun", path("fit.json")}), ErrorKind::kBadInput, HasSubstr("pipe"));
+  expect_refusal(run({"rerun", path("fit.json")}), ErrorKind::kBadInput, Names("pipe"));
 }
 
 TEST_F(Provenance, TimeThatIsNoneIsRefused) {
   for (const std::string time : {"-5", "1.5", "1e9", "abc", "99999999999999999999"})
     expect_refusal(run_viscontact({"fit", path("table.csv"), "-o", path("fit.json")},
                                   {"SOURCE_DATE_EPOCH=" + time}),
-                   ErrorKind::kWrongUsage, HasSubstr("SOURCE_DATE_EPOCH is '" + time + "'"));
+                   ErrorKind::kWrongUsage, Names("SOURCE_DATE_EPOCH", time));
   EXPECT_FALSE(fs::exists(path("fit.json")));
 }
 
 TEST_F(Rerun, RefusesWhatDoesNotSayHowItWasMade) {
   fit();
-  expect_refusal(run({"rerun", path("table.csv")}), ErrorKind::kBadInput,
-                 HasSubstr("does not say how it was made"));
-  expect_refusal(run({"rerun", path("nothing.csv")}), ErrorKind::kBadInput,
-                 HasSubstr("nothing.csv"));
+  expect_refusal(run({"rerun", path("table.csv")}), ErrorKind::kBadInput, Names("table.csv"));
+  expect_refusal(run({"rerun", path("nothing.csv")}), ErrorKind::kBadInput, Names("nothing.csv"));
   put_text(path("torn.json"), replaced(read_file(path("fit.json")), "\"folder\":", "\"folder\""));
-  expect_refusal(run({"rerun", path("torn.json")}), ErrorKind::kBadInput, HasSubstr("damaged"));
+  expect_refusal(run({"rerun", path("torn.json")}), ErrorKind::kBadInput, Names("damaged"));
   expect_done(run({"simulate", path("case.toml"), "--fit", path("fit.json"), "-o", path("run")}));
   expect_done(run({"compare", path("run")}));
   expect_done(run({"report", path("run")}));
   expect_refusal(run({"rerun", path("run/report.html"), "-o", path("other")}),
-                 ErrorKind::kWrongUsage, HasSubstr("leave out -o"));
+                 ErrorKind::kWrongUsage, Names("-o"));
 }
 
 }  // namespace

@@ -29,8 +29,7 @@ class WrongCommandLine : public ::testing::TestWithParam<WrongUsage> {};
 
 TEST_P(WrongCommandLine, EndsWithExitCode2AndPointsToHelp) {
   const auto result = run_viscontact(GetParam().arguments);
-  expect_refusal(result, ErrorKind::kWrongUsage,
-                 AllOf(HasSubstr(GetParam().said), HasSubstr("--help")));
+  expect_refusal(result, ErrorKind::kWrongUsage, Names(GetParam().said, "--help"));
   EXPECT_EQ(result.output, "");
 }
 
@@ -39,46 +38,40 @@ INSTANTIATE_TEST_SUITE_P(
     Each, WrongCommandLine,
     ::testing::Values(
         WrongUsage{"NoCommand", {}, "subcommand"},
-        WrongUsage{"UnknownCommand", {"tabulte", "case.toml"}, "no subcommand 'tabulte'"},
+        WrongUsage{"UnknownCommand", {"tabulte", "case.toml"}, "'tabulte'"},
         WrongUsage{"OutputTwiceUnderTwoNames",
                    {"sweep", "case.toml", "-o", "a.csv", "--plot", "./a.csv"},
-                   "./a.csv would be written twice"},
+                   "./a.csv"},
         WrongUsage{"SweepPictureAsEps",
                    {"sweep", "case.toml", "-o", "a.csv", "--plot", "a.eps"},
-                   "--plot: a.eps does not end in .svg or .pdf or .png"},
+                   "--plot"},
         WrongUsage{"ShiftPictureAsJpeg",
                    {"shift", "table.csv", "--fit", "f.json", "-o", "s.csv", "--plot", "s.jpg"},
-                   "--plot: s.jpg does not end in .svg or .pdf or .png"},
+                   "--plot"},
         WrongUsage{"PictureOfBasesWithoutEnding",
                    {"fit", "table.csv", "--compare-bases", "--plot", "bases"},
-                   "--plot: bases does not end in .svg"},
+                   "--plot"},
         WrongUsage{
             "UnknownOption", {"fit", "table.csv", "-o", "fit.json", "--base", "lecture"}, "--base"},
         WrongUsage{"UnknownOptionOfTheProgram", {"--verbose"}, "subcommand"},
         WrongUsage{
             "ArgumentTooMany", {"export", "fit.json", "other.json", "--to", "json"}, "other.json"},
         WrongUsage{"MissingOutput", {"tabulate", "case.toml"}, "--output"},
-        WrongUsage{"UnknownBasis",
-                   {"fit", "table.csv", "-o", "f.json", "--basis", "cubic"},
-                   "--basis: no basis is named 'cubic'; there are: lecture"},
-        WrongUsage{"UnknownTerm",
-                   {"fit", "table.csv", "-o", "f.json", "--terms", "1/q, q^9"},
-                   "--terms: no term is named 'q^9'; there are: 1/q"},
+        WrongUsage{
+            "UnknownBasis", {"fit", "table.csv", "-o", "f.json", "--basis", "cubic"}, "'cubic'"},
+        WrongUsage{
+            "UnknownTerm", {"fit", "table.csv", "-o", "f.json", "--terms", "1/q, q^9"}, "'q^9'"},
         WrongUsage{"UnknownWeights",
                    {"fit", "table.csv", "-o", "f.json", "--weights", "heavy"},
-                   "--weights: the weights are 'heavy'; they must be relative or absolute"},
-        WrongUsage{"UnknownLoss",
-                   {"fit", "table.csv", "-o", "f.json", "--loss", "l1"},
-                   "--loss: no loss is named 'l1'; there are: none, huber"},
-        WrongUsage{"UnknownExportTarget",
-                   {"export", "fit.json", "--to", "cobol"},
-                   "--to: no export target is named 'cobol'; there are: c-header"},
+                   "'heavy'"},
+        WrongUsage{"UnknownLoss", {"fit", "table.csv", "-o", "f.json", "--loss", "l1"}, "'l1'"},
+        WrongUsage{"UnknownExportTarget", {"export", "fit.json", "--to", "cobol"}, "'cobol'"},
         WrongUsage{"UnknownModelToSimulate",
                    {"simulate", "case.toml", "-o", "out", "--models", "inertial,magic"},
-                   "--models: no model is named 'magic'; there are: reference"},
+                   "'magic'"},
         WrongUsage{"UnknownModelToSweep",
                    {"sweep", "case.toml", "-o", "rows.csv", "--models", "magic"},
-                   "--models: no model is named 'magic'"},
+                   "'magic'"},
         WrongUsage{"MissingCase", {"run", "-o", "out"}, "CASE"},
         WrongUsage{"MissingFolder", {"report"}, "DIR"},
         WrongUsage{"OptionWithoutValue", {"compare", "out", "--reference"}, "--reference"},
@@ -93,29 +86,25 @@ INSTANTIATE_TEST_SUITE_P(
                    "--jobs"},
         WrongUsage{"CasesOfEqualNames",
                    {"tabulate", "a/case.toml", "b/case.toml", "-o", "out"},
-                   "a/case.toml and b/case.toml would both be tabulated to out/case.csv"},
+                   "out/case.csv"},
         WrongUsage{"TaskBeyondTheLast",
                    {"tabulate", "case.toml", "-o", "table.csv", "--task", "4/4"},
-                   "--task is '4/4'"},
-        WrongUsage{"TaskWithoutCount",
-                   {"tabulate", "case.toml", "-o", "table.csv", "--task", "4"},
-                   "--task is '4'"},
-        WrongUsage{"FitWithoutOutput", {"fit", "table.csv"}, "--output is required"},
+                   "'4/4'"},
+        WrongUsage{
+            "TaskWithoutCount", {"tabulate", "case.toml", "-o", "table.csv", "--task", "4"}, "'4'"},
+        WrongUsage{"FitWithoutOutput", {"fit", "table.csv"}, "--output"},
         WrongUsage{"FitWithTwoBases",
                    {"fit", "table.csv", "-o", "f.json", "--basis", "lecture", "--terms", "1/q"},
                    "--terms"},
-        WrongUsage{"FixOfAnotherTerm",
-                   {"fit", "table.csv", "-o", "f.json", "--fix", "q^2=1"},
-                   "--fix is 'q^2=1'"},
-        WrongUsage{"FixOfNoNumber",
-                   {"fit", "table.csv", "-o", "f.json", "--fix", "1/q=x"},
-                   "--fix is '1/q=x'"},
-        WrongUsage{"PictureOfOneFit",
-                   {"fit", "table.csv", "-o", "f.json", "--plot", "p.svg"},
-                   "--plot needs --compare-bases"},
+        WrongUsage{
+            "FixOfAnotherTerm", {"fit", "table.csv", "-o", "f.json", "--fix", "q^2=1"}, "'q^2=1'"},
+        WrongUsage{
+            "FixOfNoNumber", {"fit", "table.csv", "-o", "f.json", "--fix", "1/q=x"}, "'1/q=x'"},
+        WrongUsage{
+            "PictureOfOneFit", {"fit", "table.csv", "-o", "f.json", "--plot", "p.svg"}, "--plot"},
         WrongUsage{"FitAndPictureInOneFile",
                    {"fit", "table.csv", "-o", "f.json", "--compare-bases", "--plot", "f.json"},
-                   "would be written twice"},
+                   "f.json"},
         WrongUsage{"OutputWithoutAName",
                    {"tabulate", "case.toml", "-o", ""},
                    "the name of an output is empty"},
@@ -132,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(CommandLine, TakesWordsBehindTwoDashesForFiles) {
   // table.csv is the name of a file, and would be taken from the option --fix in front of --.
   expect_refusal(run_viscontact({"fit", "-o", "fit.json", "--", "--fix", "table.csv"}),
-                 ErrorKind::kBadInput, HasSubstr("--fix: cannot be read"));
+                 ErrorKind::kBadInput, Names("--fix"));
 }
 
 TEST(SimulateHelp, TellsModelsThatRunByDefaultFromThoseOnRequest) {

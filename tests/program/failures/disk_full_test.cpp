@@ -33,8 +33,7 @@ TEST_F(DiskFull, FitFailsCleanlyAndTheOldFileStays) {
   const auto before = files_below(scratch_.path());
   const auto result =
       run_viscontact({"fit", path("table.csv"), "-o", path("fit.json")}, {}, kSmallFilesOnly);
-  expect_refusal(result, ErrorKind::kBadInput,
-                 HasSubstr("fit.json: cannot be written (File too large)"));
+  expect_refusal(result, ErrorKind::kBadInput, Names("fit.json"));
   EXPECT_EQ(files_below(scratch_.path()), before);
 }
 
@@ -44,8 +43,7 @@ TEST_F(DiskFull, ParticlesFailCleanlyIfNotEvenTheFirstFrameFits) {
   put_text(path("raft.csv"), read_file(VISCONTACT_SOURCE_FOLDER "/data/cases/particles/raft.csv"));
   const auto result =
       run_viscontact({"particles", path("raft.toml"), "-o", path("out")}, {}, kSmallFilesOnly);
-  expect_refusal(result, ErrorKind::kBadInput,
-                 HasSubstr("particles_00000.vtp: cannot be written (File too large)"));
+  expect_refusal(result, ErrorKind::kBadInput, Names("particles_00000.vtp"));
   EXPECT_FALSE(std::filesystem::exists(path("out")));  // nothing was put there
 }
 
@@ -64,8 +62,7 @@ TEST_F(DiskFull, FolderThatCannotBeWrittenIsSaidWithoutAPromiseOfKeptRows) {
   for (const auto& command : commands)
     expect_refusal(run_viscontact(command, {"VISCONTACT_FREEFEM=" + fake.executable()}),
                    ErrorKind::kBadInput,
-                   AllOf(HasSubstr("cannot be written ("), Not(HasSubstr("kept")),
-                         Not(HasSubstr("continues"))));
+                   AllOf(Not(HasSubstr("kept")), Not(HasSubstr("continues"))));
   EXPECT_TRUE(fake.answered().empty());
 }
 
@@ -76,8 +73,7 @@ TEST_F(DiskFull, TabulateFailsCleanlyWhenTheJournalIsFull) {
   const auto result =
       run_viscontact({"tabulate", path("case.toml"), "-o", path("table2.csv"), "--jobs", "1"},
                      {"VISCONTACT_FREEFEM=" + fake.executable()}, kSmallFilesOnly);
-  expect_refusal(result, ErrorKind::kBadInput,
-                 HasSubstr("table2.csv.rows: cannot be written (File too large)"));
+  expect_refusal(result, ErrorKind::kBadInput, Names("table2.csv.rows"));
   EXPECT_FALSE(std::filesystem::exists(path("table2.csv")));
   // With room again, the rows that fitted are used.
   EXPECT_GT(fake.answered().size(), 1U);

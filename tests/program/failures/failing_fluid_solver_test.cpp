@@ -17,7 +17,6 @@
 namespace viscontact {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 constexpr const char* kFallingDisc = R"(title = "A disc falls"
@@ -105,9 +104,8 @@ TEST_F(FailingFluidSolver, IsNamedAndTheRunUpToThenIsKeptAndContinued) {
     SCOPED_TRACE(folder);
     const auto result = run(folder, at_failure);
     EXPECT_EQ(result.exit_status, 5);
-    EXPECT_THAT(result.errors, AllOf(HasSubstr("viscontact: the fluid solver ("),
-                                     HasSubstr("failed at request"), HasSubstr("'solve'")));
-    for (const auto& part : said) EXPECT_THAT(result.errors, HasSubstr(part));
+    EXPECT_THAT(result.errors, Names("'solve'"));
+    for (const auto& part : said) EXPECT_THAT(result.errors, Names(part));
     EXPECT_EQ(steps_in(path(folder + "/steps.csv")), 6);
     EXPECT_TRUE(std::filesystem::exists(path(folder + "/restart.bin")));
     EXPECT_TRUE(std::filesystem::exists(path(folder + "/particles_00006.vtp")));
@@ -134,7 +132,7 @@ TEST_F(FailingFluidSolver, ThatIsMissingIsSaidWithWhatToDo) {
   const auto result = run_viscontact({"particles", path("case.toml"), "-o", path("out")},
                                      {"VISCONTACT_FREEFEM=no-such-freefem"});
   expect_refusal(result, ErrorKind::kExternalProgram,
-                 AllOf(HasSubstr("no-such-freefem"), HasSubstr("apt-get install freefem++")));
+                 Names("no-such-freefem", "apt-get install freefem++"));
 }
 
 }  // namespace

@@ -19,8 +19,6 @@
 namespace viscontact {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
 /// A file system in memory.
@@ -74,9 +72,7 @@ TEST_F(FullDisk, JournalThatFindsNoRoomStopsTheRunAndTheSameCommandGoesOn) {
   const auto answers_before = fake.answered().size();
   disk_.fill_but(kPage);  // about 20 rows
   const auto full = tabulate(path("disk/table.csv"), fake.executable());
-  expect_refusal(full, ErrorKind::kBadInput,
-                 AllOf(HasSubstr("table.csv.rows: cannot be written (No space left on device)"),
-                       HasSubstr("the same command continues")));
+  expect_refusal(full, ErrorKind::kBadInput, Names("table.csv.rows"));
   const auto kept = finished(path("disk/table.csv")).size();
   EXPECT_GT(kept, 10U);
   const auto answers_full = fake.answered().size();
@@ -93,8 +89,7 @@ TEST_F(FullDisk, TableThatFindsNoRoomIsWrittenLaterWithoutComputing) {
   put_text(path("case.toml"), gentle_case_text());
   disk_.fill_but(kPage);  // enough for six rows' journal
   const auto full = tabulate(path("disk/table.csv"), fake.executable());
-  expect_refusal(full, ErrorKind::kBadInput,
-                 HasSubstr("table.csv: cannot be written (No space left on device)"));
+  expect_refusal(full, ErrorKind::kBadInput, Names("table.csv"));
   EXPECT_FALSE(std::filesystem::exists(path("disk/table.csv")));
   EXPECT_THAT(finished(path("disk/table.csv")), SizeIs(6));
   disk_.make_room();
@@ -121,14 +116,13 @@ TEST_F(FullDiskOfParticles, StopsTheRunAndTheSameCommandGoesOnToTheSameFiles) {
   ASSERT_EQ(interrupted.exit_status, results::exit_code_of(ErrorKind::kInterrupted))
       << interrupted.errors;
   disk_.fill_but(200000);
-  expect_refusal(run(file, folder), ErrorKind::kBadInput,
-                 HasSubstr("cannot be written (No space left on device)"));
+  expect_refusal(run(file, folder), ErrorKind::kBadInput, Says("No space left on device"));
   for (const auto* name : {"steps.csv", "particles.pvd"})
     EXPECT_THAT(read_file(folder / name), ::testing::EndsWith("\n")) << name;
   disk_.make_room();
   const auto last = run(file, folder);
   expect_done(last);
-  EXPECT_THAT(last.errors, HasSubstr("continues from t = "));
+  EXPECT_THAT(last.errors, Continues());
   expect_same_files(path("whole"), folder.string());
 }
 

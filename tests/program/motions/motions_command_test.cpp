@@ -104,13 +104,12 @@ TEST_F(MotionsCommand, TabulateWritesATableForEachMotionAndKeepsThem) {
   const auto again = run_viscontact({"tabulate", file, "-o", path("out")},
                                     {"VISCONTACT_FREEFEM=no-freefem-is-needed"});
   expect_done(again);
-  EXPECT_THAT(again.errors,
-              AllOf(HasSubstr("slide.csv is up to date"), HasSubstr("spin.csv is up to date")));
+  EXPECT_THAT(again.errors, AllOf(IsUpToDate("slide.csv"), IsUpToDate("spin.csv")));
   EXPECT_EQ(files_below(path("out")), before);
   // The tables can be fitted and exported as one pair, with coarse errors and few terms.
   const auto fit = run_viscontact({"fit", path("out/slide.csv"), path("out/roll.csv"), "--basis",
                                    "asymptotic", "-o", path("pair.json")});
-  expect_refusal(fit, ErrorKind::kBadInput, HasSubstr("different gap(s)"));
+  expect_refusal(fit, ErrorKind::kBadInput, Names("slide.csv"));
 }
 
 TEST_F(MotionsCommand, OneMotionIsAFileAndTheOptionReplacesThatOfTheCase) {
@@ -121,7 +120,7 @@ TEST_F(MotionsCommand, OneMotionIsAFileAndTheOptionReplacesThatOfTheCase) {
   EXPECT_EQ(to_string(table.motion), "spin");
   EXPECT_NEAR(table.leading_torque_factor.value(), 0.5 / 0.5, 1e-15);
   expect_refusal(run_viscontact({"tabulate", file, "--motion", "glide", "-o", path("x.csv")}),
-                 ErrorKind::kBadInput, HasSubstr("--motion: is 'glide'; it must be approach"));
+                 ErrorKind::kBadInput, Names("--motion", "'glide'"));
 }
 
 TEST_F(MotionsCommand, SharesOfTasksAreGatheredIntoTheTablesOfAllMotions) {
@@ -143,7 +142,7 @@ TEST_F(MotionsCommand, SharesOfTasksAreGatheredIntoTheTablesOfAllMotions) {
 
 TEST_F(MotionsCommand, RunNeedsTheApproachAlone) {
   expect_refusal(run_viscontact({"run", small_case("motion = \"all\""), "-o", path("run")}),
-                 ErrorKind::kBadInput, HasSubstr("small.toml"));
+                 ErrorKind::kBadInput, Names("small.toml"));
 }
 
 TEST_F(MotionsCommand, RefusesMotionsThatThereAreNot) {
@@ -152,15 +151,14 @@ TEST_F(MotionsCommand, RefusesMotionsThatThereAreNot) {
       "container = \"unbounded\"\ngeometry = { kind = \"rough_plane\", amplitude = 0.01, "
       "wavelength = 0.1 }\n");
   expect_refusal(run_viscontact({"tabulate", rough, "-o", path("x.csv")}), ErrorKind::kBadInput,
-                 HasSubstr("tabulation.motion is not accepted: is slide; beside a rough_plane"));
+                 Names("tabulation.motion", "rough_plane"));
   EXPECT_FALSE(fs::exists(path("x.csv")));
 }
 
 TEST_F(MotionsCommand, FitsAndExportsAPair) {
   const auto fit = run_viscontact({"fit", kData + "tables/pairs/plane", "-o", path("pair.json")});
   expect_done(fit);
-  EXPECT_THAT(fit.errors,
-              AllOf(HasSubstr("5 entries at gaps from 0.001 to 1"), HasSubstr("ln q: -10.053")));
+  EXPECT_THAT(fit.errors, AllOf(Names("5 entries", "0.001"), HasSubstr("ln q: -10.053")));
   const auto code = run_viscontact({"export", path("pair.json"), "--to", "c-header"});
   expect_done(code);
   EXPECT_THAT(code.output, AllOf(HasSubstr("viscontact_slide_roll(double gap)"),
@@ -173,9 +171,9 @@ TEST_F(MotionsCommand, FitsAndExportsAPair) {
   EXPECT_GT(json["asymptotic"]["roll"]["largest_relative_residual"].get<double>(), 1e-4);
   expect_refusal(run_viscontact({"fit", kData + "tables/pairs/plane", "--terms", "1", "-o",
                                  path("pair.json")}),
-                 ErrorKind::kWrongUsage, HasSubstr("tables of a pair take --basis"));
+                 ErrorKind::kWrongUsage, Names("--basis"));
   expect_refusal(run_viscontact({"fit", path(""), "-o", path("x.json")}), ErrorKind::kBadInput,
-                 HasSubstr("has none of the tables approach.csv"));
+                 Names("approach.csv"));
 }
 
 // An interrupted tabulation leaves the tables of some motions: the user types Ctrl-C during the
@@ -187,11 +185,9 @@ TEST_F(MotionsCommand, FitOfAFolderNamesTheTablesThatAnInterruptedTabulationLeft
   const auto interrupted = run_viscontact({"tabulate", file, "-o", path("out")}, {freefem});
   EXPECT_EQ(interrupted.exit_status, 130) << interrupted.errors;
   EXPECT_EQ(lubrication::read_force_table(path("out/approach.csv")).tabulated_motions.size(), 4U);
-  expect_refusal(run_viscontact({"fit", path("out"), "-o", path("pair.json")}),
-                 ErrorKind::kBadInput,
-                 AllOf(HasSubstr("out: lacks slide.csv, roll.csv, spin.csv, because the tabulation "
-                                 "of approach, slide, roll, spin that made approach.csv"),
-                       HasSubstr("'viscontact rerun " + path("out/approach.csv") + "'")));
+  expect_refusal(
+      run_viscontact({"fit", path("out"), "-o", path("pair.json")}), ErrorKind::kBadInput,
+      Names("slide.csv", "roll.csv", "spin.csv", "approach.csv", path("out/approach.csv")));
   EXPECT_FALSE(fs::exists(path("pair.json")));
   // The command of the message completes the folder.
   put_text(path("mended"), "");
@@ -209,14 +205,10 @@ TEST_F(MotionsCommand, FitOfAFolderNamesTheTablesThatWereNotCopiedIntoIt) {
   fs::create_directory(path("part"));
   for (const std::string motion : {"slide", "roll"})
     fs::copy_file(path("out/" + motion + ".csv"), path("part/" + motion + ".csv"));
-  expect_refusal(run_viscontact({"fit", path("part"), "-o", path("pair.json")}),
-                 ErrorKind::kBadInput,
-                 AllOf(HasSubstr("part: lacks approach.csv, spin.csv, although the tabulation that "
-                                 "made slide.csv was one of approach, slide, roll, spin; slide.csv "
-                                 "was copied from another folder"),
-                       Not(HasSubstr("has not ended")),
-                       HasSubstr("'viscontact rerun " + path("part/slide.csv") + " -o " +
-                                 path("part") + "' computes it")));
+  expect_refusal(
+      run_viscontact({"fit", path("part"), "-o", path("pair.json")}), ErrorKind::kBadInput,
+      AllOf(Names("approach.csv", "spin.csv", "slide.csv", path("part/slide.csv"), path("part")),
+            Not(HasSubstr("has not ended"))));
   // The command of the message completes the folder, after which it can be fitted.
   expect_done(run_viscontact({"rerun", path("part/slide.csv"), "-o", path("part")}, {freefem}));
   for (const std::string motion : {"approach", "slide", "roll", "spin"})
@@ -245,7 +237,7 @@ TEST_F(MotionsCommand, ARowThatFailedIsMissingInTheTablesOfItsMotionsAndTheFitGo
   put_text(file, std::regex_replace(read_file(file), std::regex("gaps = .*"),
                                     "gaps = [0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5]"));
   const auto failed = run_viscontact({"tabulate", file, "-o", path("out")}, {freefem});
-  expect_refusal(failed, ErrorKind::kExternalProgram, HasSubstr("1 of 7 rows failed"));
+  expect_refusal(failed, ErrorKind::kExternalProgram, Names("1 of 7"));
   for (const char* motion : {"slide", "roll"}) {
     const auto table = lubrication::read_motion_table(path("out/") + motion + ".csv");
     EXPECT_EQ(table.rows.size(), 12U);
@@ -254,7 +246,7 @@ TEST_F(MotionsCommand, ARowThatFailedIsMissingInTheTablesOfItsMotionsAndTheFitGo
   const auto fit =
       run_viscontact({"fit", path("out"), "--basis", "asymptotic", "-o", path("pair.json")});
   expect_done(fit);
-  EXPECT_THAT(fit.errors, HasSubstr("fit: warning: slide_roll: the table lacks 1 of 13 rows"));
+  EXPECT_THAT(fit.errors, Names("slide_roll", "1 of 13"));
   const auto entries = nlohmann::json::parse(read_file(path("pair.json"))).at("entries");
   for (const char* entry : {"slide", "roll", "slide_roll"})
     EXPECT_EQ(entries.at(entry).at("diagnostics").at("failed_rows"), 1) << entry;
@@ -288,7 +280,7 @@ TEST_F(MotionsCommand, RollingWritesTrajectoriesResultsAndAReport) {
   for (const std::string contact : {"3", "0.5", "-1"}) {
     put_text(path("out/rough.csv"), replaced(rough, ",0\n", "," + contact + "\n"));
     expect_refusal(run_viscontact({"report", path("out")}), ErrorKind::kBadInput,
-                   HasSubstr("rough.csv:6: contact is " + contact + "; it must be 0, 1 or 2"));
+                   Names("rough.csv:6", contact));
   }
 }
 
@@ -313,7 +305,7 @@ TEST_F(MotionsCommand, RollingSaysWhereItContinuesTheFit) {
   const double low =
       nlohmann::json::parse(read_file(kData + "fits/pairs/plane.json"))["gap_interval"][0];
   ASSERT_LT(smallest, low);
-  const auto warning = HasSubstr("Extrapolation: smooth gets down to a gap of ");
+  const auto warning = Says("Extrapolation: smooth gets down to a gap of ");
   EXPECT_THAT(result.errors, warning);
   // The other models stop at the roughness. Viscous contact touches at 6.51 and the rough sphere,
   // whose drag is resolved, at 7.22: 10 % too early.
@@ -357,31 +349,28 @@ TEST_F(MotionsCommand, RollingWarnsOfGravityAwayFromThePlane) {
     expect_done(result);
     return result.errors;
   };
-  EXPECT_THAT(errors("0.5"), HasSubstr("rolling.gravity, 0.5, is > 0 and lifts a heavy sphere off "
-                                       "the plane; gravity towards the plane is negative"));
+  EXPECT_THAT(errors("0.5"), Names("rolling.gravity", "0.5", "0 and"));
   EXPECT_THAT(errors("-10.0"), ::testing::Not(HasSubstr("gravity")));
 }
 
 TEST_F(MotionsCommand, RollingRefusesWhatIsWrongWithItsLine) {
   const auto refused = [&](const std::string& from, const std::string& to,
-                           const std::string& message) {
+                           const std::string& named) {
     expect_refusal(run_viscontact({"rolling", incline(from, to), "-o", path("out")}),
-                   ErrorKind::kBadInput, HasSubstr(message));
+                   ErrorKind::kBadInput, Names(named));
     EXPECT_FALSE(fs::exists(path("out/rolling.json")));
   };
-  refused("friction = 0.3", "friction = -1.0", "rolling.friction is -1; it must be a number >= 0");
-  refused("weight = 1.0", "weight = 1.0\nforce = [1.0, 2.0]",
-          "rolling.weight must be left out, because force is given");
-  refused("initial_gap = 0.5", "initial_gap = 1e-4", "it must be at least the roughness, 0.001");
+  refused("friction = 0.3", "friction = -1.0", "rolling.friction");
+  refused("weight = 1.0", "weight = 1.0\nforce = [1.0, 2.0]", "rolling.weight");
+  refused("initial_gap = 0.5", "initial_gap = 1e-4", "rolling.initial_gap");
   expect_done(run_viscontact(
       {"rolling", incline("radius = 1.0", "radius = 1.0000000000000002"), "-o", path("same")}));
   const auto scaled =
       run_viscontact({"rolling", incline("radius = 1.0", "radius = 2.0"), "-o", path("scaled")});
   expect_done(scaled);
-  EXPECT_THAT(scaled.errors, HasSubstr("it is scaled to radius 2"));
-  refused("time_step = 0.01", "time_step = 0.01\nmodels = [\"rigid\"]",
-          "contains 'rigid'; the models");
-  refused("plane.json", "equal_spheres.json", "it must be a plane");
+  EXPECT_THAT(scaled.errors, Names("radius 2"));
+  refused("time_step = 0.01", "time_step = 0.01\nmodels = [\"rigid\"]", "rolling.models");
+  refused("plane.json", "equal_spheres.json", "equal_spheres.json");
 }
 
 TEST_F(MotionsCommand, SweepOfARollingSphereHasTheEndsThatRollingHas) {
@@ -395,7 +384,7 @@ TEST_F(MotionsCommand, SweepOfARollingSphereHasTheEndsThatRollingHas) {
   const auto done = sweep({"--vary", "rolling.incline=0.1,0.9", "--models",
                            "smooth,viscous_contact", "--plot", path("rows.svg")});
   expect_done(done);
-  EXPECT_THAT(done.errors, HasSubstr("sweep: 2 rows in " + path("rows.csv")));
+  EXPECT_THAT(done.errors, Names("2 rows", path("rows.csv")));
   EXPECT_THAT(read_file(path("rows.svg")), HasSubstr("</svg>"));
   expect_done(run_viscontact({"rolling", steep.string(), "-o", path("out")}));
   const auto json = nlohmann::json::parse(read_file(path("out/rolling.json")));
@@ -412,34 +401,30 @@ TEST_F(MotionsCommand, SweepOfARollingSphereHasTheEndsThatRollingHas) {
     }
   EXPECT_THAT(
       sweep({"--vary", "rolling.incline=0.1,0.9", "--models", "smooth,viscous_contact"}).errors,
-      HasSubstr("is up to date"));
+      IsUpToDate(""));
   expect_refusal(sweep({"--vary", "tabulation.relative_accuracy=1e-3,1e-4"}),
-                 ErrorKind::kWrongUsage, HasSubstr("cannot be varied with one fit"));
+                 ErrorKind::kWrongUsage, Names("--vary", "tabulation.relative_accuracy"));
   expect_refusal(sweep({"--vary", "rolling.incline=0,1", "--draws", "2"}), ErrorKind::kWrongUsage,
-                 HasSubstr("not for cases of a rolling sphere"));
+                 Names("--draws"));
   expect_refusal(sweep({"--vary", "rolling.friction=0.1,0.2", "--models", "smooth"}),
-                 ErrorKind::kWrongUsage,
-                 HasSubstr("none of the models that are run depends on it"));
+                 ErrorKind::kWrongUsage, Names("--vary", "rolling.friction"));
   expect_refusal(sweep({"--vary", "fluid.density=0.1,0.2"}), ErrorKind::kWrongUsage,
-                 HasSubstr("no motion depends on it without rolling.gravity"));
+                 Names("rolling.gravity"));
   expect_refusal(sweep({"--vary", "rolling.incline=0,1", "--models", "inertia"}),
-                 ErrorKind::kWrongUsage,
-                 HasSubstr("for a rolling sphere: smooth, rough, viscous_contact"));
+                 ErrorKind::kWrongUsage, Names("viscous_contact"));
   const auto tables = small_case("motion = \"all\"",
                                  "container = \"unbounded\"\n[rolling]\ninitial_gap = 0.1\n"
                                  "weight = 1.0\nend_time = 1.0\ntime_step = 0.1\n");
   expect_refusal(
       run_viscontact({"sweep", tables, "-o", path("rows.csv"), "--vary", "rolling.incline=0,1"}),
-      ErrorKind::kWrongUsage, HasSubstr("give with --fit the file fit.json"));
+      ErrorKind::kWrongUsage, Names("--fit", "fit.json"));
 }
 
 TEST_F(MotionsCommand, RollingWritesTheModelsThatDoNotFail) {
   // Only viscous contact has no film above the gaps of the fit.
   const auto run = run_viscontact(
       {"rolling", incline("initial_gap = 0.5", "initial_gap = 2.0"), "-o", path("out")});
-  expect_refusal(run, ErrorKind::kBadInput,
-                 AllOf(HasSubstr("model smooth: "), HasSubstr("rises above the gap 1, up to"),
-                       HasSubstr("1 more failed (rough); 1 other model is computed and written")));
+  expect_refusal(run, ErrorKind::kBadInput, Names("1 more", "1 other"));
   const auto json = nlohmann::json::parse(read_file(path("out/rolling.json")));
   EXPECT_TRUE(json.at("models").contains("viscous_contact"));
   EXPECT_THAT(json.at("failed_models").at("rough").get<std::string>(), HasSubstr("rises above"));
@@ -451,7 +436,7 @@ TEST_F(MotionsCommand, RollingWritesTheModelsThatDoNotFail) {
 TEST_F(MotionsCommand, RollingWritesNoNumbersBeyondADouble) {
   expect_refusal(
       run_viscontact({"rolling", incline("radius = 1.0", "radius = 1e300"), "-o", path("out")}),
-      ErrorKind::kBadInput, HasSubstr("2 more failed (rough, viscous_contact)"));
+      ErrorKind::kBadInput, Names("2 more", "viscous_contact"));
   EXPECT_FALSE(fs::exists(path("out/viscous_contact.csv")));
 }
 

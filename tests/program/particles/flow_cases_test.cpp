@@ -272,7 +272,7 @@ centre = [5.0, 0.5]
 radius = 0.1
 )"),
                           out());
-  EXPECT_THAT(result.errors, HasSubstr("the fixed mesh has about 1.5e+05 unknowns"));
+  EXPECT_THAT(result.errors, Names("1.5e+05"));
 }
 
 // Computations of Koblitz et al. 2017 (depth 1.7177 and 2.239 at t = 0.1) and Uhlmann 2005.
@@ -454,14 +454,14 @@ TEST_F(FlowCase, RefusesARestartWithoutAFlow) {
       run(put_case(with("falling_disc",
                         {{"time_step", "0.02"}, {"end_time", "0.1"}, {"constraint", coarse}})),
           out("other"), {"--restart", (out() / "restart.bin").string()});
-  expect_refusal(result, ErrorKind::kBadInput, HasSubstr("the restart file has no flow"));
+  expect_refusal(result, ErrorKind::kBadInput, Names("flow", "fluid.density"));
 }
 
 TEST_F(FlowCase, RefusesAMissingTemporaryFolderBeforeTheFirstStep) {
   put_case(with("falling_disc", {}));
   const auto result = run_viscontact({"particles", path("case.toml"), "-o", path("out")},
                                      {"TMPDIR=" + path("missing")});
-  expect_refusal(result, ErrorKind::kWrongUsage, HasSubstr("TMPDIR"));
+  expect_refusal(result, ErrorKind::kWrongUsage, Names("TMPDIR"));
   EXPECT_FALSE(fs::exists(path("out") + "/motion.csv"));
 }
 
@@ -471,7 +471,7 @@ TEST_F(FlowCase, RefusesAStepThatLeadsThroughTheMesh) {
       run(put_case(with("falling_disc",
                         {{"time_step", "0.5"}, {"end_time", "1.0"}, {"constraint", coarse}})),
           out());
-  EXPECT_THAT(result.errors, HasSubstr("the time step is too long for the velocities"));
+  EXPECT_THAT(result.errors, Says("the time step is too long for the velocities"));
 }
 
 }  // namespace

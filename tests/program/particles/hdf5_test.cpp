@@ -13,8 +13,6 @@ namespace viscontact {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 
 class Hdf5File : public ParticlesCommand {
  protected:
@@ -50,7 +48,7 @@ TEST_F(Hdf5File, SaysTheSameNumbersAsVtkTablesAndPage) {
   const auto done = run(put_case(kCase), out(), {"--hdf5"});
   expect_done(done);
   // The run was finished, so that only the file is new.
-  EXPECT_THAT(done.output + done.errors, HasSubstr("is up to date"));
+  EXPECT_THAT(done.output + done.errors, IsUpToDate(""));
   EXPECT_EQ(content(out() / "particles.pvd"), frames);
   expect_script_done("same_numbers.py " + out().string());
 }
@@ -74,7 +72,7 @@ TEST_F(Hdf5File, IsMadeAgainByRerun) {
   fs::remove(out() / "particles.h5");
   const auto again = run_viscontact({"rerun", (out() / "run.json").string()});
   expect_done(again);
-  EXPECT_THAT(again.output + again.errors, HasSubstr("is up to date"));
+  EXPECT_THAT(again.output + again.errors, IsUpToDate(""));
   EXPECT_EQ(read_file(out() / "particles.h5").size(), first.size());
 }
 
@@ -84,8 +82,7 @@ TEST_F(Hdf5File, ThatFindsNoRoomLeavesTheEarlierOneAndNoPart) {
   // In units of 512 bytes: enough for messages, less than the file has.
   const auto full = run_viscontact({"particles", path("case.toml"), "-o", out().string(), "--hdf5"},
                                    {}, "ulimit -f 20;");
-  expect_refusal(full, ErrorKind::kBadInput,
-                 HasSubstr("particles.h5: cannot be written (File too large)"));
+  expect_refusal(full, ErrorKind::kBadInput, Names("particles.h5"));
   EXPECT_EQ(files_below(out()), before);
 }
 
@@ -93,7 +90,7 @@ TEST_F(Hdf5File, InTheWayOfWhichIsAFolderIsRefused) {
   expect_done(run(put_case(kCase), out()));
   fs::create_directory(out() / "particles.h5");
   expect_refusal(run(put_case(kCase), out(), {"--hdf5"}), ErrorKind::kBadInput,
-                 AllOf(HasSubstr("particles.h5: cannot be written (Is a directory")));
+                 Names("particles.h5"));
 }
 
 }  // namespace

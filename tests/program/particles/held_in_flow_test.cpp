@@ -100,8 +100,8 @@ length = 1.2
   };
   auto result = run(put_case(text(0.3)), out());
   EXPECT_EQ(result.exit_status, 0) << result.errors;
-  EXPECT_THAT(result.errors, HasSubstr("in 1 of 1 steps a link pushes so hard"));
-  EXPECT_THAT(result.errors, HasSubstr("a time_step of 0.15 resolves it"));
+  EXPECT_THAT(result.errors, Names("1 of 1"));
+  EXPECT_THAT(result.errors, Names("time_step", "0.15"));
   EXPECT_THAT(read_file(out() / "run.json"), HasSubstr("\"buckling_steps\": 1"));
   result = run(put_case(text(0.15)), out());
   EXPECT_EQ(result.exit_status, 0) << result.errors;

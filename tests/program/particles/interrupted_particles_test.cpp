@@ -58,7 +58,7 @@ class InterruptedParticles : public ParticlesCommand {
   void run_half(const std::string& folder) const {
     const auto result = run(folder, {"INT", 4});
     ASSERT_EQ(result.exit_status, results::exit_code_of(ErrorKind::kInterrupted)) << result.errors;
-    EXPECT_THAT(result.errors, HasSubstr("the same command continues from there"));
+    EXPECT_THAT(result.errors, Says("the same command continues from there"));
   }
 };
 
@@ -75,7 +75,7 @@ TEST_F(InterruptedParticles, GoOnByTheSameCommandToTheSameFilesAsWithoutAnInterr
   }
   const auto last = run("parts");
   expect_done(last);
-  EXPECT_THAT(last.errors, HasSubstr("continues from t = "));
+  EXPECT_THAT(last.errors, Continues());
   expect_same_files(path("whole"), path("parts"));
   const auto record = nlohmann::json::parse(read_file(path("parts/run.json")));
   EXPECT_EQ(record["steps"], 100000);
@@ -105,7 +105,7 @@ TEST_F(InterruptedParticles, ThatAreFinishedAreUpToDate) {
   const auto before = files_below(path("out"));
   const auto again = run("out");
   expect_done(again);
-  EXPECT_THAT(again.errors, HasSubstr("out is up to date"));
+  EXPECT_THAT(again.errors, IsUpToDate("out"));
   EXPECT_EQ(files_below(path("out")), before);
   const auto json = run_viscontact({"particles", path("case.toml"), "-o", path("out"), "--json"});
   EXPECT_EQ(nlohmann::json::parse(json.output)["steps"], 1000);
@@ -115,10 +115,10 @@ TEST_F(InterruptedParticles, WhoseStepsDidNotConvergeSayItAgain) {
   // A stack that needs more than an iteration.
   put_case(replaced(kLongCase, "1e-4", "1e-2") + "[solver]\nmax_iterations = 1\n");
   put_text(path("discs.csv"), kFallingDiscs + "20,0.1,4.1,0,0,1,1\n21,0.2,6.2,0,0,1,1\n");
-  expect_refusal(run("out"), ErrorKind::kNotConverged, HasSubstr("All results are written"));
+  expect_refusal(run("out"), ErrorKind::kNotConverged);
   const auto again = run("out");
-  expect_refusal(again, ErrorKind::kNotConverged, HasSubstr("All results are written"));
-  EXPECT_THAT(again.errors, HasSubstr("up to date"));
+  expect_refusal(again, ErrorKind::kNotConverged);
+  EXPECT_THAT(again.errors, IsUpToDate(""));
 }
 
 TEST_F(InterruptedParticles, FinishedOneOfWhichAFileIsMissingIsCompletedWithoutAStep) {
@@ -128,7 +128,7 @@ TEST_F(InterruptedParticles, FinishedOneOfWhichAFileIsMissingIsCompletedWithoutA
   fs::remove(path("out/particles.html"));
   const auto again = run("out");
   expect_done(again);
-  EXPECT_THAT(again.errors, HasSubstr("continues from t = 10"));
+  EXPECT_THAT(again.errors, AllOf(Continues(), Names("t = 10")));
   EXPECT_EQ(without_costs(path("out")), before);
 }
 
@@ -137,13 +137,11 @@ TEST_F(InterruptedParticles, OfAnotherCaseAreReplacedAndItIsSaid) {
   put_case(replaced(kLongCase, "1e-4", "1e-2"));
   const auto changed = run("out");
   expect_done(changed);
-  EXPECT_THAT(changed.errors, HasSubstr("was made from another version of " + path("case.toml") +
-                                        ", so it is replaced"));
+  EXPECT_THAT(changed.errors, Names(path("case.toml")));
   expect_done(run("fresh"));
   expect_same_files(path("fresh"), path("out"));
   put_text(path("discs.csv"), replaced(kFallingDiscs, "6.5,4", "6.5,5"));
-  EXPECT_THAT(run("out").errors,
-              HasSubstr("was made from another version of " + path("discs.csv")));
+  EXPECT_THAT(run("out").errors, Names(path("discs.csv")));
 }
 
 TEST_F(InterruptedParticles, WithADamagedFileBeginAgainAndSayWhy) {
@@ -164,8 +162,7 @@ TEST_F(InterruptedParticles, WithADamagedFileBeginAgainAndSayWhy) {
           ? void(fs::remove(path("out/" + name)))
           : put_text(path("out/" + name), damage == "cut" ? cut(text) : resaved(text));
       const auto again = run("out", {"INT", 7});
-      EXPECT_THAT(again.errors, AllOf(HasSubstr("cannot be continued"), HasSubstr(name),
-                                      HasSubstr("from the start"), Not(HasSubstr("after step"))));
+      EXPECT_THAT(again.errors, AllOf(Names(name), Not(HasSubstr("after step"))));
       // Frame 7 is of the new run: the half had come to frame 5 at most.
       EXPECT_EQ(again.exit_status, results::exit_code_of(ErrorKind::kInterrupted)) << again.errors;
     }
@@ -189,7 +186,7 @@ TEST_F(InterruptedParticles, KilledBetweenTwoFilesGoOnFromTheOlderRestart) {
   put_text(path("out/particles.pvd"), read_file(path("out/particles.pvd")) + "<Data");
   const auto last = run("out");
   expect_done(last);
-  EXPECT_THAT(last.errors, HasSubstr("continues from t = "));
+  EXPECT_THAT(last.errors, Continues());
   expect_done(run("whole"));
   expect_same_files(path("whole"), path("out"));
 }

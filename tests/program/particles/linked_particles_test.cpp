@@ -17,7 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using ::testing::StartsWith;
 
 /// A pendulum of two discs on a hinge strikes a disc on a rough floor, to which a spring ties
@@ -113,7 +112,7 @@ TEST_P(LinkedParticles, ThatAreInterruptedBecomeTheSameRun) {
   }
   const auto last = run(file, out("parts"));
   expect_done(last);
-  EXPECT_THAT(last.errors, HasSubstr("continues from t = "));
+  EXPECT_THAT(last.errors, Continues());
   expect_same("whole", "parts");
   for (int frame = 0; frame <= 16; ++frame)
     for (const std::string kind : {"particles_000", "links_000"}) {
@@ -140,10 +139,10 @@ TEST_F(ParticlesCommand, ARestartIntoACaseWithOtherLinksIsRefused) {
                            const std::string& said) {
     expect_refusal(run(put_case(replaced(text, from, to), "other.toml"), out("no"),
                        {"--restart", (out() / "restart.bin").string()}),
-                   ErrorKind::kBadInput, HasSubstr(said));
+                   ErrorKind::kBadInput, Names(said));
   };
-  refused("[[spring]]\nbetween = [2, 3]\nstiffness = 3.0\n", "", "springs or arms");
-  refused("[[body]]\nparticles = [0, 1]\n[[hinge]]\nbody = 0", "[[hinge]]\nparticle = 0", "bod");
+  refused("[[spring]]\nbetween = [2, 3]\nstiffness = 3.0\n", "", "springs");
+  refused("[[body]]\nparticles = [0, 1]\n[[hinge]]\nbody = 0", "[[hinge]]\nparticle = 0", "bodies");
 }
 
 TEST_F(ParticlesCommand, LinksThatContradictEachOtherWhileRunningAreNamed) {
@@ -156,8 +155,7 @@ particle = 5
 at = [13.0, 1.0]
 )";
   const auto result = run(put_case(text), out());
-  expect_refusal(result, ErrorKind::kNotConverged,
-                 AllOf(HasSubstr("arm"), HasSubstr("hinge"), HasSubstr("contradict")));
+  expect_refusal(result, ErrorKind::kNotConverged, Names("arm", "hinge", "contradict"));
   EXPECT_TRUE(fs::exists(out() / "final_particles.csv"));
   EXPECT_TRUE(fs::exists(out() / "arms.csv"));
 }

@@ -15,7 +15,6 @@
 namespace viscontact {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using Json = nlohmann::json;
@@ -67,10 +66,8 @@ TEST_F(Packings, ThatJamAreCountedAndWarnedOf) {
     EXPECT_LT(first, 2.2 + 1.5 * 0.05);
     // Each step from then on, to the end.
     EXPECT_EQ(steps, std::lround((2.5 - first) / 0.05) + 1);
-    EXPECT_THAT(jammed.errors, HasSubstr(fmt::format(
-                                   "warning: the particles jam in {} steps, first at t = {:.6g}: "
-                                   "no motion of them gives way to the given motion of {},",
-                                   steps, first, name)));
+    EXPECT_THAT(jammed.errors,
+                Names(fmt::format("{} steps", steps), fmt::format("t = {:.6g}", first), name));
   }
 }
 
@@ -225,12 +222,10 @@ TEST_F(Packings, HaveTheReynoldsAndStokesNumbersOfTheirMotion) {
   const double reynolds = 0.7 * numbers.size_times_speed / 0.2;
   EXPECT_NEAR(found["reynolds_number"].get<double>() / reynolds, 1, kRounding);
   EXPECT_NEAR(found["stokes_number"].get<double>() / numbers.stokes, 1, kRounding);
-  EXPECT_THAT(result.errors, HasSubstr(fmt::format("largest Stokes number {:.3g}, Reynolds number "
-                                                   "{:.3g}",
-                                                   numbers.stokes, reynolds)));
+  EXPECT_THAT(result.errors, Names(fmt::format("Stokes number {:.3g}", numbers.stokes),
+                                   fmt::format("Reynolds number {:.3g}", reynolds)));
   // (1 + 0.15 Re^0.687), Schiller & Naumann.
-  EXPECT_THAT(result.errors,
-              HasSubstr(fmt::format("the Reynolds number reaches {:.4g}", reynolds)));
+  EXPECT_THAT(result.errors, Names(fmt::format("{:.4g}", reynolds)));
 
   expect_done(run(put_case(falling(film)), out()));
   EXPECT_TRUE(record()["reynolds_number"].is_null());
@@ -245,7 +240,7 @@ TEST_F(Packings, HaveTheReynoldsAndStokesNumbersOfTheirMotion) {
     EXPECT_TRUE(found["stokes_number"].is_null());
     const double of_film = largest(1).momentum / -lowest;
     EXPECT_NEAR(found["film_stokes_number"].get<double>() / of_film, 1, kRounding);
-    const auto warning = HasSubstr("the momentum of the landing is ");
+    const auto warning = Says("the momentum of the landing is ");
     // At 2 the blow decides when solids touch, at 1000 they do not.
     if (lowest == -60.0)
       EXPECT_THAT(result.errors, warning);

@@ -17,8 +17,6 @@ namespace viscontact {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 
 TEST_F(ParticlesCommand, StepsThatDoNotConvergeAreReportedAndAllIsWritten) {
   // A stack of five on the floor needs more than an iteration.
@@ -27,8 +25,8 @@ TEST_F(ParticlesCommand, StepsThatDoNotConvergeAreReportedAndAllIsWritten) {
     text += "\n[[particle]]\ncentre = [0.3, " + std::to_string(2 + 2.2 * k) +
             "]\nradius = 1.0\nmass = 1.0\n";
   const auto result = run(put_case(text), out());
-  expect_refusal(result, ErrorKind::kNotConverged, HasSubstr("All results are written"));
-  EXPECT_THAT(result.errors, HasSubstr("warning"));
+  expect_refusal(result, ErrorKind::kNotConverged);
+  EXPECT_THAT(result.errors, Names("warning"));
   const auto record = nlohmann::json::parse(read_file(out() / "run.json"));
   EXPECT_GT(record["unconverged_steps"], 0);
   EXPECT_GT(record["failed_steps"], 0);
@@ -50,7 +48,7 @@ TEST_F(ParticlesCommand, StepsThatNearlyConvergeAreAWarning) {
                   fmt::format("impulse_tolerance = 0.1\ntolerance = {}", missed / 2));
   const auto result = run(put_case(text), out("near"));
   expect_done(result);
-  EXPECT_THAT(result.errors, HasSubstr("by less than a factor of 10 (steps.csv says which)"));
+  EXPECT_THAT(result.errors, Names("10", "steps.csv"));
   const auto record = nlohmann::json::parse(read_file(out("near") / "run.json"));
   EXPECT_GT(record["unconverged_steps"], 0);
   EXPECT_EQ(record["failed_steps"], 0);
@@ -68,8 +66,7 @@ region = { from = [0.0, 20.0], to = [0.0, 20.0] }
   for (int k = 0; k < 2; ++k) {
     const auto result = run(file, out());
     expect_done(result);
-    EXPECT_THAT(result.errors, AllOf(HasSubstr("particles of source[0] are due and have not come"),
-                                     HasSubstr("for the next one, of radius 0.")));
+    EXPECT_THAT(result.errors, Says("particles of source[0] are due and have not come"));
   }
   const auto record = nlohmann::json::parse(read_file(out() / "run.json"));
   EXPECT_GT(record["particles"], 3);
@@ -89,58 +86,54 @@ TEST_P(BadParticlesCase, IsRefusedBeforeAnythingIsWritten) {
   const bool in_file = std::string(kDiscs).find(bad.from) != std::string::npos;
   if (in_file) folder_.file("discs.csv", replaced(kDiscs, bad.from, bad.to));
   const auto file = put_case(in_file ? std::string(kCase) : replaced(kCase, bad.from, bad.to));
-  expect_refusal(run(file, out()), ErrorKind::kBadInput, HasSubstr(bad.said));
+  expect_refusal(run(file, out()), ErrorKind::kBadInput, Names(bad.said));
   EXPECT_FALSE(fs::exists(out()));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Each, BadParticlesCase,
     ::testing::ValuesIn(std::vector<BadParticles>{
-        {"NanInTheFile", "3,1,", "nan,1,", "discs.csv:2: x is not a finite number"},
-        {"InfinityInTheFile", "3,1,", "3,inf,", "discs.csv:2: y is not a finite number"},
-        {"NegativeRadiusInTheFile", "0.5,0.25", "-0.5,0.25", "discs.csv:3: radius is -0.5"},
-        {"HugePosition", "3,1,", "3e200,1,", "discs.csv:2: x is 3e+200"},
+        {"NanInTheFile", "3,1,", "nan,1,", "discs.csv:2: x"},
+        {"InfinityInTheFile", "3,1,", "3,inf,", "discs.csv:2: y"},
+        {"NegativeRadiusInTheFile", "0.5,0.25", "-0.5,0.25", "discs.csv:3: radius"},
+        {"HugePosition", "3,1,", "3e200,1,", "discs.csv:2: x"},
         {"ThirdDimension", "x,y,vx,vy,radius,mass\n3,1,0,0,1,1\n6.5,4,0,-1,0.5,0.25",
-         "x,y,z,vx,vy,vz,radius,mass\n3,1,0,0,0,0,1,1",
-         "discs.csv:2: has a value in a column of the third dimension"},
-        {"Overlap", "6.5,4,0", "3.5,2,0", "overlap by"},
+         "x,y,z,vx,vy,vz,radius,mass\n3,1,0,0,0,0,1,1", "discs.csv:2"},
+        {"Overlap", "6.5,4,0", "3.5,2,0", "overlap"},
         {"Twice", "6.5,4,0", "3,1,0", "discs.csv:3: particle 0"},
         {"BehindThePlane", "6.5,4,0", "6.5,-4,0", "plane 1"},
         {"InThePlane", "6.5,4,0", "6.5,0.4,0", "discs.csv:3: particle 1"},
-        {"OtherDimension", "dimension = 2", "dimension = 3",
-         "contains 2 numbers; it must contain 3"},
-        {"NoDimension", "dimension = 2", "dimension = 4", "from 2 to 3"},
-        {"NoNormal", "normal = [0.0, 1.0]", "normal = [0.0, 0.0]",
-         "it must be a vector that points into the free side"},
-        {"LongStep", "time_step = 0.05", "time_step = 50", "must be at most end_time"},
-        {"ManySteps", "time_step = 0.05", "time_step = 1e-12", "at most 1e+09 are allowed"},
-        {"PositiveGamma", "gamma_min = -2.0", "gamma_min = 2.0", "must be a number <= 0"},
+        {"OtherDimension", "dimension = 2", "dimension = 3", "case.toml:5: space.gravity"},
+        {"NoDimension", "dimension = 2", "dimension = 4", "space.dimension"},
+        {"NoNormal", "normal = [0.0, 1.0]", "normal = [0.0, 0.0]", "plane[0].normal"},
+        {"LongStep", "time_step = 0.05", "time_step = 50", "viscous_contact.time_step"},
+        {"ManySteps", "time_step = 0.05", "time_step = 1e-12", "viscous_contact.time_step"},
+        {"PositiveGamma", "gamma_min = -2.0", "gamma_min = 2.0", "viscous_contact.gamma_min"},
         {"BothLaws", "gamma_min = -2.0", "gamma_min = -2.0\nviscosity = 1.0\nroughness = 0.1",
-         "must be left out, because gamma_min is given"},
-        {"ViscosityAlone", "gamma_min = -2.0", "viscosity = 1.0",
-         "roughness is missing; a case with a viscosity needs both"},
-        {"ForceEndsEarly", "until = 10.0", "until = 9.0", "ends at 9; it must reach"},
-        {"ForceBackwards", "until = 10.0", "until = 4.0", "where the piece before ends"},
+         "viscous_contact.viscosity"},
+        {"ViscosityAlone", "gamma_min = -2.0", "viscosity = 1.0", "viscous_contact.roughness"},
+        {"ForceEndsEarly", "until = 10.0", "until = 9.0", "particle[0].force"},
+        {"ForceBackwards", "until = 10.0", "until = 4.0", "particle[0].force"},
         {"ForceOfThreeNumbers", "value = [0.7, -0.7]", "value = [0.7, -0.7, 0]",
-         "contains 3 numbers; it must contain 2"},
+         "particle[0].force"},
         {"ZeroMass", "\nmass = 1.0", "\nmass = 0.0", "case.toml"},
-        {"Tolerance", "tolerance = 1e-6", "tolerance = 1e-20", "from 1e-12 to 0.1"},
-        {"Method", "tolerance = 1e-6", "method = \"magic\"", "the only method"},
+        {"Tolerance", "tolerance = 1e-6", "tolerance = 1e-20", "solver.tolerance"},
+        {"Method", "tolerance = 1e-6", "method = \"magic\"", "solver.method"},
         {"TinyInterval", "every = 0.5", "every = 1e-300", "output.every"},
-        {"TooSmallForTheTolerance", "0.5,0.25", "1e-6,0.25", "too small for solver.tolerance"},
-        {"TooFar", "6.5,4,0", "6.5,4e12,0", "too far from the origin"},
-        {"DenormalMass", "0.5,0.25", "0.5,1e-310", "at least 1e-100"},
+        {"TooSmallForTheTolerance", "0.5,0.25", "1e-6,0.25", "solver.tolerance"},
+        {"TooFar", "6.5,4,0", "6.5,4e12,0", "discs.csv:3"},
+        {"DenormalMass", "0.5,0.25", "0.5,1e-310", "discs.csv:3: mass"},
         {"PieceThatIsNone",
          "force = [ { until = 5.0, value = [0.7, -0.7] }, { until = 10.0, value = [-0.7, 0.7] } ]",
-         "force = { until = 10.0, value = [0.0, 0.0] }", "a list of pieces"},
+         "force = { until = 10.0, value = [0.0, 0.0] }", "force"},
         {"PivotOfNothing", "normal = [0.0, 1.0]", "normal = [0.0, 1.0]\npivot = [0.0, 0.0]",
-         "must be left out, because this plane has no angular_velocity"},
+         "plane[0].pivot"},
         {"UnknownKey", "every = 0.5", "evry = 0.5", "every"},
         {"NoFile", "file = \"discs.csv\"", "file = \"discs\"", "discs"},
         {"ForceOnNobody", "[output]", "[[force]]\nparticles = [3]\nvalue = [0.0, 0.0]\n[output]",
-         "the particles are numbered from 0 to 2"},
+         "force[0].particles"},
         {"ForceTwice", "[output]", "[[force]]\nparticles = [2]\nvalue = [0.0, 0.0]\n[output]",
-         "a second time; each particle must have one force"},
+         "force[0].particles"},
     }),
     [](const auto& test) { return test.param.name; });
 
@@ -153,8 +146,7 @@ TEST_F(ParticlesCommand, BlankLinesAtTheEndOfTheFileAreNoParticles) {
 TEST_F(ParticlesCommand, AStepThatCannotBeComputedLeavesWhatWasBefore) {
   const auto result =
       run(put_case(replaced(kCase, "value = [-0.7, 0.7]", "value = [-1e90, 0.7]")), out());
-  expect_refusal(result, ErrorKind::kNotConverged,
-                 HasSubstr("too far for the precision of a double"));
+  expect_refusal(result, ErrorKind::kNotConverged);
   EXPECT_EQ(nlohmann::json::parse(read_file(out() / "run.json"))["to_time"], 5.0);
   EXPECT_DOUBLE_EQ(particles::read_restart(out() / "restart.bin").time, 5.0);
 }
@@ -165,7 +157,7 @@ TEST_F(ParticlesCommand, WallsThatMeetEndTheRunAndKeepWhatWasBefore) {
     return kCase + ("[[plane]]\npoint = [0.0, 6.0]\nnormal = [0.0, -1.0]\nvelocity = " + velocity);
   };
   const auto result = run(put_case(with_ceiling("[0.0, -1.0]\n")), out());
-  expect_refusal(result, ErrorKind::kNotConverged, AllOf(HasSubstr("plane"), HasSubstr("overlap")));
+  expect_refusal(result, ErrorKind::kNotConverged, Names("plane", "overlap"));
   const auto record = nlohmann::json::parse(read_file(out() / "run.json"));
   const double until = record["to_time"];
   EXPECT_GT(until, 2);
@@ -180,14 +172,14 @@ TEST_F(ParticlesCommand, WallsThatMeetEndTheRunAndKeepWhatWasBefore) {
 TEST_F(ParticlesCommand, ItsOwnInputIsNotWrittenOver) {
   folder_.file("final_particles.csv", kDiscs);
   const auto file = put_case(replaced(kCase, "discs.csv", "final_particles.csv"));
-  expect_refusal(run(file, folder_.path()), ErrorKind::kBadInput, HasSubstr("overwritten"));
+  expect_refusal(run(file, folder_.path()), ErrorKind::kBadInput, Names("overwritten"));
   EXPECT_EQ(read_file(folder_.path() / "final_particles.csv"), kDiscs);
 }
 
 TEST_F(ParticlesCommand, NoParticleIsRefused) {
   const std::string text = kCase;
   expect_refusal(run(put_case(text.substr(0, text.find("[particles]"))), out()),
-                 ErrorKind::kBadInput, HasSubstr("has no particle"));
+                 ErrorKind::kBadInput, Names("[particles]"));
 }
 
 TEST_F(ParticlesCommand, ReplacesNothingThatItDidNotWrite) {
@@ -195,8 +187,7 @@ TEST_F(ParticlesCommand, ReplacesNothingThatItDidNotWrite) {
   fs::create_directory(out());
   for (const auto* name : {"steps.csv", "particles.svg", "particles_00000.vtp"}) {
     put_text(out() / name, "my notes\n");
-    expect_refusal(run(file, out()), ErrorKind::kBadInput,
-                   AllOf(HasSubstr(name), HasSubstr("remove it first")));
+    expect_refusal(run(file, out()), ErrorKind::kBadInput, Names(name));
     EXPECT_EQ(read_file(out() / name), "my notes\n");
     fs::remove(out() / name);
   }
@@ -205,8 +196,7 @@ TEST_F(ParticlesCommand, ReplacesNothingThatItDidNotWrite) {
 TEST_F(ParticlesCommand, FolderIntoWhichAnotherWritesIsRefused) {
   const auto file = put_case(kCase);
   const LockedFolder lock(out(), "");
-  expect_refusal(run(file, out()), ErrorKind::kBadInput,
-                 HasSubstr("another viscontact writes into it"));
+  expect_refusal(run(file, out()), ErrorKind::kBadInput, Names(out().string()));
 }
 
 }  // namespace

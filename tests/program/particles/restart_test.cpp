@@ -81,7 +81,7 @@ TEST_F(ParticlesCommand, ARestartDoesNotReplaceTheRunThatItContinues) {
   expect_done(run(put_case(replaced(kCase, "end_time = 10.0", "end_time = 4.35")), out()));
   const auto before = files_below(out());
   expect_refusal(run(put_case(kCase), out(), {"--restart", (out() / "restart.bin").string()}),
-                 ErrorKind::kBadInput, HasSubstr("choose another folder"));
+                 ErrorKind::kBadInput, Names(out().string()));
   EXPECT_EQ(files_below(out()), before);
 }
 
@@ -98,7 +98,7 @@ TEST_P(SignalledParticles, KeepWhatTheyHaveAndARestartGoesOn) {
   const auto result = run_viscontact({"particles", endless.string(), "-o", out().string()}, {},
                                      "(sleep 1; kill -" + GetParam() + " $$) &");
   EXPECT_EQ(result.exit_status, results::exit_code_of(ErrorKind::kInterrupted)) << result.errors;
-  EXPECT_THAT(result.errors, HasSubstr("the same command continues"));
+  EXPECT_THAT(result.errors, Says("the same command continues"));
   const auto state = particles::read_restart(out() / "restart.bin");
   EXPECT_GT(state.steps, 0);
   EXPECT_LT(state.time, 10);
@@ -128,22 +128,21 @@ TEST_F(ParticlesCommand, ARestartIsOfTheSameParticles) {
   const auto refused = [&](const std::string& text, const std::string& said,
                            const std::string& file) {
     expect_refusal(run(put_case(text, "other.toml"), out("no"), {"--restart", file}),
-                   ErrorKind::kBadInput, HasSubstr(said));
+                   ErrorKind::kBadInput, Names(said));
     EXPECT_FALSE(fs::exists(out("no")));
   };
-  refused(kCase, "no time left to simulate", restart);
-  refused(replaced(longer, "\nmass = 1.0", "\nmass = 2.0"), "other masses", restart);
-  refused(replaced(longer, "radius = 1.0", "radius = 1.01"), "other radii", restart);
-  refused(replaced(longer, "[particles]\nfile = \"discs.csv\"\n", ""), "3 particles, not 1",
-          restart);
+  refused(kCase, "time 10", restart);
+  refused(replaced(longer, "\nmass = 1.0", "\nmass = 2.0"), "masses", restart);
+  refused(replaced(longer, "radius = 1.0", "radius = 1.01"), "radii", restart);
+  refused(replaced(longer, "[particles]\nfile = \"discs.csv\"\n", ""), "3 particles", restart);
   refused(replaced(longer, "[[plane]]\npoint = [0.0, 0.0]\nnormal = [0.0, 1.0]\n", ""),
-          "a contact with obstacle -1, which the case does not have", restart);
-  refused(longer, "is not a restart file", (folder_.path() / "discs.csv").string());
+          "obstacle -1", restart);
+  refused(longer, "discs.csv", (folder_.path() / "discs.csv").string());
   auto bytes = read_file(restart);
-  refused(longer, "cut short",
+  refused(longer, "half.bin",
           folder_.file("half.bin", bytes.substr(0, bytes.size() - 100)).string());
   bytes[bytes.size() - 50] = static_cast<char>(bytes[bytes.size() - 50] + 1);
-  refused(longer, "its bytes have changed", folder_.file("bit.bin", bytes).string());
+  refused(longer, "bit.bin", folder_.file("bit.bin", bytes).string());
 }
 
 /// A source that the case of these tests may have, with other values of its keys if they are given.
@@ -161,13 +160,13 @@ TEST_F(ParticlesCommand, ARestartHasTheSourcesOfItsRunAndMayHaveMore) {
   const auto restart = run_half(source(), "half");
   const auto refused = [&](const std::string& sources, const std::string& said) {
     expect_refusal(run(put_case(kCase + sources, "other.toml"), out("no"), {"--restart", restart}),
-                   ErrorKind::kBadInput, HasSubstr(said));
+                   ErrorKind::kBadInput, Names(said));
   };
-  refused("", "other.toml: 1 sources, not 0");
-  refused(source("2.0"), "source[0] pours 1 particles in a unit of time, not 2");
-  refused(source("1.0", "seed = 3\n"), "source[0] has another seed");
-  refused(source("1.0", "begin = 4.0\n"), "source[0] begins at 0, not 4");
-  refused(replaced(source(), "0.4]", "0.5]"), "source[0] has particles of other radii, densities");
+  refused("", "1 sources");
+  refused(source("2.0"), "source[0]");
+  refused(source("1.0", "seed = 3\n"), "seed");
+  refused(source("1.0", "begin = 4.0\n"), "source[0]");
+  refused(replaced(source(), "0.4]", "0.5]"), "radii");
   // Six have come at the times 0 to 5. The same source goes on; a new one begins at 5.
   const auto poured = [&](const std::string& sources, const std::string& from,
                           const std::string& folder) {
@@ -204,7 +203,7 @@ at = [0.0, 0.9]
   const auto longer = replaced(swing, "end_time = 1.0", "end_time = 1.2");
   expect_refusal(run(put_case(longer + "highest_angle = 0.5\n", "stop.toml"), out("no"),
                      {"--restart", restart}),
-                 ErrorKind::kBadInput, HasSubstr("has hinge 0 turned beyond its highest_angle"));
+                 ErrorKind::kBadInput, Names("0 turned", "highest_angle"));
   expect_done(run(put_case(longer + "highest_angle = 1.5\n", "far.toml"), out("far"),
                   {"--restart", restart}));
 }

@@ -13,7 +13,6 @@ namespace viscontact {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::HasSubstr;
 
 class XyzFile : public ParticlesCommand {
  protected:
@@ -128,7 +127,7 @@ TEST_F(XyzFile, OfAnInterruptedRunIsThatOfTheWholeRun) {
   const auto part = read_file(fs::path(parts) / "particles.xyz");
   const auto again = run_viscontact({"particles", file, "-o", parts});
   expect_done(again);
-  EXPECT_THAT(again.errors, HasSubstr("continues from t = "));
+  EXPECT_THAT(again.errors, Continues());
   EXPECT_FALSE(fs::exists(fs::path(parts) / "particles.xyz"));
   expect_done(run_viscontact({"particles", file, "-o", parts, "--xyz"}));
   const auto joined = xyz_in(parts);
@@ -151,8 +150,7 @@ TEST_F(XyzFile, ThatFindsNoRoomLeavesTheEarlierOneAndNoPart) {
   // In units of 512 bytes: enough for messages, less than the file has.
   const auto full = run_viscontact({"particles", path("case.toml"), "-o", out().string(), "--xyz"},
                                    {}, "ulimit -f 4;");
-  expect_refusal(full, ErrorKind::kBadInput,
-                 HasSubstr("particles.xyz: cannot be written (File too large)"));
+  expect_refusal(full, ErrorKind::kBadInput, Names("particles.xyz"));
   EXPECT_EQ(files_below(out()), before);
 }
 

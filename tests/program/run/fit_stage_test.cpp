@@ -15,7 +15,6 @@
 namespace viscontact {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 TEST_F(Stages, FitFileSaysBasisWeightsTableAndVersions) {
@@ -52,7 +51,7 @@ TEST_F(Stages, FitTakesOwnTermsALossAndAHeldCoefficient) {
   EXPECT_EQ(fit.terms[0].standard_error, 0);
   // The table does not say theory's value; then it does.
   expect_refusal(run_viscontact({"fit", path("table.csv"), "-o", path("new.json"), "--fix"}),
-                 ErrorKind::kBadInput, HasSubstr("leading_coefficient"));
+                 ErrorKind::kBadInput, Names("leading_coefficient"));
   put("table.csv", "# leading_coefficient: 56.548667764616276\n" + read_file(path("table.csv")));
   expect_done(run_viscontact({"fit", path("table.csv"), "-o", path("new.json"), "--fix"}));
   fit = lubrication::read_fit(path("new.json"));
@@ -97,7 +96,7 @@ TEST_F(Stages, ShiftOfAShiftedSmoothWallIsPrintedWrittenAndDrawn) {
   put("rough.csv", replaced(read_file(path("rough.csv")), "# viscosity: 3", "# viscosity: 4"));
   expect_refusal(run_viscontact({"shift", path("rough.csv"), "--fit", path("fit.json"), "-o",
                                  path("shift.csv")}),
-                 ErrorKind::kBadInput, AllOf(HasSubstr("rough.csv"), HasSubstr("fit.json")));
+                 ErrorKind::kBadInput, Names("rough.csv", "fit.json"));
 }
 
 TEST_F(Stages, ExportIsPrintedOrWritten) {
@@ -108,10 +107,10 @@ TEST_F(Stages, ExportIsPrintedOrWritten) {
   expect_done(run_viscontact({"export", path("fit.json"), "--to", "c-header", "-o", path("f.h")}));
   EXPECT_EQ(rest_of(path("f.h")), printed.output);
   expect_refusal(run_viscontact({"export", path("fit.json"), "--to", "cobol"}),
-                 ErrorKind::kWrongUsage, HasSubstr("cobol"));
+                 ErrorKind::kWrongUsage, Names("cobol"));
   expect_refusal(
       run_viscontact({"export", path("fit.json"), "--to", "csv", "-o", path("case.toml")}),
-      ErrorKind::kBadInput, HasSubstr("case.toml"));
+      ErrorKind::kBadInput, Names("case.toml"));
 }
 
 TEST_F(Stages, SameFitIsNotMadeAgainAnotherIs) {
@@ -119,7 +118,7 @@ TEST_F(Stages, SameFitIsNotMadeAgainAnotherIs) {
   const auto made = std::filesystem::last_write_time(path("fit.json"));
   const auto again =
       run_viscontact({"fit", path("table.csv"), "-o", path("fit.json"), "--basis", "lecture"});
-  EXPECT_THAT(again.errors, HasSubstr("up to date"));
+  EXPECT_THAT(again.errors, IsUpToDate(""));
   EXPECT_EQ(std::filesystem::last_write_time(path("fit.json")), made);
   fit("asymptotic");
   EXPECT_EQ(lubrication::read_fit(path("fit.json")).basis, "asymptotic");
@@ -140,7 +139,7 @@ TEST_F(Stages, FixLeavesTheTableBehindItToItsCommand) {
   EXPECT_THAT(given, HasSubstr("\"coefficient\": 56.5"));
   // The table is looked for, and not taken for the value of --fix, if it is not there either.
   expect_refusal(run_viscontact({"fit", "--fix", path("no.csv"), "-o", path("e.json")}),
-                 ErrorKind::kBadInput, HasSubstr("no.csv: cannot be read"));
+                 ErrorKind::kBadInput, Names("no.csv"));
 }
 
 }  // namespace

@@ -54,8 +54,7 @@ TEST(OutputRows, BelowTwoAreRefused) {
   put_text(case_file, replaced(lecture_case_text(), "end_time = 4.0", "end_time = 4.0\nrows = 1"));
   expect_refusal(run_viscontact({"simulate", case_file, "--fit", kFit, "-o",
                                  (scratch.path() / "run").string()}),
-                 ErrorKind::kBadInput,
-                 HasSubstr("motion.rows is 1; it must be a whole number from 2"));
+                 ErrorKind::kBadInput, Names("motion.rows"));
 }
 
 TEST(SimulationProgress, IsShownOnATerminalAndNowhereElse) {

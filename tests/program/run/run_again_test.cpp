@@ -63,9 +63,8 @@ TEST(RunWithFreeFem, MakesEveryFileAndThenNothingAgain) {
   const auto again = run_viscontact(arguments, {"VISCONTACT_FREEFEM=no-such-freefem"});
   expect_done(again);
   EXPECT_EQ(write_times(folder), made);
-  EXPECT_THAT(again.errors,
-              AllOf(HasSubstr("table.csv is up to date"), HasSubstr("fit.json is up to date"),
-                    HasSubstr("trajectories are up to date"), HasSubstr("report: up to date")));
+  EXPECT_THAT(again.errors, AllOf(IsUpToDate("table.csv"), IsUpToDate("fit.json"),
+                                  IsUpToDate("trajectories"), IsUpToDate("report")));
 }
 
 TEST_F(Run, OfAChangedCaseMakesAgainWhatDependsOnTheChange) {
@@ -160,7 +159,7 @@ TEST_F(Run, WhatWasMadeFromAnotherFitOrWithAnotherDragIsMadeAgain) {
   EXPECT_THAT(read_file(trajectory("inertial")),
               AllOf(HasSubstr("# drag below the fit: lubrication limit\n"),
                     HasSubstr("# drag above the fit: Stokes' limit\n")));
-  EXPECT_THAT(run().errors, HasSubstr("simulate: 6 models"));
+  EXPECT_THAT(run().errors, Names("6 models"));
   EXPECT_THAT(read_file(trajectory("inertial")), Not(HasSubstr("# drag below")));
 }
 

@@ -20,7 +20,6 @@
 namespace viscontact {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -42,8 +41,7 @@ TEST_F(Stages, GapAboveTheFitIsAnErrorUnlessStokesLimitIsAskedFor) {
   const std::vector<std::string> arguments = {
       "simulate", path("case.toml"), "--fit",    path("fit.json"),
       "-o",       path("run"),       "--models", "reference_exact"};
-  expect_refusal(run_viscontact(arguments), ErrorKind::kBadInput,
-                 HasSubstr("above = \"stokes_limit\" in the section [fit] of the case"));
+  expect_refusal(run_viscontact(arguments), ErrorKind::kBadInput, Names("stokes_limit", "[fit]"));
   // As the message says; or by the option.
   auto in_case = arguments;
   in_case[1] = path("limit.toml");
@@ -65,9 +63,7 @@ TEST_F(Stages, GravityAwayFromTheWallIsAWarning) {
     const auto result = run_viscontact({"simulate", path("case.toml"), "--fit", path("fit.json"),
                                         "-o", path("run"), "--models", "viscous_contact"});
     expect_done(result);
-    const auto warning = HasSubstr(
-        "warning: motion.gravity, 0.01, is > 0 and lifts a heavy sphere off the wall; "
-        "gravity towards the wall is negative");
+    const auto warning = Names("motion.gravity", "0.01", "0 and");
     if (warns)
       EXPECT_THAT(result.errors, warning);
     else
@@ -99,7 +95,7 @@ TEST_F(Stages, SimulateTakesTheExactDragOfTheCase) {
   const auto result = run_viscontact(
       {"simulate", path("exact.toml"), "-o", path("run"), "--models", "reference_exact,inertial"});
   expect_done(result);
-  EXPECT_THAT(result.errors, HasSubstr("the drag is the exact one near a plane"));
+  EXPECT_THAT(result.errors, Says("the drag is the exact one near a plane"));
   EXPECT_EQ(lubrication::read_fit(path("run/fit.json")).basis, lubrication::kExactPlane);
   expect_done(run_viscontact({"compare", path("run")}));
   // docs/theory.md, section 3: the digits that are given there, and a row's distance from the
@@ -135,13 +131,13 @@ TEST_F(Stages, SimulateTakesTheFitFileOfTheCaseOrOfItsFolder) {
   EXPECT_EQ(rows("file"), rows("given"));
   // No fit anywhere: said before anything is written.
   expect_refusal(simulate("case.toml", "folder"), ErrorKind::kWrongUsage,
-                 AllOf(HasSubstr("folder/fit.json"), HasSubstr("--fit")));
+                 Names("folder/fit.json", "--fit"));
   EXPECT_FALSE(std::filesystem::exists(path("folder")));
   std::filesystem::create_directory(path("folder"));
   std::filesystem::copy_file(path("fit.json"), path("folder/fit.json"));
   const auto result = simulate("case.toml", "folder");
   expect_done(result);
-  EXPECT_THAT(result.errors, HasSubstr("the drag is that of " + path("folder/fit.json")));
+  EXPECT_THAT(result.errors, Names(path("folder/fit.json")));
   EXPECT_EQ(rows("folder"), rows("given"));
   // Repeated into another folder, where there is no fit.
   expect_done(run_viscontact(
@@ -176,7 +172,7 @@ TEST_F(Stages, SimulateTakesAFitWhoseViscosityDiffersByRounding) {
   expect_done(rounded);
   EXPECT_THAT(rounded.errors, ::testing::Not(HasSubstr("scaled")));
   expect_done(other);
-  EXPECT_THAT(other.errors, HasSubstr("the fit is that of radius 1 and viscosity 3"));
+  EXPECT_THAT(other.errors, Names("1 and", "3"));
 }
 
 TEST_F(Stages, FitIsScaledToACaseInOtherUnits) {
@@ -221,7 +217,7 @@ TEST_F(Stages, FitThatIsScaledHasTheGeometryOfTheCaseInRadii) {
                "geometry = { kind = \"plane\" }", "geometry = { kind = \"free_surface\" }"));
   expect_refusal(run_viscontact({"simulate", path("other.toml"), "--fit", path("fit.json"), "-o",
                                  path("other"), "--models", "inertial"}),
-                 ErrorKind::kBadInput, HasSubstr("Both must be equal in radii"));
+                 ErrorKind::kBadInput, Names(path("fit.json"), "container"));
 }
 
 TEST_F(Stages, SimulateRunsTheAskedModelsOnly) {
@@ -250,7 +246,8 @@ TEST_F(Stages, GapBelowTheFitIsAnErrorUnlessTheLubricationLimitIsAskedFor) {
   fit("asymptotic");
   const std::vector<std::string> arguments = {
       "simulate", path("case.toml"), "--fit", path("fit.json"), "-o", path("run")};
-  expect_refusal(run_viscontact(arguments), ErrorKind::kBadInput, HasSubstr("0.01"));
+  expect_refusal(run_viscontact(arguments), ErrorKind::kBadInput,
+                 Names("case.toml", "model reference", "lubrication_limit"));
 
   auto with_limit = arguments;
   with_limit.emplace_back("--lubrication-limit");

@@ -18,7 +18,6 @@ namespace viscontact {
 namespace {
 
 using ::testing::AllOf;
-using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -63,8 +62,8 @@ TEST_F(SweepOfParticles, WritesARowForEachRunAndTheMeansOverDraws) {
   const auto result = run("rows.csv");
   expect_done(result);
   EXPECT_EQ(result.output, "");
-  EXPECT_THAT(result.errors, AllOf(HasSubstr("sweep: 8 rows in " + path("rows.csv")),
-                                   HasSubstr("rows_means.csv"), Not(HasSubstr("particles:"))));
+  EXPECT_THAT(result.errors, AllOf(Names("8 rows", path("rows.csv"), "rows_means.csv"),
+                                   Not(HasSubstr("particles:"))));
   const auto rows = read_csv<5>(
       path("rows.csv"), {"arrangement.seed", "particles", "steps", "to_time", "area_fraction"}, 5);
   ASSERT_EQ(rows.rows.size(), 8U);
@@ -97,7 +96,7 @@ TEST_F(SweepOfParticles, WritesARowForEachRunAndTheMeansOverDraws) {
 
   const auto again = run("rows.csv");
   expect_done(again);
-  EXPECT_THAT(again.errors, HasSubstr("rows.csv is up to date"));
+  EXPECT_THAT(again.errors, IsUpToDate("rows.csv"));
   expect_done(run_viscontact({"sweep", path("case.toml"), "-o", path("other.csv"), "--vary",
                               "arrangement.area_fraction=0.2,0.4", "--draws", "4", "--jobs", "1"}));
   expect_same_tables("rows", "other");
@@ -139,8 +138,7 @@ TEST_F(SweepOfParticles, InterruptKeepsRunsAndTheSameCommandContinuesThem) {
   const auto stop = fmt::format(
       "(while kill -0 $$ && ! [ -e \"{}\" ]; do sleep 0.01; done; kill -INT $$) >/dev/null 2>&1 & ",
       path("rows.csv.runs/0-2/result.json"));
-  expect_refusal(run("rows.csv", {}, stop), ErrorKind::kInterrupted,
-                 HasSubstr("the same command continues from there"));
+  expect_refusal(run("rows.csv", {}, stop), ErrorKind::kInterrupted);
   expect_done(run("rows.csv"));
   expect_same_tables("rows", "undisturbed");
 }
@@ -151,9 +149,7 @@ TEST_F(SweepOfParticles, TasksComputeSharesThatGatherPutsTogether) {
   EXPECT_TRUE(std::filesystem::exists(path("rows.csv.runs/1-0/result.json")));   // row 4
   EXPECT_FALSE(std::filesystem::exists(path("rows.csv.runs/0-0/result.json")));  // row 0
   const auto early = run("rows.csv", {"--gather"});
-  expect_refusal(early, ErrorKind::kNotConverged,
-                 AllOf(HasSubstr("5 of 8 rows are missing (the first is row 1)"),
-                       HasSubstr("without --gather")));
+  expect_refusal(early, ErrorKind::kNotConverged, Names("5 of 8", "--gather"));
   EXPECT_FALSE(std::filesystem::exists(path("rows.csv")));
   expect_done(run("rows.csv", {"--task", "0/3"}));
   expect_done(run("rows.csv", {"--task", "2/3"}));
@@ -165,7 +161,7 @@ TEST_F(SweepOfParticles, RunThatFailsStopsNoOther) {
   // With gaps of 3 the discs do not fit.
   const auto result = run("rows.csv", {"--vary", "arrangement.smallest_gap=0.02,3,0.03"});
   expect_done(result);
-  EXPECT_THAT(result.errors, HasSubstr("8 runs failed (the column 'failure' says why)"));
+  EXPECT_THAT(result.errors, Names("8 runs", "'failure'"));
   EXPECT_THAT(lines()[5], AllOf(HasSubstr(",,,"), HasSubstr("case.toml:"), HasSubstr("do not fit"),
                                 Not(HasSubstr("rows.csv.runs"))));
   EXPECT_THAT(lines("rows_means.csv")[2], ::testing::StartsWith("0.2,3,0,4,,"));
@@ -207,26 +203,26 @@ TEST_F(SweepOfParticles, DrawsRowsOrTheMeansOfDrawsWithTheirErrors) {
 
 TEST_F(SweepOfParticles, OptionsOfTheOtherKindOfCaseAreRefused) {
   const auto refused = [&](const std::vector<std::string>& options, const std::string& words) {
-    expect_refused(path("case.toml"), options, ErrorKind::kWrongUsage, HasSubstr(words));
+    expect_refused(path("case.toml"), options, ErrorKind::kWrongUsage, Names(words));
   };
-  refused({"--draws", "2", "--models", "inertial"}, "are for cases of one sphere");
-  refused({}, "give --vary KEY=FROM:TO:COUNT or --draws N");
-  refused({"--draws", "2", "--task", "2/2"}, "--task is '2/2'");
-  refused({"--draws", "2", "--tasks", "2"}, "need --launcher slurm");
-  refused({"--draws", "2", "--plot", path("x.svg")}, "a picture needs a varied key");
-  refused({"--draws", "2", "--task", "0/2", "--plot", path("x.svg")}, "give it with --gather");
+  refused({"--draws", "2", "--models", "inertial"}, "one sphere");
+  refused({}, "--draws");
+  refused({"--draws", "2", "--task", "2/2"}, "--task");
+  refused({"--draws", "2", "--tasks", "2"}, "--launcher");
+  refused({"--draws", "2", "--plot", path("x.svg")}, "--vary");
+  refused({"--draws", "2", "--task", "0/2", "--plot", path("x.svg")}, "--gather");
   refused({"--vary", "arrangement.area_fraction=0.2,0.4", "--plot", path("x.svg"), "--column", "u"},
-          "there is no column 'u' to plot");
+          "'u'");
   expect_refused(data("cases/vanishing_viscosity.toml"), {"--draws", "2"}, ErrorKind::kWrongUsage,
-                 HasSubstr("for cases of many particles"));
+                 Says("for cases of many particles"));
   expect_refused(data("cases/vanishing_viscosity.toml"), {"--launcher", "slurm"},
-                 ErrorKind::kWrongUsage, HasSubstr("for cases of many particles"));
+                 ErrorKind::kWrongUsage, Says("for cases of many particles"));
 }
 
 TEST_F(SweepOfParticles, DoesNotReplaceAFileThatIsNoTableOfMeans) {
   put_text(path("rows_means.csv"), "mine\n");
   expect_refused(path("case.toml"), {"--draws", "2"}, ErrorKind::kBadInput,
-                 AllOf(HasSubstr("rows_means.csv"), HasSubstr("is not a table of means")));
+                 Names("rows_means.csv"));
 }
 
 TEST_F(SweepOfParticles, ArrayJobAsksForTheTasksWhoseRunsAreMissing) {
@@ -246,8 +242,7 @@ TEST_F(SweepOfParticles, ArrayJobAsksForTheTasksWhoseRunsAreMissing) {
   const auto submitted = submit();
   expect_done(submitted);
   EXPECT_EQ(submitted.output, "12\n");
-  EXPECT_THAT(submitted.errors, AllOf(HasSubstr("sweep: Slurm job 12 with 4 tasks"),
-                                      HasSubstr("--draws 8 --seed 1 --gather")));
+  EXPECT_THAT(submitted.errors, Names("job 12", "4 tasks", "--draws", "8", "--seed", "--gather"));
   EXPECT_THAT(read_file(path("asked")), HasSubstr("--array=0-3\n"));
   // Edits of the case do not reach the tasks.
   put_text(path("case.toml"), "no case");

@@ -11,8 +11,6 @@
 namespace viscontact {
 namespace {
 
-using ::testing::HasSubstr;
-
 class SlurmSweep : public SweepCommand {
  protected:
   void TearDown() override { cluster().cancel_jobs(); }
@@ -30,7 +28,7 @@ TEST_F(SlurmSweep, ArrayJobAndGatherGiveTheTablesOfALocalRun) {
   put_text(path("case.toml"), small_particles_case());
   const auto submitted = run("rows.csv", {"--launcher", "slurm", "--tasks", "5"});
   expect_done(submitted);
-  EXPECT_THAT(submitted.errors, HasSubstr("5 tasks"));
+  EXPECT_THAT(submitted.errors, Names("5 tasks"));
   wait_until([] { return cluster().jobs().empty(); });
   expect_done(run("rows.csv", {"--gather"}));
   expect_done(run("local.csv", {}));
@@ -40,7 +38,7 @@ TEST_F(SlurmSweep, ArrayJobAndGatherGiveTheTablesOfALocalRun) {
   const auto again = run("rows.csv", {"--launcher", "slurm"});
   expect_done(again);
   EXPECT_EQ(again.output, "");
-  EXPECT_THAT(again.errors, HasSubstr("sweep: no row is missing"));
+  EXPECT_THAT(again.errors, Says("sweep: no row is missing"));
 }
 
 }  // namespace

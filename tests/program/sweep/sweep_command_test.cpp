@@ -34,7 +34,7 @@ const std::vector<std::string> kTwoRows = {"--vary",      "fluid.viscosity=0.5,1
 TEST_F(SweepCommand, RunsAShippedStudyAndDrawsIt) {
   const auto result = sweep(kVanishing, {"--plot", path("picture.svg")});
   expect_done(result);
-  EXPECT_THAT(result.errors, HasSubstr("sweep: 25 rows in " + path("rows.csv")));
+  EXPECT_THAT(result.errors, Names("25 rows", path("rows.csv")));
   EXPECT_EQ(result.output, "");
   const auto csv = read_csv<1>(path("rows.csv"), {"inertial.sup_gap_distance"}, 1);
   EXPECT_EQ(csv.rows.size(), 25U);
@@ -46,7 +46,7 @@ TEST_F(SweepCommand, RunsAShippedStudyAndDrawsIt) {
   const auto rows = read_file(path("rows.csv"));
   const auto again = sweep(kVanishing, {"--plot", path("picture.svg")});
   expect_done(again);
-  EXPECT_THAT(again.errors, HasSubstr("rows.csv is up to date"));
+  EXPECT_THAT(again.errors, IsUpToDate("rows.csv"));
   EXPECT_EQ(read_file(path("rows.csv")), rows);
   EXPECT_EQ(rest_of(path("picture.svg")), svg);
   // Blank lines that an editor left at the end are no rows, here either.
@@ -77,11 +77,9 @@ TEST_F(SweepCommand, DrawsPdfAndPngAsWell) {
       EXPECT_THAT(again, HasSubstr("/CreationDate (D:20010909014640"));
     }
     put_text(picture, begins[i] + " of someone else");
-    expect_refusal(sweep(kVanishing, options), ErrorKind::kBadInput,
-                   HasSubstr("is not a picture that Viscontact wrote"));
+    expect_refusal(sweep(kVanishing, options), ErrorKind::kBadInput, Names(picture));
     put_text(picture, read_file(path("rows.csv")));  // ours, but no picture
-    expect_refusal(sweep(kVanishing, options), ErrorKind::kBadInput,
-                   HasSubstr("is not a picture that Viscontact wrote"));
+    expect_refusal(sweep(kVanishing, options), ErrorKind::kBadInput, Names(picture));
   }
 }
 
@@ -108,9 +106,9 @@ TEST_F(SweepCommand, PictureHasTheWidthAndLettersThatAreAskedFor) {
   EXPECT_TRUE(std::filesystem::exists(path("again.csv")));
   EXPECT_FALSE(std::filesystem::exists(path("wide.svg")));
   expect_refusal(sweep(kVanishing, with({"--width", "900"})), ErrorKind::kWrongUsage,
-                 HasSubstr("--plot"));
+                 Names("--plot"));
   expect_refusal(sweep(kVanishing, with({"--plot", path("x.svg"), "--font-size", "nan"})),
-                 ErrorKind::kWrongUsage, HasSubstr("nan is not a number"));
+                 ErrorKind::kWrongUsage, Names("nan"));
 }
 
 TEST_F(SweepCommand, LinesOverOneKeyOfAGridAreOneForEachValueOfTheOther) {
@@ -126,7 +124,7 @@ TEST_F(SweepCommand, LinesOverOneKeyOfAGridAreOneForEachValueOfTheOther) {
   for (auto& option : options)
     if (option == "sphere.mass=1,2,3") option = "sphere.mass=1:2:15";
   expect_refusal(sweep(kVanishing, options, "many.csv"), ErrorKind::kWrongUsage,
-                 HasSubstr("15 lines over fluid.viscosity; at most 14 are allowed"));
+                 Names("15 lines", "fluid.viscosity", "14 are"));
 }
 
 TEST_F(SweepCommand, ScriptOfAPictureDrawsIt) {
@@ -154,7 +152,7 @@ TEST_F(SweepCommand, DrawsAMapOfTwoKeys) {
   const auto film =
       sweep(few, {"--plot", path("film.svg"), "--column", "viscous_contact.film_ratio"});
   expect_done(film);
-  EXPECT_THAT(film.errors, HasSubstr("up to date"));
+  EXPECT_THAT(film.errors, IsUpToDate(""));
   EXPECT_NE(read_file(path("film.svg")), read_file(path("gap.svg")));
 }
 
@@ -184,11 +182,8 @@ TEST_F(SweepCommand, InWhichEveryPointFailedEndsWithAnErrorThatSaysWhy) {
     const auto result = sweep(kVanishing, options);
     EXPECT_EQ(result.exit_status, results::exit_code_of(ErrorKind::kNotConverged));
     EXPECT_THAT(result.errors,
-                AllOf(HasSubstr(said), HasSubstr("every model failed at 2 points"),
-                      HasSubstr("rows.csv: every model failed at every point"),
-                      HasSubstr("gap 1 is outside the fitted interval"),
-                      HasSubstr("above = \"stokes_limit\""), Not(HasSubstr("--stokes-limit")),
-                      Not(HasSubstr("--lubrication-limit"))));
+                AllOf(Names(said, "2 points", "rows.csv", "stokes_limit"),
+                      Not(HasSubstr("--stokes-limit")), Not(HasSubstr("--lubrication-limit"))));
   }
   EXPECT_EQ(lines().size(), 3U);  // the rows are there, each with its reason
 }
@@ -202,9 +197,7 @@ TEST_F(SweepCommand, SaysAtHowManyPointsModelsFailed) {
                                          "inertial,viscous_contact_exact", "--reference",
                                          "inertial", "--fit", path("short.json")});
   expect_done(result);
-  EXPECT_THAT(result.errors,
-              AllOf(HasSubstr("4 rows in"), HasSubstr("every model failed at 1 point;"),
-                    HasSubstr("some models failed at 1 point ("), HasSubstr("'failure'")));
+  EXPECT_THAT(result.errors, Names("4 rows", "1 point", "'failure'"));
   EXPECT_THAT(sweep(kVanishing, kTwoRows, "good.csv").errors, Not(HasSubstr("failed")));
 }
 
@@ -228,40 +221,37 @@ TEST_F(SweepCommand, TakesAFitFromTheCommandLine) {
   expect_done(sweep(kVanishing, kTwoRows, "own.csv"));
   const auto fitless =
       study("vanishing_viscosity.toml", "[fit]\nfile = \"../fits/leading_term.json\"", "");
-  expect_refused(fitless, kTwoRows, ErrorKind::kWrongUsage, HasSubstr("give a fit with --fit"));
+  expect_refused(fitless, kTwoRows, ErrorKind::kWrongUsage, Names("--fit"));
   expect_done(sweep(fitless, arguments));
   EXPECT_EQ(lines(), lines("own.csv"));
 }
 
 TEST_F(SweepCommand, WrongUsageIsRefusedBeforeAnyWork) {
   const auto wrong = [&](const std::vector<std::string>& options, const std::string& words) {
-    expect_refused(kVanishing, options, ErrorKind::kWrongUsage, HasSubstr(words));
+    expect_refused(kVanishing, options, ErrorKind::kWrongUsage, Names(words));
   };
   expect_refused(data("cases/limit.toml"), {"--fit", data("fits/leading_term.json")},
-                 ErrorKind::kWrongUsage, HasSubstr("give --vary"));
-  wrong({"--vary", "fluid.viscosity=0:1:log:3"}, "must not contain 0");
-  wrong({"--vary", "fluid.viscosity=1:2:many"}, "'many' is not a finite number");
-  wrong({"--vary", "fluid.viscosity"}, "KEY= is missing");
-  wrong({"--models", "inertia", "--reference", "inertia"}, "--models: no model is named 'inertia'");
-  wrong({"--vary", "sphere.mass=1,2", "--vary", "sphere.mass=1"}, "key sphere.mass is given twice");
-  wrong({"--reference", "viscous_contact"}, "'viscous_contact' is not one of the models");
-  wrong({"--models", "inertial,inertial", "--reference", "inertial"}, "inertial is given twice");
-  wrong(
-      {"--plot", path("picture.svg"), "--column", "inertial.gap"},
-      "no column 'inertial.gap' to plot; the columns are: fluid.viscosity, viscous_contact_exact");
+                 ErrorKind::kWrongUsage, Names("--vary"));
+  wrong({"--vary", "fluid.viscosity=0:1:log:3"}, "0");
+  wrong({"--vary", "fluid.viscosity=1:2:many"}, "'many'");
+  wrong({"--vary", "fluid.viscosity"}, "KEY=");
+  wrong({"--models", "inertia", "--reference", "inertia"}, "'inertia'");
+  wrong({"--vary", "sphere.mass=1,2", "--vary", "sphere.mass=1"}, "sphere.mass");
+  wrong({"--reference", "viscous_contact"}, "'viscous_contact'");
+  wrong({"--models", "inertial,inertial", "--reference", "inertial"}, "inertial");
+  wrong({"--plot", path("picture.svg"), "--column", "inertial.gap"}, "viscous_contact_exact");
   wrong({"--plot", path("picture.svg"), "--column", "inertial.film_ratio/sphere.mass"},
-        "no column 'sphere.mass'");
-  wrong({"--plot", path("picture.svg"), "--x", "sphere.mass"}, "'sphere.mass' cannot be an axis");
-  wrong({"--plot", path("rows.csv")}, "would be written twice");
+        "'sphere.mass'");
+  wrong({"--plot", path("picture.svg"), "--x", "sphere.mass"}, "'sphere.mass'");
+  wrong({"--plot", path("rows.csv")}, path("rows.csv"));
   wrong({"--samples", "0"}, "--samples");
   for (const std::string number : {"2.5", "1e3", "-1"})
     for (const std::string option : {"--samples", "--seed", "--draws"})
-      wrong({option + "=" + number}, option + ": is " + number + "; it must be a whole number");
+      wrong({option + "=" + number}, option + ": is " + number);
   // 2^64, one more than the largest seed.
-  wrong({"--seed=18446744073709551616"},
-        "a whole number from 0 to 18446744073709551615, in digits");
-  wrong({"--vary", "fluid.viscosity=1:2:1"}, "COUNT 1, which leaves out 2");
-  wrong({"--vary", "tabulation.gaps=1,2"}, "viscontact: --vary: tabulation.gaps cannot be varied");
+  wrong({"--seed=18446744073709551616"}, "18446744073709551615");
+  wrong({"--vary", "fluid.viscosity=1:2:1"}, "2");
+  wrong({"--vary", "tabulation.gaps=1,2"}, "tabulation.gaps");
   wrong({"--jobs", "0"}, "--jobs");
 }
 
@@ -275,17 +265,17 @@ TEST_F(SweepCommand, LargestSeedIsTaken) {
 TEST_F(SweepCommand, BadInputIsRefusedBeforeAnyWork) {
   const auto bad = [&](const std::vector<std::string>& options, const std::string& words) {
     expect_refused(kVanishing, options, ErrorKind::kBadInput,
-                   AllOf(HasSubstr("vanishing_viscosity.toml"), HasSubstr(words)));
-    expect_refused(kVanishing, options, ErrorKind::kBadInput, StartsWith("viscontact: --vary: "));
+                   Names("vanishing_viscosity.toml", words));
+    expect_refused(kVanishing, options, ErrorKind::kBadInput, Names("--vary"));
   };
-  bad({"--vary", "fluid.viscosty=1,2"}, "fluid.viscosty is not a key that is known here");
-  bad({"--vary", "title=1,2"}, "title is not a number");
-  bad({"--vary", "fluid.viscosity=1,-2"}, "fluid.viscosity is -2; it must be a number > 0");
-  bad({"--vary", "sphere.radius=-1,2"}, "sphere.radius is -1; it must be a number > 0");
-  bad({"--vary", "sphere.density=1,2"}, "the mass follows from density; only one of the two");
-  expect_refused(path("no_such.toml"), {}, ErrorKind::kBadInput, HasSubstr("no_such.toml"));
+  bad({"--vary", "fluid.viscosty=1,2"}, "fluid.viscosty");
+  bad({"--vary", "title=1,2"}, "title");
+  bad({"--vary", "fluid.viscosity=1,-2"}, "fluid.viscosity");
+  bad({"--vary", "sphere.radius=-1,2"}, "sphere.radius");
+  bad({"--vary", "sphere.density=1,2"}, "sphere.mass");
+  expect_refused(path("no_such.toml"), {}, ErrorKind::kBadInput, Names("no_such.toml"));
   expect_refused(study("vanishing_viscosity.toml", "../fits/leading_term.json", ""), kTwoRows,
-                 ErrorKind::kBadInput, HasSubstr("fit.file is empty"));
+                 ErrorKind::kBadInput, Names("fit.file"));
 }
 
 TEST_F(SweepCommand, KeyThatChangesNoRowIsRefused) {
@@ -295,8 +285,7 @@ TEST_F(SweepCommand, KeyThatChangesNoRowIsRefused) {
                    {"--vary", key + "=1e-3,1e-2", "--models", models, "--reference",
                     models.substr(0, models.find(','))},
                    ErrorKind::kWrongUsage,
-                   AllOf(HasSubstr("--vary: " + key + " cannot be varied"), HasSubstr(words),
-                         Not(HasSubstr("at the point"))));
+                   AllOf(Names("--vary", key, words), Not(HasSubstr("at the point"))));
   };
   for (const std::string key :
        {"tabulation.relative_accuracy", "fit.fix", "published.minimal_gap", "sweep.samples"})
@@ -322,7 +311,7 @@ TEST_F(SweepCommand, SamplesOfACaseAreAWholeNumber) {
   for (const std::string samples : {"2.5", "0.5", "1e30"})
     expect_refused(
         study("vanishing_viscosity.toml", "[sweep]\n", "[sweep]\nsamples = " + samples + "\n"), {},
-        ErrorKind::kBadInput, AllOf(HasSubstr("case.toml:"), HasSubstr("sweep.samples")));
+        ErrorKind::kBadInput, Names("case.toml", "sweep.samples"));
 }
 
 TEST_F(SweepCommand, RangeOfTheCaseThatIsNoneIsTheCasesFault) {
@@ -349,24 +338,21 @@ TEST_F(SweepCommand, AxisOfTheCommandLineIsTheOneThatIsDrawn) {
 TEST_F(SweepCommand, ReadsNoPipe) {
   // A case in a pipe could be read only once.
   expect_refusal(sweep("/dev/stdin", {}, "rows.csv", "cat '" + kVanishing + "' |"),
-                 ErrorKind::kBadInput, HasSubstr("/dev/stdin: is a pipe"));
+                 ErrorKind::kBadInput, Names("/dev/stdin"));
   // An output that is a pipe would wait for itself.
   ASSERT_EQ(::mkfifo(path("pipe.csv").c_str(), 0600), 0);
-  expect_refusal(sweep(kVanishing, kTwoRows, "pipe.csv"), ErrorKind::kBadInput,
-                 HasSubstr("pipe.csv: cannot be written (not a regular file)"));
+  expect_refusal(sweep(kVanishing, kTwoRows, "pipe.csv"), ErrorKind::kBadInput, Names("pipe.csv"));
 }
 
 TEST_F(SweepCommand, DoesNotReplaceAFileThatIsNoSweep) {
   put_text(path("rows.csv"), "time,gap\n1,2\n");
-  expect_refused(kVanishing, kTwoRows, ErrorKind::kBadInput,
-                 AllOf(HasSubstr("rows.csv"), HasSubstr("is not a sweep")));
+  expect_refused(kVanishing, kTwoRows, ErrorKind::kBadInput, Names("rows.csv"));
   std::filesystem::remove(path("rows.csv"));
   put_text(path("picture.svg"), "mine");
   auto arguments = kTwoRows;
   arguments.insert(arguments.end(), {"--plot", path("picture.svg"), "--column",
                                      "viscous_contact_exact.film_from_gamma"});
-  expect_refused(kVanishing, arguments, ErrorKind::kBadInput,
-                 AllOf(HasSubstr("picture.svg"), HasSubstr("is not a picture")));
+  expect_refused(kVanishing, arguments, ErrorKind::kBadInput, Names("picture.svg"));
   // A sweep it may replace, by another one.
   std::filesystem::remove(path("picture.svg"));
   put_text(path("rows.csv"), "# provenance: {\"command\":[]}\n# viscontact: sweep\nother\n");

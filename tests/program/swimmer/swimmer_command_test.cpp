@@ -61,9 +61,7 @@ class SwimmerCommand : public ::testing::Test {
 TEST_F(SwimmerCommand, SwimsWithTheShippedTableAsThePublishedSwimmerDoesAndSweeps) {
   const auto result = swim(kThreeSpheres, path("out"), {"--json"});
   expect_done(result);
-  EXPECT_THAT(result.errors,
-              AllOf(HasSubstr("table.csv is up to date"), HasSubstr("stroke: displacement 0.15980"),
-                    HasSubstr("report: ")));
+  EXPECT_THAT(result.errors, AllOf(HasSubstr("0.15980"), Names("report"), IsUpToDate("table.csv")));
   const auto json = nlohmann::json::parse(read_file(path("out/swimmer.json")));
   EXPECT_EQ(nlohmann::json::parse(result.output)["displacement"], json["displacement"]);
   // data/reference/swimmer.csv
@@ -107,10 +105,9 @@ TEST_F(SwimmerCommand, SwimsWithTheShippedTableAsThePublishedSwimmerDoesAndSweep
   EXPECT_NEAR(*swept.rows[1].fields[2] / *swept.rows[0].fields[2], 2, 1e-12);
   EXPECT_NEAR(*swept.rows[1].fields[3] / *swept.rows[0].fields[3], 2, 1e-9);
   EXPECT_THAT(read_file(path("rows.svg")), HasSubstr("</svg>"));
-  expect_refusal(sweep({"--vary", "stroke.period=1,2"}), ErrorKind::kWrongUsage,
-                 HasSubstr("--fit"));
+  expect_refusal(sweep({"--vary", "stroke.period=1,2"}), ErrorKind::kWrongUsage, Names("--fit"));
   expect_refusal(sweep({"--fit", path("out/fit.json"), "--vary", "swimmer.arms.to=11,12"}),
-                 ErrorKind::kWrongUsage, HasSubstr("changes the table"));
+                 ErrorKind::kWrongUsage, Names("swimmer.arms.to"));
 
   // A case without an optimal stroke removes that of an earlier run.
   EXPECT_TRUE(fs::exists(path("out/optimal_stroke.csv")));
@@ -150,7 +147,7 @@ TEST_F(SwimmerCommand, NamedTableServesOtherRadiiAndViscosities) {
     EXPECT_NEAR(ratio("efficiency"), 1, 1e-9);
   }
   EXPECT_THAT(run_viscontact({"tabulate", path("case.toml"), "-o", path("t.csv")}).errors,
-              HasSubstr("names its table with swimmer.table"));
+              Names("swimmer.table"));
 }
 
 TEST_F(SwimmerCommand, SecondCallKeepsTableAndFitAndGivesTheSameResults) {
@@ -160,7 +157,7 @@ TEST_F(SwimmerCommand, SecondCallKeepsTableAndFitAndGivesTheSameResults) {
   const auto stroke = rest_of(path("out/stroke.csv"));
   const auto again = swim(plain, path("out"));
   expect_done(again);
-  EXPECT_THAT(again.errors, HasSubstr("fit.json is up to date"));
+  EXPECT_THAT(again.errors, IsUpToDate("fit.json"));
   EXPECT_EQ(fs::last_write_time(path("out/fit.json")), fit_time);
   EXPECT_EQ(rest_of(path("out/stroke.csv")), stroke);
   const auto rerun =
@@ -186,7 +183,7 @@ ellipse = { centre = 8.0, semi_axes = 2.0 }
 )");
   const auto result = run_viscontact({"swimmer", file.string(), "-o", path("out"), "--jobs", "2"});
   expect_done(result);
-  EXPECT_THAT(result.errors, HasSubstr("tabulate: 3 rows on 2 processes"));
+  EXPECT_THAT(result.errors, Names("3 rows", "2 processes"));
   // The mean square of the velocity of the arm is 8 pi^2. A flow in a tube decays within a radius,
   // so that the drag is that in the middle of a closed cylinder.
   const double drag = 6 * std::numbers::pi * sphere_in_cylinder_drag_factor(3, 3, 8);
@@ -210,31 +207,27 @@ TEST_F(SwimmerCommand, TabulateTakesTheCaseAndAnInterruptedTableIsContinued) {
   EXPECT_THAT(dry.output, HasSubstr("78 rows, 0 of them finished"));
   const auto failed = tabulate({});
   EXPECT_EQ(failed.exit_status, results::exit_code_of(ErrorKind::kExternalProgram));
-  EXPECT_THAT(failed.errors,
-              AllOf(HasSubstr("1 of 78 rows failed"), HasSubstr("needs all its rows")));
+  EXPECT_THAT(failed.errors, Names("1 of 78"));
   EXPECT_FALSE(fs::exists(path("table.csv")));
   put_text(scratch_.path() / "mended", "");
   const auto continued = tabulate({});
   expect_done(continued);
-  EXPECT_THAT(continued.errors, HasSubstr("77 of them already computed"));
+  EXPECT_THAT(continued.errors, Names("77"));
   EXPECT_EQ(fake.answered().size(), 78U);
   EXPECT_THAT(read_file(path("table.csv")), HasSubstr("# rows: 144"));
-  expect_refusal(tabulate({"--plot"}), ErrorKind::kWrongUsage,
-                 HasSubstr("has no section [tabulation]"));
+  expect_refusal(tabulate({"--plot"}), ErrorKind::kWrongUsage, Names("[tabulation]"));
 }
 
 TEST_F(SwimmerCommand, OptimalStrokeThatLeavesTheTableIsRefusedAfterTableAndFitAreKept) {
   const auto far = changed("displacement = 0.2", "displacement = 20");
-  expect_refusal(swim(far, path("out")), ErrorKind::kBadInput,
-                 AllOf(HasSubstr("case.toml: [optimal]: no loop through this shape"),
-                       HasSubstr("make a table of more arms")));
+  expect_refusal(swim(far, path("out")), ErrorKind::kBadInput, Names("case.toml", "[optimal]"));
   EXPECT_TRUE(fs::exists(path("out/fit.json")));
 }
 
 TEST_F(SwimmerCommand, FilesOfTheUserAreNotReplaced) {
   fs::create_directories(path("out"));
   put_text(path("out/stroke.csv"), "mine\n");
-  expect_refusal(swim(kThreeSpheres, path("out")), ErrorKind::kBadInput, HasSubstr("stroke.csv"));
+  expect_refusal(swim(kThreeSpheres, path("out")), ErrorKind::kBadInput, Names("stroke.csv"));
   EXPECT_EQ(read_file(path("out/stroke.csv")), "mine\n");
   EXPECT_FALSE(fs::exists(path("out/fit.json")));
 }

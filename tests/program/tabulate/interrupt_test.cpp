@@ -16,7 +16,6 @@
 namespace viscontact {
 namespace {
 
-using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
 class Interrupt : public ::testing::TestWithParam<std::string> {};
@@ -41,7 +40,7 @@ fi
   const std::vector<std::string> environment = {"VISCONTACT_FREEFEM=" + fake.executable()};
 
   const auto interrupted = run_viscontact(arguments, environment);
-  expect_refusal(interrupted, ErrorKind::kInterrupted, HasSubstr("interrupted"));
+  expect_refusal(interrupted, ErrorKind::kInterrupted, Names("interrupted"));
   EXPECT_FALSE(std::filesystem::exists(path("table.csv")));
   const std::string journal = read_file(path("table.csv.rows"));
   EXPECT_EQ(std::count(journal.begin(), journal.end(), '\n'), 2);
@@ -51,8 +50,7 @@ fi
 
   const auto resumed = run_viscontact(arguments, environment);
   expect_done(resumed);
-  EXPECT_THAT(resumed.errors,
-              HasSubstr("tabulate: 6 rows (2 of them already computed) on 1 processes"));
+  EXPECT_THAT(resumed.errors, Names("6 rows", "2", "1 processes"));
   EXPECT_THAT(lubrication::read_force_table(path("table.csv")).rows, SizeIs(6));
   EXPECT_THAT(fake.answered(), SizeIs(6));  // no row twice
   EXPECT_FALSE(std::filesystem::exists(path("table.csv.rows")));
@@ -73,7 +71,7 @@ TEST_P(Interrupt, EndsTheWaitForACaseInAPipe) {
   for (const auto& writer : {std::string(), "exec 3<>'" + pipe + "';"})
     expect_refusal(run_viscontact({"run", pipe, "-o", (scratch.path() / "out").string()}, {},
                                   interrupt + writer),
-                   ErrorKind::kInterrupted, HasSubstr("interrupted while " + pipe + " was read"));
+                   ErrorKind::kInterrupted, Names(pipe));
 }
 
 TEST(InterruptUnderNohup, HangupThatIsIgnoredStaysIgnored) {

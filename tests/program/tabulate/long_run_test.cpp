@@ -98,10 +98,9 @@ exec FreeFem++-nw "$@"
   make_executable(freefem);
   put_text(path("case.toml"), case_of_2_rows());
   const auto failed = tabulate(path("table.csv"), freefem.string());
-  expect_refusal(failed, ErrorKind::kExternalProgram, HasSubstr("1 of 2 rows failed"));
+  expect_refusal(failed, ErrorKind::kExternalProgram, Names("1 of 2"));
   EXPECT_THAT(failed.errors,
-              AllOf(HasSubstr("gap 0.05, velocity -1"), HasSubstr("ended by signal 9 (Killed)"),
-                    Not(HasSubstr("gap 0.3"))));
+              AllOf(Names("gap 0.05, velocity -1", "signal 9"), Not(HasSubstr("gap 0.3"))));
   EXPECT_THAT(finished(path("table.csv")), SizeIs(1));
   put_text(path("mended"), "");
   expect_done(tabulate(path("table.csv"), freefem.string()));

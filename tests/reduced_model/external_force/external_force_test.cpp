@@ -16,9 +16,9 @@
 namespace viscontact::reduced_model {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::DoubleEq;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 // All numbers here are dyadic, so what is computed by hand must come out to the bit.
@@ -67,7 +67,7 @@ TEST(ExternalForce, JumpsOnlyWhereTheValueChanges) {
 }
 
 TEST(ExternalForce, RefusesToHaveNoPiece) {
-  EXPECT_THAT(bad_input([] { ExternalForce({}); }), HasSubstr("at least one"));
+  bad_input([] { ExternalForce({}); });
 }
 
 TEST(ExternalForce, RefusesPiecesWhoseTimesDoNotIncreaseFromZero) {
@@ -76,7 +76,7 @@ TEST(ExternalForce, RefusesPiecesWhoseTimesDoNotIncreaseFromZero) {
       {{0, 1}},          {{-1, 1}},         {{nan, 1}},
       {{2, 1}, {2, -1}}, {{2, 1}, {1, -1}}, {{1, 1}, {2, 1}, {nan, 1}}};
   for (const auto& pieces : wrong)
-    EXPECT_THAT(bad_input([&] { ExternalForce{pieces}; }), HasSubstr("until"));
+    EXPECT_THAT(bad_input([&] { ExternalForce{pieces}; }), Names("until"));
 }
 
 /// 1 + 2 t until 1, then 4 - (t - 1)^2, and 3 sin(2 t + 0.5) on top.
@@ -166,10 +166,7 @@ TEST(ExternalForceSum, IsDrawnOutInTime) {
 }
 
 TEST(ExternalForceSum, RefusesASinusoidWithoutFrequency) {
-  EXPECT_THAT(bad_input([] {
-                ExternalForce::sinusoidal({1, 0, 0});
-              }),
-              HasSubstr("angular_frequency"));
+  EXPECT_THAT(bad_input([] { ExternalForce::sinusoidal({1, 0, 0}); }), Names("angular_frequency"));
 }
 
 class ForceFile : public ::testing::Test {
@@ -178,7 +175,7 @@ class ForceFile : public ::testing::Test {
     write_file(path_, text);
     return read_external_force(path_, end);
   }
-  std::string refusal(const std::string& text, double end = 1) {
+  Error refusal(const std::string& text, double end = 1) {
     return bad_input([&] { read(text, end); });
   }
   TemporaryFolder folder_;
@@ -195,15 +192,14 @@ TEST_F(ForceFile, IsLinearBetweenItsRowsAndJumpsWhereATimeIsTwice) {
 }
 
 TEST_F(ForceFile, IsRefusedWithItsLine) {
-  EXPECT_THAT(refusal("time,force\n0.5,1\n2,1\n"), HasSubstr(":2: the first time is 0.5"));
-  EXPECT_THAT(refusal("time,force\n0,1\n2,1\n1,1\n"), HasSubstr(":4: time is 1 after 2"));
-  EXPECT_THAT(refusal("time,force\n0,1\n1,1\n1,2\n1,3\n"),
-              HasSubstr(":5: time 1 stands in more than two rows"));
-  EXPECT_THAT(refusal("time,force\n0,1\n1,nan\n"), HasSubstr(":3: force is not a finite number"));
-  EXPECT_THAT(refusal("time,push\n0,1\n"), HasSubstr("'force' is missing"));
-  EXPECT_THAT(refusal("time,force\n0,1\n0.5,1\n"),
-              HasSubstr("ends at time 0.5; it must reach motion.end_time, 1"));
-  EXPECT_THAT(refusal("time,force\n"), HasSubstr("it must reach motion.end_time, 1"));
+  EXPECT_THAT(refusal("time,force\n0.5,1\n2,1\n"), AllOf(IsAt("force.csv:2"), Names("0.5")));
+  EXPECT_THAT(refusal("time,force\n0,1\n2,1\n1,1\n"),
+              AllOf(IsAt("force.csv:4", "time"), Names("2")));
+  EXPECT_THAT(refusal("time,force\n0,1\n1,1\n1,2\n1,3\n"), IsAt("force.csv:5"));
+  EXPECT_THAT(refusal("time,force\n0,1\n1,nan\n"), IsAt("force.csv:3", "force"));
+  EXPECT_THAT(refusal("time,push\n0,1\n"), IsAt("force.csv", "force"));
+  EXPECT_THAT(refusal("time,force\n0,1\n0.5,1\n"), AllOf(IsAt("force.csv"), Names("0.5")));
+  EXPECT_THAT(refusal("time,force\n"), IsAt("force.csv"));
 }
 
 }  // namespace

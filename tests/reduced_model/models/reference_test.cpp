@@ -11,8 +11,6 @@
 namespace viscontact::reduced_model {
 namespace {
 
-using ::testing::HasSubstr;
-
 double euler_minimal_gap(const lubrication::LubricationForce& force, double step) {
   Motion motion = lecture_motion();
   motion.set(kReferenceTimeStep, step);
@@ -46,7 +44,7 @@ TEST(ReferenceExact, BalancesTheExternalForceInEachRow) {
 TEST(ReferenceExact, SaysWhenTheFilmIsThinnerThanTheFit) {
   const lubrication::LubricationForce force(brenner_fit("lecture", {1e-2, 2}));
   EXPECT_THAT(bad_input([&] { simulate_reference_exact(lecture_motion(), force); }),
-              HasSubstr("[0.01, 2]"));
+              Names("0.01", "2"));
 }
 
 TEST(ReferenceExact, SaysWhenTheGapIsWiderThanTheFit) {
@@ -55,7 +53,7 @@ TEST(ReferenceExact, SaysWhenTheGapIsWiderThanTheFit) {
   EXPECT_THAT(bad_input([&] {
                 simulate_reference_exact(motion, lubrication::LubricationForce(lecture_fit()));
               }),
-              HasSubstr("[0.001, 2]"));
+              Names("0.001", "2"));
 }
 
 TEST(Reference, IsAPowerOfItsStepWhereTheDragIsKOverQ) {
@@ -111,13 +109,12 @@ TEST(Reference, SaysWhenAStepGoesThroughThePlane) {
   const lubrication::LubricationForce force(lecture_fit(),
                                             {lubrication::BelowInterval::kLubricationLimit});
   EXPECT_THAT(failure(ErrorKind::kNotConverged, [&] { simulate_reference(motion, force); }),
-              HasSubstr("smaller reference.time_step"));
+              Names("reference.time_step"));
 }
 
 TEST(Reference, SaysWhenItLeavesTheFit) {
   const lubrication::LubricationForce force(brenner_fit("lecture", {1e-2, 2}));
-  EXPECT_THAT(bad_input([&] { simulate_reference(lecture_motion(), force); }),
-              HasSubstr("[0.01, 2]"));
+  EXPECT_THAT(bad_input([&] { simulate_reference(lecture_motion(), force); }), Names("0.01", "2"));
 }
 
 }  // namespace

@@ -12,8 +12,6 @@
 namespace viscontact::swimmer {
 namespace {
 
-using ::testing::HasSubstr;
-
 /// The largest relative error of an entry at points between the rows.
 double error_between_rows(const ResistanceFit& fit) {
   const FittedResistance resistance(fit);
@@ -50,12 +48,8 @@ TEST(FitResistance, TakesTheLubricationOutThatLeavesThePositiveDefiniteRest) {
 TEST(FitResistance, NeedsAllCombinationsOfThreeArms) {
   auto table = exact_table({1, 1, 1}, 3, 9, 3);
   table.rows.pop_back();
-  EXPECT_THAT(bad_input([&] { (void)fit_resistance(table); }),
-              HasSubstr("the table has 8 rows; a fit needs each of the 9 combinations"));
-  EXPECT_THAT(bad_input([] {
-                (void)fit_resistance(exact_table({1, 1, 1}, 3, 9, 2));
-              }),
-              HasSubstr("needs at least 3"));
+  EXPECT_THAT(bad_input([&] { (void)fit_resistance(table); }), Names("8", "9"));
+  EXPECT_THAT(bad_input([] { (void)fit_resistance(exact_table({1, 1, 1}, 3, 9, 2)); }), Names("3"));
 }
 
 TEST(PerturbedFits, DifferByTheErrorsOfPolynomialsAndTable) {
