@@ -35,7 +35,7 @@ double cpu_seconds() {
 }  // namespace
 
 // box2d [--count N] [--until T] [--max-iterations K] [--tolerance X] [--impulse-tolerance X]
-//       [--threads N] [--print STRETCH] [--friction MU] [--method fixed_point|convex]
+//       [--threads N] [--print STRETCH] [--friction MU] [--method coulomb|convex]
 //       [--gamma-min G] [--dimension 2|3] [--sides walls|periodic]
 //
 // The discs start on a lattice of spacing 2.1 with random displacements up to 0.05, in a box of
@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
                                           {"--threads", "1"},
                                           {"--print", "2.5"},
                                           {"--friction", "0"},
-                                          {"--method", "fixed_point"},
+                                          {"--method", "coulomb"},
                                           {"--dimension", "2"},
                                           {"--sides", "walls"},
                                           {"--gamma-min", "-2"}};
@@ -67,8 +67,8 @@ int main(int argc, char** argv) {
     return 2;
   };
   if (o["--dimension"] != "2" && o["--dimension"] != "3") return refuse("--dimension", "2 or 3");
-  if (o["--method"] != "fixed_point" && o["--method"] != "convex")
-    return refuse("--method", "fixed_point or convex");
+  if (o["--method"] != "coulomb" && o["--method"] != "convex")
+    return refuse("--method", "coulomb or convex");
   if (o["--sides"] != "walls" && o["--sides"] != "periodic")
     return refuse("--sides", "walls or periodic");
   const int count = std::stoi(o["--count"]);
@@ -87,7 +87,7 @@ int main(int argc, char** argv) {
   if (const double friction = std::stod(o["--friction"]); friction > 0) {
     const bool is_convex = o["--method"] == "convex";
     setting.laws.friction =
-        FrictionLaw{friction, is_convex ? FrictionMethod::kConvex : FrictionMethod::kFixedPoint};
+        FrictionLaw{friction, is_convex ? FrictionMethod::kConvex : FrictionMethod::kCoulomb};
     add_rotation(particles.particles);
   }
   const double until = std::stod(o["--until"]), stretch = std::stod(o["--print"]);

@@ -194,7 +194,7 @@ def run_viscontact(count, until, program, dimension, is_convex):
             (folder / "box.toml").write_text(
                 f'title = "Box"\n[space]\ndimension = {dimension}\ngravity = {[0.0] * (dimension - 1) + [-1.0]}\n'
                 f"[viscous_contact]\ntime_step = {H}\nend_time = {end}\ngamma_min = 0.0\n"
-                f'[friction]\ncoefficient = {FRICTION}\nmethod = "{"convex" if is_convex else "fixed_point"}"\n'
+                f'[friction]\ncoefficient = {FRICTION}\nmethod = "{"convex" if is_convex else "coulomb"}"\n'
                 f"[solver]\ntolerance = {TOLERANCE / 10}\nimpulse_tolerance = {TOLERANCE / 10}\n"
                 f'[output]\nevery = {until}\n[particles]\nfile = "box.csv"\n' + planes)
             usage = resource.getrusage(resource.RUSAGE_CHILDREN)

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <initializer_list>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -228,16 +230,18 @@ KeyValue parsed(std::string_view words, Place& place, const Parse& parse) {
   });
 }
 
-/// A text that must be one of `words`, each of which stands before its value. `words` must live as
-/// long as the KeyValue, as they do if both are made in one expression.
+/// A text that must be one of `words`, each of which stands before its value. The words after the
+/// first `named` are accepted and not named. `words` must live as long as the KeyValue, as they do
+/// if both are made in one expression.
 template <class Meaning>
-KeyValue one_of(Meaning& place, std::initializer_list<std::pair<std::string_view, Meaning>> words) {
+KeyValue one_of(Meaning& place, std::initializer_list<std::pair<std::string_view, Meaning>> words,
+                std::size_t named = std::numeric_limits<std::size_t>::max()) {
   assert(words.size() > 0);
   using Word = std::pair<std::string_view, Meaning>;
   const std::span<const Word> allowed(words.begin(), words.size());
   const auto joined = [allowed](std::string_view between) {
     std::string text;
-    for (const auto& [word, meaning] : allowed)
+    for (const auto& [word, meaning] : allowed.first(std::min(named, allowed.size())))
       text += fmt::format("{}\"{}\"", text.empty() ? "" : between, word);
     return text;
   };

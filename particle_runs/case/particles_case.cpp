@@ -118,29 +118,40 @@ void contact_keys(case_file::Keys& keys, ParticlesCase& c) {
                "second order without it, and the key must be left out");
 }
 
+/// The former word for "coulomb".
+constexpr std::string_view kFormerMethod = "fixed_point";
+
 void friction_keys(case_file::Keys& keys, FrictionLaw& law) {
   keys.required("coefficient", case_file::number(law.coefficient, kModeratelyPositiveOr0),
                 {"mu_s of [solid contact](particles.md#friction)"});
   keys.optional("method",
-                case_file::one_of(law.method, {{"fixed_point", FrictionMethod::kFixedPoint},
-                                               {"convex", FrictionMethod::kConvex}}),
+                case_file::one_of(law.method,
+                                  {{"coulomb", FrictionMethod::kCoulomb},
+                                   {"convex", FrictionMethod::kConvex},
+                                   {kFormerMethod, FrictionMethod::kCoulomb}},
+                                  2),
                 {"Coulomb's law, or, without a fluid, a convex problem, in which dry contacts that "
                  "slide open by h mu_s abs(v_t)"});
 }
 
 /// Throws Error(kBadInput) for spheres on an axis in a fluid, if no solids can touch in this case,
 /// or if the case has a fluid and the method is "convex".
-void read_friction(const case_file::TomlSection& section, int dimension, Setting& setting) {
+void read_friction(const case_file::TomlSection& section, ParticlesCase& c) {
+  auto& setting = c.setting;
+  const int dimension = c.particles.dimension;
   section.require(!setting.fluid || dimension == 2, "coefficient",
                   "belongs to particles that turn; spheres on the axis of a fluid do not slide on "
                   "each other, and the case must have no section [friction]");
   section.require(setting.laws.film.gamma_min || setting.laws.film.viscosity, "coefficient", "{}",
                   kNoSolidContact);
   case_file::read_keys(section, friction_keys, setting.laws.friction.emplace());
-  section.require(!setting.fluid || setting.laws.friction->method == FrictionMethod::kFixedPoint,
+  section.require(!setting.fluid || setting.laws.friction->method == FrictionMethod::kCoulomb,
                   "method",
                   "is 'convex', which is for particles without a fluid; in a fluid it must be "
-                  "\"fixed_point\", or the key must be left out");
+                  "\"coulomb\", or the key must be left out");
+  if (section.has("method") && section.text("method") == kFormerMethod)
+    c.warnings.emplace_back(
+        "friction.method is \"fixed_point\", the former word for \"coulomb\"; write \"coulomb\"");
 }
 
 /// Throws Error(kBadInput) if a case with friction in a fluid also has restitution or membranes.
@@ -353,8 +364,7 @@ void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
   read_domain_and_fluid(root, c);
   read_probes(root, c.setting.domain, c.setting.fluid);
   case_file::read_keys(root.section("viscous_contact"), contact_keys, c);
-  if (root.has("friction"))
-    read_friction(root.section("friction"), c.particles.dimension, c.setting);
+  if (root.has("friction")) read_friction(root.section("friction"), c);
   if (root.has("solver"))
     case_file::read_keys(root.section("solver"), solver_keys, c.setting.solver);
   c.frame_interval = c.end_time / 100;

@@ -28,10 +28,11 @@ struct ParticlesCase {
   std::filesystem::path particles_file;  ///< the CSV file; empty if there is none
   double end_time = 0;                   ///< time at which the run ends [T], 1e-100 to 1e100
   double frame_interval = 0;             ///< time between outputs (frames) [T], 1e-100 to 1e100
-  double average_from = 0;          ///< time at which means over time begin [T], >= 0, < end_time
-  bool average_from_given = false;  ///< true: the case has the key average_from
-  std::vector<std::string> tables;  ///< names of tables that the case asks for, of kAskedTables
-                                    ///< (io/contact_file.hpp)
+  double average_from = 0;            ///< time at which means over time begin [T], >= 0, < end_time
+  bool average_from_given = false;    ///< true: the case has the key average_from
+  std::vector<std::string> tables;    ///< names of tables that the case asks for, of kAskedTables
+                                      ///< (io/contact_file.hpp)
+  std::vector<std::string> warnings;  ///< what the user should know of the case, in sentences
   /// rho_f [M/L^3] of a fluid without inertia, for the Reynolds number only; 0: not known.
   double fluid_density = 0;
   /// Without a value if the case has no such section.

@@ -264,7 +264,8 @@ void warn_of_advection(const ParticlesCase& c, const StepTotals& record) {
         c.setting.time_step * kNamedAdvectionError / record.largest_advection_error);
 }
 
-void warn_of_gravity(const ParticlesCase& c) {
+void warn_of_case(const ParticlesCase& c) {
+  for (const auto& warning : c.warnings) terminal::warn("particles: warning: {}", warning);
   const auto up =
       c.particles.dimension == 1 ? 0U : static_cast<unsigned>(c.particles.dimension) - 1;
   if (c.setting.gravity[up] > 0)
@@ -403,7 +404,7 @@ void run_particles(const ParticlesRequest& request) {
     remove_results(folder);
     log.totals().first_time = log.totals().last_time = state.time;
   }
-  warn_of_gravity(c);
+  warn_of_case(c);
   warn_of_fine_mesh(c, state.particles);
   ParticleSimulation simulation(c.setting, std::move(state), request.threads, request.start_solver,
                                 request.stop);

@@ -38,7 +38,7 @@ inline PairRadii radii_of(const Pair& pair, const Particles& particles,
 struct ContactLaws {
   FilmLaw film;
   /// Without a value there is none. It needs particles that turn. In a fluid its method must be
-  /// FrictionMethod::kFixedPoint, and the case must have neither restitution nor membranes.
+  /// FrictionMethod::kCoulomb, and the case must have neither restitution nor membranes.
   std::optional<FrictionLaw> friction;
   /// It needs a `film` with a finite gamma_min, at which solids touch.
   RestitutionLaw restitution;

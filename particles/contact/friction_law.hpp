@@ -5,7 +5,7 @@
 namespace viscontact::particles {
 
 enum class FrictionMethod {
-  kFixedPoint,  ///< Coulomb's law itself; the gap of a sliding contact stays closed
+  kCoulomb,  ///< Coulomb's law itself; the gap of a sliding contact stays closed
   /// A convex problem. A contact without a film that slides at v_t opens by h mu_s |v_t| in a step
   /// of length h, (5.9). A contact with a film stays closed, and mu_s times the load of its solids
   /// in the previous solution bounds its friction, (5.17).
@@ -21,7 +21,7 @@ enum class FrictionMethod {
 ///     p_t = -mu_s p_s v_t/|v_t| if the surfaces slip with the velocity v_t.
 struct FrictionLaw {
   double coefficient = 0;  ///< mu_s [1], >= 0
-  FrictionMethod method = FrictionMethod::kFixedPoint;
+  FrictionMethod method = FrictionMethod::kCoulomb;
 };
 
 }  // namespace viscontact::particles

@@ -32,7 +32,7 @@ void solve_by(int way, Setting& setting, State& state) {
   setting.laws.film.gamma_min = 0;
   if (way == 0) return;
   setting.laws.friction =
-      friction(0.3, way == 1 ? FrictionMethod::kFixedPoint : FrictionMethod::kConvex);
+      friction(0.3, way == 1 ? FrictionMethod::kCoulomb : FrictionMethod::kConvex);
   add_rotation(state.particles);
 }
 

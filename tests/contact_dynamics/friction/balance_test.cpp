@@ -42,7 +42,7 @@ TEST_P(Balance, MomentumChangesByTheListedForces) {
   const int dimension = GetParam();
   constexpr double kStep = 0.05, kWidth = 4;  // of the cloud, 1 from all sides
   int without_normal_force = 0;
-  for (const auto method : {FrictionMethod::kConvex, FrictionMethod::kFixedPoint})
+  for (const auto method : {FrictionMethod::kConvex, FrictionMethod::kCoulomb})
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
       Random random(seed);
       const auto setting = box_of_width(kWidth + 2, dimension, kStep, 0.7, -0.3, method);

@@ -509,7 +509,7 @@ TEST_P(ConvexFriction, AParticleThatMeetsABodyLateInAStepHasCoulombsFriction) {
       const auto of = [&](FrictionMethod method) {
         return spin_after(GetParam(), method, mass, distance);
       };
-      const double expected = of(FrictionMethod::kFixedPoint);
+      const double expected = of(FrictionMethod::kCoulomb);
       // The loads of the first of two solutions are those of the second one but for 1e-3.
       EXPECT_NEAR(of(FrictionMethod::kConvex), expected, 2e-3 * std::abs(expected));
     }
@@ -536,7 +536,7 @@ TEST_P(ConvexFriction, AGroupOfParticlesDoesNotFeelAnotherOneFarAwayWithEitherLa
   // Groups shared the accuracy of interior points, the order of sweeps, the number of iterations
   // and of rough solutions, whose loads bound the friction of films, and given loads where one
   // group had no solution. Then the positions of the first group changed by up to 0.1.
-  for (const auto method : {FrictionMethod::kConvex, FrictionMethod::kFixedPoint})
+  for (const auto method : {FrictionMethod::kConvex, FrictionMethod::kCoulomb})
     for (const bool is_fast : {false, true})
       for (const double gamma_min : {-0.3, 0.0}) {
         SCOPED_TRACE(method == FrictionMethod::kConvex);

@@ -20,7 +20,7 @@ void run_box(int count, double gamma_min, int max_iterations, const Visit& visit
   auto setting = box(count);
   setting.solver = {1e-6, 1e-10, max_iterations};
   setting.laws.film.gamma_min = gamma_min;
-  setting.laws.friction = FrictionLaw{0.3, FrictionMethod::kFixedPoint};
+  setting.laws.friction = FrictionLaw{0.3, FrictionMethod::kCoulomb};
   auto discs = particles_in_box(count);
   add_rotation(discs.particles);
   Simulation simulation(setting, std::move(discs), 1);
@@ -69,7 +69,7 @@ std::vector<double> places_in_unit(double unit, int dimension, FrictionMethod me
 }
 
 TEST(JammedFriction, HasTheSameBitsInUnitsThatArePowersOfTwo) {
-  for (const auto method : {FrictionMethod::kFixedPoint, FrictionMethod::kConvex})
+  for (const auto method : {FrictionMethod::kCoulomb, FrictionMethod::kConvex})
     for (const int dimension : {2, 3})
       for (const double gamma_min : {0.0, -2.0}) {
         SCOPED_TRACE(testing::Message() << dimension << " dimensions, gamma_min " << gamma_min);

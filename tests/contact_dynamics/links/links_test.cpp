@@ -345,7 +345,7 @@ TEST(Arms, ParticlesThatAnArmHoldsInTouchTurnAsOneWhateverTheirContactWouldBe) {
   // The contact would contradict the arm to second order in its turn of 0.1 in a step. The friction
   // of a contact is not a part of the motion: the load of the contact beside an arm is not unique.
   for (const int dimension : {2, 3})
-    for (const auto method : {FrictionMethod::kFixedPoint, FrictionMethod::kConvex}) {
+    for (const auto method : {FrictionMethod::kCoulomb, FrictionMethod::kConvex}) {
       auto setting = setting_of(0.01);
       setting.laws.film.gamma_min = -0.3;
       setting.laws.friction = FrictionLaw{0.7, method};
@@ -371,7 +371,7 @@ TEST(Arms, ADiscWithoutRoomBetweenTwoThatAnArmHoldsTurnsWithThem) {
   // of 1, until surfaces rest, 3 p/I = 2 W. When contacts were linear along the normals at the
   // beginning of a step, they contradicted the arm, and the energy grew from 4 to 4661.
   constexpr double kInertia = 0.5;
-  for (const auto method : {FrictionMethod::kFixedPoint, FrictionMethod::kConvex})
+  for (const auto method : {FrictionMethod::kCoulomb, FrictionMethod::kConvex})
     for (const double w : {0.01, 1.0})
       for (const double mu_s : {0.0, 0.5}) {
         SCOPED_TRACE(w);

@@ -146,7 +146,7 @@ TEST_P(Tension, IsTheSameWithFrictionInOtherUnitsAndTurned) {
     for (const Units& units :
          {Units{1e5, 1e-5, 1e-5}, Units{1e-8, 1e-2, 1e3, 0}, Units{1, 1, 1, 2}})
       expect_same(double_pendulum(GetParam(), Scheme::kLeapfrog, link, h, {}, units), units);
-    for (const auto method : {FrictionMethod::kFixedPoint, FrictionMethod::kConvex})
+    for (const auto method : {FrictionMethod::kCoulomb, FrictionMethod::kConvex})
       expect_same(double_pendulum(GetParam(), Scheme::kLeapfrog, link, h, method), {});
   }
 }
@@ -243,7 +243,7 @@ TEST_P(Tension, OfFilmsDoesNotGrowWithAndWithoutRestitution) {
         // with kappa = 20 h^2 of the fastest mode.
         EXPECT_GT(largest[1], 0.5 * bound / std::sqrt(1 + 5 * h * h)) << h;
       }
-  for (const auto method : {FrictionMethod::kFixedPoint, FrictionMethod::kConvex}) {
+  for (const auto method : {FrictionMethod::kCoulomb, FrictionMethod::kConvex}) {
     const auto largest = swing_of_films(GetParam(), Scheme::kLeapfrog, 0.5, 1.5, method);
     EXPECT_LT(largest[1], 1.02 * bound);
   }
@@ -457,7 +457,7 @@ TEST_P(Tension, OfRandomChainsOfFilmsDoesNotGrow) {
   using Method = std::optional<FrictionMethod>;
   for (int scene = 0; scene < 3; ++scene)
     for (const auto method :
-         {Method{}, Method{FrictionMethod::kFixedPoint}, Method{FrictionMethod::kConvex}})
+         {Method{}, Method{FrictionMethod::kCoulomb}, Method{FrictionMethod::kConvex}})
       for (const double restitution : {0.0, 0.5})
         for (const auto scheme : {Scheme::kLeapfrog, Scheme::kEuler})
           for (const double part : {0.03, 0.1, 0.3, 1.0}) {

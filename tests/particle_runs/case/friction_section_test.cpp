@@ -39,13 +39,24 @@ TEST_F(FrictionSection, MakesParticlesTurn) {
   const auto c = read("gamma_min = -1.0", "[friction]\ncoefficient = 0.3", "");
   ASSERT_TRUE(c.setting.laws.friction.has_value());
   EXPECT_EQ(c.setting.laws.friction->coefficient, 0.3);
-  EXPECT_EQ(c.setting.laws.friction->method, FrictionMethod::kFixedPoint);
+  EXPECT_EQ(c.setting.laws.friction->method, FrictionMethod::kCoulomb);
   EXPECT_THAT(c.particles.inertias, ElementsAre(0.25, 1));
   EXPECT_THAT(c.particles.angular_velocities, ElementsAre(0, 0));
   const auto convex =
       read("gamma_min = 0", "[friction]\ncoefficient = 0.0\nmethod = \"convex\"", "", 3);
   EXPECT_EQ(convex.setting.laws.friction->method, FrictionMethod::kConvex);
   EXPECT_THAT(convex.particles.inertias, ElementsAre(0.2, 0.8));
+}
+
+TEST_F(FrictionSection, CoulombsLawHasAFormerWordThatIsAWarning) {
+  const auto with = [&](const std::string& method) {
+    return read("gamma_min = -1.0", "[friction]\ncoefficient = 0.3\nmethod = " + method, "");
+  };
+  const auto now = with("\"coulomb\""), before = with("\"fixed_point\"");
+  EXPECT_EQ(now.setting.laws.friction->method, FrictionMethod::kCoulomb);
+  EXPECT_EQ(before.setting.laws.friction->method, FrictionMethod::kCoulomb);
+  EXPECT_TRUE(now.warnings.empty());
+  EXPECT_EQ(before.warnings.size(), 1U);
 }
 
 TEST_F(FrictionSection, WithoutItParticlesTurnOnlyIfAKeyAsksForIt) {
