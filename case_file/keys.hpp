@@ -239,7 +239,7 @@ KeyValue one_of(Meaning& place, std::initializer_list<std::pair<std::string_view
   assert(words.size() > 0);
   using Word = std::pair<std::string_view, Meaning>;
   const std::span<const Word> allowed(words.begin(), words.size());
-  const auto joined = [allowed](std::string_view between) {
+  const auto joined = [allowed, named](std::string_view between) {
     std::string text;
     for (const auto& [word, meaning] : allowed.first(std::min(named, allowed.size())))
       text += fmt::format("{}\"{}\"", text.empty() ? "" : between, word);
