@@ -182,17 +182,17 @@ TEST(LubricationForce, OfThePlaneRefusesWhatIsNoGap) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double gap : {-1.0, std::nan(""), infinity})
     for (const auto& force : {plane, below}) {
-      EXPECT_THAT(bad_input([&] { force.resistance(gap); }), HasSubstr("gap ")) << gap;
-      EXPECT_THAT(bad_input([&] { force.regular_resistance(gap); }), HasSubstr("gap ")) << gap;
-      EXPECT_THAT(bad_input([&] { force.regular_impulse(gap); }), HasSubstr("gap ")) << gap;
+      EXPECT_THAT(bad_input([&] { force.resistance(gap); }), Names("gap")) << gap;
+      EXPECT_THAT(bad_input([&] { force.regular_resistance(gap); }), Names("gap")) << gap;
+      EXPECT_THAT(bad_input([&] { force.regular_impulse(gap); }), Names("gap")) << gap;
     }
-  EXPECT_THAT(bad_input([&] { below.regular_resistance(4); }), HasSubstr("not less than 4"));
-  EXPECT_THAT(bad_input([&] { below.regular_impulse(4); }), HasSubstr("not less than 4"));
+  EXPECT_THAT(bad_input([&] { below.regular_resistance(4); }), Names("4"));
+  EXPECT_THAT(bad_input([&] { below.regular_impulse(4); }), Names("4"));
   EXPECT_EQ(plane.regular_impulse(0), 0);
   EXPECT_EQ(plane.regular_resistance(0), plane.regular_resistance(2e-300));
   const LubricationForce fitted(exact_fit("lecture"));
-  EXPECT_THAT(bad_input([&] { fitted.regular_resistance(-1); }), HasSubstr("[0.001, 1]"));
-  EXPECT_THAT(bad_input([&] { fitted.regular_impulse(-1); }), HasSubstr("[0.001, 1]"));
+  EXPECT_THAT(bad_input([&] { fitted.regular_resistance(-1); }), Names("0.001"));
+  EXPECT_THAT(bad_input([&] { fitted.regular_impulse(-1); }), Names("0.001"));
 }
 
 TEST(LubricationForce, CoversAnIntervalWiderThanADoublesQuotient) {

@@ -101,14 +101,15 @@ TEST_F(MembraneSection, AMembraneThatIsWiderThanTheDomainIsAnErrorOfItsPerimeter
                         fmt::format("perimeter = {:.1f}", perimeter));
   };
   for (const auto* periodic : {"true, false", "false, false"}) {
-    expect_refused(with(40, periodic), 14, "membrane[0].perimeter is 40, which makes a membrane");
-    expect_refused(with(1e5, periodic), 14, "membrane[0].perimeter is 100000, which makes");
+    expect_refused(with(40, periodic), 14, "membrane[0].perimeter");
+    expect_refused(with(1e5, periodic), 14, "membrane[0].perimeter");
   }
-  const auto said = bad_input([&] { read(with(40, "true, false")); });
+  const std::string said = bad_input([&] { read(with(40, "true, false")); }).what();
   const std::string least = "it must be less than ";
   ASSERT_THAT(said, HasSubstr(least));
   const double most = std::stod(said.substr(said.find(least) + least.size()));
-  EXPECT_THAT(bad_input([&] { read(with(1.01 * most, "true, false")); }), HasSubstr("perimeter"));
+  EXPECT_THAT(bad_input([&] { read(with(1.01 * most, "true, false")); }),
+              Names("membrane[0].perimeter"));
   EXPECT_GT(most, 7);
 }
 
