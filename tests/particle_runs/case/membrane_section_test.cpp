@@ -106,7 +106,7 @@ TEST_F(MembraneSection, AMembraneThatIsWiderThanTheDomainIsAnErrorOfItsPerimeter
   }
   const std::string said = bad_input([&] { read(with(40, "true, false")); }).what();
   const std::string least = "it must be less than ";
-  ASSERT_THAT(said, HasSubstr(least));
+  ASSERT_THAT(said, ::testing::HasSubstr(least));
   const double most = std::stod(said.substr(said.find(least) + least.size()));
   EXPECT_THAT(bad_input([&] { read(with(1.01 * most, "true, false")); }),
               Names("membrane[0].perimeter"));
