@@ -249,7 +249,7 @@ void sphere_keys(Keys& keys, double& radius, double& density, double& mass, bool
 }
 
 double mass_less_displaced_fluid(double mass, double fluid_density, double radius) {
-  assert(mass > 0 && fluid_density >= 0 && radius > 0);
+  assert(mass >= 0 && fluid_density >= 0 && radius >= 0);
   return mass - fluid_density * ball_volume(radius);
 }
 

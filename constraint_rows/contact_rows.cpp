@@ -12,7 +12,7 @@ namespace viscontact::particles {
 template <int D>
 RigidUnit<D> unit_of_particle(double mobility, double turn_mobility, const double* displacement,
                               const double* turn) {
-  assert(mobility > 0 && turn_mobility > 0);
+  assert(mobility >= 0 && turn_mobility >= 0);
   constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);
   RigidUnit<D> unit;
   unit.mobility = mobility;

@@ -17,8 +17,9 @@
 
 namespace viscontact::particles {
 
-/// A particle in no rigid body, with h/m [T/M] and h/I [T/(M L^2)], both > 0. Without contacts and
-/// links it moves by D numbers `displacement` [L] and kTurns numbers `turn` [rad].
+/// A particle in no rigid body, with h/m [T/M] and h/I [T/(M L^2)], both 0 if its motion is given.
+/// Without contacts and links it moves by D numbers `displacement` [L] and kTurns numbers `turn`
+/// [rad].
 template <int D>
 RigidUnit<D> unit_of_particle(double mobility, double turn_mobility, const double* displacement,
                               const double* turn);

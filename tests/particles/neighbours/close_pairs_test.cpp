@@ -129,12 +129,12 @@ TEST_P(Neighbours, OnALatticeAreFoundThoughTheyAreCloseByARoundingOnly) {
     for (const double shift : {0.0, 1e3, -1e5}) {
       Points points{GetParam(), {}, {}};
       const int side = GetParam() == 2 ? 24 : 9;
-      const int layers = GetParam() == 2 ? 1 : side;
+      const int rows = GetParam() == 1 ? 1 : side, layers = GetParam() == 3 ? side : 1;
       for (int z = 0; z < layers; ++z)
-        for (int y = 0; y < side; ++y)
+        for (int y = 0; y < rows; ++y)
           for (int x = 0; x < side; ++x) {
-            points.positions.insert(points.positions.end(),
-                                    {shift + spacing * x, spacing * y - shift});
+            points.positions.push_back(shift + spacing * x);
+            if (GetParam() > 1) points.positions.push_back(spacing * y - shift);
             if (GetParam() == 3) points.positions.push_back(spacing * z);
             points.extents.push_back(spacing / 2 *
                                          (1 + 1e3 * std::numeric_limits<double>::epsilon()) +
