@@ -34,17 +34,17 @@ double portable_log(double x) {
 }
 
 /// exp x. The relative error is at most a few 1e-16 plus 1.5e-16 |x|, because log 2 and its product
-/// with the number `halvings` are rounded. Here x is the logarithm of a radius over the median, at
+/// with the number `doublings` are rounded. Here x is the logarithm of a radius over the median, at
 /// most 12 in magnitude because sigma is at most 1, so that the error is at most 2e-15. Splitting
 /// log 2 in two parts (Cody & Waite 1980) would be more accurate, but would change the radii of
 /// seeds.
 double portable_exp(double x) {
   assert(std::abs(x) < 700);
-  const double halvings = std::floor(x / kLog2 + 0.5);
-  const double rest = x - halvings * kLog2;  // at most 0.347 in magnitude
+  const double doublings = std::floor(x / kLog2 + 0.5);
+  const double rest = x - doublings * kLog2;  // at most 0.347 in magnitude
   double sum = 1;
   for (int n = 16; n >= 1; --n) sum = 1 + rest / n * sum;  // the next term is less than 1e-22
-  return std::ldexp(sum, static_cast<int>(halvings));
+  return std::ldexp(sum, static_cast<int>(doublings));
 }
 
 /// A number of the normal distribution with mean 0 and variance 1 (Marsaglia's polar method).

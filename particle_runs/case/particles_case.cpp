@@ -85,7 +85,6 @@ void contact_keys(case_file::Keys& keys, ParticlesCase& c) {
   keys.require(step <= c.end_time, "time_step", "is {}; it must be at most end_time, {}", step,
                c.end_time);
   constexpr double kMostSteps = 1e9;  // more steps probably come from a wrong unit of time
-                                      // of time
   keys.require(c.end_time / step <= kMostSteps, "time_step",
                "is {}, which makes {:.3g} steps to end_time; at most {:.0e} are allowed", step,
                c.end_time / step, kMostSteps);

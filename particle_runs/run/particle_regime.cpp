@@ -38,11 +38,11 @@ Vector relative_velocity(const ParticlesCase& c, const Particles& particles, std
 void ParticleRegime::add(const ParticlesCase& c, const State& state, bool contact) {
   const auto& particles = state.particles;
   has_contact = has_contact || contact;
+  const auto obstacles = obstacles_of(c.setting);
   const auto solids_touch = [&](const Pair& pair) {
-    const double other = pair.first < 0 ? std::numeric_limits<double>::infinity()
-                                        : particles.radii[index_of(pair.first)];
-    return pair.gamma < 0 && pair.gamma <= c.setting.laws.film.lowest_gamma(
-                                               particles.radii[index_of(pair.second)], other);
+    return pair.gamma < 0 &&
+           pair.gamma <= c.setting.laws.lowest_gamma(pair, state.memories.of(pair.memory),
+                                                     radii_of(pair, particles, obstacles));
   };
   have_solids_touched = have_solids_touched || (contact && !c.setting.fluid &&
                                                 (std::ranges::any_of(state.pairs, solids_touch) ||

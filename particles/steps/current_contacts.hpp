@@ -37,7 +37,7 @@ struct CurrentContact {
   /// The part of normal_force that the solids bear, and not the film, >= 0. It bounds the friction.
   /// Always 0 in a case without friction.
   double solid_force = 0;
-  // The next members are not in VTK files.
+  // VTK files do not have the next two members.
   Vector normal{};  ///< unit normal from `first` to `second`
   /// Vector [L] to the centre of `second` from that of `first` or the nearest point of an obstacle.
   /// Components beyond the dimension are 0.
