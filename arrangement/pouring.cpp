@@ -1,5 +1,5 @@
-// Due times and places are the same on every machine, because users repeat runs by their seeds. No
-// product and sum are fused into one operation (-ffp-contract=off in CMakeLists.txt).
+// Random places are the same on every machine for the same state: no product and sum are fused into
+// one operation (-ffp-contract=off in CMakeLists.txt).
 #include "viscontact/arrangement/pouring.hpp"
 
 #include <algorithm>
@@ -113,8 +113,8 @@ void Pouring::pour(const Setting& setting, State& state) {
       const auto place =
           free_place(source, next->radius, static_cast<std::size_t>(count), state, obstacles);
       if (!place) break;
-      // With the leapfrog scheme the velocities of the state belong to an earlier time, before
-      // which gravity has not acted yet. With the other scheme velocity_lag is 0.
+      // With the leapfrog scheme the velocities of the state belong to an earlier time, since which
+      // gravity has not acted on them. With the other scheme velocity_lag is 0.
       add(*next, *place, source.velocity - state.velocity_lag * setting.gravity, turns, p);
       next.reset();
       ++count;

@@ -317,7 +317,7 @@ void stretch(const TomlSection& section, double scale, Motion& motion) {
                   scale);
 }
 
-/// Its values are set later, where the keys are read or described.
+/// Without a force, because the forces of the case are added to it.
 Motion empty_motion() { return {0, 0, 0, 0, ExternalForce({{1, 0}})}; }
 
 /// A section with parameters of models is checked even if no model uses it.

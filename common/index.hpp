@@ -1,7 +1,6 @@
 // Numbers of entries as indices, and the maximum that keeps NaN.
 #pragma once
 
-#include <cassert>
 #include <cstddef>
 #include <cstdint>
 

@@ -84,7 +84,7 @@ class Mprgp {
   /// Conjugate gradient steps since a contact last became free or reached its bound.
   int steps_between_same() const { return steps_between_same_; }
 
-  /// Returns the number of products with W that the step took, >= 1.
+  /// Returns about the number of products with W that the step took, >= 1.
   int step() {
     if (statistics_.chopped_square > statistics_.free_slope) return leave_bounds();
     if (restart_) start_directions();
@@ -173,7 +173,7 @@ class Mprgp {
   void move(double length) {
     constexpr int kPassesBetweenMeasurements = 4;
     [[maybe_unused]] const bool measure =
-        restart_ || ++passes_since_measurement_ % kPassesBetweenMeasurements == 0;
+        restart_ || ++passes_ % kPassesBetweenMeasurements == 0;
     if constexpr (Preconditioner::kMaySweep) {
       if (preconditioner_.sweeps()) {
         if (measure)
@@ -277,7 +277,8 @@ class Mprgp {
   /// packings of similar particles, because W has the diagonal 1.
   double step_ = 0.5;
   std::vector<double> before_;
-  std::vector<double> y_, y_direction_;  // B z and B direction
+  std::vector<double> y_;            // B z after refresh(), later B swept
+  std::vector<double> y_direction_;  // B direction
   std::vector<double> gradient_, direction_, swept_;
   PassStatistics statistics_;
   /// Added to the diagonal of W, which is 1. Redundant contacts make W singular: along some
@@ -290,7 +291,7 @@ class Mprgp {
   double curvature_ = 0;
   bool restart_ = true;
   int steps_between_same_ = 0;
-  unsigned passes_since_measurement_ = 0;
+  unsigned passes_ = 0;
 };
 
 }  // namespace viscontact::contact_solver

@@ -31,7 +31,7 @@ struct ParticlesCase {
   double average_from = 0;            ///< time at which means over time begin [T], >= 0, < end_time
   bool average_from_given = false;    ///< true: the case has the key average_from
   std::vector<std::string> tables;    ///< names of tables that the case asks for, of kAskedTables
-                                      ///< (io/contact_file.hpp)
+                                      ///< (particle_runs/io/contact_file.hpp)
   std::vector<std::string> warnings;  ///< what the user should know of the case, in sentences
   /// rho_f [M/L^3] of a fluid without inertia, for the Reynolds number only; 0: not known.
   double fluid_density = 0;

@@ -69,7 +69,7 @@ struct GivenParticleLoad {
 };
 
 /// The state of a simulation, in any consistent units. To begin a new one, only `particles` has to
-/// be set. The restart file (io/restart.cpp) stores the state bit for bit.
+/// be set. The restart file (particle_runs/io/restart.cpp) stores the state bit for bit.
 struct State {
   Particles particles;
   double time = 0;         ///< [T]
