@@ -172,8 +172,7 @@ class Mprgp {
   /// statistics.
   void move(double length) {
     constexpr int kPassesBetweenMeasurements = 4;
-    [[maybe_unused]] const bool measure =
-        restart_ || ++passes_ % kPassesBetweenMeasurements == 0;
+    [[maybe_unused]] const bool measure = restart_ || ++passes_ % kPassesBetweenMeasurements == 0;
     if constexpr (Preconditioner::kMaySweep) {
       if (preconditioner_.sweeps()) {
         if (measure)

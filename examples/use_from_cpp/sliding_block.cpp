@@ -1,6 +1,5 @@
-// The contact solver without particles, docs/physics.md (5.6) and (5.7): a block of mass m on a floor,
-// pushed along it with the force F. Exact: p_n = m g h, p_t = -min(mu m g, F) h, and the block slides
-// by h^2 (F/m - mu g) in its first step if F > mu m g.
+// The contact solver without particles, docs/physics.md (5.6) and (5.7): a block of mass m on a
+// floor, pushed along it with the force F.
 #include <cstdio>
 #include <exception>
 #include <vector>
@@ -8,7 +7,8 @@
 #include "viscontact/contact_solver/constraint_problem.hpp"
 #include "viscontact/contact_solver/constraint_solver.hpp"
 
-// It prints
+// Exact: p_n = m g h, p_t = -min(mu m g, F) h, and the block slides by h^2 (F/m - mu g) in its first
+// step if F > mu m g. It prints
 //   push      normal  friction     slip
 //      2       0.981      -0.2        0
 //      4       0.981      -0.4        0

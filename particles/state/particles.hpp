@@ -18,7 +18,7 @@ namespace viscontact::particles {
 
 /// The particles as flat arrays, in any consistent units. Entry k of `radii`, `masses` and `ids`
 /// belongs to particle k, and so do the `dimension` entries from dimension * k on of `positions`
-/// and `velocities`. The restart file stores the arrays as they are (io/restart.cpp).
+/// and `velocities`. The restart file stores the arrays as they are (particle_runs/io/restart.cpp).
 struct Particles {
   /// 2: discs, 3: spheres, 1: spheres on the axis z of a cylinder. z is component 0 of a Vector.
   int dimension = 2;
