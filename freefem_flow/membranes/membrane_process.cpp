@@ -190,8 +190,8 @@ void MembraneProcess::place(const particles::FluidParticles& bodies) {
     // the bead before it, as Membranes::places() gives them.
     Eigen::MatrixXd own(membranes_[m].count(), 2);
     for (Eigen::Index k = 0; k < own.rows(); ++k) {
-      const auto at = bodies.particles->position(
-          index_of(membranes_[m].beads[static_cast<std::size_t>(k)]));
+      const auto at =
+          bodies.particles->position(index_of(membranes_[m].beads[static_cast<std::size_t>(k)]));
       own.row(k) << at[0], at[1];
     }
     if (!own.allFinite())
