@@ -20,8 +20,8 @@ ConstraintProblem<2> chain(Random& random, double compliance) {
   ConstraintProblem<2> problem;
   for (int u = 0; u < kUnits; ++u) {
     const std::vector<double> moved{random.uniform(-1, 1), random.uniform(-1, 1)}, turned{0.0};
-    problem.units.push_back(particles::unit_of_particle<2>(random.uniform(0.5, 2), random.uniform(0.5, 2),
-                                                moved.data(), turned.data()));
+    problem.units.push_back(particles::unit_of_particle<2>(
+        random.uniform(0.5, 2), random.uniform(0.5, 2), moved.data(), turned.data()));
   }
   const auto add = [&](const std::vector<RowPart<2>>& parts, double offset) {
     ConstraintBlock block;
