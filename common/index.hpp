@@ -6,7 +6,7 @@
 
 namespace viscontact {
 
-/// The number of a particle, its place in the arrays, from 0, as the type of an index.
+/// A number that counts from 0, such as that of a particle, as the type of an index.
 constexpr std::size_t index_of(std::int32_t number) { return static_cast<std::size_t>(number); }
 
 /// The larger of two numbers, or NaN if one of them is NaN.

@@ -1,5 +1,5 @@
-// Rows of contacts. Both arms of a contact end at one point, so that opposite impulses do not change
-// the angular momentum of the pair.
+// Rows of contacts. Both arms of a contact end at one point, so that opposite impulses do not
+// change the angular momentum of the pair.
 #include "viscontact/constraint_rows/contact_rows.hpp"
 
 #include <algorithm>

@@ -45,9 +45,9 @@ struct SolverResult {
 /// 0, a pull of at most -gamma^n thus keeps the gap at 0; if a larger pull would be needed, the gap
 /// opens within the step.
 ///
-/// The problem is scaled so that the diagonal of W is about 1. With w = ContactBounds::w, the diagonal of
-/// W or an estimate of it [T/M], the scaled impulses are z = sqrt(w) p, and the gradient of a
-/// contact is divided by sqrt(w). Both are in L (M/T)^(1/2).
+/// The problem is scaled so that the diagonal of W is about 1. With w = ContactBounds::w, the
+/// diagonal of W or an estimate of it [T/M], the scaled impulses are z = sqrt(w) p, and the
+/// gradient of a contact is divided by sqrt(w). Both are in L (M/T)^(1/2).
 class DualProblem {
  public:
   // The arrays have one number for each contact.

@@ -28,10 +28,10 @@ struct GapRow {
 
 /// The dual problem with the mobility S = h M^-1, the length h of the step over the masses m [M] of
 /// bodies; a body here is one particle. A contact c of the bodies i and j with the unit normal e,
-/// from i to j, has ContactBounds::w = h/m_i + h/m_j, and the scaled W has the diagonal 1. The impulses p
-/// displace the bodies by y = h M^-1 G^T p = B z [L], where G^T p sums, at each body, e p of the
-/// contacts in which the body is j, and -e p of those in which it is i. b_c [L] is the gap of
-/// contact c after the displacements without contacts. The scaled gradient of contact c and the
+/// from i to j, has ContactBounds::w = h/m_i + h/m_j, and the scaled W has the diagonal 1. The
+/// impulses p displace the bodies by y = h M^-1 G^T p = B z [L], where G^T p sums, at each body, e
+/// p of the contacts in which the body is j, and -e p of those in which it is i. b_c [L] is the gap
+/// of contact c after the displacements without contacts. The scaled gradient of contact c and the
 /// quadratic form of W are
 ///
 ///     b_c/sqrt(w) + (e.(y_j - y_i))/sqrt(w),   z^T W z = sum over the bodies b of |y_b|^2 m_b/h.
@@ -40,9 +40,9 @@ class MassDualProblem : public DualProblem {
  public:
   using Vec = std::array<double, D>;
 
-  /// `contacts` have the `w` above. `displacements` are those without contacts [L], D for each body,
-  /// `mobilities` are h/m [T/M], or 0 for a body whose motion is given. All obstacles together are
-  /// one additional body. `pool` must outlive the object.
+  /// `contacts` have the `w` above. `displacements` are those without contacts [L], D for each
+  /// body, `mobilities` are h/m [T/M], or 0 for a body whose motion is given. All obstacles
+  /// together are one additional body. `pool` must outlive the object.
   MassDualProblem(std::span<const GapRow<D>> contacts, std::span<const double> displacements,
                   std::span<const double> mobilities, ThreadPool& pool);
 

@@ -133,8 +133,8 @@ class HeldSolver : public FluidSolver {
     return thetas_[r] > 2.0 / 3;
   }
 
-  /// In the last velocities(forces, true) [M L/T^2, M L^2/T^2]; empty if it was not called after the
-  /// last place().
+  /// In the last velocities(forces, true) [M L/T^2, M L^2/T^2]; empty if it was not called after
+  /// the last place().
   const std::vector<double>& row_forces() const { return row_forces_; }
 
   /// The forces and torques on all particles of springs, of rows with a particle that accelerates,

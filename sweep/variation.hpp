@@ -32,9 +32,9 @@ struct Variation {
 };
 
 /// Reads "KEY=A:B:log:N" (geometric progression), "KEY=A:B:N" (equal distances) or "KEY=V,V,...".
-/// Throws Error(kBadInput), which names the fault: the key is missing, the text has another form, a number is not finite, a
-/// logarithmic range contains 0 or changes sign, or N is not an integer from 1 to 1e9. A case need
-/// not have the key.
+/// Throws Error(kBadInput), which names the fault: the key is missing, the text has another form, a
+/// number is not finite, a logarithmic range contains 0 or changes sign, or N is not an integer
+/// from 1 to 1e9. A case need not have the key.
 Variation parse_variation(std::string_view text);
 
 /// Keys and values of point `index` < grid_size() of the grid, which combines every value of each

@@ -7,8 +7,8 @@
 #include "viscontact/contact_solver/constraint_problem.hpp"
 #include "viscontact/contact_solver/constraint_solver.hpp"
 
-// Exact: p_n = m g h, p_t = -min(mu m g, F) h, and the block slides by h^2 (F/m - mu g) in its first
-// step if F > mu m g. It prints
+// Exact: p_n = m g h, p_t = -min(mu m g, F) h, and the block slides by h^2 (F/m - mu g) in its
+// first step if F > mu m g. It prints
 //   push      normal  friction     slip
 //      2       0.981      -0.2        0
 //      4       0.981      -0.4        0

@@ -30,8 +30,8 @@ struct SolverUnits {
 SolverUnits solver_units(const particles::Fluid& fluid, const particles::Domain& domain,
                          std::span<const double> radii);
 
-/// Lengths, masses and what depends on them, divided by the units of the solver, and places relative
-/// to its origin. The penalty, the viscosity ratios, times, angles and rates [1/T] stay.
+/// Lengths, masses and what depends on them, divided by the units of the solver, and places
+/// relative to its origin. The penalty, the viscosity ratios, times, angles and rates [1/T] stay.
 particles::Fluid in_units(particles::Fluid fluid, const SolverUnits& units);
 particles::Domain in_units(particles::Domain domain, const SolverUnits& units);
 std::vector<double> in_units(std::span<const double> lengths, const SolverUnits& units);

@@ -30,7 +30,8 @@ struct TimeTable {
 ///   time,id,force_x,force_y,force_z
 /// - springs.csv: time,id,length,force
 /// - arms.csv: time,id,length,force,power
-/// - membranes.csv: time,id, and then the members of MembraneMeasures (membranes/membrane_shape.hpp)
+/// - membranes.csv: time,id, and then the members of MembraneMeasures
+///   (membranes/membrane_shape.hpp)
 ///
 /// In a fluid springs.csv and arms.csv end with the column force_error_estimate, and hinges.csv has
 /// force_error_estimate,torque_error_estimate before angle: estimates of the errors that the mesh

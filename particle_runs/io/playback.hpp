@@ -42,9 +42,9 @@ struct DrawnLinks {
 
 struct Playback {
   int dimension = 2;  ///< 1, 2 or 3
-  /// The place in the case of the origin of all places here [L]. It is 0 unless the motion is so far
-  /// from the origin of the case that single precision would not show it. Files of flows have the
-  /// places of the case.
+  /// The place in the case of the origin of all places here [L]. It is 0 unless the motion is so
+  /// far from the origin of the case that single precision would not show it. Files of flows have
+  /// the places of the case.
   Vector origin{};
   Units units{};             ///< names of the units of the case, such as "m"; may be empty
   std::vector<float> radii;  ///< of each particle [L], > 0

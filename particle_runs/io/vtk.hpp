@@ -46,10 +46,10 @@ struct VtpContent {
   std::vector<CurrentContact> contacts;
 };
 
-/// Reads a file that write_vtp() wrote for particles of the dimension 1, 2 or 3 on a machine with the same byte order. Throws Error(kBadInput), which names
-/// the file, if it cannot be read, is not such a file, was cut short, or if lengths of its arrays
-/// or numbers of particles, images or kinds of friction do not fit. Positions, radii and forces may
-/// have any value.
+/// Reads a file that write_vtp() wrote for particles of the dimension 1, 2 or 3 on a machine with
+/// the same byte order. Throws Error(kBadInput), which names the file, if it cannot be read, is not
+/// such a file, was cut short, or if lengths of its arrays or numbers of particles, images or kinds
+/// of friction do not fit. Positions, radii and forces may have any value.
 VtpContent read_vtp(const std::filesystem::path& path, int dimension);
 
 /// The beginning of a PVD file, ParaView's list of frames. A pvd_line() for each frame and kPvdFoot

@@ -1,5 +1,5 @@
-// The page that plays a motion of particles. The scripts in particle_runs/picture/page read the keys of
-// its JSON and find elements by their ids.
+// The page that plays a motion of particles. The scripts in particle_runs/picture/page read the
+// keys of its JSON and find elements by their ids.
 #include <fmt/format.h>
 
 #include <algorithm>

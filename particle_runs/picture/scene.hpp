@@ -76,8 +76,8 @@ struct LineWidth {
 };
 
 /// Colours and proportions of the still picture and the page, which gets them as JSON.
-/// style_of_page() of particles_page.cpp and the scripts in particle_runs/picture/page have the same
-/// names.
+/// style_of_page() of particles_page.cpp and the scripts in particle_runs/picture/page have the
+/// same names.
 struct SceneStyle {
   using Colour = const char*;  ///< "#rrggbb"
   /// Fill and edge of a disc: outside a fluid, in a fluid, and of a rigid body.

@@ -65,7 +65,8 @@ struct Array {
 };
 
 /// Arrays with numbers of one type, and their rows in a group of the file. Of the arrays `all` only
-/// those are copied that the last frame has: an earlier frame may lack the masses that a source adds.
+/// those are copied that the last frame has: an earlier frame may lack the masses that a source
+/// adds.
 template <class Number>
 class Arrays {
  public:
@@ -127,8 +128,8 @@ std::vector<Array> arrays_of_contacts() {
   return arrays;
 }
 
-/// Copies the frames of a run in `folder` into `file`. Throws Error(kBadInput) if there is no frame,
-/// or if a frame cannot be read.
+/// Copies the frames of a run in `folder` into `file`. Throws Error(kBadInput) if there is no
+/// frame, or if a frame cannot be read.
 void copy_frames(const ParticlesCase& c, const fs::path& folder, Hdf5File& file) {
   const auto frames = read_pvd(folder / "particles.pvd");
   if (frames.empty()) throw_bad_input({(folder / "particles.pvd").string()}, "has no frame");

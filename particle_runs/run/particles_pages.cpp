@@ -81,8 +81,8 @@ Playback without_frames(const ParticlesCase& c) {
   return playback;
 }
 
-/// A frame without the flow, whose places are relative to `origin` [L]. Throws Error(kBadInput) if the file has fewer particles than the case,
-/// or more although the case has no sources.
+/// A frame without the flow, whose places are relative to `origin` [L]. Throws Error(kBadInput) if
+/// the file has fewer particles than the case, or more although the case has no sources.
 Frame read_frame(double time, const fs::path& path, const ParticlesCase& c,
                  std::span<const PlaneMotion> motions, const Vector& origin) {
   auto content = read_vtp(path, c.particles.dimension);

@@ -123,8 +123,8 @@ inline std::array<double, 3> periods_of(const Domain& domain) {
   return periods;
 }
 
-/// The corner with the smallest coordinates of the box around a disc or a box [L], along the axes on
-/// which it is so far from the origin that coordinates have much larger rounding errors than
+/// The corner with the smallest coordinates of the box around a disc or a box [L], along the axes
+/// on which it is so far from the origin that coordinates have much larger rounding errors than
 /// distances from it, and 0 along the others. Computations with places relative to this point lose
 /// no digits in a scene far from the origin, and have the same bits as ever in one near it.
 Vector distant_corner(const Domain& domain);

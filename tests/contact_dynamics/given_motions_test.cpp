@@ -42,9 +42,9 @@ Plane loaded_plane(const Vector& point, const Vector& normal, double force, doub
   return plane;
 }
 
-/// A plane at rest through the origin with the normal `up`, a column of `count` particles on it, and
-/// a plane on top of them that the force `force` presses down. `unit` multiplies lengths, `heavy`
-/// masses, `slow` times.
+/// A plane at rest through the origin with the normal `up`, a column of `count` particles on it,
+/// and a plane on top of them that the force `force` presses down. `unit` multiplies lengths,
+/// `heavy` masses, `slow` times.
 struct Piston {
   int dimension = 2, count = 1, way = 0;
   Vector up{0, 1, 0};

@@ -1,5 +1,5 @@
-// The scripts in findings/ have the form that findings/README.md promises. They are not run, because
-// they need the network.
+// The scripts in findings/ have the form that findings/README.md promises. They are not run,
+// because they need the network.
 #include <gmock/gmock.h>
 
 #include <filesystem>

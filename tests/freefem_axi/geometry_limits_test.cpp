@@ -145,7 +145,8 @@ TEST(RoughPlane, TendsToThePlaneAsItsRipplesVanish) {
 
 TEST(RoughPlane, WithLongRipplesFallsFromTheCrestToTheDepthOfItsAmplitude) {
   // One ripple is longer than the part with ripples, which ends 2 radii from the axis. From the
-  // crest on the axis the floor falls to the flat part at the depth amplitude/(1 + steepness + ...).
+  // crest on the axis the floor falls to the flat part at the depth amplitude/(1 + steepness +
+  // ...).
   constexpr double kGap = 0.1, kAmplitude = 1e-3;
   for (const double wavelength : {70.0, 200.0}) {
     const auto rough = drag("rough_plane", kGap, {kAmplitude, wavelength});

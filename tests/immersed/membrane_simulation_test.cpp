@@ -156,8 +156,8 @@ TEST(MembraneSimulation, StiffMembranesAreStable) {
 }
 
 // A straining flow pulls the membrane. Its tension does not make beads vibrate across it in steps
-// of 1e-3 to 1 times the elastic time: viscosity and bending rigidity are 1 and 1/10, and the radius
-// is 1, so that waves of the length of the perimeter relax in about the time 10.
+// of 1e-3 to 1 times the elastic time: viscosity and bending rigidity are 1 and 1/10, and the
+// radius is 1, so that waves of the length of the perimeter relax in about the time 10.
 TEST(MembraneSimulation, TensionDoesNotLimitTheStep) {
   const auto energies = [](double step, double end) {
     auto simulation = Vesicle{.shear = 0, .rigidity = 0.1, .strain = 0.1}.simulation(step);

@@ -1,5 +1,5 @@
-// The module hdf5: Hdf5File with libhdf5. Each call of the C library whose failure can lose data must
-// be in checked().
+// The module hdf5: Hdf5File with libhdf5. Each call of the C library whose failure can lose data
+// must be in checked().
 #include "viscontact/particle_runs/run/module/hdf5_module.hpp"
 
 #include <hdf5.h>

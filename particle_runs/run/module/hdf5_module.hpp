@@ -11,8 +11,8 @@ namespace viscontact::particles {
 /// Type of the numbers of a data set.
 enum class Hdf5Number { kDouble, kInt32, kInt64 };
 
-/// An HDF5 file that is being written. All functions but the destructor throw Error(kBadInput), which
-/// names the file and says why, if libhdf5 fails.
+/// An HDF5 file that is being written. All functions but the destructor throw Error(kBadInput),
+/// which names the file and says why, if libhdf5 fails.
 class Hdf5File {
  public:
   Hdf5File() = default;

@@ -123,7 +123,8 @@ TEST_P(Tension, OfADoublePendulumMovesAsNewmarksRuleDoes) {
         simulation.step(1e9);
         const double x = simulation.state().particles.position(1)[0];
         if (n == 1) first = x;
-        // 2e-3 of the amplitude, half of it for the first step: the stretched springs change T/l by 1e-2/1.5 at most.
+        // 2e-3 of the amplitude, half of it for the first step: the stretched springs change T/l by
+        // 1e-2/1.5 at most.
         EXPECT_NEAR(x, by_newmark(h, n, first), link == Link::kArm ? 6e-7 : 3e-6)
             << part << " " << n;
       }

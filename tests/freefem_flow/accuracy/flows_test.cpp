@@ -54,7 +54,8 @@ TEST(Channel, WithParabolasAtBothEndsIsPoiseuilleFlow) {
 }
 
 TEST(Channel, WithAPressureGradientIsPoiseuilleFlow) {
-  // Periodic along x or y, in other units: u = G/(2 mu) (1 - s^2) at the distance s from the middle.
+  // Periodic along x or y, in other units: u = G/(2 mu) (1 - s^2) at the distance s from the
+  // middle.
   for (const std::size_t d : {0U, 1U})
     for (const double unit : {1.0, 1e-5}) {
       auto fluid = fluid_with(12);
@@ -101,8 +102,8 @@ TEST(Channel, WithAPressureGradientCarriesParticles) {
     fluid.constraint = constraint;
     PlacedFlow free(fluid, box, {{2, 0.3, kRadius}});
     const auto motion = free.velocities();
-    // Faxen's law in the plane: U = u + r^2/4 div grad u. The walls reflect the flow around the disc,
-    // which changes U by a part of r^2 du/dy, and by r^4 in the middle.
+    // Faxen's law in the plane: U = u + r^2/4 div grad u. The walls reflect the flow around the
+    // disc, which changes U by a part of r^2 du/dy, and by r^4 in the middle.
     const double faxen = -kRadius * kRadius / 4 * kGradient;
     EXPECT_NEAR(motion[0], 1.5 * (1 - 0.09) + faxen, 2e-3);
     PlacedFlow middle(fluid, box, {{2, 0, kRadius}});
@@ -134,7 +135,8 @@ TEST(Channel, WithAPressureGradientAndAnOpenEndIsPoiseuilleFlowAwayFromTheEnds) 
   PlacedFlow flow(fluid, BoxDomain{{0, -1}, {8, 1}, {}}, {});
   flow.velocities();
   const auto field = flow.solver().flow();
-  // Near its ends, where no shear stress acts, the flow has less resistance than between long walls.
+  // Near its ends, where no shear stress acts, the flow has less resistance than between long
+  // walls.
   double all = 0, share = 0;
   for (std::size_t i = 0; i < field.x.size(); ++i)
     if (std::abs(field.x[i] - 4) <= 1 && std::abs(field.y[i]) < 0.5) {

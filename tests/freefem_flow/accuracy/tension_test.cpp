@@ -1,5 +1,5 @@
-// Chains of discs that are pulled in the fluid of FreeFEM: a motion across the chain decays at every
-// step. Viscosity 1, radius 0.3. Docs: physics.md (6.15).
+// Chains of discs that are pulled in the fluid of FreeFEM: a motion across the chain decays at
+// every step. Viscosity 1, radius 0.3. Docs: physics.md (6.15).
 #include <gtest/gtest.h>
 
 #include <array>

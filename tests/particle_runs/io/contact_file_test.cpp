@@ -215,8 +215,8 @@ TEST(ForcesOfContacts, OfBlowsAreTheirStress) {
   // A blow is solved to 1e-13 of its velocity (kExact in strike.cpp).
   EXPECT_NEAR(stress[1], -(4.5 * 1.5 + 4 * 0.5) / 0.1 / 24, 1e-11);
   EXPECT_EQ(stress[4], 0);
-  // A plane that has come down to y = 5 leaves the area 20, and without a domain planes at the walls
-  // bound the same region.
+  // A plane that has come down to y = 5 leaves the area 20, and without a domain planes at the
+  // walls bound the same region.
   setting.planes.resize(1);
   setting.planes[0].start = {{0, 5.05, 0}, {0, -1, 0}};
   setting.planes[0].velocity.pieces = {{1, {0, -0.5, 0}}};

@@ -97,8 +97,8 @@ mass = 1.0
   expect_same_numbers("F F F", "8 0 0 0 8 0 0 0 9", "-4 -4 0");
 }
 
-// A shear flow of rate 1.3 in a cell of 6 x 6, which has one step: after 1.5 its second edge has moved by 11.7, and so
-// by -0.3 from two periods.
+// A shear flow of rate 1.3 in a cell of 6 x 6, which has one step: after 1.5 its second edge has
+// moved by 11.7, and so by -0.3 from two periods.
 TEST_F(XyzFile, OfAShearedCellHasItsShortestEdges) {
   expect_done(run(put_case(R"(title = "A disc in a sheared cell"
 [space]

@@ -22,7 +22,8 @@ using lubrication::BelowInterval;
 
 constexpr double kPi = std::numbers::pi;
 
-/// R = k (1/q + 1/r) up to the gap 2 on a sphere of radius 2, with the lid of a cylinder at the gap 8.
+/// R = k (1/q + 1/r) up to the gap 2 on a sphere of radius 2, with the lid of a cylinder at the gap
+/// 8.
 lubrication::Fit fit_below_lid() {
   auto fit = leading_term_fit(24 * kPi);
   fit.radius = 2;
