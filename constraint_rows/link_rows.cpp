@@ -71,16 +71,16 @@ LinkRow row_between(const Particles& p, std::int32_t first, std::int32_t second,
 }
 
 /// Newmark's method with the parameter beta: with the `extension` e before the step [L, rad] and
-/// its `rate` [L/T, 1/T], the impulse is -kick stiffness (e + beta (change of e in this step - h
-/// rate)).
+/// its `rate` [L/T, 1/T], the impulse is -impulse_time stiffness (e + beta (change of e in this
+/// step - h rate)).
 void make_spring(LinkRow& row, double extension, double rate, double stiffness,
                  const LinkTimes& times) {
-  assert(stiffness > 0 && times.kick > 0);
+  assert(stiffness > 0 && times.impulse_time > 0);
   const double beta = times.beta();
   row.extension = extension;
   row.stiffness = stiffness;
   row.value = extension / beta - (times.is_first ? 0 : times.h * rate);
-  row.compliance = 1 / (times.kick * stiffness * beta);
+  row.compliance = 1 / (times.impulse_time * stiffness * beta);
 }
 
 /// One row for each component of the vector from the fixed place to the point of the hinge [L].

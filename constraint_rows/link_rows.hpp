@@ -76,8 +76,8 @@ struct LinkEquations {
 };
 
 struct LinkTimes {
-  double h = 0;     ///< length of the step [T], > 0
-  double kick = 0;  ///< time for which forces act on the velocities in it [T], > 0
+  double h = 0;             ///< length of the step [T], > 0
+  double impulse_time = 0;  ///< time for which forces act on the velocities in it [T], > 0
   double end = 0;
   bool is_first = false;
   /// In a fluid with inertia the velocities of a step are those at its beginning. The ends of an
@@ -98,7 +98,7 @@ struct LinkTimes {
   /// causes is in resonance with it, and a double pendulum grows. With 1/2 the phase stays below a
   /// quarter. In the first step a velocity at the start has, with 3/8, the amplitude that it has in
   /// reality, if the step resolves it, and a smaller one otherwise.
-  double beta_across() const { return is_first ? 0.375 * h / kick : 0.5; }
+  double beta_across() const { return is_first ? 0.375 * h / impulse_time : 0.5; }
 };
 
 /// The equations of all links, in the order of their forces in State::link_forces. Springs are

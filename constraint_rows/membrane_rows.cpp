@@ -61,7 +61,7 @@ LinkRow distance_row(const Membrane& membrane, const Particles& p, std::int32_t 
 /// rigidity/l^3 [M/T^2]. The bending viscosity opposes the change of the extension in the step.
 LinkRow bend_row(const Membrane& membrane, const Particles& p, std::int32_t k,
                  const LinkTimes& times) {
-  assert(membrane.resists_bending() && times.h > 0 && times.kick > 0);
+  assert(membrane.resists_bending() && times.h > 0 && times.impulse_time > 0);
   const auto n = membrane.lengths.size(), i = static_cast<std::size_t>(k);
   const double length = (membrane.lengths[(i + n - 1) % n] + membrane.lengths[i]) / 2;
   const Vector before = apart(membrane, p, k - 1, k), after = apart(membrane, p, k, k + 1);
@@ -76,9 +76,9 @@ LinkRow bend_row(const Membrane& membrane, const Particles& p, std::int32_t k,
   for (const auto& of_bead : row.parts)
     rate += dot(of_bead.direction, p.velocity(index_of(of_bead.particle)));
   const double beta = times.beta();
-  const double elastic = times.kick * row.stiffness,
-               viscous =
-                   times.kick * membrane.bending_viscosity / (length * length * length * times.h);
+  const double elastic = times.impulse_time * row.stiffness,
+               viscous = times.impulse_time * membrane.bending_viscosity /
+                         (length * length * length * times.h);
   row.compliance = 1 / (beta * elastic + viscous);
   row.value =
       elastic * (row.extension - (times.is_first ? 0 : beta * times.h * rate)) * row.compliance;

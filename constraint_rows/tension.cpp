@@ -124,7 +124,7 @@ Matrix3 stiffness_in_step(const RigidBody& body, std::span<const ForceAtArm> for
   for (const auto& [axis, stiffness] : stiffnesses) {
     const double w = times.h * (dimension == 3 ? dot(axis, inverse * axis) : 1 / inertia[8]);
     const double acting =
-        times.beta_across() * share_of_tension(times.kick * stiffness * w) * stiffness;
+        times.beta_across() * share_of_tension(times.impulse_time * stiffness * w) * stiffness;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t k = 0; k < 3; ++k) sum[3 * i + k] += acting * axis[i] * axis[k];
   }

@@ -12,7 +12,7 @@ template <int D>
 void Simulation::move_freely(double h, double next) {
   assert(h > 0);
   const auto& p = state_.particles;
-  const double kick = kick_length(h);
+  const double impulse_time = impulse_time_of(h);
   auto entries = p.count();
   for (auto& entry : loaded_)
     if (entry >= 0) entry = static_cast<std::int32_t>(entries++);
@@ -22,19 +22,20 @@ void Simulation::move_freely(double h, double next) {
     for (std::size_t k = begin; k < end; ++k) {
       mobilities_[k] = h / p.masses[k];
       for (std::size_t d = 0; d < D; ++d)
-        displacements_[k * D + d] = h * (p.velocities[k * D + d] + kick * setting_.gravity[d]);
+        displacements_[k * D + d] =
+            h * (p.velocities[k * D + d] + impulse_time * setting_.gravity[d]);
     }
   });
   for (const auto& [particle, force] : setting_.forces) {
     const auto k = index_of(particle);
     const Vector mean = mean_of(force, h, next);
     for (std::size_t d = 0; d < D; ++d)
-      displacements_[k * D + d] += kick * mobilities_[k] * mean[d];
+      displacements_[k * D + d] += impulse_time * mobilities_[k] * mean[d];
   }
   if (const auto& added = setting_.added_forces; !added.empty())
     pool_->for_blocks(added.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
-        displacements_[i] += kick * mobilities_[i / D] * added[i];
+        displacements_[i] += impulse_time * mobilities_[i / D] * added[i];
     });
   if (p.turn()) turn_freely(h, next);
   if (!p.bodies.empty()) move_bodies_freely(h, next);
@@ -61,7 +62,7 @@ void Simulation::move_as_given(double h, double next) {
     if (loaded_[w] < 0) continue;
     const auto entry = index_of(loaded_[w]);
     const auto& load = *obstacles_[w].load;
-    const double change = kick_length(h) * mean_of(load.force, h, next)[0] / load.mass;
+    const double change = impulse_time_of(h) * mean_of(load.force, h, next)[0] / load.mass;
     const Vector moved =
         h * (state_.planes[w - walls_of_domain()].velocity + change) * obstacles_[w].start.normal;
     for (std::size_t d = 0; d < numbers; ++d) displacements_[entry * numbers + d] = moved[d];
@@ -112,13 +113,14 @@ void Simulation::move_bodies_freely(double h, double next) {
       [&](const PiecewiseConstant& function) { return mean_of(function, h, next); });
   const auto numbers = static_cast<std::size_t>(p.dimension);
   const auto components = turn_components(p.dimension);
-  const LinkTimes times{h, kick_length(h), next, is_first_part()};
+  const LinkTimes times{h, impulse_time_of(h), next, is_first_part()};
   body_steps_.clear();
   for (std::size_t b = 0; b < loads.size(); ++b) {
     const auto& body = p.bodies.bodies[b];
     auto load = loads[b];
     load.stiffness = stiffness_in_step(body, load.forces, times, p.dimension);
-    body_steps_.push_back(free_step(body, load, times.h, times.kick, times.is_first, p.dimension));
+    body_steps_.push_back(
+        free_step(body, load, times.h, times.impulse_time, times.is_first, p.dimension));
     const auto& step = body_steps_.back();
     for (std::size_t m = 0; m < body.members.size(); ++m) {
       const auto k = index_of(body.members[m]);
@@ -217,10 +219,10 @@ void Simulation::turn_freely(double h, double next) {
     const Vector mean = mean_of(torque, h, next);
     for (std::size_t i = 0; i < components; ++i)
       turns_[k * components + i] +=
-          kick_length(h) * turn_mobilities_[k] * mean[p.dimension == 3 ? i : 2];
+          impulse_time_of(h) * turn_mobilities_[k] * mean[p.dimension == 3 ? i : 2];
   }
   for (std::size_t i = 0; i < setting_.added_torques.size(); ++i)
-    turns_[i] += kick_length(h) * turn_mobilities_[i / components] * setting_.added_torques[i];
+    turns_[i] += impulse_time_of(h) * turn_mobilities_[i / components] * setting_.added_torques[i];
 }
 
 template void Simulation::move_freely<2>(double, double);

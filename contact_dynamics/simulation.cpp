@@ -255,7 +255,7 @@ ProjectionResult Simulation::project(double h, double next) {
                                      state_.time,
                                      next,
                                      is_first_part(),
-                                     kick_length(h),
+                                     impulse_time_of(h),
                                      turns ? turns_ : no_turns,
                                      turns ? turn_mobilities_ : no_turn_mobilities,
                                      body_steps_,
@@ -296,7 +296,7 @@ ProjectionResult Simulation::project(double h, double next) {
     // missing. Therefore the projection is repeated with longer lists. The loop ends because the
     // margin and the skins (distances up to which pairs are listed) only grow. The new impulses are
     // the first guess of the repeated projection, with two exceptions. With restitution, the
-    // computation of blows needs to know which pairs bore a load in the step before. The convex
+    // computation of impacts needs to know which pairs bore a load in the step before. The convex
     // relaxation of friction needs no first guess, and where there are films, its friction depends
     // on the impulses of the step before.
     const auto& friction = setting_.laws.friction;
@@ -332,7 +332,7 @@ void Simulation::add_works_of_arms(double h) {
   for (std::size_t k = 0; k < arm_works_.size(); ++k) {
     const auto& arm = setting_.links.arms[k];
     const double impulse =
-        kick_length(h) * link_forces_[setting_.links.place_of_arm(k, p.dimension)];
+        impulse_time_of(h) * link_forces_[setting_.links.place_of_arm(k, p.dimension)];
     arm_works_[k] += works_across_[k];
     arm_works_[k] += impulse / 2 *
                      (rate_of_arm(arm, p, before(arm.first), before(arm.second)) +
@@ -352,13 +352,13 @@ void Simulation::add_given_loads(const ProjectionResult& projected, double h) {
   for (const auto& impulse : projected.on_given) add(impulse);
   if (impacts_in_plane_) std::ranges::for_each(impacts_in_plane_->on_given(), add);
   if (impacts_in_space_) std::ranges::for_each(impacts_in_space_->on_given(), add);
-  const double kick = kick_length(h);
-  const LinkTimes times{h, kick, state_.time + h, false};
+  const double impulse_time = impulse_time_of(h);
+  const LinkTimes times{h, impulse_time, state_.time + h, false};
   for (const auto& link : link_equations(setting_.links, state_.particles, times))
     for (std::size_t r = 0; r < link.rows.size(); ++r)
       for (const auto& part : link.rows[r].parts)
         if (is_given(part.particle) && !part.is_turn)
-          add({part.particle, kick * link_forces_[link.first_force + r] * part.direction});
+          add({part.particle, impulse_time * link_forces_[link.first_force + r] * part.direction});
 }
 
 bool Simulation::has_given_motions() const {
@@ -452,7 +452,7 @@ void Simulation::find_impacts(double h, double next) {
                         state_.time,
                         next,
                         h,
-                        kick_length(h),
+                        impulse_time_of(h),
                         setting_.solver.tolerance * mean_radius_,
                         displacements_,
                         mobilities_,
@@ -492,15 +492,16 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
   if (!names.empty()) report.pressing = names;
   take_impulses(projected);
   report.glued = remember(projected, h);
-  const double kick = kick_length(h);
-  for (std::size_t k = 0; k < link_forces_.size(); ++k) link_impulses_[k] += kick * link_forces_[k];
-  link_time_ += kick;
+  const double impulse_time = impulse_time_of(h);
+  for (std::size_t k = 0; k < link_forces_.size(); ++k)
+    link_impulses_[k] += impulse_time * link_forces_[k];
+  link_time_ += impulse_time;
   state_.link_forces = link_forces_;
   add_works_of_arms(h);
   add_given_loads(projected, h);
   move(h);
   if (impacts<D>()) {
-    impacts<D>()->add_late_changes(state_.particles);
+    impacts<D>()->add_lags(state_.particles);
     if (!body_steps_.empty()) place_members(state_.particles);
     report.iterations += impacts<D>()->iterations();
     if (!impacts<D>()->converged()) {
@@ -510,7 +511,7 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
     const auto& rebounds = impacts<D>()->rebounds();
     rebounds_.insert(rebounds_.end(), rebounds.begin(), rebounds.end());
     const auto& impulses = impacts<D>()->impulses();
-    blows_.insert(blows_.end(), impulses.begin(), impulses.end());
+    impacts_.insert(impacts_.end(), impulses.begin(), impulses.end());
     impacts<D>().reset();
   }
   state_.time = next;
@@ -596,7 +597,7 @@ void Simulation::advance_whole(double h, double next, StepReport& report) {
   } catch (...) {
     impulses_of_parts_.clear();
     rebounds_.clear();
-    blows_.clear();
+    impacts_.clear();
     undo_impacts();
     if (before_division_) {
       state_ = *before_division_;  // copied, so that the arrays keep their places in memory
@@ -647,7 +648,7 @@ StepReport Simulation::step(double end) {
   for (std::size_t k = 0; k < link_impulses_.size(); ++k)
     state_.link_forces[k] = link_impulses_[k] / link_time_;
   report.given_load /= interval->h;
-  state_.blows = std::exchange(blows_, {});
+  state_.impacts = std::exchange(impacts_, {});
   state_.given_loads = given_impulses_;
   for (auto& load : state_.given_loads) {
     load.force = (1 / interval->h) * load.force;

@@ -90,7 +90,7 @@ class Simulation {
   const State& state() const { return state_; }
   const Setting& setting() const { return setting_; }  ///< with the added forces and torques
 
-  /// The blows (impacts of solids) of the last step, in order of time; empty without restitution.
+  /// The impacts (impacts of solids) of the last step, in order of time; empty without restitution.
   const std::vector<Rebound>& rebounds() const { return rebounds_; }
 
   /// The particles with their velocities at the present time. With Scheme::kLeapfrog, the velocity
@@ -100,8 +100,8 @@ class Simulation {
 
  private:
   // In all private members `h` is the length of a step or of a part of it, and `next` the time at
-  // its end [T]. kick_length() is the time for which forces act on the velocities in it [T].
-  double kick_length(double h) const {
+  // its end [T]. impulse_time_of() is the time for which forces act on the velocities in it [T].
+  double impulse_time_of(double h) const {
     return setting_.scheme == Scheme::kLeapfrog ? state_.velocity_lag + h / 2 : h;
   }
   // Mean of a force or torque over the times in which it changes the velocities of this step.
@@ -175,7 +175,7 @@ class Simulation {
   template <int D>
   ProjectionResult project(double h, double next);
   void move(double h);
-  // The blows of the part of a step that is being computed; null without restitution.
+  // The impacts of the part of a step that is being computed; null without restitution.
   template <int D>
   std::unique_ptr<Impacts<D>>& impacts() {
     if constexpr (D == 2)
@@ -188,10 +188,10 @@ class Simulation {
   bool pull_across(std::span<Pair* const> pairs, std::span<const double> impulses) const;
   // True if films had it in the step before.
   bool pulled_across() const;
-  // Finds the blows of a part. The displacements must be those without contacts.
+  // Finds the impacts of a part. The displacements must be those without contacts.
   template <int D>
   void find_impacts(double h, double next);
-  // Undoes what the blows changed in the state.
+  // Undoes what the impacts changed in the state.
   void undo_impacts();
 
   void pour();
@@ -227,7 +227,8 @@ class Simulation {
   std::unique_ptr<Impacts<2>> impacts_in_plane_;
   std::unique_ptr<Impacts<3>> impacts_in_space_;
   std::vector<Rebound> rebounds_;
-  std::vector<BlowImpulse> blows_;  // impulses of blows in the parts of the step that are done
+  std::vector<ImpactImpulse>
+      impacts_;  // impulses of impacts in the parts of the step that are done
   // Impulses of a pair [M L/T], by Pair::first, second and image. If a step is divided,
   // impulses_of_parts_ has the sums over the parts that are done, and before_division_ the state
   // before the step.

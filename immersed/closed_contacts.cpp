@@ -84,14 +84,14 @@ void ClosedContacts::add_rows(double mu_s, std::span<const double> velocities) {
     if (!is_known_) return;
     if (!has_friction) continue;
     const auto& of = step.frictions[friction];
-    if (!(of.carried(contact) > 0 && mu_s > 0 && of.w > 0)) continue;
+    if (!(of.solid_load(contact) > 0 && mu_s > 0 && of.w > 0)) continue;
     if (of.slides == 0 && !step.has_given_loads) {
       take(step.of_slips, friction, {c, friction, true});
     } else if (of.slides != 0 && !step.has_given_loads) {
       is_known_ = is_known_ && friction < step.of_slips.size() && !step.of_slips[friction].empty();
       const double slope = of.slides * mu_s;
       sliding_.push_back(
-          {friction, rows_.size() - 1, slope, slope * of.carried(contact) - of.impulse});
+          {friction, rows_.size() - 1, slope, slope * of.solid_load(contact) - of.impulse});
     }
     if (!is_known_) return;
   }

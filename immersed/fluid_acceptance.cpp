@@ -5,9 +5,9 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/immersed/closed_contacts.hpp"
+#include "viscontact/immersed/constrained_motion.hpp"
 #include "viscontact/immersed/fluid_contacts.hpp"
 #include "viscontact/immersed/fluid_motion.hpp"
-#include "viscontact/immersed/held_rows.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 
 namespace viscontact::particles {
@@ -32,10 +32,10 @@ void FluidSimulation::examine(Motion& motion, double h, StepReport& report) cons
                 "a particle moves by {} in the step to time {}, too far for the precision of a "
                 "double; check the forces and the time step",
                 longest, report.time);
-  const auto& blow = motion.blow;
-  // In a step with a blow the impulses of motion.contact do not cause the displacements. Therefore
-  // only the gaps of these contacts are examined.
-  if (blow)
+  const auto& impact = motion.impact;
+  // In a step with an impact the impulses of motion.contact do not cause the displacements.
+  // Therefore only the gaps of these contacts are examined.
+  if (impact)
     for (auto& contact : motion.contact.contacts) contact.w = std::min(contact.w, 0.0);
   const auto conditions = contact_conditions(motion.free, h);
   auto residuals = residuals_of(motion.contact, motion.moved, conditions);
@@ -44,18 +44,19 @@ void FluidSimulation::examine(Motion& motion, double h, StepReport& report) cons
            "others too little room?";
   });
   report.has_given_loads = motion.contact.has_given_loads;
-  report.converged = motion.contact.is_solved && motion.links_hold && (!blow || blow->is_solved);
-  if (!motion.links_hold || (blow && !blow->is_solved))
+  report.converged =
+      motion.contact.is_solved && motion.links_hold && (!impact || impact->is_solved);
+  if (!motion.links_hold || (impact && !impact->is_solved))
     report.excess = std::numeric_limits<double>::infinity();
   report_residuals(residuals, mean_radius_, report);
-  if (blow) {
-    StepContacts of_blow;
-    of_blow.contacts = blow->contacts;
-    of_blow.of_gaps = blow->of_gaps;
-    of_blow.amplification = blow->amplification;
-    const auto of_kick = contact_conditions(motion.free, kick_length(h));
-    residuals = measure_residuals(of_blow.contacts, motion.after, of_kick);
-    take_errors_of_impulses(of_blow, 0, motion.after, of_kick, residuals);
+  if (impact) {
+    StepContacts of_impact;
+    of_impact.contacts = impact->contacts;
+    of_impact.of_gaps = impact->of_gaps;
+    of_impact.amplification = impact->amplification;
+    const auto of_impulse_time = contact_conditions(motion.free, impulse_time_of(h));
+    residuals = measure_residuals(of_impact.contacts, motion.after, of_impulse_time);
+    take_errors_of_impulses(of_impact, 0, motion.after, of_impulse_time, residuals);
     report_residuals(residuals, mean_radius_, report);
   }
   motion.impulse_errors = std::move(residuals.impulse_errors);
@@ -69,7 +70,7 @@ void FluidSimulation::remember_friction(const StepContacts& step, double share) 
     for (auto& pair : *list) {
       auto memory = state_.memories.of(pair.memory);
       memory.set_friction({});
-      memory[Remembered::kCarried] = 0;
+      memory[Remembered::kSolidLoad] = 0;
       state_.memories.set(pair.memory, memory);
     }
   for (const auto& friction : step.frictions) {
@@ -77,13 +78,13 @@ void FluidSimulation::remember_friction(const StepContacts& step, double share) 
     if (!(contact.w > 0)) continue;
     auto& pair = friction.contact < pairs ? state_.pairs[friction.contact]
                                           : state_.walls[friction.contact - pairs];
-    const double carried = share * friction.carried(contact);
+    const double solid_load = share * friction.solid_load(contact);
     double impulse = share * friction.impulse;
     if (step.is_solved && friction.slides != 0)
-      impulse = friction.slides * setting_.laws.friction->coefficient * carried;
+      impulse = friction.slides * setting_.laws.friction->coefficient * solid_load;
     auto memory = state_.memories.of(pair.memory);
     memory.set_friction({impulse * friction.tangent[0], impulse * friction.tangent[1], 0});
-    memory[Remembered::kCarried] = carried;
+    memory[Remembered::kSolidLoad] = solid_load;
     state_.memories.set(pair.memory, memory);
   }
 }
@@ -101,11 +102,11 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
   std::size_t c = 0;
   for (auto* pairs : {&state_.pairs, &state_.walls})
     for (auto& pair : *pairs) {
-      const auto& contact = motion.blow ? motion.blow->contacts[c] : motion.contact.contacts[c];
-      const double share = motion.blow ? 1 : kick_length(h) / h;
+      const auto& contact = motion.impact ? motion.impact->contacts[c] : motion.contact.contacts[c];
+      const double share = motion.impact ? 1 : impulse_time_of(h) / h;
       if (contact.w > 0) ++report.contacts;
       if (contact.w > 0 && counts) {
-        pair.impulse = motion.blow ? motion.blow->absorbed[c] : share * contact.impulse;
+        pair.impulse = motion.impact ? motion.impact->absorbed[c] : share * contact.impulse;
         setting_.laws.remember(pair, state_.memories,
                                radii_in_fluid(*setting_.fluid, pair, p, obstacles_),
                                share * motion.impulse_errors[c], h);
@@ -114,9 +115,10 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
       if (pair.gamma < 0) ++report.glued;
       ++c;
     }
-  if (setting_.laws.friction) remember_friction(motion.contact, counts ? kick_length(h) / h : 0);
+  if (setting_.laws.friction)
+    remember_friction(motion.contact, counts ? impulse_time_of(h) / h : 0);
   state_.memories.keep_only(state_.pairs, state_.walls);
-  rebounds_ = motion.blow ? std::move(motion.blow->rebounds) : std::vector<Rebound>{};
+  rebounds_ = motion.impact ? std::move(motion.impact->rebounds) : std::vector<Rebound>{};
   move_bodies(motion, h, next);
   const auto n = layout_.directions();
   for (std::size_t k = 0; k < p.count(); ++k) {
@@ -154,11 +156,11 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
 void FluidSimulation::move_bodies(const Motion& motion, double h, double next) {
   auto& p = state_.particles;
   if (p.bodies.empty()) return;
-  const HeldMotion held(setting_.links, p, LinkTimes{h, h, next});
+  const ConstrainedMotion constrained(setting_.links, p, LinkTimes{h, h, next});
   for (std::size_t b = 0; b < p.bodies.count(); ++b) {
     auto& body = p.bodies.bodies[b];
-    const auto moved = held.motion_of_body(b, motion.linear);
-    const auto at_end = held.motion_of_body(b, motion.at_end);
+    const auto moved = constrained.motion_of_body(b, motion.linear);
+    const auto at_end = constrained.motion_of_body(b, motion.at_end);
     body.centre = body.centre + h * moved.displacement;
     body.angle = body.angle + h * moved.turn;
     body.velocity = at_end.displacement;

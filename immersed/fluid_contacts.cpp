@@ -279,7 +279,7 @@ bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
     const double before = gap_at(p);
     if (std::abs(before) <= conditions.solver.tolerance * conditions.mean_radius / 2) gap -= before;
     changes[c] = gap - gap_after(contact, step.velocities.data(), h, conditions.layout);
-    if (contact.w != kHeld && (gap < 0 || contact.impulse != 0 || contact.lowest < 0))
+    if (contact.w != kImmovable && (gap < 0 || contact.impulse != 0 || contact.lowest < 0))
       largest = std::max(largest, std::abs(changes[c]));
   }
   if (largest <= conditions.solver.tolerance * conditions.mean_radius / 4) return false;
@@ -392,7 +392,7 @@ void solve_listed(StepContacts& step, const Mobility& mobility,
       if (is_chosen[c] != 0 || !takes_part) continue;
       is_chosen[c] = 1;
       if (!moves(contact, mobility, conditions)) {
-        step.contacts[c].w = kHeld;
+        step.contacts[c].w = kImmovable;
         continue;
       }
       chosen.push_back(c);
@@ -523,7 +523,7 @@ StepResiduals measure_residuals(std::span<Contact<2>> contacts, std::span<const 
   residuals.impulse_errors.resize(contacts.size());
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto& contact = contacts[c];
-    if (contact.w == kHeld) continue;
+    if (contact.w == kImmovable) continue;
     const double after = gap_after(contact, velocities.data(), conditions.h, conditions.layout);
     if (!contact.is_stop())
       residuals.take_gap(

@@ -89,7 +89,8 @@ struct ContactConditions {
   double mean_radius = 0;  ///< of the particles [L], > 0
   /// Relative error [1], >= 0, of velocities and of the mobility, below which no residual can fall.
   double velocity_error = 0;
-  /// Impulse of a force in the step, divided by h times the force [1]: BlowStep::kick over h.
+  /// Impulse of a force in the step, divided by h times the force [1]: ImpactStep::impulse_time
+  /// over h.
   double share_of_impulse = 1;
   /// Largest change [T/M], >= 0, of the velocity of a gap or slip by a unit force of its contact,
   /// with which hinges count as holding it, so that it is left out of the problem; 0: none is held.
@@ -112,7 +113,7 @@ inline double rounding_error_of_gaps(const ContactConditions& conditions) {
 }
 
 /// Contact::w of a contact that is left out of the problem because hinges hold its gap.
-inline constexpr double kHeld = -1;
+inline constexpr double kImmovable = -1;
 
 /// Sets Contact::allowed, the allowed residual [L], from the tolerances of gaps and impulses. For
 /// contacts with w <= 0, which are left out of the problem, it is the tolerance of gaps alone.
@@ -252,7 +253,7 @@ struct ContactFrictionInFluid {
     if (of.first >= 0) forces[layout.at(of.first, 2)] += levers[0] * force;
   }
   /// Part of the normal impulse that the solids carry, p_s of (5.7) [M L/T], >= 0.
-  double carried(const Contact<2>& of) const { return load_of_solids(of.impulse, capacity); }
+  double solid_load(const Contact<2>& of) const { return load_of_solids(of.impulse, capacity); }
 };
 
 struct FrictionOfStep;
@@ -261,7 +262,7 @@ struct StepContacts {
   std::vector<Pair> pairs,  ///< of particles that may touch in this step, with their memory
       walls;                ///< of a particle and an obstacle
   /// The contacts of all `pairs`, then of all `walls`, then of the stops of hinges, which have no
-  /// film. Contacts that take no part have the impulse 0 and w = 0 or kHeld.
+  /// film. Contacts that take no part have the impulse 0 and w = 0 or kImmovable.
   std::vector<Contact<2>> contacts;
   /// Of the contacts with a finite capacity, in the order of `contacts`; empty without friction.
   std::vector<ContactFrictionInFluid> frictions;

@@ -253,7 +253,7 @@ class FrictionSolver {
   double largest_load() const {
     double largest = 0;
     for (const auto& friction : step_.frictions)
-      largest = largest_or_nan(largest, friction.carried(contact_of(friction)));
+      largest = largest_or_nan(largest, friction.solid_load(contact_of(friction)));
     return largest;
   }
 
@@ -306,9 +306,9 @@ class FrictionSolver {
     for (std::size_t f = 0; f < step_.frictions.size(); ++f) {
       auto& friction = step_.frictions[f];
       const auto& contact = contact_of(friction);
-      const double carried = contact.w > 0 ? friction.carried(contact) : 0;
+      const double solid_load = contact.w > 0 ? friction.solid_load(contact) : 0;
       friction.slides = 0;
-      if (!(carried > 0) && friction.impulse == 0) continue;
+      if (!(solid_load > 0) && friction.impulse == 0) continue;
       respond(f);
       if (!(friction.w > 0)) {
         if (friction.impulse != 0) excess = std::numeric_limits<double>::infinity();
@@ -317,12 +317,12 @@ class FrictionSolver {
       const double slip =
           friction.slip(contact, step_.velocities.data(), conditions_.h, conditions_.layout);
       const double aim = friction.impulse - slip / friction.w;
-      if (std::abs(aim) > mu_s_ * carried) friction.slides = aim > 0 ? 1 : -1;
+      if (std::abs(aim) > mu_s_ * solid_load) friction.slides = aim > 0 ? 1 : -1;
       // Half of the allowed residual is left for errors of the velocities that the fluid solver
       // computes from the final forces.
       const double allowed = allowed_for(friction, contact, conditions_) / 2;
       const double residual =
-          residual_of_friction(friction.impulse, mu_s_ * carried, slip, friction.w);
+          residual_of_friction(friction.impulse, mu_s_ * solid_load, slip, friction.w);
       excess = largest_or_nan(excess, residual / allowed);
     }
     return excess;
@@ -491,9 +491,9 @@ void take_residuals_of_friction(const StepContacts& step, double mu_s,
     // w is 0 if it was not needed, or if a hinge holds the point. There is then no friction.
     if (!(contact.w > 0 && friction.w > 0)) continue;
     const double slip = friction.slip(contact, velocities.data(), conditions.h, conditions.layout);
-    residuals.take(
-        residual_of_friction(friction.impulse, mu_s * friction.carried(contact), slip, friction.w),
-        allowed_for(friction, contact, conditions));
+    residuals.take(residual_of_friction(friction.impulse, mu_s * friction.solid_load(contact), slip,
+                                        friction.w),
+                   allowed_for(friction, contact, conditions));
   }
 }
 

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/immersed/constrained_motion.hpp"
 #include "viscontact/immersed/fluid_contacts.hpp"
 #include "viscontact/immersed/fluid_motion.hpp"
 #include "viscontact/immersed/fluid_simulation.hpp"
-#include "viscontact/immersed/held_rows.hpp"
 #include "viscontact/immersed/step_equation.hpp"
 
 namespace viscontact::particles {
@@ -24,27 +24,28 @@ constexpr int kMostChanges = 20;
 }  // namespace
 
 std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equation,
-                                                     const HeldMotion& held,
+                                                     const ConstrainedMotion& constrained,
                                                      std::span<const double> flow,
                                                      std::vector<double>& velocities, double h,
                                                      bool& holds) const {
   assert(flow.size() == velocities.size());
-  const auto of_flow = held_->row_forces();
+  const auto of_flow = constrained_solver_->row_forces();
   auto forces = of_flow;
   // `velocities` were extrapolated from `flow`; the forces of the rows that belong to the
   // difference are added.
   auto extrapolated = velocities;
   for (std::size_t i = 0; i < flow.size(); ++i) extrapolated[i] -= flow[i];
-  add_elements(held_->row_forces_for(extrapolated), forces);
-  const auto thetas = held_->thetas();
+  add_elements(constrained_solver_->row_forces_for(extrapolated), forces);
+  const auto thetas = constrained_solver_->thetas();
   const bool with_springs = !equation.link_times().empty();
   const double allowed = tolerated_length();
   double off = 0;  // [L]
   for (int n = 0; n <= kMostChanges; ++n) {
-    const auto missing = held.missing(velocities, forces, thetas, held_->stiffnesses());
+    const auto missing =
+        constrained.missing(velocities, forces, thetas, constrained_solver_->stiffnesses());
     off = h * largest_magnitude(missing);
     if (off <= kOfTolerance * allowed || n == kMostChanges) break;
-    add_elements(held_->change(velocities, missing, with_springs), forces);
+    add_elements(constrained_solver_->change(velocities, missing, with_springs), forces);
   }
   holds = off <= allowed;
   if (!(off <= mean_radius_))
@@ -57,34 +58,36 @@ std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equatio
   return forces;
 }
 
-double FluidSimulation::hold_turned(const HeldMotion& held, double h,
+double FluidSimulation::hold_turned(const ConstrainedMotion& constrained, double h,
                                     std::vector<double>& velocities,
                                     std::vector<double>& row_forces) const {
-  const auto rows = held.rows();
-  const auto thetas = held_->thetas();
+  const auto rows = constrained.rows();
+  const auto thetas = constrained_solver_->thetas();
   for (int n = 0;; ++n) {
-    auto missing = held.missing(velocities, row_forces, thetas, held_->stiffnesses());
+    auto missing =
+        constrained.missing(velocities, row_forces, thetas, constrained_solver_->stiffnesses());
     for (std::size_t r = 0; r < missing.size(); ++r)
       if (r >= rows.size() || rows[r].is_spring()) missing[r] = 0;
     const double off = h * largest_magnitude(missing);
     if (off <= kOfTolerance * tolerated_length() || n == kMostChanges) return off;
-    add_elements(held_->change(velocities, missing, false), row_forces);
+    add_elements(constrained_solver_->change(velocities, missing, false), row_forces);
   }
 }
 
-void FluidSimulation::hold_with_contacts(const StepEquation& equation, const HeldMotion& held,
-                                         double h, double next, Motion& motion,
+void FluidSimulation::hold_with_contacts(const StepEquation& equation,
+                                         const ConstrainedMotion& constrained, double h,
+                                         double next, Motion& motion,
                                          std::vector<double>& row_forces) {
   auto& contact = motion.contact;
-  if (!has_links_ || motion.blow || !(largest_magnitude(contact.loads) > 0)) return;
+  if (!has_links_ || motion.impact || !(largest_magnitude(contact.loads) > 0)) return;
   const double allowed = kOfTolerance * tolerated_length();
   for (int round = 0; round < kMostChanges; ++round) {
     auto velocities = motion.linear;
     for (std::size_t i = 0; i < velocities.size(); ++i)
       velocities[i] += contact.velocities[i] - motion.free[i];
     const auto before = velocities;
-    const double off = hold_turned(held, h, velocities, row_forces);
-    const auto moved = held.with_finite_turns(velocities);
+    const double off = hold_turned(constrained, h, velocities, row_forces);
+    const auto moved = constrained.with_finite_turns(velocities);
     double change = 0;  // [L/T]
     for (std::size_t i = 0; i < velocities.size(); ++i) {
       const double by = moved[i] - contact.velocities[i];
@@ -105,9 +108,9 @@ void FluidSimulation::hold_with_contacts(const StepEquation& equation, const Hel
              kShare))
       return;
     const int iterations = contact.iterations;
-    motion.blow = solve_contacts_of(equation, motion.free, h, next, contact);
+    motion.impact = solve_contacts_of(equation, motion.free, h, next, contact);
     contact.iterations += iterations;
-    if (motion.blow) return;
+    if (motion.impact) return;
   }
 }
 
@@ -122,23 +125,23 @@ std::vector<Contact<2>> FluidSimulation::contacts_before(double h) const {
       };
       if (pair.impulse == 0 || is_plate(pair.first) || is_plate(pair.second)) continue;
       contacts.push_back(contact_of<2>(state_.particles, pair, places));
-      contacts.back().impulse *= h / kick_length(h);
+      contacts.back().impulse *= h / impulse_time_of(h);
     }
   return contacts;
 }
 
-bool FluidSimulation::follow_turns(const StepEquation& equation, HeldMotion& held,
+bool FluidSimulation::follow_turns(const StepEquation& equation, ConstrainedMotion& constrained,
                                    std::vector<double> loaded, std::span<const Contact<2>> contacts,
                                    std::span<const double> row_forces,
                                    std::vector<double>& settled) {
-  const auto before = held.geometric_rows().size();
-  held.add_turns({row_forces, equation.forces(), contacts, equation.largest_mobility()});
-  const auto rows = held.geometric_rows();
+  const auto before = constrained.geometric_rows().size();
+  constrained.add_turns({row_forces, equation.forces(), contacts, equation.largest_mobility()});
+  const auto rows = constrained.geometric_rows();
   if (rows.empty() || (rows.size() == before && loaded == settled)) return false;
-  held_->turn_with(rows);
+  constrained_solver_->turn_with(rows);
   // Tensions that are off by this share turn links by a share of the turn of the step.
   constexpr double kFollowed = 0.02;
-  const bool changed = held_->settle_stiffnesses(loaded, kFollowed);
+  const bool changed = constrained_solver_->settle_stiffnesses(loaded, kFollowed);
   settled = std::move(loaded);
   return changed || rows.size() > before;
 }
@@ -206,16 +209,16 @@ double FluidSimulation::turn_of_films(std::span<const Contact<2>> contacts,
 }
 
 std::vector<double> FluidSimulation::hold_at_end(const StepEquation& equation,
-                                                 const HeldMotion& held,
+                                                 const ConstrainedMotion& constrained,
                                                  std::span<const double> moved,
                                                  std::vector<double>& at_end) const {
   // Without this change, a part of the velocities that a link does not allow would remain, and
   // change its sign in each step.
   std::vector<char> is_stiff;
-  for (std::size_t r = 0; r < held_->row_forces().size(); ++r)
-    is_stiff.push_back(held_->is_stiff(r) ? 1 : 0);
+  for (std::size_t r = 0; r < constrained_solver_->row_forces().size(); ++r)
+    is_stiff.push_back(constrained_solver_->is_stiff(r) ? 1 : 0);
   auto velocities = at_end;
-  auto forces = held.hold_at_end(moved, equation.mobility_of_step(), is_stiff, velocities);
+  auto forces = constrained.hold_at_end(moved, equation.mobility_of_step(), is_stiff, velocities);
   for (std::size_t i = 0; i < at_end.size(); ++i)
     if (equation.link_times()[i / layout_.components] >= 0) at_end[i] = velocities[i];
   return forces;

@@ -1,5 +1,5 @@
-// What a step in a fluid computes before it changes the state, and the blow of solids that rebound,
-// docs/physics.md (6.11).
+// What a step in a fluid computes before it changes the state, and the impact of solids that
+// rebound, docs/physics.md (6.11).
 #pragma once
 
 #include <algorithm>
@@ -36,47 +36,48 @@ inline void add_elements(std::span<const double> numbers, std::span<double> sums
 /// A step in which solids may collide. All references must outlive the object. Arrays of this file
 /// have motion_components() numbers for each particle: velocities in [L/T, 1/T], forces in
 /// [M L/T^2, M L^2/T^2].
-struct BlowStep {
+struct ImpactStep {
   const Setting& setting;
   const State& state;                ///< before the step
   std::span<const Plane> obstacles;  ///< obstacles_of(setting)
   double end = 0;                    ///< time at which the step ends [T]
   /// Time [T], > 0, for which the forces of the step act on the velocities: the length of the step,
   /// or, in a fluid with inertia except with Coupling::kSplitting, that of the step before.
-  double kick = 0;
+  double impulse_time = 0;
   std::span<const double> before;  ///< velocities at the beginning of the step
   /// The velocities that the forces of the step, without contact, give to particles at rest.
   std::function<std::vector<double>()> loaded;
 };
 
-/// The blow of a step: all its collisions, which count as one event, and the contacts on which they
-/// press. It obeys Poisson's law of restitution (contact/restitution_law.hpp), with the mobility of
-/// the fluid in place of the masses.
-struct FluidBlow {
-  /// In the order of StepContacts::contacts. Contact::impulse is that of the whole blow [M L/T],
+/// The impact of a step: all its collisions, which count as one event, and the contacts on which
+/// they press. It obeys Poisson's law of restitution (contact/restitution_law.hpp), with the
+/// mobility of the fluid in place of the masses.
+struct FluidImpact {
+  /// In the order of StepContacts::contacts. Contact::impulse is that of the whole impact [M L/T],
   /// and Contact::lowest its lower bound: gamma, or the least impulse with which solids that
-  /// rebound give back their share, or, if the blow was weakened so that it adds no energy, the
+  /// rebound give back their share, or, if the impact was weakened so that it adds no energy, the
   /// impulse itself.
   std::vector<Contact<2>> contacts;
   /// For each contact the impulse [M L/T] with which FilmLaw::absorb() computes the new gamma.
   std::vector<double> absorbed;
   std::vector<std::vector<double>> of_gaps;  ///< StepContacts::of_gaps
   double amplification = 1;                  ///< StepContacts::amplification
-  std::vector<double> loads;                 ///< contact forces: impulses over `kick`
-  std::vector<double> velocities;            ///< after the blow
+  std::vector<double> loads;                 ///< contact forces: impulses over `impulse_time`
+  std::vector<double> velocities;            ///< after the impact
   std::vector<double> moved;      ///< displacements in the step divided by its length [L/T, 1/T]
   std::vector<Rebound> rebounds;  ///< one for each contact whose solids rebound
   int iterations = 0;             ///< of all problems solved
   bool is_solved = true;          ///< true: all problems reached the tolerances
 };
 
-/// Finds the blow of a step, which takes the place of `contacts`, the solution without restitution.
-/// Returns nothing if in no contact that is hit the solids give back more than its load in the
-/// step. A contact is hit if it closes in the step; if it was closed before, its surfaces must also
-/// have approached each other at the beginning of the step, and if it bore a load, faster than five
-/// times the velocity that the forces of the step cause.
-std::optional<FluidBlow> solve_blow(const StepContacts& contacts, const BlowStep& step,
-                                    const Mobility& mobility, const ContactConditions& conditions);
+/// Finds the impact of a step, which takes the place of `contacts`, the solution without
+/// restitution. Returns nothing if in no contact that is hit the solids give back more than its
+/// load in the step. A contact is hit if it closes in the step; if it was closed before, its
+/// surfaces must also have approached each other at the beginning of the step, and if it bore a
+/// load, faster than five times the velocity that the forces of the step cause.
+std::optional<FluidImpact> solve_impact(const StepContacts& contacts, const ImpactStep& step,
+                                        const Mobility& mobility,
+                                        const ContactConditions& conditions);
 
 /// The velocities and forces of a step, with the symbols U and U^+ of FluidSimulation.
 struct FluidSimulation::Motion {
@@ -95,10 +96,10 @@ struct FluidSimulation::Motion {
   /// Velocities at the beginning of the step for FluidSolver::keep_flow(); empty in a fluid without
   /// inertia.
   std::vector<double> kept;
-  StepContacts contact;           ///< solved without restitution
-  std::optional<FluidBlow> blow;  ///< takes the place of `contact` if solids rebound
-  std::vector<double> after;      ///< velocities after the blow; `linear` if there is no blow
-  /// Errors >= 0 of the impulses [M L/T] of `contact`, or of the blow; empty before examine().
+  StepContacts contact;               ///< solved without restitution
+  std::optional<FluidImpact> impact;  ///< takes the place of `contact` if solids rebound
+  std::vector<double> after;  ///< velocities after the impact; `linear` if there is no impact
+  /// Errors >= 0 of the impulses [M L/T] of `contact`, or of the impact; empty before examine().
   std::vector<double> impulse_errors;
   FluidStepReport fluid;
   FlowQuantities quantities;

@@ -11,11 +11,11 @@
 #include <functional>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/immersed/constrained_motion.hpp"
+#include "viscontact/immersed/constrained_solver.hpp"
 #include "viscontact/immersed/fluid_contacts.hpp"
 #include "viscontact/immersed/fluid_motion.hpp"
 #include "viscontact/immersed/fluid_solver.hpp"
-#include "viscontact/immersed/held_rows.hpp"
-#include "viscontact/immersed/held_solver.hpp"
 #include "viscontact/immersed/step_equation.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
@@ -51,7 +51,7 @@ FluidSimulation::FluidSimulation(Setting setting, State state, std::unique_ptr<F
   // A restart file of a run without a fluid has no velocities of the step before, and may contain
   // collisions, which a step in a fluid does not use.
   if (state_.earlier_velocities.empty()) state_.earlier_step = 0;
-  state_.blows = {};
+  state_.impacts = {};
   auto& film = setting_.laws.film;
   film.shape = p.dimension == 1 ? FilmShape::kSpheres : FilmShape::kDiscs;
   film.begins_at = setting_.fluid->threshold_gap;
@@ -73,10 +73,10 @@ FluidSimulation::FluidSimulation(Setting setting, State state, std::unique_ptr<F
   state_.flow.clear();
   has_links_ = !setting_.links.empty() || !p.bodies.empty();
   if (!has_links_ && layout_.components != 3) return;
-  auto held = std::make_unique<HeldSolver>(std::move(solver_), error_of_answers(*setting_.fluid),
-                                           setting_.fluid->has_inertia());
-  held_ = held.get();
-  solver_ = std::move(held);
+  auto constrained = std::make_unique<ConstrainedSolver>(
+      std::move(solver_), error_of_answers(*setting_.fluid), setting_.fluid->has_inertia());
+  constrained_solver_ = constrained.get();
+  solver_ = std::move(constrained);
 }
 
 State FluidSimulation::state_to_save() {
@@ -94,10 +94,11 @@ void FluidSimulation::begin_flow(double h) {
   auto bodies = equation.bodies();
   bodies.flow_step.order = 0;
   bodies.flow_step.time = state_.time;
-  if (held_ != nullptr) {
-    const HeldMotion held(setting_.links, state_.particles,
-                          times_of_links(equation, h, state_.time + h), equation.link_times());
-    held_->hold(held.rows(), h);
+  if (constrained_solver_ != nullptr) {
+    const ConstrainedMotion constrained(setting_.links, state_.particles,
+                                        times_of_links(equation, h, state_.time + h),
+                                        equation.link_times());
+    constrained_solver_->hold(constrained.rows(), h);
   }
   solver_->place(bodies);
   const bool at_rest = setting_.fluid->start == FlowStart::kRest;
@@ -113,7 +114,7 @@ void FluidSimulation::begin_flow(double h) {
 
 std::vector<double> FluidSimulation::free_velocities(const StepEquation& equation,
                                                      std::span<const double> flow, double h,
-                                                     const HeldMotion* held) {
+                                                     const ConstrainedMotion* constrained) {
   assert(flow.size() == state_.particles.count() * layout_.components);
   std::vector<double> free(flow.begin(), flow.end());
   if (setting_.fluid->has_inertia()) {
@@ -131,25 +132,26 @@ std::vector<double> FluidSimulation::free_velocities(const StepEquation& equatio
       !(state_.earlier_step > 0) || !equation.drives_as_before())
     return free;
   auto now = equation.right_side();
-  if (held != nullptr) {
+  if (constrained != nullptr) {
     // Bodies have turned since the step before. The velocities of their members in that step are
     // replaced by those that the same rigid motion has at the present places of the members.
-    held->make_rigid(earlier);
-    add_elements(held_->forces_of_step(), now);
+    constrained->make_rigid(earlier);
+    add_elements(constrained_solver_->forces_of_step(), now);
   }
   std::vector<double> difference(free.size());
   for (std::size_t i = 0; i < free.size(); ++i)
     difference[i] = state_.earlier_forces[i] + equation.inertia()[i] * earlier[i] - now[i];
   std::vector<double> changed(flow.begin(), flow.end());
   if (largest_magnitude(difference) > 0) {
-    const auto added = held_ != nullptr ? held_->velocities_without_springs(difference)
-                                        : solver_->velocities(difference, false);
+    const auto added = constrained_solver_ != nullptr
+                           ? constrained_solver_->velocities_without_springs(difference)
+                           : solver_->velocities(difference, false);
     for (std::size_t i = 0; i < changed.size(); ++i) changed[i] += added[i];
   }
   // Links have turned since the step before. The earlier velocities are changed until the links
   // hold with their present directions, so that the difference that is extrapolated comes from the
   // resistance of the fluid alone.
-  if (held_ != nullptr) held_->hold_velocities(earlier);
+  if (constrained_solver_ != nullptr) constrained_solver_->hold_velocities(earlier);
   const double share = h / (2 * state_.earlier_step);
   for (std::size_t i = 0; i < free.size(); ++i) {
     const auto k = static_cast<std::int32_t>(i / layout_.components);
@@ -163,8 +165,13 @@ ContactConditions FluidSimulation::contact_conditions(std::span<const double> fr
                                                       double h) const {
   assert(h > 0);
   const auto& fluid = *setting_.fluid;
-  ContactConditions conditions{
-      free, h, layout_, setting_.solver, mean_radius_, error_of_answers(fluid), kick_length(h) / h};
+  ContactConditions conditions{free,
+                               h,
+                               layout_,
+                               setting_.solver,
+                               mean_radius_,
+                               error_of_answers(fluid),
+                               impulse_time_of(h) / h};
   conditions.is_symmetric = !fluid.has_inertia() || fluid.coupling == Coupling::kSplitting;
   if (!setting_.links.hinges.empty()) {
     // If a hinge holds a gap, the change w of the velocity of this gap by a unit force [T/M] should
@@ -179,12 +186,12 @@ ContactConditions FluidSimulation::contact_conditions(std::span<const double> fr
       heaviest = std::max(heaviest, p.masses[k] + fluid.density * fluid.size_of(2, k, p.radii[k]));
     for (const auto& body : p.bodies.bodies) heaviest = std::max(heaviest, body.mass);
     conditions.least_w = std::max(kShare, kErrors * error_of_answers(fluid)) /
-                         (fluid.viscosity + heaviest / kick_length(h));
+                         (fluid.viscosity + heaviest / impulse_time_of(h));
   }
   return conditions;
 }
 
-double FluidSimulation::kick_length(double h) const {
+double FluidSimulation::impulse_time_of(double h) const {
   // In a fluid with inertia forces change the velocities in the step that ends at the present
   // places, and particles move with them in the step that begins there.
   const auto& fluid = *setting_.fluid;
@@ -196,9 +203,10 @@ bool FluidSimulation::is_computed_twice() const {
   return setting_.fluid->has_inertia() && !(state_.earlier_step > 0);
 }
 
-std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& equation,
-                                                            std::span<const double> free, double h,
-                                                            double next, StepContacts& contacts) {
+std::optional<FluidImpact> FluidSimulation::solve_contacts_of(const StepEquation& equation,
+                                                              std::span<const double> free,
+                                                              double h, double next,
+                                                              StepContacts& contacts) {
   const bool is_split = setting_.fluid->coupling == Coupling::kSplitting;
   const auto inertia = equation.inertia_of_projection();
   const auto is_movable = [&](std::int32_t k) {
@@ -227,7 +235,7 @@ std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& 
   const FrictionOfStep friction{setting_, obstacles_, state_.memories, state_.time, next};
   const bool has_inertia = fluid.has_inertia();
   const auto before = has_inertia ? state_.earlier_velocities : equation.velocities();
-  // BlowStep::loaded
+  // ImpactStep::loaded
   const auto loaded = [&] {
     if (has_inertia) return solver_->velocities(equation.forces(), false);
     std::vector<double> momentum(before.size());
@@ -242,13 +250,13 @@ std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& 
         conditions, pool_,
         setting_.laws.friction && setting_.laws.friction->coefficient > 0 ? &friction : nullptr);
     if (!setting_.laws.restitution.is_on() || is_computed_twice()) return std::nullopt;
-    const BlowStep step{setting_, state_, obstacles_, next, kick_length(h), before, loaded};
-    auto blow = solve_blow(contacts, step, mobility, conditions);
-    if (!blow) return blow;
+    const ImpactStep step{setting_, state_, obstacles_, next, impulse_time_of(h), before, loaded};
+    auto impact = solve_impact(contacts, step, mobility, conditions);
+    if (!impact) return impact;
     // Solids may rebound faster than particles move without contact. If they could then reach
     // particles that are not listed, the step is solved again with a list up to a larger gap.
-    const double needed = reach_of(state_, fluid, blow->velocities, conditions);
-    if (needed <= contacts.reach) return blow;
+    const double needed = reach_of(state_, fluid, impact->velocities, conditions);
+    if (needed <= contacts.reach) return impact;
     conditions.least_reach = 2 * needed;
   }
 }
@@ -277,60 +285,64 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
   Motion motion;
   StepEquation equation(setting_, state_, h, next);
   std::vector<double> forces;
-  std::optional<HeldMotion> held;
+  std::optional<ConstrainedMotion> constrained;
   std::vector<double> further_row_forces;  // the result of hold_after_step()
   std::vector<double> settled;             // of follow_turns()
   // A contact with an impulse sets theta = 1 for its particles, which changes the equation of
   // motion. The step is then solved again.
   for (int iterations = 0;;) {
-    if (held_ != nullptr) {
-      held.emplace(setting_.links, state_.particles, times_of_links(equation, h, next),
-                   equation.link_times());
-      held_->hold(held->rows(), h);
+    if (constrained_solver_ != nullptr) {
+      constrained.emplace(setting_.links, state_.particles, times_of_links(equation, h, next),
+                          equation.link_times());
+      constrained_solver_->hold(constrained->rows(), h);
     }
     solver_->place(equation.bodies());
     forces = equation.right_side();
     auto loaded =
         forces;  // by contacts, those of the step before until those of this step are known
-    const auto contacts = held ? contacts_before(h) : std::vector<Contact<2>>{};
+    const auto contacts = constrained ? contacts_before(h) : std::vector<Contact<2>>{};
     for (const auto& contact : contacts)
       add_contact_force(contact, contact.impulse / h, loaded, layout_);
-    if (held)
-      follow_turns(equation, *held, loaded, contacts, held->row_forces(state_.link_forces),
-                   settled);
+    if (constrained)
+      follow_turns(equation, *constrained, loaded, contacts,
+                   constrained->row_forces(state_.link_forces), settled);
     for (int turns = 0;; ++turns) {
       motion.flow = solver_->velocities(forces, true);
       // Forces may have jumped since the step before.
-      if (held && turns == 0 &&
-          follow_turns(equation, *held, loaded, contacts, held_->row_forces(), settled))
+      if (constrained && turns == 0 &&
+          follow_turns(equation, *constrained, loaded, contacts, constrained_solver_->row_forces(),
+                       settled))
         continue;
-      motion.free = free_velocities(equation, motion.flow, h, held ? &*held : nullptr);
+      motion.free =
+          free_velocities(equation, motion.flow, h, constrained ? &*constrained : nullptr);
       motion.linear = motion.free;
-      if (held) {
-        further_row_forces =
-            hold_after_step(equation, *held, motion.flow, motion.linear, h, motion.links_hold);
-        motion.free = held->with_finite_turns(motion.linear);
+      if (constrained) {
+        further_row_forces = hold_after_step(equation, *constrained, motion.flow, motion.linear, h,
+                                             motion.links_hold);
+        motion.free = constrained->with_finite_turns(motion.linear);
       }
-      motion.blow = solve_contacts_of(equation, motion.free, h, next, motion.contact);
-      if (held) hold_with_contacts(equation, *held, h, next, motion, further_row_forces);
-      iterations += motion.contact.iterations + (motion.blow ? motion.blow->iterations : 0);
-      if (!held || motion.blow || turns == kMostTurns) break;
+      motion.impact = solve_contacts_of(equation, motion.free, h, next, motion.contact);
+      if (constrained)
+        hold_with_contacts(equation, *constrained, h, next, motion, further_row_forces);
+      iterations += motion.contact.iterations + (motion.impact ? motion.impact->iterations : 0);
+      if (!constrained || motion.impact || turns == kMostTurns) break;
       loaded = forces;
-      auto of_rows = held_->row_forces();
+      auto of_rows = constrained_solver_->row_forces();
       if (largest_magnitude(motion.contact.loads) > 0) {
         add_elements(motion.contact.loads, loaded);
-        of_rows = held_->row_forces_under(loaded);
+        of_rows = constrained_solver_->row_forces_under(loaded);
       }
-      if (!follow_turns(equation, *held, loaded, motion.contact.contacts, of_rows, settled)) break;
+      if (!follow_turns(equation, *constrained, loaded, motion.contact.contacts, of_rows, settled))
+        break;
     }
     motion.contact.iterations = iterations;
-    if (!equation.put_in_contact(motion.blow ? motion.blow->contacts : motion.contact.contacts))
+    if (!equation.put_in_contact(motion.impact ? motion.impact->contacts : motion.contact.contacts))
       break;
   }
-  motion.buckling =
-      std::max(held ? held->pushing() : 0, turn_of_films(motion.contact.contacts, equation) / 2);
-  const auto& loads = motion.blow ? motion.blow->loads : motion.contact.loads;
-  motion.after = motion.blow ? motion.blow->velocities : motion.contact.velocities;
+  motion.buckling = std::max(constrained ? constrained->pushing() : 0,
+                             turn_of_films(motion.contact.contacts, equation) / 2);
+  const auto& loads = motion.impact ? motion.impact->loads : motion.contact.loads;
+  motion.after = motion.impact ? motion.impact->velocities : motion.contact.velocities;
   if (largest_magnitude(loads) > 0 && !is_split) {
     // The fluid is solved again with the contact forces, because the reported flow and forces of
     // the fluid contain their effect.
@@ -340,48 +352,50 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
     for (std::size_t i = 0; i < before.size(); ++i)
       motion.after[i] = motion.free[i] + (motion.flow[i] - before[i]);
   }
-  motion.moved = motion.blow ? motion.blow->moved : motion.after;
+  motion.moved = motion.impact ? motion.impact->moved : motion.after;
   for (std::size_t i = 0; i < motion.moved.size(); ++i)
     motion.linear[i] += motion.moved[i] - motion.free[i];
-  if (!motion.blow) motion.after = motion.linear;
+  if (!motion.impact) motion.after = motion.linear;
   // The part of the forces that accelerates a particle does not act on the fluid.
   motion.drag = forces;
   for (std::size_t i = 0; i < forces.size(); ++i)
     motion.drag[i] -= equation.inertia()[i] * motion.flow[i];
-  if (held) add_elements(held_->forces_of_step(), motion.drag);
+  if (constrained) add_elements(constrained_solver_->forces_of_step(), motion.drag);
   motion.at_end = equation.velocities_at_end(motion.after, motion.flow);
   if (setting_.fluid->has_inertia()) keep_and_extrapolate(equation, motion);
   std::vector<double> of_step, at_end;  // the forces of the links within the step and at its end
   std::vector<double> row_forces;
-  if (held) {
-    row_forces = held_->row_forces();
+  if (constrained) {
+    row_forces = constrained_solver_->row_forces();
     if (!equation.link_times().empty()) add_elements(further_row_forces, row_forces);
-    of_step = motion.link_forces = held->link_forces(row_forces);
+    of_step = motion.link_forces = constrained->link_forces(row_forces);
     add_torques_of_stops(setting_.links, state_.particles,
-                         motion.blow ? motion.blow->contacts : motion.contact.contacts, h,
+                         motion.impact ? motion.impact->contacts : motion.contact.contacts, h,
                          motion.link_forces);
     if (!equation.link_times().empty()) {
-      at_end = held->link_forces(hold_at_end(equation, *held, motion.linear, motion.at_end));
+      at_end = constrained->link_forces(
+          hold_at_end(equation, *constrained, motion.linear, motion.at_end));
       add_elements(at_end, motion.link_forces);
     }
   }
   motion.quantities = solver_->quantities();
   auto drag = motion.quantities.fluid_forces;
   for (auto& force : drag) force = -force;
-  if (held) held->keep_torques(motion.linear, drag, held_->stiffnesses(), motion.drag);
-  if (held && !setting_.links.arms.empty()) {
+  if (constrained)
+    constrained->keep_torques(motion.linear, drag, constrained_solver_->stiffnesses(), motion.drag);
+  if (constrained && !setting_.links.arms.empty()) {
     const auto working = equation.velocities_of_work(motion.flow, motion.at_end, drag);
     for (std::size_t k = 0; k < setting_.links.arms.size(); ++k) {
       const auto place = setting_.links.place_of_arm(k, state_.particles.dimension);
-      double power = of_step[place] * held->rate_of_arm(k, working) +
-                     held->power_of_turning(k, row_forces, working);
+      double power = of_step[place] * constrained->rate_of_arm(k, working) +
+                     constrained->power_of_turning(k, row_forces, working);
       if (!at_end.empty())
-        power += at_end[place] * held->rate_of_arm_at_end(k, motion.linear, working);
+        power += at_end[place] * constrained->rate_of_arm_at_end(k, motion.linear, working);
       motion.arm_powers.push_back(power);
     }
   }
   if (is_estimated && !setting_.fluid->has_inertia())
-    estimate(equation, forces, held ? &*held : nullptr, motion);
+    estimate(equation, forces, constrained ? &*constrained : nullptr, motion);
   motion.fluid.flow_time = state_.time;
   motion.fluid.is_computed_again = is_computed_twice();
   if (motion.fluid.is_computed_again) {
@@ -422,9 +436,10 @@ void FluidSimulation::report_inertia(Motion& motion) const {
 }
 
 void FluidSimulation::estimate(const StepEquation& equation, std::span<const double> forces,
-                               const HeldMotion* held, Motion& motion) {
+                               const ConstrainedMotion* constrained, Motion& motion) {
   std::function<std::vector<double>()> link_forces;
-  if (has_links_) link_forces = [&] { return held->link_forces(held_->row_forces()); };
+  if (has_links_)
+    link_forces = [&] { return constrained->link_forces(constrained_solver_->row_forces()); };
   auto estimate = estimate_flow(*solver_, forces, state_.particles, *setting_.fluid, link_forces);
   motion.fluid.velocity_errors = estimate.of_velocities;
   motion.fluid.force_errors = estimate.of_forces;
@@ -435,8 +450,8 @@ void FluidSimulation::estimate(const StepEquation& equation, std::span<const dou
   for (std::size_t i = 0; i < moved.size(); ++i)
     moved[i] += estimate.velocities[i] - motion.flow[i];
   motion.reported = equation.velocities_at_end(moved, estimate.velocities);
-  if (held != nullptr && !equation.link_times().empty())
-    hold_at_end(equation, *held, moved, motion.reported);
+  if (constrained != nullptr && !equation.link_times().empty())
+    hold_at_end(equation, *constrained, moved, motion.reported);
 }
 
 void FluidSimulation::check_ellipses() const {

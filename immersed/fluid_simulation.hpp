@@ -18,11 +18,11 @@
 
 namespace viscontact::particles {
 
-class HeldMotion;
-class HeldSolver;
+class ConstrainedMotion;
+class ConstrainedSolver;
 class StepEquation;
 struct ContactConditions;
-struct FluidBlow;
+struct FluidImpact;
 struct StepContacts;
 
 /// Estimates of the errors of the forces of one step, >= 0 [M L/T^2, M L^2/T^2]; empty if there are
@@ -130,11 +130,11 @@ class FluidSimulation {
   Motion solve(double h, double next, bool is_estimated);
   /// U^+ of all particles without contact, from their velocities `flow` (U).
   std::vector<double> free_velocities(const StepEquation& equation, std::span<const double> flow,
-                                      double h, const HeldMotion* held);
-  /// Sets `contacts` to the solution without restitution, and returns the blow if solids rebound.
-  std::optional<FluidBlow> solve_contacts_of(const StepEquation& equation,
-                                             std::span<const double> free, double h, double next,
-                                             StepContacts& contacts);
+                                      double h, const ConstrainedMotion* constrained);
+  /// Sets `contacts` to the solution without restitution, and returns the impact if solids rebound.
+  std::optional<FluidImpact> solve_contacts_of(const StepEquation& equation,
+                                               std::span<const double> free, double h, double next,
+                                               StepContacts& contacts);
   /// Throws Error(kNotConverged) if an ellipse comes too near, because contacts of ellipses are not
   /// computed. Ellipses with a given motion may be near to walls, planes and driven particles.
   void check_ellipses() const;
@@ -142,7 +142,7 @@ class FluidSimulation {
   /// which include those of contacts, and sets errors and, except with Coupling::kSplitting,
   /// Motion::reported.
   void estimate(const StepEquation& equation, std::span<const double> forces,
-                const HeldMotion* held, Motion& motion);
+                const ConstrainedMotion* constrained, Motion& motion);
   /// Sets Motion::kept and Motion::at_end in a fluid with inertia.
   void keep_and_extrapolate(const StepEquation& equation, Motion& motion) const;
   /// Sets the members of FluidStepReport that only a fluid with inertia has, but the kinetic
@@ -150,7 +150,7 @@ class FluidSimulation {
   void report_inertia(Motion& motion) const;
   ContactConditions contact_conditions(std::span<const double> free, double h) const;
   /// The time [T] for which the forces of a step of length h act on its velocities.
-  double kick_length(double h) const;
+  double impulse_time_of(double h) const;
   /// In the first step of a fluid with inertia.
   bool is_computed_twice() const;
   /// For the `velocities` with which the particles move.
@@ -168,24 +168,25 @@ class FluidSimulation {
   /// that belong to their lengths; `holds` if this is so within the tolerance. Returns the forces
   /// of the rows minus those with which the fluid solver found `flow`. Throws Error(kNotConverged)
   /// if a length or place would be off by more than a mean radius.
-  std::vector<double> hold_after_step(const StepEquation& equation, const HeldMotion& held,
+  std::vector<double> hold_after_step(const StepEquation& equation,
+                                      const ConstrainedMotion& constrained,
                                       std::span<const double> flow, std::vector<double>& velocities,
                                       double h, bool& holds) const;
   /// The error of lengths that the tolerance allows [L].
   double tolerated_length() const { return setting_.solver.tolerance * mean_radius_; }
   /// The same for hinges and arms alone. Adds the forces that this needs to `row_forces` and
   /// returns the largest error of a length or place [L] that is left.
-  double hold_turned(const HeldMotion& held, double h, std::vector<double>& velocities,
-                     std::vector<double>& row_forces) const;
+  double hold_turned(const ConstrainedMotion& constrained, double h,
+                     std::vector<double>& velocities, std::vector<double>& row_forces) const;
   /// The contacts of the step before, except those of plates, at their present places and with the
   /// impulses of the same forces in a step of length h.
   std::vector<Contact<2>> contacts_before(double h) const;
   /// Adds the geometric rows for the forces of links and contacts, and finds their stiffnesses
   /// under `loaded`, the given forces and those of contacts. Returns true if the step must be
   /// solved again.
-  bool follow_turns(const StepEquation& equation, HeldMotion& held, std::vector<double> loaded,
-                    std::span<const Contact<2>> contacts, std::span<const double> row_forces,
-                    std::vector<double>& settled);
+  bool follow_turns(const StepEquation& equation, ConstrainedMotion& constrained,
+                    std::vector<double> loaded, std::span<const Contact<2>> contacts,
+                    std::span<const double> row_forces, std::vector<double>& settled);
   /// The largest z, physics.md (6.15), of films that pull along their direction at the beginning of
   /// the step: those of the ends of plates, and with Coupling::kSplitting those of discs. z >= 0
   /// [1] bounds the length of the step times the rate at which what the film pulls turns. A film
@@ -193,20 +194,22 @@ class FluidSimulation {
   double turn_of_films(std::span<const Contact<2>> contacts, const StepEquation& equation) const;
   /// Makes bodies rigid, and hinges and arms hold, at the end of a step with contacts: contacts
   /// change the angles by which bodies and links turn, and with these the forces of the rows, with
-  /// which the contacts are solved again. Ends as soon as there is a blow.
-  void hold_with_contacts(const StepEquation& equation, const HeldMotion& held, double h,
-                          double next, Motion& motion, std::vector<double>& row_forces);
+  /// which the contacts are solved again. Ends as soon as there is an impact.
+  void hold_with_contacts(const StepEquation& equation, const ConstrainedMotion& constrained,
+                          double h, double next, Motion& motion, std::vector<double>& row_forces);
   /// Changes the velocities `at_end` of particles that accelerate until hinges and arms hold for
   /// them after a step in which particles moved with `moved`. Returns the forces of the rows.
-  std::vector<double> hold_at_end(const StepEquation& equation, const HeldMotion& held,
+  std::vector<double> hold_at_end(const StepEquation& equation,
+                                  const ConstrainedMotion& constrained,
                                   std::span<const double> moved, std::vector<double>& at_end) const;
   void move_bodies(const Motion& motion, double h, double next);
 
   Setting setting_;
   State state_;
   std::unique_ptr<FluidSolver> solver_;
-  HeldSolver* held_ = nullptr;  // points to *solver_ in the plane, and with links
-  bool has_links_ = false;      // the case has bodies or links
+  ConstrainedSolver* constrained_solver_ =
+      nullptr;              // points to *solver_ in the plane, and with links
+  bool has_links_ = false;  // the case has bodies or links
   MotionLayout layout_;
   double mean_radius_;  // [L]
   ThreadPool pool_;

@@ -44,7 +44,7 @@ ConstraintSystem<D>::ConstraintSystem(const ConstraintStep& step, const Particle
       mobilities_(mobilities),
       mean_radius_(mean_radius(particles)),
       is_convex_(step.laws.friction && step.laws.friction->method == FrictionMethod::kConvex),
-      times_{step.end - step.begin, step.kick, step.end, step.is_first},
+      times_{step.end - step.begin, step.impulse_time, step.end, step.is_first},
       free_turns_(step.turns.begin(), step.turns.end()),
       free_bodies_(step.bodies.begin(), step.bodies.end()),
       links_(link_equations(*step.links, particles, times_)),
@@ -54,7 +54,7 @@ ConstraintSystem<D>::ConstraintSystem(const ConstraintStep& step, const Particle
       unit_of_particle_(mobilities.size(), -1),
       unit_of_body_(particles.bodies.count(), -1),
       offsets_(particles.bodies.empty() ? 0 : particles.count()) {
-  assert(step.end > step.begin && step.kick > 0);
+  assert(step.end > step.begin && step.impulse_time > 0);
   assert(displacements.size() == mobilities.size() * static_cast<std::size_t>(D));
   assert(step.turn_mobilities.size() == mobilities.size());
   assert(step.turns.size() == mobilities.size() * static_cast<std::size_t>(kTurns<D>));
@@ -107,7 +107,7 @@ void ConstraintSystem<D>::add(const Contact<D>& contact, const Pair& pair,
       pair.gamma -
       step_.laws.lowest_gamma(pair, memory, radii_of(pair, particles_, step_.obstacles));
   state.friction = memory.friction();
-  state.carried = state.first_load = memory[Remembered::kCarried];
+  state.solid_load = state.first_load = memory[Remembered::kSolidLoad];
   contact_states_.push_back(state);
 }
 
@@ -240,7 +240,7 @@ bool ConstraintSystem<D>::begin_without_contacts(ContactSystem<D>& system, Islan
     const auto& link = links_[island.links[b]];
     const auto& block = problem.blocks[island.contacts.size() + b];
     for (std::size_t k = 0; !block.is_contact && k < block.rows; ++k)
-      problem.impulses[block.row + k] = times_.kick * link_forces_[link.first_force + k];
+      problem.impulses[block.row + k] = times_.impulse_time * link_forces_[link.first_force + k];
   }
   change_tensions(system, island, motions, true);
   return true;
@@ -279,8 +279,8 @@ void ConstraintSystem<D>::take_over(ContactSystem<D>& system, const Island& isla
     auto& state = contact_states_[c];
     system.contacts[c].impulse = impulse;
     state.friction = {};
-    state.carried = has_friction(state.tangents) ? load_of_solids(impulse, block.capacity) : 0;
-    if (state.carried > 0 && has_given_slip(system.contacts[c]))
+    state.solid_load = has_friction(state.tangents) ? load_of_solids(impulse, block.capacity) : 0;
+    if (state.solid_load > 0 && has_given_slip(system.contacts[c]))
       state.friction = friction_of_given_slip(system.contacts[c], state);
     for (std::size_t k = 1; k < block.rows; ++k)
       state.friction =
@@ -303,7 +303,7 @@ void ConstraintSystem<D>::take_over(ContactSystem<D>& system, const Island& isla
     const bool is_stop = link.kind == LinkEquations::Kind::kStop;
     const double sign = is_stop ? link.parts().front().direction[2] : 1;
     for (std::size_t k = 0; k < block.rows; ++k)
-      forces_of(l)[k] += sign * problem.impulses[block.row + k] / times_.kick;
+      forces_of(l)[k] += sign * problem.impulses[block.row + k] / times_.impulse_time;
     ++b;
   }
   take_impulses_across(island, solution.motions);
@@ -488,7 +488,7 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
   };
   // Begins anew with friction that the loads of `impulses` bound, or, if it is empty, those of a
   // solution without friction. If this fails, restores the problem and returns false.
-  const auto give_up_anew = [&](const std::vector<double>& impulses) {
+  const auto retry_with_given_loads = [&](const std::vector<double>& impulses) {
     if (!may_give_up(island)) return false;
     auto corrected = problem;
     const auto tensions = island.tensions;
@@ -541,7 +541,7 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
       if (is_convex_) first_impulses = problem.impulses;
     } else if (is_convex_ && first_loads > 0 && sum_of_loads(problem) > kMostLoads * first_loads &&
                energy_of<D>(problem, solution.motions) > kMostEnergy * first_energy &&
-               give_up_anew(first_impulses)) {
+               retry_with_given_loads(first_impulses)) {
       n = 0;
       continue;
     }
@@ -552,7 +552,7 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
         n = -1;
         continue;
       }
-      if (n > 0 && give_up_anew(first_impulses)) {
+      if (n > 0 && retry_with_given_loads(first_impulses)) {
         n = 0;
         continue;
       }
@@ -586,7 +586,7 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
       }
       // Friction may turn bodies so far that corrections do not converge.
       if (island.has_given_up) break;
-      if (!give_up_anew({})) break;
+      if (!retry_with_given_loads({})) break;
       n = 0;
       continue;
     }
@@ -611,7 +611,8 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
     }
   }
   if (is_rough)
-    for (const auto c : island.contacts) contact_states_[c].first_load = contact_states_[c].carried;
+    for (const auto c : island.contacts)
+      contact_states_[c].first_load = contact_states_[c].solid_load;
   if (is_rough || island.has_given_up) return result;
   for (std::size_t b = 0; b < island.contacts.size(); ++b)
     contact_states_[island.contacts[b]].last_load = problem.blocks[b].given_load;

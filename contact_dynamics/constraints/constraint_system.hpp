@@ -34,7 +34,7 @@ struct ConstraintStep {
   double begin = 0,
          end = 0;  ///< both [T]
   bool is_first = false;
-  double kick = 0;          ///< time for which forces act on the velocities in the step [T], > 0
+  double impulse_time = 0;  ///< time for which forces act on the velocities in the step [T], > 0
   std::span<double> turns;  ///< h w of all particles [rad], 1 (discs) or 3 numbers for each
   /// h/I of all particles [T/(M L^2)], > 0, or 0 if the motion is given. This and the arrays of
   /// displacements, mobilities and turns also have entries of the planes under a load, after those
@@ -144,7 +144,7 @@ class ConstraintSystem {
   void remember(std::size_t c, PairMemory& memory) const {
     assert(c < contact_states_.size());
     memory.set_friction(contact_states_[c].friction);
-    memory[Remembered::kCarried] = contact_states_[c].carried;
+    memory[Remembered::kSolidLoad] = contact_states_[c].solid_load;
     memory.set_across(contact_states_[c].across);
   }
   const BlockResidual& residual(std::size_t c) const { return contact_states_[c].residual; }
@@ -157,7 +157,7 @@ class ConstraintSystem {
   /// the last solution, or the first guess.
   double link_impulse(std::size_t l, std::size_t k) const {
     assert(l < links_.size() && k < links_[l].rows.size());
-    return times_.kick * link_forces_[links_[l].first_force + k];
+    return times_.impulse_time * link_forces_[links_[l].first_force + k];
   }
   /// Adds the impulses of links across their directions on particles whose motion is given.
   void add_loads_across(std::vector<GivenParticleLoad>& on_given) const {
@@ -206,7 +206,7 @@ class ConstraintSystem {
     ContactTangents<D> tangents;
     Vector friction{};      // impulse of friction [M L/T]
     Vector across{};        // impulse of the film across the normal, on the second particle [M L/T]
-    double carried = 0;     // part of the impulse that solids carry [M L/T]
+    double solid_load = 0;  // part of the impulse that solids carry [M L/T]
     double first_load = 0;  // load with which solutions begin, that of the last rough solution or
                             // of the step before [M L/T]
     double given_load = 0;  // load that bounds the friction after the island has given up [M L/T]

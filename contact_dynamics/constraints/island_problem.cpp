@@ -74,7 +74,7 @@ Vector ConstraintSystem<D>::friction_of_given_slip(const Contact<D>& contact,
   slip = slip - dot(slip, normal) * normal;
   const double length = norm(slip);
   if (!(length > 0)) return {};
-  return (-step_.laws.friction->coefficient * state.carried / length) * slip;
+  return (-step_.laws.friction->coefficient * state.solid_load / length) * slip;
 }
 
 template <int D>
@@ -126,7 +126,7 @@ void ConstraintSystem<D>::add_link(std::size_t l, double allowed, ConstraintProb
       else
         parts.push_back({unit_of_particle_[index_of(part.particle)], row_of<D>(part)});
     const double guess = is_stop ? 0 : first_link_forces_[link.first_force + k];
-    problem.add_row(offset, parts, times_.kick * guess);
+    problem.add_row(offset, parts, times_.impulse_time * guess);
   }
 }
 
@@ -156,7 +156,7 @@ void ConstraintSystem<D>::give_loads_of_step(Island& island) {
   for (std::size_t b = 0; b < island.contacts.size(); ++b) {
     auto& state = contact_states_[island.contacts[b]];
     if (!state.gave_up)
-      state.given_load = state.could_not_give_up ? state.first_load : state.carried;
+      state.given_load = state.could_not_give_up ? state.first_load : state.solid_load;
     state.gave_up = true;
     island.problem.blocks[b].given_load = state.given_load;
   }

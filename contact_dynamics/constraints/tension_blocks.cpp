@@ -34,11 +34,11 @@ std::vector<LinkRow> ConstraintSystem<D>::tension_rows(const ContactSystem<D>& s
   if (b >= island.contacts.size()) {
     std::vector<double> forces;
     for (std::size_t k = 0; k < block.rows; ++k)
-      forces.push_back(problem.impulses[block.row + k] / times_.kick);
+      forces.push_back(problem.impulses[block.row + k] / times_.impulse_time);
     return rows_of_tension(links_[island.links[b - island.contacts.size()]], forces, particles_);
   }
   const auto& contact = system.contacts[island.contacts[b]];
-  const double force = problem.impulses[block.row] / times_.kick;
+  const double force = problem.impulses[block.row] / times_.impulse_time;
   if (contact.first < 0 || !(force < 0)) return {};
   const auto first = side_of(contact.first), second = side_of(contact.second);
   if (first.unit == second.unit) return {};
@@ -65,7 +65,7 @@ std::vector<double> ConstraintSystem<D>::film_kappas_of_units(const ContactSyste
         const auto unit = unit_of_particle_[index_of(part.particle)];
         const std::array<RowPart<D>, 1> own = {{{unit, row_of<D>(part)}}};
         auto& kappa = kappas[index_of(unit)];
-        kappa += times_.kick * rows[k].stiffness * mobility_of<D>(own, problem);
+        kappa += times_.impulse_time * rows[k].stiffness * mobility_of<D>(own, problem);
         largest = std::max(largest, kappa);
       }
     }
@@ -128,9 +128,9 @@ double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Isla
       double kappa = 0;
       for (const auto& part : row.parts)
         if (is_film) kappa = std::max(kappa, of_films[index_of(part.unit)]);
-      double stiffness =
-          equation.stiffness *
-          (is_film ? share_of_film(kappa) : share_of_tension(times_.kick * equation.stiffness * w));
+      double stiffness = equation.stiffness *
+                         (is_film ? share_of_film(kappa)
+                                  : share_of_tension(times_.impulse_time * equation.stiffness * w));
       const double rate = rate_of(equation, particles_);
       // The tension that keeps a pair on its circle does not pull it back.
       if (times_.is_first && !first.is_turn) {
@@ -146,7 +146,7 @@ double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Isla
       row.block.is_contact = false;
       row.block.is_geometric = true;
       row.block.allowed = allowed / (first.is_turn ? mean_radius_ : 1);
-      row.block.compliance = 1 / (times_.beta_across() * times_.kick * stiffness);
+      row.block.compliance = 1 / (times_.beta_across() * times_.impulse_time * stiffness);
       row.value = (times_.is_first ? 0 : -times_.h * rate) + given;
       double value = row.value;
       for (const auto& [unit, coefficients] : row.parts)
@@ -216,8 +216,8 @@ double ConstraintSystem<D>::buckling() const {
     const double force = link_forces_[link.first_force];
     if (link.kind == Kind::kArea) {
       for (const auto& part : link.parts())
-        largest =
-            std::max(largest, times_.kick * std::abs(force) * mobilities_[index_of(part.particle)]);
+        largest = std::max(
+            largest, times_.impulse_time * std::abs(force) * mobilities_[index_of(part.particle)]);
       continue;
     }
     if (!(force > 0) ||
@@ -229,7 +229,7 @@ double ConstraintSystem<D>::buckling() const {
                                                 particles_.position(index_of(parts[0].particle))));
     double w = 0;
     for (const auto& part : parts) w += mobilities_[index_of(part.particle)];
-    if (length > 0) largest = std::max(largest, times_.kick * force / length * w);
+    if (length > 0) largest = std::max(largest, times_.impulse_time * force / length * w);
   }
   return largest;
 }

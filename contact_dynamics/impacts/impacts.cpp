@@ -14,7 +14,7 @@ namespace viscontact::particles {
 namespace {
 
 // Times of hits that differ by less than this share of the step count as equal, so that the hits of
-// a symmetric blow are decided together in spite of rounding errors.
+// a symmetric impact are decided together in spite of rounding errors.
 constexpr double kSameTime = 1e-9;
 
 /// A root of a continuous function that is > 0 at `from` and <= 0 at `until`, by the Illinois
@@ -53,7 +53,7 @@ double root_of_falling(const Function& f, double from, double until) {
 template <int D>
 Impacts<D>::Impacts(State& state, const ImpactStep& step)
     : state_(state), step_(step), free_bodies_(step.bodies.begin(), step.bodies.end()) {
-  assert(step.h > 0 && step.kick > 0 && step.end >= step.begin && step.touching > 0);
+  assert(step.h > 0 && step.impulse_time > 0 && step.end >= step.begin && step.touching > 0);
   assert(step.displacements.size() == step.mobilities.size() * static_cast<std::size_t>(D));
   assert(step.turns.empty() == step.turn_mobilities.empty());
   assert(step.bodies.size() == state.particles.bodies.count());
@@ -86,7 +86,7 @@ Vector Impacts<D>::free_velocity(std::int32_t k) const {
 template <int D>
 Vector Impacts<D>::acceleration(std::int32_t k) const {
   if (is_given(k)) return {};
-  return (1 / step_.kick) * (free_velocity(k) - state_.particles.velocity(index_of(k)));
+  return (1 / step_.impulse_time) * (free_velocity(k) - state_.particles.velocity(index_of(k)));
 }
 
 template <int D>
@@ -109,7 +109,7 @@ Vector Impacts<D>::centre_acceleration(std::int32_t k) const {
   const auto body = k < 0 ? -1 : state_.particles.bodies.body_of(k);
   if (body < 0) return acceleration(k);
   const Vector before = state_.particles.bodies.bodies[index_of(body)].velocity;
-  return (1 / step_.kick) * (centre_velocity(k) - before);
+  return (1 / step_.impulse_time) * (centre_velocity(k) - before);
 }
 
 template <int D>
@@ -117,7 +117,7 @@ typename Impacts<D>::Arm Impacts<D>::arm_of(std::int32_t k) const {
   const auto body = k < 0 ? -1 : state_.particles.bodies.body_of(k);
   if (body < 0) return {};
   const Vector before = state_.particles.bodies.bodies[index_of(body)].angular_velocity;
-  return {offset_in_body(state_.particles, k), spin(k), flight_or_none(k).late_turn,
+  return {offset_in_body(state_.particles, k), spin(k), flight_or_none(k).turn_lag,
           free_spin(k) - before};
 }
 
@@ -126,8 +126,7 @@ RigidBody Impacts<D>::body_at(std::int32_t k, double t) const {
   const auto number = index_of(state_.particles.bodies.body_of(k));
   const auto& before = state_.particles.bodies.bodies[number];
   RigidBody body{before, {}, {}, {}, before.mass, before.inertia};
-  if (D == 3)
-    body.orientation = turned(body.orientation, t * spin(k) - flight_or_none(k).late_turn);
+  if (D == 3) body.orientation = turned(body.orientation, t * spin(k) - flight_or_none(k).turn_lag);
   body.angular_momentum = step_.bodies[number].angular_momentum;
   update_angular_velocity(body, D);
   return body;
@@ -155,14 +154,14 @@ typename Impacts<D>::Approach Impacts<D>::approach_of(std::size_t k) {
   if (of.first < 0) {
     approach.obstacle = &step_.obstacles[of.plane()];
     approach.sum = p.radii[second];
-    approach.c = p.position(second) - flies.late;
+    approach.c = p.position(second) - flies.lag;
     return approach;
   }
   const auto& other = flight_or_none(of.first);
   const Vector other_pull = centre_acceleration(of.first);
   const auto apart = separation<D>(p, of.first, of.second, of.image);
   for (std::size_t d = 0; d < D; ++d) approach.c[d] = apart[d];
-  approach.c = approach.c - (flies.late - other.late);
+  approach.c = approach.c - (flies.lag - other.lag);
   approach.a = approach.a - (centre_velocity(of.first) - half * other_pull + other.change);
   approach.b = approach.b - 0.5 * other_pull;
   approach.first = arm_of(of.first);
@@ -223,8 +222,8 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
                                                   double until) const {
   assert(from <= until);
   const auto* obstacle = approach.obstacle;
-  // After a blow the gap is 0 but for rounding errors, of either sign. A gap that opens at `from`
-  // therefore closes when it falls to 0, or, if it is < 0 at `from`, to its value there.
+  // After an impact the gap is 0 but for rounding errors, of either sign. A gap that opens at
+  // `from` therefore closes when it falls to 0, or, if it is < 0 at `from`, to its value there.
   const double closed = std::min(gap_of(approach, from), 0.0);
   const auto gap_at = [&](double t) { return gap_of(approach, t) - closed; };
   const auto rate_at = [&](double t) {
@@ -287,9 +286,9 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
   const auto& of = pair(k);
   const Vector normal = normal_of(approach, time);
   auto at_start = approach;
-  at_start.c = at_start.c + flight_or_none(of.second).late;
-  if (of.first >= 0) at_start.c = at_start.c - flight_or_none(of.first).late;
-  at_start.first.late = at_start.second.late = {};
+  at_start.c = at_start.c + flight_or_none(of.second).lag;
+  if (of.first >= 0) at_start.c = at_start.c - flight_or_none(of.first).lag;
+  at_start.first.lag = at_start.second.lag = {};
   // An approach slower than `ended` [L/T] would cause a bounce that lasts less than this fraction
   // of the step. The contact then counts as at rest. Both limits of rest, this one and `pulled`,
   // tend to 0 with h (docs/physics.md (5.16)).
@@ -308,7 +307,7 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
   // if the pair touched at the beginning of the step and neither approached nor opened faster than
   // `unseen`, or, if it bore a load, approached no faster than `pulled`. Such a pair is hit only if
   // it approaches faster than `pulled`, because slower hits would keep a packing shaking. A pair
-  // without load that opens still flies after a blow, also if its gap is below `touching`.
+  // without load that opens still flies after an impact, also if its gap is below `touching`.
   const double pulled = 5 * step_.h *
                         std::max({std::abs(dot(normal, acceleration(of.second))),
                                   std::abs(dot(normal, acceleration(of.first))), std::abs(pull)});
@@ -327,9 +326,9 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
       turning_of(of.second, approach.second) - turning_of(of.first, approach.first);
   const Vector flies = velocity_of(approach, time) + turning;
   const double rate =
-      dot(normal,
-          rests ? approach.velocity_without_forces(time, step_.kick, step_.h) - surface + turning
-                : flies);
+      dot(normal, rests ? approach.velocity_without_forces(time, step_.impulse_time, step_.h) -
+                              surface + turning
+                        : flies);
   if (!(-rate > std::max({ended, unseen, rests ? pulled : 0.0}))) return std::nullopt;
   return Hit{k, normal, rate, flies, approach.sum};
 }
@@ -341,7 +340,7 @@ void Impacts<D>::expect(std::size_t k, double from) {
   const std::array versions = {version(of.first), version(of.second)};
   if (!hits_of_.empty()) {
     // A pair that has been hit so often in a step, or so often with a load, is not hit again,
-    // because blows under load can follow each other without end.
+    // because impacts under load can follow each other without end.
     constexpr int kMostHits = 1000, kMostUnderLoad = 30;
     if (hits_of_[k] >= (of.impulse == 0 ? kMostHits : kMostUnderLoad)) return;
   }
@@ -382,7 +381,7 @@ void Impacts<D>::run() {
       pairs_of_.emplace(state_, true);
       hits_of_.resize(pair_count());
     }
-    // Hits that share a particle or a rigid body are one blow. The key of a particle k without a
+    // Hits that share a particle or a rigid body are one impact. The key of a particle k without a
     // body is k, that of the rigid body b is -1 - b.
     std::map<std::int32_t, std::size_t> group_of;
     std::vector<std::vector<Hit>> groups;
@@ -405,7 +404,7 @@ void Impacts<D>::run() {
       }
     }
     for (const auto& group : groups)
-      if (!group.empty()) strike(group, time);
+      if (!group.empty()) apply_impacts(group, time);
   }
   finish();
 }
@@ -417,7 +416,7 @@ void Impacts<D>::finish() {
   for (const auto particle : touched_) {
     const auto k = index_of(particle);
     auto& of = flight(particle);
-    Vector moves = step_.h * of.change - of.late, turns = step_.h * of.turn_change - of.late_turn;
+    Vector moves = step_.h * of.change - of.lag, turns = step_.h * of.turn_change - of.turn_lag;
     if (const auto body = p.bodies.body_of(particle); body >= 0) {
       const auto& step = step_.bodies[index_of(body)];
       const Vector moved =
@@ -447,15 +446,15 @@ Vector Impacts<D>::displacement(std::int32_t k) const {
 }
 
 template <int D>
-void Impacts<D>::add_late_changes(Particles& particles) const {
+void Impacts<D>::add_lags(Particles& particles) const {
   constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);
   for (const auto particle : touched_) {
     const auto k = index_of(particle);
     const auto& of = flight_or_none(particle);
-    for (std::size_t i = 0; i < d; ++i) particles.velocities[k * d + i] += of.late[i] / step_.h;
+    for (std::size_t i = 0; i < d; ++i) particles.velocities[k * d + i] += of.lag[i] / step_.h;
     if (!step_.turns.empty())
       for (std::size_t i = 0; i < r; ++i)
-        particles.angular_velocities[k * r + i] += of.late_turn[3 - r + i] / step_.h;
+        particles.angular_velocities[k * r + i] += of.turn_lag[3 - r + i] / step_.h;
   }
 }
 

@@ -91,7 +91,7 @@ Contact<D> StepProjection<D>::contact_at_end(std::size_t k) {
     square += end[d] * end[d];
   }
   // The normals of particles that pass each other differ by more than 60 degrees in the step
-  // (cosine 0.5). That at the beginning is then used, as in a step without blows.
+  // (cosine 0.5). That at the beginning is then used, as in a step without impacts.
   constexpr double kLeastCosine = 0.5;
   double cosine = 0;
   for (std::size_t d = 0; d < D; ++d) cosine += contact.normal[d] * end[d];
@@ -333,7 +333,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     auto memory = state_.memories.of(pair(chosen_[c]).memory);
     constraints_->remember(c, memory);
     if (is_error) {
-      memory[Remembered::kCarried] = 0;
+      memory[Remembered::kSolidLoad] = 0;
       // If given loads bound the friction, it may be large although the normal impulse is 0.
       if (norm(memory.friction()) <= error) memory.set_friction({});
     }

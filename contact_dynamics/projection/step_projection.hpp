@@ -170,7 +170,7 @@ class StepProjection {
                  std::span<const std::int32_t> loaded = {});
   /// Makes solve() treat friction, rigid bodies and links, too. `step` must outlive this object.
   void add_constraints(const ConstraintStep& step);
-  /// Makes solve() linearise contacts at the places where blows (collisions of solids) have left
+  /// Makes solve() linearise contacts at the places where impacts (collisions of solids) have left
   /// their particles, because contacts that are linearised elsewhere could stop particles that pass
   /// each other. Gaps are then never distances, with which the projection would add energy.
   /// `impacts` must outlive this object.
@@ -213,7 +213,7 @@ class StepProjection {
   std::int32_t loaded_plane(std::size_t k) {
     return loaded_.empty() || pair(k).first >= 0 ? -1 : loaded_[pair(k).plane()];
   }
-  // The normal is that at the end of the step, where blows have left both particles, and the gap
+  // The normal is that at the end of the step, where impacts have left both particles, and the gap
   // [L] that at the beginning along this normal.
   Contact<D> contact_at_end(std::size_t k);
   Contact<D> contact(std::size_t k) {

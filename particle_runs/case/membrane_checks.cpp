@@ -21,8 +21,9 @@ namespace {
 
 void check_case_without_fluid(const case_file::TomlSection& root, const ParticlesCase& c) {
   root.section("viscous_contact")
-      .require(!c.setting.laws.restitution.is_on(), "restitution",
-               "must be left out, because the case has membranes, through which a blow would pass");
+      .require(
+          !c.setting.laws.restitution.is_on(), "restitution",
+          "must be left out, because the case has membranes, through which an impact would pass");
 }
 
 /// Throws Error(kBadInput) if a case with a fluid has something that cannot be combined with

@@ -264,7 +264,7 @@ void load_keys(case_file::Keys& keys, Plane& plane, const ParticlesCase& c) {
                   "its velocity");
   section.require(
       !c.setting.laws.restitution.is_on(), key,
-      "must be left out, because the case has viscous_contact.restitution, and blows on "
+      "must be left out, because the case has viscous_contact.restitution, and impacts on "
       "a plane that moves under a load are not computed");
   section.require(norm(plane.angular_velocity) == 0, "angular_velocity",
                   "must be left out, because a plane with {} does not turn", key);
@@ -404,11 +404,12 @@ void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
                "must be left out, because the fluid has a density and fluid.coupling is "
                "\"splitting\": the momentum of the fluid around a particle would not rebound");
   root.section("viscous_contact")
-      .require(!c.setting.laws.restitution.is_on() || c.setting.fluid.has_value() ||
-                   (c.setting.links.hinges.empty() && c.setting.links.arms.empty()),
-               "restitution",
-               "must be left out, because the case has hinges or arms, through which a blow would "
-               "pass; bodies and springs may rebound");
+      .require(
+          !c.setting.laws.restitution.is_on() || c.setting.fluid.has_value() ||
+              (c.setting.links.hinges.empty() && c.setting.links.arms.empty()),
+          "restitution",
+          "must be left out, because the case has hinges or arms, through which an impact would "
+          "pass; bodies and springs may rebound");
   if (root.has("sweep"))
     case_file::read_keys(root.section("sweep"), particles_sweep_keys, c.sweep.emplace());
   root.finish();

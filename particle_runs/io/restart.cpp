@@ -35,16 +35,16 @@ struct StoredArrays {
   std::vector<std::int32_t> images;  ///< of state.pairs; empty if all are 0
   std::vector<std::int32_t> places;  ///< of state.pairs, then of state.walls; empty if all are 0
   std::vector<Vector> frictions;     ///< of pairs and walls; empty if all are 0
-  std::vector<double> carried;       ///< Remembered::kCarried, as `frictions`
+  std::vector<double> solid_load;    ///< Remembered::kSolidLoad, as `frictions`
   std::vector<BodyMotion> bodies;
   /// The other memories (kMemoryFields), if not all of their numbers are 0: `names` has the name of
   /// each with a line break, `memories` for each name one number for each pair and wall.
   std::vector<char> names;
   std::vector<double> memories;
-  // The members of State::blows, in an array for each, because BlowImpulse has bytes without a
+  // The members of State::impacts, in an array for each, because ImpactImpulse has bytes without a
   // value, which would change the hash of the file.
-  std::vector<std::int32_t> blow_firsts;
-  std::vector<Vector> blow_impulses, blow_branches;
+  std::vector<std::int32_t> impact_firsts;
+  std::vector<Vector> impact_impulses, impact_branches;
   std::vector<std::int32_t> given_particles;
   std::vector<Vector> given_forces, given_torques;
 };
@@ -77,7 +77,7 @@ void for_fields(State& state, Arrays& arrays, Field&& field) {
   field(p.orientations);
   field(arrays.frictions);
   field(state.velocity_lag);
-  field(arrays.carried);
+  field(arrays.solid_load);
   field(arrays.bodies);
   field(state.link_forces);
   field(state.arm_powers);
@@ -88,9 +88,9 @@ void for_fields(State& state, Arrays& arrays, Field&& field) {
   field(state.earlier_positions);
   field(arrays.places);
   field(state.sources);
-  field(arrays.blow_firsts);
-  field(arrays.blow_impulses);
-  field(arrays.blow_branches);
+  field(arrays.impact_firsts);
+  field(arrays.impact_impulses);
+  field(arrays.impact_branches);
   field(state.planes);
   field(arrays.given_particles);
   field(arrays.given_forces);
@@ -107,7 +107,7 @@ void store_memories(const State& state, StoredArrays& arrays) {
   };
   all([&](const PairMemory& memory) {
     arrays.frictions.push_back(memory.friction());
-    arrays.carried.push_back(memory[Remembered::kCarried]);
+    arrays.solid_load.push_back(memory[Remembered::kSolidLoad]);
   });
   for (std::size_t f = kFirstNamed; f < kMemoryFields.size(); ++f) {
     std::vector<double> values;
@@ -125,13 +125,13 @@ void store_memories(const State& state, StoredArrays& arrays) {
 bool take_memories(const StoredArrays& arrays, State& state) {
   const auto count = state.pairs.size() + state.walls.size();
   const auto fits = [&](std::size_t size) { return size == 0 || size == count; };
-  if (!fits(arrays.frictions.size()) || !fits(arrays.carried.size())) return false;
+  if (!fits(arrays.frictions.size()) || !fits(arrays.solid_load.size())) return false;
   std::vector<PairMemory> memories(count);
   for (std::size_t k = 0; k < arrays.frictions.size(); ++k)
     memories[k].set_friction(arrays.frictions[k]);
-  for (std::size_t k = 0; k < arrays.carried.size(); ++k) {
-    if (!(arrays.carried[k] >= 0)) return false;
-    memories[k][Remembered::kCarried] = arrays.carried[k];
+  for (std::size_t k = 0; k < arrays.solid_load.size(); ++k) {
+    if (!(arrays.solid_load[k] >= 0)) return false;
+    memories[k][Remembered::kSolidLoad] = arrays.solid_load[k];
   }
   std::size_t begin = 0, used = 0;
   while (begin < arrays.names.size()) {
@@ -155,18 +155,20 @@ bool take_memories(const StoredArrays& arrays, State& state) {
 
 /// Returns false if the arrays do not fit each other or the particles, or if the state has no last
 /// step.
-bool take_blows(const StoredArrays& arrays, State& state) {
-  const auto count = arrays.blow_firsts.size();
-  if (arrays.blow_impulses.size() != count || arrays.blow_branches.size() != count) return false;
+bool take_impacts(const StoredArrays& arrays, State& state) {
+  const auto count = arrays.impact_firsts.size();
+  if (arrays.impact_impulses.size() != count || arrays.impact_branches.size() != count)
+    return false;
   if (count > 0 && !(state.earlier_step > 0)) return false;
   const auto is_finite = [](const Vector& x) {
     return std::ranges::all_of(x, [](double number) { return std::isfinite(number); });
   };
   for (std::size_t k = 0; k < count; ++k) {
-    const BlowImpulse blow{arrays.blow_firsts[k], arrays.blow_impulses[k], arrays.blow_branches[k]};
-    if (blow.first >= 0 && index_of(blow.first) >= state.particles.count()) return false;
-    if (!is_finite(blow.impulse) || !is_finite(blow.branch)) return false;
-    state.blows.push_back(blow);
+    const ImpactImpulse impact{arrays.impact_firsts[k], arrays.impact_impulses[k],
+                               arrays.impact_branches[k]};
+    if (impact.first >= 0 && index_of(impact.first) >= state.particles.count()) return false;
+    if (!is_finite(impact.impulse) || !is_finite(impact.branch)) return false;
+    state.impacts.push_back(impact);
   }
   return true;
 }
@@ -331,12 +333,12 @@ std::string write_restart(const State& state) {
   clear_zeros(arrays.images);
   clear_zeros(arrays.places);
   clear_zeros(arrays.frictions);
-  clear_zeros(arrays.carried);
+  clear_zeros(arrays.solid_load);
   for (const auto& body : state.particles.bodies.bodies) arrays.bodies.push_back(body);
-  for (const auto& blow : state.blows) {
-    arrays.blow_firsts.push_back(blow.first);
-    arrays.blow_impulses.push_back(blow.impulse);
-    arrays.blow_branches.push_back(blow.branch);
+  for (const auto& impact : state.impacts) {
+    arrays.impact_firsts.push_back(impact.first);
+    arrays.impact_impulses.push_back(impact.impulse);
+    arrays.impact_branches.push_back(impact.branch);
   }
   for (const auto& [particle, force, torque] : state.given_loads) {
     arrays.given_particles.push_back(particle);
@@ -367,7 +369,7 @@ State read_restart(const std::filesystem::path& path) {
   const auto of_pairs = state.pairs.size(), of_all = of_pairs + state.walls.size();
   if (!reader.at_end() || (!arrays.images.empty() && arrays.images.size() != of_pairs) ||
       (!arrays.places.empty() && arrays.places.size() != of_all) || !take_memories(arrays, state) ||
-      !take_blows(arrays, state) || !take_given_loads(arrays, state))
+      !take_impacts(arrays, state) || !take_given_loads(arrays, state))
     reader.throw_damaged();
   for (std::size_t k = 0; k < arrays.images.size(); ++k) state.pairs[k].image = arrays.images[k];
   for (std::size_t k = 0; k < arrays.places.size(); ++k)

@@ -8,9 +8,9 @@
 namespace viscontact::particles {
 
 /// gamma <= 0 is minus the impulse that the film has absorbed; the solids touch when gamma reaches
-/// gamma_min. A blow, the collision of two solids, has two phases. In the compression, which ends
-/// when the surfaces no longer approach each other, the film takes the first part of the impulse p,
-/// until gamma is gamma_min, and the solids take the rest s:
+/// gamma_min. An impact, the collision of two solids, has two phases. In the compression, which
+/// ends when the surfaces no longer approach each other, the film takes the first part of the
+/// impulse p, until gamma is gamma_min, and the solids take the rest s:
 ///
 ///     s = max(p - (gamma - gamma_min), 0),   gamma_c = max(gamma - p, gamma_min).
 ///
@@ -19,7 +19,7 @@ namespace viscontact::particles {
 /// other obey
 ///
 ///     p' >= gamma_c + e_d s,   opening velocity >= 0,   equality in one of the two,
-///     gamma after the blow = gamma_c + e_d s - p'.
+///     gamma after the impact = gamma_c + e_d s - p'.
 struct RestitutionLaw {
   double coefficient = 0;  ///< e_d [1], 0 to 1
 
@@ -33,10 +33,10 @@ struct RestitutionLaw {
     return gamma_c + coefficient * solid_impulse;
   }
 
-  /// gamma after a blow, within [`gamma_min`, 0]: `lowest` - `p`, where `lowest` = gamma_c + e_d s
-  /// and `p` = p'; both may contain the impulse of the compression. If the difference is 0 within
+  /// gamma after an impact, within [`gamma_min`, 0]: `lowest` - `p`, where `lowest` = gamma_c + e_d
+  /// s and `p` = p'; both may contain the impulse of the compression. If the difference is 0 within
   /// its rounding error, taken as 8 units in the last place, the result is exactly 0, because the
-  /// film has then given back all that it had absorbed. `gamma`, before the blow, serves only to
+  /// film has then given back all that it had absorbed. `gamma`, before the impact, serves only to
   /// estimate this error.
   static double gamma_after(double lowest, double p, double gamma_min, double gamma) {
     const double left = lowest - p;

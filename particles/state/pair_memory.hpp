@@ -23,7 +23,7 @@ enum class Remembered : std::uint8_t {
   kFrictionX,
   kFrictionY,  ///< [M L/T]
   kFrictionZ,  ///< [M L/T]
-  kCarried,    ///< part of the normal impulse of the last step that the solids carried and not the
+  kSolidLoad,  ///< part of the normal impulse of the last step that the solids carried and not the
                ///< film [M L/T], >= 0: p_s of docs/physics.md (5.7), which bounds the friction
   /// x of the impulse across the normal [M L/T] with which a film that pulls acted on Pair::second
   /// in the last step, docs/physics.md (5.21). It acts on the centres and turns no particle.

@@ -313,19 +313,19 @@ Vector midpoint_turn(const RigidBody& body, const Vector& angular_momentum, cons
 
 }  // namespace
 
-BodyStep free_step(const RigidBody& body, const BodyLoad& load, double h, double kick,
+BodyStep free_step(const RigidBody& body, const BodyLoad& load, double h, double impulse_time,
                    bool is_first, int dimension) {
   assert(h > 0 && body.mass > 0);
   BodyStep step;
   step.mobility = h / body.mass;
-  step.displacement = h * (body.velocity + (kick / body.mass) * load.force);
+  step.displacement = h * (body.velocity + (impulse_time / body.mass) * load.force);
   const auto inertia = present_inertia(body, dimension);
-  const auto added = scaled(h * kick, load.stiffness);
+  const auto added = scaled(h * impulse_time, load.stiffness);
   step.momentum_of_turn = scaled(1 / h, inertia);
   step.inverse_turn_mobility = scaled(1 / h, inertia + added);
   const Vector rest = is_first ? Vector{} : h * body.angular_velocity;
   const Vector momentum =
-      body.angular_momentum + kick * load.torque + kick * (load.stiffness * rest);
+      body.angular_momentum + impulse_time * load.torque + impulse_time * (load.stiffness * rest);
   if (dimension == 3) {
     step.turn_mobility = scaled(h, inverse_of(inertia + added));
     step.turn = midpoint_turn(body, momentum, added, h);
@@ -333,7 +333,7 @@ BodyStep free_step(const RigidBody& body, const BodyLoad& load, double h, double
     step.turn_mobility[8] = h / (inertia[8] + added[8]);
     step.turn[2] = step.turn_mobility[8] * momentum[2];
   }
-  step.angular_momentum = momentum - kick * (load.stiffness * step.turn);
+  step.angular_momentum = momentum - impulse_time * (load.stiffness * step.turn);
   return step;
 }
 
@@ -342,7 +342,7 @@ void constrain(BodyStep& step, const Vector& displacement, const Vector& turn, i
   if (dimension == 3)
     step.angular_momentum = step.angular_momentum + step.momentum_of_turn * change;
   else
-    step.angular_momentum[2] = step.momentum_of_turn[8] * turn[2] + step.late_momentum[2];
+    step.angular_momentum[2] = step.momentum_of_turn[8] * turn[2] + step.momentum_lag[2];
   step.displacement = displacement;
   step.turn = turn;
 }
@@ -359,7 +359,7 @@ Vector displacement_at(const Vector& displacement, const Vector& turn, const Vec
 void move_body(RigidBody& body, const BodyStep& step, double h, int dimension) {
   assert(h > 0);
   body.centre = body.centre + step.displacement;
-  body.velocity = (1 / h) * step.displacement + step.late_velocity;
+  body.velocity = (1 / h) * step.displacement + step.velocity_lag;
   body.angular_momentum = step.angular_momentum;
   if (dimension == 3)
     body.orientation = turned(body.orientation, step.turn);

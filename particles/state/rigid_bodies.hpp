@@ -158,24 +158,26 @@ struct BodyStep {
   Vector turn{};              ///< h w [rad]
   Vector angular_momentum{};  ///< at the end of the step [M L^2/T]
   /// Velocity of the centre at the end of the step minus displacement/h [L/T]; 0 without rebounds.
-  Vector late_velocity{};
+  Vector velocity_lag{};
   /// For discs: angular momentum at the end of the step minus I turn/h [M L^2/T]; 0 without
   /// rebounds.
-  Vector late_momentum{};
+  Vector momentum_lag{};
   double mobility = 0;  ///< h/m [T/M]
-  /// h J^-1 with J = I + h kick BodyLoad::stiffness [T/(M L^2)]; discs use only the last entry.
+  /// h J^-1 with J = I + h impulse_time BodyLoad::stiffness [T/(M L^2)]; discs use only the last
+  /// entry.
   Matrix3 turn_mobility{};
   Matrix3 inverse_turn_mobility{};  ///< J/h [M L^2/T]
   Matrix3 momentum_of_turn{};       ///< I/h [M L^2/T]
 };
 
-/// The motion without contacts and links in a step of length `h`. `load` acts for the time `kick`
-/// [T], which is h, or another time with the leapfrog scheme (Simulation::kick_length()), and its
-/// stiffness on the turn minus h w, in the first step of a simulation (`is_first`) on the turn.
-/// Without a moment of inertia the result is infinite or NaN. The turn of spheres is that of the
-/// implicit midpoint rule, h w = h I^-1 L with the angular momentum L and I after half of the turn;
-/// for turns of more than about half a radian its iteration of 50 rounds may not converge.
-BodyStep free_step(const RigidBody& body, const BodyLoad& load, double h, double kick,
+/// The motion without contacts and links in a step of length `h`. `load` acts for the time
+/// `impulse_time` [T], which is h, or another time with the leapfrog scheme
+/// (Simulation::impulse_time_of()), and its stiffness on the turn minus h w, in the first step of a
+/// simulation (`is_first`) on the turn. Without a moment of inertia the result is infinite or NaN.
+/// The turn of spheres is that of the implicit midpoint rule, h w = h I^-1 L with the angular
+/// momentum L and I after half of the turn; for turns of more than about half a radian its
+/// iteration of 50 rounds may not converge.
+BodyStep free_step(const RigidBody& body, const BodyLoad& load, double h, double impulse_time,
                    bool is_first, int dimension);
 
 /// Replaces displacement [L] and turn [rad] by those with contacts and links, and adds the moments

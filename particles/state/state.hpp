@@ -97,9 +97,9 @@ struct State {
   /// Mean power of each arm in the last step [M L^2/T^3]. Empty before the first step.
   std::vector<double> arm_powers;
   double earlier_step = 0;  ///< length of the last step [T]; 0 if there was none
-  /// Impulses of the blows in the last step, without a fluid, for the tables walls.csv and
+  /// Impulses of the impacts in the last step, without a fluid, for the tables walls.csv and
   /// stress.csv.
-  std::vector<BlowImpulse> blows;
+  std::vector<ImpactImpulse> impacts;
   /// The motions of Setting::planes, 0 for planes without a load; empty if no plane has a load.
   std::vector<PlaneMotion> planes;
   /// Loads of the particles whose motion is given, without a fluid, in the order of their numbers.

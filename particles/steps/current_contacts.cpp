@@ -95,9 +95,9 @@ ContactFriction friction_of(const Setting& setting, const PairMemory& memory) {
   // friction and load are sums over the parts, and the friction has this value only if its
   // direction was the same in all parts.
   constexpr double kRounding = 1e-9;
-  const double carried = memory[Remembered::kCarried];
-  if (!setting.laws.friction || !(carried > 0)) return ContactFriction::kNone;
-  const double bound = setting.laws.friction->coefficient * carried;
+  const double solid_load = memory[Remembered::kSolidLoad];
+  if (!setting.laws.friction || !(solid_load > 0)) return ContactFriction::kNone;
+  const double bound = setting.laws.friction->coefficient * solid_load;
   return norm(memory.friction()) >= (1 - kRounding) * bound ? ContactFriction::kSlides
                                                             : ContactFriction::kSticks;
 }
@@ -170,7 +170,7 @@ std::vector<CurrentContact> contacts_of(const Setting& setting, const State& sta
                           .friction = friction_of(setting, memory),
                           .normal_force = per_time * pair.impulse,
                           .tangential_force = per_time * (memory.friction() + memory.across()),
-                          .solid_force = per_time * memory[Remembered::kCarried],
+                          .solid_force = per_time * memory[Remembered::kSolidLoad],
                           .normal = normal,
                           .branch = branch,
                           .shown = memory.shown()});

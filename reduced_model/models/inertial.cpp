@@ -169,10 +169,10 @@ class InertialRun {
 
   /// The sphere rests on the solids until the time `stop`, and the solids carry the external force.
   void rest_until(double stop) {
-    const double carried =
+    const double solid_load =
         motion_.external_force.impulse(stop) - motion_.external_force.impulse(now_);
-    equation_.add_impulse(-carried);
-    solid_impulse_ -= carried;
+    equation_.add_impulse(-solid_load);
+    solid_impulse_ -= solid_load;
     for (; next_row_ != times_.end() && *next_row_ <= stop; ++next_row_) {
       const double f = motion_.external_force.value(*next_row_);
       trajectory_.rows.push_back({*next_row_, solid_gap_, 0, 0.0, f, {}, -f});

@@ -407,7 +407,7 @@ TEST(GivenMotion, OfTouchingParticlesMakesNoContactInAChain) {
 }
 
 TEST(GivenMotion, ReboundsAreThoseOfAMovingWall) {
-  // v' = 2 V - v for e = 1, and the load has the impulse of the blow over the step.
+  // v' = 2 V - v for e = 1, and the load has the impulse of the impact over the step.
   for (const int way : {0, 1}) {
     Row row(way, 0.5, 1);
     row.state.particles.positions[2] = 3.2;

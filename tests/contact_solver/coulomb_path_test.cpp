@@ -123,8 +123,8 @@ TEST(CoulombPath, DividesTheLoadOfEqualContactsEqually) {
   EXPECT_NEAR(impulses[1] + impulses[3], -0.3, 1e-5);
 }
 
-/// In a blow the lowest impulse may be one that the solids carry, with which the contact opens.
-TEST(CoulombPath, GivesABlowThatOpensAContactItsFriction) {
+/// In an impact the lowest impulse may be one that the solids carry, with which the contact opens.
+TEST(CoulombPath, GivesAImpactThatOpensAContactItsFriction) {
   auto problem = disc_on_a_floor(3, 0.5, 0.5);
   problem.blocks[0].lowest = 1.5;
   const auto impulses = end_of_path(problem);

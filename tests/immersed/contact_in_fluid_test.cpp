@@ -282,12 +282,12 @@ TEST(ContactInFluid, AStepThatFailsLeavesTheState) {
   EXPECT_GE(failures, 4);  // place, without contact, contacts, with contact
 }
 
-TEST(ContactInFluid, HasNoBlowsOfAnEarlierRunWithoutAFluid) {
+TEST(ContactInFluid, HasNoImpactsOfAnEarlierRunWithoutAFluid) {
   auto system = in_fluid(2, 8, 0.1, 0.02);
   add_pushed(system, {1.03, 1.03, 0}, 1, 1, {-1, -1, 0});
   system.state.earlier_step = 0.1;
-  system.state.blows = {{-1, {0, 1, 0}, {0, 1, 0}}};
-  EXPECT_TRUE(system.simulation(constant_drag(5)).state().blows.empty());
+  system.state.impacts = {{-1, {0, 1, 0}, {0, 1, 0}}};
+  EXPECT_TRUE(system.simulation(constant_drag(5)).state().impacts.empty());
 }
 
 TEST(ContactInFluid, GoesOnFromARestartWithTheSameBits) {

@@ -91,8 +91,8 @@ TEST(ContactProblem, CountsWhatALargeImpulseDoesToASmallOne) {
   // Equal velocities of both discs of a pair: p = h (v_1 - v_2)/2 with the velocities without the
   // impulses of the own pair.
   EXPECT_NEAR(problem.contacts()[0].impulse, 0.1 * 1e6 / 2, 1e-2);
-  const double carried = kSkew * problem.contacts()[0].impulse / 0.1;
-  EXPECT_NEAR(problem.contacts()[1].impulse, 0.1 * (1 + carried) / 2, 1e-8);
+  const double solid_load = kSkew * problem.contacts()[0].impulse / 0.1;
+  EXPECT_NEAR(problem.contacts()[1].impulse, 0.1 * (1 + solid_load) / 2, 1e-8);
 }
 
 TEST(ContactProblem, HasTheImpulsesThatMakeAllVelocitiesEqual) {

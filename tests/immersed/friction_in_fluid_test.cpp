@@ -263,10 +263,10 @@ void expect_coulomb(const Heap& of, int steps) {
       });
       ASSERT_NE(pair, lists.end());
       const auto& memory = after.memories.of(pair->memory);
-      const double carried = memory[Remembered::kCarried];
+      const double solid_load = memory[Remembered::kSolidLoad];
       const double friction = norm(memory.friction());
-      EXPECT_LE(friction, of.mu_s * carried * (1 + 1e-12) + kExact * f);
-      if (!(carried > 1e-6 * f)) continue;
+      EXPECT_LE(friction, of.mu_s * solid_load * (1 + 1e-12) + kExact * f);
+      if (!(solid_load > 1e-6 * f)) continue;
       // The slip, with the normal at the beginning of the step.
       const auto moved = [&](std::int32_t k) {
         return after.particles.position(index_of(k)) - p.position(index_of(k));
@@ -291,7 +291,7 @@ void expect_coulomb(const Heap& of, int steps) {
       }
       slip = slip - turn(j) * arm_j * Vector{-normal[1], normal[0], 0};
       slip = slip - dot(slip, normal) * normal;
-      if (friction < of.mu_s * carried * (1 - 1e-9)) {
+      if (friction < of.mu_s * solid_load * (1 - 1e-9)) {
         ++sticking;
         EXPECT_LE(norm(slip), 1e-8 * l) << step;
       } else if (norm(slip) > 1e-8 * l) {
@@ -384,7 +384,7 @@ TEST(FrictionInFluid, ThatPassesThroughAHingeIsNone) {
 
 /// A body of two discs on a hinge that falls on the floor: in the step in which it meets the floor
 /// it turns by another angle than without contact, and the hinge and the body hold all the same.
-TEST(HeldInFluid, BodiesAndHingesHoldWhereAContactStopsTheirTurn) {
+TEST(ConstrainedInFluid, BodiesAndHingesHoldWhereAContactStopsTheirTurn) {
   const double load = 30;
   auto system = in_fluid(2, 20, 0.1, kThreshold);
   system.setting.laws.film.gamma_min = 0;

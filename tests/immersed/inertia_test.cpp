@@ -200,7 +200,7 @@ double gamma_at_floor(const FluidSimulation& simulation) {
   return pair_of(simulation.state(), -2, 0).gamma;
 }
 
-class BlowInFluid : public ::testing::TestWithParam<Coupling> {
+class ImpactInFluid : public ::testing::TestWithParam<Coupling> {
  protected:
   /// A sphere of mass 2 that falls on the floor at the speed 1 from this distance to the contact.
   InFluid falling(double gap, double h) const {
@@ -211,7 +211,7 @@ class BlowInFluid : public ::testing::TestWithParam<Coupling> {
   }
 };
 
-TEST_P(BlowInFluid, GivesItsWholeMomentumToGamma) {
+TEST_P(ImpactInFluid, GivesItsWholeMomentumToGamma) {
   // In the first step, in the second one, and later.
   for (const double gap : {0.0, 0.02, 0.08, 0.1, 0.13, 0.37}) {
     SCOPED_TRACE(gap);
@@ -224,7 +224,7 @@ TEST_P(BlowInFluid, GivesItsWholeMomentumToGamma) {
   }
 }
 
-TEST_P(BlowInFluid, GivesItsWholeMomentumToGammaInStepsOfAnyLength) {
+TEST_P(ImpactInFluid, GivesItsWholeMomentumToGammaInStepsOfAnyLength) {
   for (const double end : {0.203, 0.23, 0.25, 0.299}) {
     SCOPED_TRACE(end);
     // It arrives within the short step.
@@ -236,7 +236,7 @@ TEST_P(BlowInFluid, GivesItsWholeMomentumToGammaInStepsOfAnyLength) {
   }
 }
 
-TEST_P(BlowInFluid, LetsAPullGiveBackWhatAShortStepHasTaken) {
+TEST_P(ImpactInFluid, LetsAPullGiveBackWhatAShortStepHasTaken) {
   // A pull of 4 from t = 1 on gives the impulse 2 back until t = 1.5, also in short steps.
   auto system = falling(0.05, 0.1);
   system.setting.forces[0].pieces = {{1, {}}, {1e300, {4, 0, 0}}};
@@ -250,7 +250,7 @@ TEST_P(BlowInFluid, LetsAPullGiveBackWhatAShortStepHasTaken) {
   EXPECT_NEAR(simulation.state().particles.velocities[0], 2 * since, 2 * 0.1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Couplings, BlowInFluid,
+INSTANTIATE_TEST_SUITE_P(Couplings, ImpactInFluid,
                          ::testing::Values(Coupling::kConstrained, Coupling::kSplitting));
 
 TEST(InertiaOfFluid, ALoadOnAContactIsInGammaOneStepLater) {

@@ -62,11 +62,11 @@ TEST(PackedDiscs, SettleAndTheFloorCarriesTheirWeight) {
     EXPECT_GT(contacts, kMostDenseContacts);
     if (mass > 0) continue;
     // The floor carries their weight, and only drag can carry a part of it.
-    double carried = 0, drag = 0;
+    double solid_load = 0, drag = 0;
     for (const auto& wall : simulation.state().walls)
-      if (wall.first == -3) carried += wall.impulse / 0.02;
+      if (wall.first == -3) solid_load += wall.impulse / 0.02;
     for (std::size_t k = 0; k < 64; ++k) drag += simulation.fluid_forces()[3 * k + 1];
-    EXPECT_NEAR(carried + drag, 64 * 5, 1e-6 * 64 * 5);
+    EXPECT_NEAR(solid_load + drag, 64 * 5, 1e-6 * 64 * 5);
   }
 }
 

@@ -236,7 +236,7 @@ TEST_P(Plates, ReboundFromTheFloor) {
   EXPECT_NEAR(simulation.state().particles.velocities[1], 0.6, 1e-3);
 }
 
-// On a hinge the blow turns a plate back with e_d of its rate; the hinge takes the rest. A stop
+// On a hinge the impact turns a plate back with e_d of its rate; the hinge takes the rest. A stop
 // gives nothing back.
 TEST_P(Plates, ReboundOnAHingeAndRestOnAStop) {
   const auto after = [&](double lowest_angle) {
@@ -302,8 +302,8 @@ TEST_P(Plates, OnAHingeAtTheirContactTurnAsWithoutIt) {
 }
 
 // A disc of the mass 0.5 and the velocity 1 meets a plate that rests on its stop, 0.7 from the
-// hinge: the stop takes the moment (1 + e_d) 0.5 0.7 of the whole blow, and the plate stays.
-TEST_P(Plates, OnAStopGiveItTheWholeBlow) {
+// hinge: the stop takes the moment (1 + e_d) 0.5 0.7 of the whole impact, and the plate stays.
+TEST_P(Plates, OnAStopGiveItTheWholeImpact) {
   for (const double dry : {0.0, 0.5, 1.0}) {
     auto system = with_plates(0.01, GetParam());
     const double l = kHalf - kEnd, angle = std::numbers::pi / 2;

@@ -1,5 +1,5 @@
 // Rebounds of solids in a fluid, docs/physics.md (6.11): the coefficient of one sphere against the
-// first integral of its motion, spheres that stay, what every blow must keep, and restarts.
+// first integral of its motion, spheres that stay, what every impact must keep, and restarts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -89,7 +89,7 @@ TEST(ReboundInFluid, OfASphereIsThatOfTheFirstIntegral) {
       EXPECT_EQ(rebounds[0].first, -2);
       const double before = 1 - std::log(10.0) / stokes;  // at the gap 0.1
       EXPECT_NEAR(rebounds[0].approach_velocity, -before, 3 * h);
-      // In the step of a blow the drag, at most 10, is not counted or counted twice.
+      // In the step of an impact the drag, at most 10, is not counted or counted twice.
       EXPECT_NEAR(rebounds[0].solid_impulse, stokes - std::log(100.0), 10 * h);
     }
     // A step of 0.01 is a tenth of the gap of contact, in which the drag takes 0.1/St of the speed.
@@ -174,7 +174,7 @@ TEST(ReboundInFluid, OfADiscWithoutDragIsTheDryOneWhereverTheStepsLie) {
 }
 
 TEST(ReboundInFluid, OfThreeDiscsWithoutDragIsTheDryOne) {
-  // Oblique blows one after the other, in steps so short that no step has two of them.
+  // Oblique impacts one after the other, in steps so short that no step has two of them.
   const auto add_discs = [](State& state) {
     add_particle(state, {4, 10, 0}, 1, 1, {1, 0, 0});
     add_particle(state, {7, 10.5, 0}, 1, 3);
@@ -183,20 +183,20 @@ TEST(ReboundInFluid, OfThreeDiscsWithoutDragIsTheDryOne) {
   auto system = flying_disc(0.005, 0.9, 0);
   add_discs(system.state);
   auto simulation = system.simulation(constant_drag(kNoDrag));
-  std::size_t blows = 0;
+  std::size_t impacts = 0;
   while (simulation.state().time < 9 - 1e-9) {
     simulation.step(9);
-    blows += simulation.rebounds().size();
+    impacts += simulation.rebounds().size();
   }
   Scene scene{no_particles(2), {}};
   add_discs(scene.state);
   scene.setting.laws = system.setting.laws;
   scene.setting.time_step = 0.005;
   Simulation dry(scene.setting, scene.state, 1);
-  EXPECT_EQ(rebounds_until(9, dry).size(), blows);
-  EXPECT_EQ(blows, 2U);
+  EXPECT_EQ(rebounds_until(9, dry).size(), impacts);
+  EXPECT_EQ(impacts, 2U);
   for (std::size_t i = 0; i < 6; ++i) {
-    // The normal is that at the beginning of the step of the blow: of first order.
+    // The normal is that at the beginning of the step of the impact: of first order.
     EXPECT_NEAR(simulation.state().particles.velocities[i], dry.state().particles.velocities[i],
                 0.005);
     EXPECT_NEAR(simulation.state().particles.positions[i], dry.state().particles.positions[i],
@@ -220,7 +220,7 @@ TEST(ReboundInFluid, OfARowIsThatOfPoissonAllAtOnce) {
 }
 
 TEST(ReboundInFluid, KeepsMomentumAndLosesEnergy) {
-  // A cloud in a periodic box without drag. Velocities do not change between blows.
+  // A cloud in a periodic box without drag. Velocities do not change between impacts.
   Random random(8);
   for (const double gamma_min : {0.0, -0.02})
     for (const double dry : {0.6, 1.0}) {
@@ -237,19 +237,19 @@ TEST(ReboundInFluid, KeepsMomentumAndLosesEnergy) {
       auto simulation = system.simulation(constant_drag(kNoDrag));
       const auto momentum_before = momentum(p);
       double energy = kinetic_energy(p);
-      std::size_t blows = 0;
+      std::size_t impacts = 0;
       for (int step = 0; step < 200; ++step) {
         EXPECT_TRUE(simulation.step(1e9).converged) << step;
-        blows += simulation.rebounds().size();
+        impacts += simulation.rebounds().size();
         const auto& now = simulation.state().particles;
         EXPECT_NEAR(norm(momentum(now) - momentum_before), 0, 1e-7);
         // The film of a pair that turns pulls along a normal that has turned, which may add a
-        // little energy in steps without a blow.
+        // little energy in steps without an impact.
         const bool only_solids = gamma_min == 0 || !simulation.rebounds().empty();
         EXPECT_LE(kinetic_energy(now) / energy - 1, only_solids ? 1e-9 : 1e-6) << step;
         energy = kinetic_energy(now);
       }
-      EXPECT_GT(blows, 30U);
+      EXPECT_GT(impacts, 30U);
     }
 }
 
@@ -289,7 +289,7 @@ TEST(ReboundInFluid, HeightsConvergeWithTheStepAndTheBallComesToRest) {
           std::max(largest, std::abs(found[static_cast<std::size_t>(k)] - std::pow(dry, 2 * k)));
     errors.push_back(largest);
   }
-  // Of first order: in the step of a blow the velocity at its end is that of the whole step.
+  // Of first order: in the step of an impact the velocity at its end is that of the whole step.
   EXPECT_LT(errors[0], 0.04);
   EXPECT_LT(errors[1], 0.01);
 }

@@ -66,8 +66,8 @@ TEST(Stops, ABodyFallsOnAStopAndRestsOnIt) {
   EXPECT_GT(landed, 100);
 }
 
-// Each of two stops takes the whole blow, whatever the time step, and torques push from one to the
-// other.
+// Each of two stops takes the whole impact, whatever the time step, and torques push from one to
+// the other.
 TEST(Stops, ADiscGoesToAndFroBetweenItsStops) {
   for (const double h : {0.3, 0.01}) {
     State state = no_particles(2);

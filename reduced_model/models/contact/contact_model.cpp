@@ -67,9 +67,10 @@ class DragAtDistance {
 };
 
 /// A step from `begin` to `end` [T], in which the external force acts by its impulse from
-/// `kick_begin` to `kick_end`. The latter differ from the former only if the model is staggered.
+/// `impulse_begin` to `impulse_end`. The latter differ from the former only if the model is
+/// staggered.
 struct StepTimes {
-  double begin = 0, end = 0, kick_begin = 0, kick_end = 0;
+  double begin = 0, end = 0, impulse_begin = 0, impulse_end = 0;
 };
 
 /// Adds a step to the budget; `push` is the impulse of the external force. The work of each impulse
@@ -101,7 +102,7 @@ class ContactClock {
     if (std::exchange(is_struck_, false)) return;
     const bool contact =
         step.state.gap == 0 && (step.state.gamma < 0 || step.film != 0 || step.solid != 0);
-    const auto [time, next, kick_begin, kick_end] = times;
+    const auto [time, next, impulse_begin, impulse_end] = times;
     const double h = next - time;
     if (contact && !touching_) {
       // Without contact the sphere would reach the gap of contact after this fraction of the step.
@@ -115,7 +116,7 @@ class ContactClock {
       // when this fraction of both has acted.
       const double rise = mass_ * before.velocity + push;
       const double share = before.gamma < 0 && rise > 0 ? -before.gamma / rise : 0;
-      (*interval_)[1] = kick_begin + (kick_end - kick_begin) * std::min(1.0, share);
+      (*interval_)[1] = impulse_begin + (impulse_end - impulse_begin) * std::min(1.0, share);
     }
     touching_ = contact;
   }
@@ -144,9 +145,9 @@ SolidTouch touch_in(const ContactModel& model, double mass, double landing, cons
   // and the solids take the rest.
   if (!(before.gamma < 0)) return {landing, step.state.velocity - step.solid / mass};
   const double rest = before.gamma + mass * before.velocity - model.gamma_min;
-  if (rest <= 0) return {times.kick_begin, rest / mass};
-  const double duration = times.kick_end - times.kick_begin;
-  return {times.kick_begin + duration * std::min(1.0, -rest / push),
+  if (rest <= 0) return {times.impulse_begin, rest / mass};
+  const double duration = times.impulse_end - times.impulse_begin;
+  return {times.impulse_begin + duration * std::min(1.0, -rest / push),
           push / (duration * model.solid_resistance)};
 }
 
@@ -173,16 +174,16 @@ ContactStep as_contact_step(const ReboundStep& step) {
 }
 
 /// Makes the steps from the start to the end. Calls `rebound(times, step)` for each step with
-/// impacts, `kick(velocity before, push, step)` for each other impulse `push` of the external
-/// force, and `add(times, setting, state before, push, step, state at the end)` after each step.
-/// `turns` are the times at which the force changes its sign, increasing. In a staggered model the
-/// impulses before and after such a time act one after the other, because the solids carry the
-/// impulse before it, and must not give this impulse back to the sphere afterwards. In a step in
-/// which the sphere reaches the wall opposite, the motion ends early, and the row has the time of
-/// that. Returns the end of the last step.
+/// impacts, `impulse_time(velocity before, push, step)` for each other impulse `push` of the
+/// external force, and `add(times, setting, state before, push, step, state at the end)` after each
+/// step. `turns` are the times at which the force changes its sign, increasing. In a staggered
+/// model the impulses before and after such a time act one after the other, because the solids
+/// carry the impulse before it, and must not give this impulse back to the sphere afterwards. In a
+/// step in which the sphere reaches the wall opposite, the motion ends early, and the row has the
+/// time of that. Returns the end of the last step.
 template <class Drag, class Rebounding, class Kick, class Add>
 double run_steps(const Motion& motion, const ContactModel& model, const Drag& drag,
-                 std::span<const double> turns, const Rebounding& rebound, const Kick& kick,
+                 std::span<const double> turns, const Rebounding& rebound, const Kick& impulse_time,
                  const Add& add) {
   const double end = motion.end_time;
   const double h = motion.parameter(kContactTimeStep);
@@ -205,19 +206,19 @@ double run_steps(const Motion& motion, const ContactModel& model, const Drag& dr
     ContactStep earlier;
     double push = setting.step;
     if (model.is_staggered) {
-      times.kick_end = t + setting.step / 2;
-      for (; turn != turns.end() && *turn < times.kick_end; ++turn) {
+      times.impulse_end = t + setting.step / 2;
+      for (; turn != turns.end() && *turn < times.impulse_end; ++turn) {
         const double part = (*turn - since) * force.mean(since, *turn);
         const auto step = kicked(state, part, setting);
-        kick(state.velocity, part, step);
+        impulse_time(state.velocity, part, step);
         earlier.film += step.film;
         earlier.solid += step.solid;
         state = step.state;
         since = *turn;
       }
-      push = times.kick_end - since;
+      push = times.impulse_end - since;
     }
-    push *= force.mean(since, times.kick_end);
+    push *= force.mean(since, times.impulse_end);
     ContactStep step;
     std::optional<ReboundStep> impacts;
     if (model.restitution > 0 && state.gamma == 0 && (state.gap > 0 || state.velocity > 0))
@@ -228,17 +229,17 @@ double run_steps(const Motion& motion, const ContactModel& model, const Drag& dr
       rebound(times, *impacts);
     } else {
       step = contact_step(state, push, setting, drag);
-      kick(state.velocity, push, step);
+      impulse_time(state.velocity, push, step);
     }
     step.film += earlier.film;
     step.solid += earlier.solid;
     ContactState at_end = step.state;
     const bool ends = at_end.gap >= last;  // at the wall opposite
     if (model.is_staggered) {
-      const double rest = (next - times.kick_end) * force_of_half.mean(times.kick_end, next);
+      const double rest = (next - times.impulse_end) * force_of_half.mean(times.impulse_end, next);
       const auto end_kick = kicked(step.state, rest, setting);
       at_end = end_kick.state;
-      if (n + 1 == steps || ends) kick(step.state.velocity, rest, end_kick);
+      if (n + 1 == steps || ends) impulse_time(step.state.velocity, rest, end_kick);
     }
     if (ends) {
       // The gap is linear within a step of the scheme.
@@ -250,7 +251,7 @@ double run_steps(const Motion& motion, const ContactModel& model, const Drag& dr
     if (ends) return next;
     state = step.state;
     t = next;
-    since = times.kick_end;
+    since = times.impulse_end;
   }
   return end;
 }
@@ -288,9 +289,9 @@ Trajectory run_contact_model(const Motion& motion, ContactModel model) {
   const auto add = [&](const StepTimes& times, const ContactSetting& setting,
                        const ContactState& before, double push, const ContactStep& step,
                        const ContactState& end) {
-    const double per_kick = times.kick_end == times.end && times.kick_begin == times.begin
+    const double per_kick = times.impulse_end == times.end && times.impulse_begin == times.begin
                                 ? setting.per_step
-                                : 1 / (times.kick_end - times.kick_begin);
+                                : 1 / (times.impulse_end - times.impulse_begin);
     trajectory.rows.push_back({times.end, model.contact_gap + end.gap, end.velocity,
                                (step.film + step.drag) * per_kick, force.value(times.end),
                                end.gamma, step.solid * per_kick});
@@ -301,8 +302,8 @@ Trajectory run_contact_model(const Motion& motion, ContactModel model) {
     is_rebound = false;
     lowest_gamma = std::min(lowest_gamma, end.gamma);
     // In contact, gamma is lowest where the force changes its sign within the step.
-    const double begin = times.kick_begin;
-    for (; turn != turns.end() && *turn < times.kick_end; ++turn)
+    const double begin = times.impulse_begin;
+    for (; turn != turns.end() && *turn < times.impulse_end; ++turn)
       if (*turn > begin && before.gamma < 0 && step.state.gamma < 0)
         lowest_gamma = std::min(
             lowest_gamma, std::max(model.gamma_min,
@@ -324,13 +325,13 @@ Trajectory run_contact_model(const Motion& motion, ContactModel model) {
     lowest_gamma = std::min(lowest_gamma, step.lowest_gamma);
     for (const auto& entry : kBudgetEntries) budget.*entry.value += step.budget.*entry.value;
   };
-  const auto kick = [&](double velocity, double push, const ContactStep& step) {
+  const auto impulse_time = [&](double velocity, double push, const ContactStep& step) {
     add_to(budget, velocity, push, step);
   };
   const double end = model.drag
                          ? run_steps(motion, model, DragAtDistance(*model.drag, model.contact_gap),
-                                     turns, rebound, kick, add)
-                         : run_steps(motion, model, NoDrag(), turns, rebound, kick, add);
+                                     turns, rebound, impulse_time, add)
+                         : run_steps(motion, model, NoDrag(), turns, rebound, impulse_time, add);
   trajectory.steps = static_cast<long>(trajectory.rows.size()) - 1;
   if (lowest_gamma < 0 && model.film_thickness)
     trajectory.film_from_gamma = model.film_thickness(lowest_gamma);

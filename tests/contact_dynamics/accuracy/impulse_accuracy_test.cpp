@@ -200,10 +200,10 @@ TEST(ImpulseAccuracy, ChainsAndColumnsOfAnyMassesAndRadii) {
     take_steps(simulation, steps);
     double beyond = all;
     for (int k = 0; k < count; ++k) {
-      const double carried = column ? load * beyond : load * beyond / all;
+      const double solid_load = column ? load * beyond : load * beyond / all;
       if (column || k > 0) {
         const auto pair = pair_of(simulation.state(), k == 0 ? -1 : k - 1, k);
-        EXPECT_NEAR(pair.gamma / (carried * h * steps), -1, 1e-6) << k;
+        EXPECT_NEAR(pair.gamma / (solid_load * h * steps), -1, 1e-6) << k;
       }
       beyond -= masses[static_cast<std::size_t>(k)];
     }

@@ -1,5 +1,5 @@
 // Restitution of many particles against closed forms: (4.13) for one particle, Newton's cradle, the
-// dry ball that comes to rest, and what every blow must keep.
+// dry ball that comes to rest, and what every impact must keep.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ TEST_P(Restitution, OfOneParticleIsThatOfTheClosedForm) {
         const double gamma = pair_of(simulation.state(), -1, 0).gamma;
         if (e > 0) {
           EXPECT_EQ(gamma, 0);
-          // It left at the time of the blow, not at the end of a step.
+          // It left at the time of the impact, not at the end of a step.
           EXPECT_NEAR(simulation.state().particles.position(0)[1],
                       1 + e * (simulation.state().time - gap), 1e-10 * (1 + gap));
         } else if (solid > 0) {
@@ -167,7 +167,7 @@ TEST_P(Restitution, LetsNoParticlePassThroughAFilm) {
     EXPECT_NEAR(simulation.state().particles.velocity(k)[0], 1.95, 1e-9);
 }
 
-TEST_P(Restitution, PassesABlowOnThroughTouchingParticles) {
+TEST_P(Restitution, PassesAImpactOnThroughTouchingParticles) {
   // Of five equal particles that touch, as many leave as arrive (Newton's cradle).
   for (const int arrive : {1, 2, 3})
     for (const double between : {0.0, 1e-3}) {
@@ -286,7 +286,7 @@ TEST_P(Restitution, OfThePileAtRestIsNoChatter) {
 }
 
 TEST(RestitutionOfDiscs, OfAHeavyOneAndALightOneAtAWallCountsTo314) {
-  // Galperin's count of the blows between masses 10000 : 1 and a wall.
+  // Galperin's count of the impacts between masses 10000 : 1 and a wall.
   for (const double step : {0.01, 0.05, 0.3}) {
     Scene scene{no_particles(2), {}};
     add_particle(scene.state, {10, 0, 0}, 1, 10000, {-1, 0, 0});
@@ -294,16 +294,17 @@ TEST(RestitutionOfDiscs, OfAHeavyOneAndALightOneAtAWallCountsTo314) {
     scene.setting.planes = {plane_at_rest({}, {1, 0, 0})};
     set_rebounds_without_film(scene.setting, 1, step);
     Simulation simulation(scene.setting, scene.state, 1);
-    std::size_t blows = 0;
-    run(simulation, 40, [&](const StepReport&) { blows += simulation.rebounds().size(); });
-    EXPECT_EQ(blows, 314U) << step;
+    std::size_t impacts = 0;
+    run(simulation, 40, [&](const StepReport&) { impacts += simulation.rebounds().size(); });
+    EXPECT_EQ(impacts, 314U) << step;
     EXPECT_NEAR(energy(simulation.state().particles), 5000, 1e-6);
   }
 }
 
-TEST(RestitutionOfDiscs, TakesTheImpulseOfTheWholeBlowForFriction) {
-  // A disc without spin hits a plane obliquely. It slides through the blow if |v_t| > 3 mu (1 + e)
-  // |v_n|, and loses mu (1 + e) |v_n|; else it rolls after it, with 2/3 of its tangential velocity.
+TEST(RestitutionOfDiscs, TakesTheImpulseOfTheWholeImpactForFriction) {
+  // A disc without spin hits a plane obliquely. It slides through the impact if |v_t| > 3 mu (1 +
+  // e) |v_n|, and loses mu (1 + e) |v_n|; else it rolls after it, with 2/3 of its tangential
+  // velocity.
   for (const double slip : {0.3, 5.0}) {
     Scene scene{no_particles(2), {}};
     add_particle(scene.state, {0, 1.5, 0}, 1, 2, {slip, -1, 0});

@@ -240,8 +240,8 @@ TEST_P(Tension, OfFilmsDoesNotGrowWithAndWithoutRestitution) {
         const auto largest = swing_of_films(GetParam(), scheme, restitution, h, {});
         EXPECT_LT(largest[0], 1.02 * bound) << h;
         EXPECT_LT(largest[1], 1.02 * bound) << h;
-        // A blow in the middle of a motion has an amplitude that is smaller by (1 + kappa/4)^(1/2),
-        // with kappa = 20 h^2 of the fastest mode.
+        // An impact in the middle of a motion has an amplitude that is smaller by (1 +
+        // kappa/4)^(1/2), with kappa = 20 h^2 of the fastest mode.
         EXPECT_GT(largest[1], 0.5 * bound / std::sqrt(1 + 5 * h * h)) << h;
       }
   for (const auto method : {FrictionMethod::kCoulomb, FrictionMethod::kConvex}) {
@@ -391,7 +391,7 @@ TEST_P(Tension, OfRandomBridgesDoesNotGrow) {
 }
 
 /// The largest kinetic energies across a chain of films that is pulled at both ends, in the first
-/// and the second half of 300 steps. The films absorb a blow on both ends before.
+/// and the second half of 300 steps. The films absorb an impact on both ends before.
 std::array<double, 2> energies_of_films(Random& random, int dimension, double part,
                                         double restitution, std::optional<FrictionMethod> method,
                                         Scheme scheme) {
@@ -423,10 +423,10 @@ std::array<double, 2> energies_of_films(Random& random, int dimension, double pa
     end += 2 * radii[k];
   }
   if (method) add_rotation(state.particles);
-  // The blow is larger than what the pull takes back in 300 steps.
-  const Vector blow{1e4 * pull * 300, 0, 0}, force{pull, 0, 0};
-  setting.forces[0] = {{{h, blow}, {1e18, -1 * force}}};
-  setting.forces[static_cast<std::int32_t>(count) - 1] = {{{h, -1 * blow}, {1e18, force}}};
+  // The impact is larger than what the pull takes back in 300 steps.
+  const Vector impact{1e4 * pull * 300, 0, 0}, force{pull, 0, 0};
+  setting.forces[0] = {{{h, impact}, {1e18, -1 * force}}};
+  setting.forces[static_cast<std::int32_t>(count) - 1] = {{{h, -1 * impact}, {1e18, force}}};
   Simulation simulation(setting, state, 1);
   const auto& p = simulation.state().particles;
   const auto directions = static_cast<std::size_t>(dimension);

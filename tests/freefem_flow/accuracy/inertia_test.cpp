@@ -276,8 +276,8 @@ TEST(StartAsStokesFlow, StaysWhereNothingChanges) {
     auto fluid = by(method, 0.5, 2);
     fluid.start = FlowStart::kStokes;
     fluid.pressure_gradient = {-1, 0};
-    const auto carried = one_particle(fluid, 2, 0.02, 2, false);
-    const double u = carried.motion_at(0.02)[0], later = carried.motion_at(0.1)[0];
+    const auto solid_load = one_particle(fluid, 2, 0.02, 2, false);
+    const double u = solid_load.motion_at(0.02)[0], later = solid_load.motion_at(0.1)[0];
     // Without the disc it would be 9/8/0.5 in the middle.
     EXPECT_GT(u, 2);
     EXPECT_LT(u, 2.25);

@@ -147,7 +147,7 @@ Simulation column_in_box() {
   return {setting, state, 1};
 }
 
-TEST(ForcesOfContacts, OfBlowsAndLoadsOnWallsAreTheChangeOfTheMomentum) {
+TEST(ForcesOfContacts, OfImpactsAndLoadsOnWallsAreTheChangeOfTheMomentum) {
   // Discs and spheres, two of them one body, that rebound, rub, and come to rest in a box.
   for (const int dimension : {2, 3})
     for (const auto scheme : {Scheme::kEuler, Scheme::kLeapfrog}) {
@@ -175,28 +175,28 @@ TEST(ForcesOfContacts, OfBlowsAndLoadsOnWallsAreTheChangeOfTheMomentum) {
       setting.laws.friction = FrictionLaw{0.3};
       setting.laws.restitution.coefficient = 0.6;
       Simulation simulation(setting, state, 1);
-      std::size_t blows = 0;
+      std::size_t impacts = 0;
       double mass = 0;
       for (const double m : state.particles.masses) mass += m;
       for (int n = 0; n < 400; ++n) {
         const Vector before = momentum(simulation.state().particles);
         simulation.step(100);
-        blows += simulation.rebounds().size();
+        impacts += simulation.rebounds().size();
         const double h = setting.time_step;
-        const double kick = scheme == Scheme::kLeapfrog && n == 0 ? h / 2 : h;
-        Vector sum = (kick * mass) * setting.gravity;
+        const double impulse_time = scheme == Scheme::kLeapfrog && n == 0 ? h / 2 : h;
+        Vector sum = (impulse_time * mass) * setting.gravity;
         for (const auto& row : rows_of("walls", simulation.setting(), simulation.state()))
           for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
             sum[d] -= h * row[2 + d];
         const Vector change = momentum(simulation.state().particles) - before;
-        // Rounding errors of momenta up to 10 times the mass, after tens of blows in the step.
+        // Rounding errors of momenta up to 10 times the mass, after tens of impacts in the step.
         EXPECT_LE(norm(change - sum), 1e-12 * mass) << dimension << " step " << n;
       }
-      EXPECT_GT(blows, 30U);
+      EXPECT_GT(impacts, 30U);
     }
 }
 
-TEST(ForcesOfContacts, OfBlowsAreTheirStress) {
+TEST(ForcesOfContacts, OfImpactsAreTheirStress) {
   // In the first step two discs hit each other along x and a third one the left wall. The impulses
   // are 2 * 0.75 * 3 and 2 * 2 * 1, at the distances 1.5 and 0.5, in an area of 24.
   State state = no_particles(2);
@@ -212,7 +212,7 @@ TEST(ForcesOfContacts, OfBlowsAreTheirStress) {
   simulation.step(1);
   ASSERT_EQ(simulation.rebounds().size(), 2U);
   const auto stress = rows_of("stress", simulation.setting(), simulation.state())[0];
-  // A blow is solved to 1e-13 of its velocity (kExact in strike.cpp).
+  // An impact is solved to 1e-13 of its velocity (kExact in impact_solution.cpp).
   EXPECT_NEAR(stress[1], -(4.5 * 1.5 + 4 * 0.5) / 0.1 / 24, 1e-11);
   EXPECT_EQ(stress[4], 0);
   // A plane that has come down to y = 5 leaves the area 20, and without a domain planes at the

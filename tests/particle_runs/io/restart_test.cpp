@@ -76,17 +76,17 @@ TEST_F(RestartFile, HasWhatSourcesHaveDone) {
   }
 }
 
-TEST_F(RestartFile, HasTheBlowsOfTheLastStep) {
+TEST_F(RestartFile, HasTheImpactsOfTheLastStep) {
   auto state = disc_on_plane(-0.75);
   state.earlier_step = 0.1;
-  state.blows = {{-1, {0.1, 1.0 / 3, 0}, {0, 1, 0}}, {0, {-2, 0, 0}, {1.0 / 7, 0, 0}}};
+  state.impacts = {{-1, {0.1, 1.0 / 3, 0}, {0, 1, 0}}, {0, {-2, 0, 0}, {1.0 / 7, 0, 0}}};
   const auto text = write_restart(state);
   const auto again = read(text);
-  ASSERT_EQ(again.blows.size(), 2U);
+  ASSERT_EQ(again.impacts.size(), 2U);
   for (std::size_t k = 0; k < 2; ++k) {
-    EXPECT_EQ(again.blows[k].first, state.blows[k].first);
-    EXPECT_EQ(again.blows[k].impulse, state.blows[k].impulse);
-    EXPECT_EQ(again.blows[k].branch, state.blows[k].branch);
+    EXPECT_EQ(again.impacts[k].first, state.impacts[k].first);
+    EXPECT_EQ(again.impacts[k].impulse, state.impacts[k].impulse);
+    EXPECT_EQ(again.impacts[k].branch, state.impacts[k].branch);
   }
   EXPECT_EQ(write_restart(again), text);
   const auto refused = [&](const std::function<void(State&)>& change) {
@@ -94,9 +94,9 @@ TEST_F(RestartFile, HasTheBlowsOfTheLastStep) {
     change(other);
     EXPECT_THAT(bad_input([&] { read(write_restart(other)); }), IsAt("restart.bin"));
   };
-  refused([](State& other) { other.blows[1].first = 1; });
-  refused([](State& other) { other.blows[0].impulse[1] = std::nan(""); });
-  refused([](State& other) { other.blows[0].branch[0] = INFINITY; });
+  refused([](State& other) { other.impacts[1].first = 1; });
+  refused([](State& other) { other.impacts[0].impulse[1] = std::nan(""); });
+  refused([](State& other) { other.impacts[0].branch[0] = INFINITY; });
   refused([](State& other) { other.earlier_step = 0; });
 }
 
@@ -154,11 +154,11 @@ TEST_F(RestartFile, OfFrictionHasWhatTheSolidsCarried) {
   State state = disc_on_plane(-0.5);
   PairMemory memory;
   memory.set_friction({0.125, 0, 0});
-  memory[Remembered::kCarried] = 1.0 / 3;
+  memory[Remembered::kSolidLoad] = 1.0 / 3;
   state.memories.set(state.walls[0].memory, memory);
   const auto again = read(write_restart(state));
   EXPECT_EQ(again.memories.of(again.walls[0].memory), memory);
-  state.memories.make(state.walls[0].memory)[Remembered::kCarried] = -1;
+  state.memories.make(state.walls[0].memory)[Remembered::kSolidLoad] = -1;
   EXPECT_THAT(bad_input([&] { read(write_restart(state)); }), IsAt("restart.bin"));
 }
 

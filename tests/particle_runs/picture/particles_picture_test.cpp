@@ -84,13 +84,13 @@ TEST(ParticlesPicture, WidthOfAContactIsItsForceAndItsColourTheMobilisedFriction
     EXPECT_THAT(svg, HasSubstr("line width: normal force, widest from 4 [mass × length/time²] on"));
     EXPECT_THAT(svg, HasSubstr(kFrictionWords));
   }
-  // Most forces are seen beside a blow: here the largest of 100 contacts is no measure.
-  auto blow = falling_row(2, 101, 2);
-  for (auto& contact : blow.frames[1].contacts) contact.normal_force = contact.first < 0 ? 0 : -1;
-  blow.frames[1].contacts.front().normal_force = 1e6;
-  const auto scene = scene_of(blow, {0, 1}, {}, 2);
+  // Most forces are seen beside an impact: here the largest of 100 contacts is no measure.
+  auto impact = falling_row(2, 101, 2);
+  for (auto& contact : impact.frames[1].contacts) contact.normal_force = contact.first < 0 ? 0 : -1;
+  impact.frames[1].contacts.front().normal_force = 1e6;
+  const auto scene = scene_of(impact, {0, 1}, {}, 2);
   EXPECT_EQ(scene.top_force, 1);
-  EXPECT_EQ(force_share(scene, blow.frames[1].contacts.front()), 1);
+  EXPECT_EQ(force_share(scene, impact.frames[1].contacts.front()), 1);
 }
 
 TEST(ParticlesPicture, HasNoMorePanelsThanFrames) {

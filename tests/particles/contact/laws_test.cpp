@@ -88,7 +88,7 @@ TEST(FilmLaw, KeepsTheErrorOfItsImpulses) {
 }
 
 TEST(RestitutionLaw, OfAParticleAtAPlaneIsThatOfTheClosedForm) {
-  // (4.13): both phases of a blow with the momentum p = m u on a film from gamma_min = -k; the
+  // (4.13): both phases of an impact with the momentum p = m u on a film from gamma_min = -k; the
   // particle leaves with e_d p - (1 + e_d) k, or stays with gamma = gamma_min + e_d (p - k).
   const RestitutionLaw law{0.8};
   const double k = 2;

@@ -421,7 +421,7 @@ radius = 0.5
 density = 6.0
 VELOCITY
 )";
-  // With constraint = "rigid": held_in_flow_test.cpp.
+  // With constraint = "rigid": constrained_in_flow_test.cpp.
   for (const auto& [method, periodic] :
        {std::pair("mesh = \"fixed\"", "false"),
         std::pair("advection = \"characteristics\"\nstart = \"stokes\"\ncoupling = \"splitting\"",

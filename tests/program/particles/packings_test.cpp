@@ -241,7 +241,7 @@ TEST_F(Packings, HaveTheReynoldsAndStokesNumbersOfTheirMotion) {
     const double of_film = largest(1).momentum / -lowest;
     EXPECT_NEAR(found["film_stokes_number"].get<double>() / of_film, 1, kRounding);
     const auto warning = Says("the momentum of the landing is ");
-    // At 2 the blow decides when solids touch, at 1000 they do not.
+    // At 2 the impact decides when solids touch, at 1000 they do not.
     if (lowest == -60.0)
       EXPECT_THAT(result.errors, warning);
     else

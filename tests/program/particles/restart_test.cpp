@@ -51,7 +51,7 @@ radius = 1.0
 mass = 1.0
 )";
 
-TEST_F(ParticlesCommand, ARestartHasTheForcesOfTheBlowsOfTheStepBefore) {
+TEST_F(ParticlesCommand, ARestartHasTheForcesOfTheImpactsOfTheStepBefore) {
   expect_done(run(put_case(kBall), out("whole")));
   expect_done(
       run(put_case(replaced(kBall, "end_time = 2.1", "end_time = 1.4"), "half.toml"), out("half")));
@@ -65,7 +65,7 @@ TEST_F(ParticlesCommand, ARestartHasTheForcesOfTheBlowsOfTheStepBefore) {
   EXPECT_EQ(rows("rest"), rows("whole"));
 }
 
-TEST_F(ParticlesCommand, ThatContinuesAfterItsLastStepHasTheForcesOfItsBlows) {
+TEST_F(ParticlesCommand, ThatContinuesAfterItsLastStepHasTheForcesOfItsImpacts) {
   // No frame is due at the end, so that the frame there is written again without a step.
   const auto file = put_case(
       replaced(replaced(kBall, "end_time = 2.1", "end_time = 1.4"), "every = 0.7", "every = 0.9"));

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "viscontact/constraint_rows/tension.hpp"
-#include "viscontact/immersed/held_rows.hpp"
+#include "viscontact/immersed/constrained_motion.hpp"
 #include "viscontact/particles/state/rigid_bodies.hpp"
 
 namespace viscontact::particles {
@@ -23,10 +23,10 @@ bool has_ends(const LinkEquations& link) {
 
 }  // namespace
 
-HeldRow HeldMotion::row_across(const LinkEquations& link, double length) const {
+VelocityConstraint ConstrainedMotion::row_across(const LinkEquations& link, double length) const {
   const auto& ends = link.parts();
   const auto across = rows_across(ends[0], ends[1], length * ends[1].direction, 1, 2).front();
-  HeldRow row;
+  VelocityConstraint row;
   row.is_geometric = true;
   row.accelerates = link_time(link) >= 0;
   for (const auto& part : across.parts) add_entries(part, row);
@@ -34,7 +34,8 @@ HeldRow HeldMotion::row_across(const LinkEquations& link, double length) const {
   return row;
 }
 
-std::vector<HeldMotion::Turn> HeldMotion::turns_of_links(std::span<const double> before) const {
+std::vector<ConstrainedMotion::Turn> ConstrainedMotion::turns_of_links(
+    std::span<const double> before) const {
   std::vector<Turn> turns;
   std::size_t r = body_rows_;
   for (std::size_t l = 0; l < in_rows_.size(); ++l) {
@@ -51,17 +52,17 @@ std::vector<HeldMotion::Turn> HeldMotion::turns_of_links(std::span<const double>
   return turns;
 }
 
-std::vector<HeldMotion::Turn> HeldMotion::turns_of_units(const ForcesOfStep& step,
-                                                         std::span<const double> before) const {
+std::vector<ConstrainedMotion::Turn> ConstrainedMotion::turns_of_units(
+    const ForcesOfStep& step, std::span<const double> before) const {
   const auto& bodies = particles_.bodies;
   std::vector<Turn> turns;
-  const auto turn_of = [&](std::int32_t particle) -> HeldRow& {
+  const auto turn_of = [&](std::int32_t particle) -> VelocityConstraint& {
     const auto body = bodies.body_of(particle);
     const auto first = body < 0 ? particle : bodies.bodies[index_of(body)].members.front();
     const Turn::Key key{Turn::kUnit, first, 0, 0};
     const auto found = std::ranges::find(turns, key, &Turn::key);
     if (found != turns.end()) return found->row;
-    HeldRow row;
+    VelocityConstraint row;
     row.is_geometric = true;
     row.accelerates = link_time(first) >= 0;
     row.entries = {{layout_.at(first, 2), 1}};
@@ -96,7 +97,8 @@ std::vector<HeldMotion::Turn> HeldMotion::turns_of_units(const ForcesOfStep& ste
   return turns;
 }
 
-std::vector<HeldMotion::Turn> HeldMotion::turns_of_films(const ForcesOfStep& step) const {
+std::vector<ConstrainedMotion::Turn> ConstrainedMotion::turns_of_films(
+    const ForcesOfStep& step) const {
   std::vector<Turn> turns;
   for (const auto& contact : step.contacts) {
     const bool is_of_discs = contact.first >= 0 && contact.levers[0] == 0 && contact.levers[1] == 0;
@@ -110,7 +112,7 @@ std::vector<HeldMotion::Turn> HeldMotion::turns_of_films(const ForcesOfStep& ste
     const auto across =
         rows_across(part_of(contact.first), part_of(contact.second), {apart[0], apart[1], 0}, 1, 2)
             .front();
-    HeldRow row;
+    VelocityConstraint row;
     row.is_geometric = true;
     row.accelerates = link_time(contact.first) >= 0 || link_time(contact.second) >= 0;
     row.stiffness = -contact.impulse / times_.h / length;
@@ -123,7 +125,7 @@ std::vector<HeldMotion::Turn> HeldMotion::turns_of_films(const ForcesOfStep& ste
   return turns;
 }
 
-void HeldMotion::add_turns(const ForcesOfStep& step) {
+void ConstrainedMotion::add_turns(const ForcesOfStep& step) {
   if (layout_.components != 3) return;
   assert(step.on_particles.size() == step.mobility.size());
   const auto before = velocities_before();
@@ -166,22 +168,23 @@ void HeldMotion::add_turns(const ForcesOfStep& step) {
   }
 }
 
-std::size_t HeldMotion::turn_of_unit(std::int32_t particle) const {
+std::size_t ConstrainedMotion::turn_of_unit(std::int32_t particle) const {
   const auto body = particles_.bodies.body_of(particle);
   const auto first = body < 0 ? particle : particles_.bodies.bodies[index_of(body)].members.front();
   return static_cast<std::size_t>(
       std::ranges::find(turns_, Turn::Key{Turn::kUnit, first, 0, 0}, &Turn::key) - turns_.begin());
 }
 
-std::vector<HeldRow> HeldMotion::geometric_rows() const {
-  std::vector<HeldRow> rows;
+std::vector<VelocityConstraint> ConstrainedMotion::geometric_rows() const {
+  std::vector<VelocityConstraint> rows;
   for (const auto& turn : turns_) rows.push_back(turn.row);
   return rows;
 }
 
-void HeldMotion::turn_to_end(std::span<const LinkEquations> turned,
-                             std::span<const double> velocities, std::vector<HeldRow>& rows,
-                             std::vector<double>& rates) const {
+void ConstrainedMotion::turn_to_end(std::span<const LinkEquations> turned,
+                                    std::span<const double> velocities,
+                                    std::vector<VelocityConstraint>& rows,
+                                    std::vector<double>& rates) const {
   for (const auto& turn : turns_) {
     if (turn.key[0] != Turn::kLink) {
       rows.push_back(turn.row);
@@ -196,15 +199,16 @@ void HeldMotion::turn_to_end(std::span<const LinkEquations> turned,
   }
 }
 
-double HeldMotion::sum_of(const HeldRow& row, std::span<const double> velocities) {
+double ConstrainedMotion::sum_of(const VelocityConstraint& row,
+                                 std::span<const double> velocities) {
   double sum = row.image_rate;
   for (const auto& [component, coefficient] : row.entries)
     sum += coefficient * velocities[component];
   return sum;
 }
 
-double HeldMotion::power_of_turning(std::size_t k, std::span<const double> row_forces,
-                                    std::span<const double> velocities) const {
+double ConstrainedMotion::power_of_turning(std::size_t k, std::span<const double> row_forces,
+                                           std::span<const double> velocities) const {
   assert(row_forces.size() >= turns_.size());
   const auto base = row_forces.size() - turns_.size();
   const Turn::Key key{Turn::kLink, static_cast<std::int32_t>(arm(k)), 0, 0};

@@ -1,4 +1,4 @@
-// Blows of rigid bodies, of one contact and of several, against closed forms.
+// Impacts of rigid bodies, of one contact and of several, against closed forms.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace viscontact::particles {
 namespace {
 
-TEST(BlowOfABody, OfAFlatDumbbellAtTheEndOfAStepIsOneBlow) {
+TEST(ImpactOfABody, OfAFlatDumbbellAtTheEndOfAStepIsOneImpact) {
   // It arrives at t = 2 h but for rounding errors, in scenes that are turned.
   for (int k = 0; k < 40; ++k) {
     const double angle = 0.37 + 0.37 * k;
@@ -34,7 +34,7 @@ TEST(BlowOfABody, OfAFlatDumbbellAtTheEndOfAStepIsOneBlow) {
   }
 }
 
-TEST(BlowOfABody, OfABodyThatTurnsKeepsItsEnergyAtEachStep) {
+TEST(ImpactOfABody, OfABodyThatTurnsKeepsItsEnergyAtEachStep) {
   for (const double step : {0.04, 0.01, 0.0025}) {
     Scene scene{no_particles(2), {}};
     add_particle(scene.state, {0.477668, 2.147760, 0}, 0.3, 1, {-0.443280, 0.433005, 0});
@@ -57,9 +57,9 @@ TEST(BlowOfABody, OfABodyThatTurnsKeepsItsEnergyAtEachStep) {
   }
 }
 
-TEST(BlowOfABody, TwiceInAStepKeepsTheEnergyAndHasTheVelocityOfThePointOfContact) {
+TEST(ImpactOfABody, TwiceInAStepKeepsTheEnergyAndHasTheVelocityOfThePointOfContact) {
   // The ends of a dumbbell hit the plane one after the other within one step, between which the
-  // first blow has turned it.
+  // first impact has turned it.
   constexpr double kRadius = 0.5, kHalf = 1.5, kStep = 0.02;
   Random random(5);
   int twice = 0;
@@ -90,8 +90,8 @@ TEST(BlowOfABody, TwiceInAStepKeepsTheEnergyAndHasTheVelocityOfThePointOfContact
       const Vector offset = before.offsets[std::size_t(rebound.second)];
       const double arm = std::cos(angle) * offset[0] - std::sin(angle) * offset[1];
       const double approach = speed + turning * arm;
-      // A blow is solved to 1e-13 of its velocities (kExact in strike.cpp), which are up to 20, and
-      // a second blow multiplies its errors.
+      // An impact is solved to 1e-13 of its velocities (kExact in impact_solution.cpp), which are
+      // up to 20, and a second impact multiplies its errors.
       EXPECT_NEAR(rebound.approach_velocity, approach, 1e-10) << k;
       EXPECT_NEAR(rebound.velocity, -approach, 1e-10) << k;
       const double impulse = -2 * approach / (1 / before.mass + arm * arm / before.inertia[8]);
@@ -104,13 +104,13 @@ TEST(BlowOfABody, TwiceInAStepKeepsTheEnergyAndHasTheVelocityOfThePointOfContact
   EXPECT_GT(twice, 20);
 }
 
-TEST(BlowOfABody, InSpaceKeepsTheEnergyToSecondOrder) {
+TEST(ImpactOfABody, InSpaceKeepsTheEnergyToSecondOrder) {
   // Bodies of three unequal spheres, whose angular velocity changes in free flight, too. Returns
-  // the mean change of the energy by a step with a blow.
+  // the mean change of the energy by a step with an impact.
   const auto mean_change = [](double step) {
     Random random(6);
     double sum = 0;
-    int blows = 0;
+    int impacts = 0;
     for (int k = 0; k < 100; ++k) {
       Scene scene{no_particles(3), {}};
       auto& p = scene.state.particles;
@@ -136,21 +136,21 @@ TEST(BlowOfABody, InSpaceKeepsTheEnergyToSecondOrder) {
         const double after = energy();
         if (!simulation.rebounds().empty()) {
           sum += std::abs(after / before - 1);
-          ++blows;
+          ++impacts;
         }
         before = after;
       });
     }
-    EXPECT_GT(blows, 100);
-    return sum / blows;
+    EXPECT_GT(impacts, 100);
+    return sum / impacts;
   };
   const double coarse = mean_change(0.01), fine = mean_change(0.0025);
-  // It is 9e-5, and would be 2e-3 if blows took the mean angular velocity of the step.
+  // It is 9e-5, and would be 2e-3 if impacts took the mean angular velocity of the step.
   EXPECT_LE(coarse, 1e-4);
   EXPECT_LE(fine, coarse / 10);  // 16 for the second order
 }
 
-TEST(BlowOfABody, AcrossAPeriodicSideIsThatInTheMiddle) {
+TEST(ImpactOfABody, AcrossAPeriodicSideIsThatInTheMiddle) {
   // A dumbbell that turns, and a disc that falls on it, at different places of a periodic cell.
   std::vector<Rebound> in_middle;
   for (const double shift : {5.0, 0.1, 9.2, 8.7}) {
@@ -182,8 +182,8 @@ TEST(BlowOfABody, AcrossAPeriodicSideIsThatInTheMiddle) {
   }
 }
 
-TEST(BlowOfABody, OfABodyThatFallsFlatDoesNotDependOnTheOrderOfItsParticles) {
-  // Five discs of which each takes a fifth of the blow, 0.8 of it in its film and 0.2 in its
+TEST(ImpactOfABody, OfABodyThatFallsFlatDoesNotDependOnTheOrderOfItsParticles) {
+  // Five discs of which each takes a fifth of the impact, 0.8 of it in its film and 0.2 in its
   // solids.
   std::vector<std::size_t> order{0, 1, 2, 3, 4};
   do {
@@ -211,7 +211,7 @@ TEST(BlowOfABody, OfABodyThatFallsFlatDoesNotDependOnTheOrderOfItsParticles) {
   } while (std::ranges::next_permutation(order).found);
 }
 
-TEST(BlowOfABody, OfARigidBodyHasItsMassAndInertia) {
+TEST(ImpactOfABody, OfARigidBodyHasItsMassAndInertia) {
   // A dumbbell along x falls on its left disc: the contact sees the mass 1/(1/m + r^2/I).
   Scene scene{no_particles(2), {}};
   add_particle(scene.state, {0, 1.5, 0}, 1, 1, {0, -1, 0});

@@ -1,4 +1,4 @@
-// The phases of a blow, compression and restitution, docs/physics.md (5.15).
+// The phases of an impact, compression and restitution, docs/physics.md (5.15).
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -68,7 +68,7 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
       auto& row = problem.rows.back();
       row.offset = step_.h * hit.approach;
       if (k > 0) {
-        // `slip` is the velocity at which the surfaces slip before the blow [L/T].
+        // `slip` is the velocity at which the surfaces slip before the impact [L/T].
         const Vector slip = hit.relative +
                             cross(spin_at(of.second, time), -tangents.second_arm * hit.normal) -
                             cross(spin_at(contact.first, time), tangents.first_arm * hit.normal);
@@ -90,9 +90,9 @@ void Impacts<D>::move_unit(std::int32_t particle, const Motion<D>& change, doubl
   const auto add = [&](std::int32_t k) {
     auto& of = flight(k);
     of.change = of.change + velocity;
-    of.late = of.late + time * velocity;
+    of.lag = of.lag + time * velocity;
     of.turn_change = of.turn_change + turn;
-    of.late_turn = of.late_turn + time * turn;
+    of.turn_lag = of.turn_lag + time * turn;
     ++of.version;
   };
   const auto body = p.bodies.body_of(particle);
@@ -104,18 +104,18 @@ void Impacts<D>::move_unit(std::int32_t particle, const Motion<D>& change, doubl
   auto& step = step_.bodies[index_of(body)];
   const double rest = step_.h - time;
   step.displacement = step.displacement + rest * velocity;
-  step.late_velocity = step.late_velocity + (time / step_.h) * velocity;
+  step.velocity_lag = step.velocity_lag + (time / step_.h) * velocity;
   step.turn = step.turn + rest * turn;
   // In space, constrain() (rigid_bodies.hpp) adds the effect of the remaining contacts to this
   // angular momentum. In the plane, constrain() computes the angular momentum as I turn/h +
-  // late_momentum, and turn/h lacks the part time/h of the change.
+  // momentum_lag, and turn/h lacks the part time/h of the change.
   const Vector momentum = present_inertia(body_at(particle, time), D) * turn;
   step.angular_momentum = step.angular_momentum + momentum;
-  step.late_momentum = step.late_momentum + (time / step_.h) * momentum;
+  step.momentum_lag = step.momentum_lag + (time / step_.h) * momentum;
 }
 
 template <int D>
-void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
+void Impacts<D>::apply_impacts(const std::vector<Hit>& hits, double time) {
   assert(!hits.empty() && time >= 0 && time <= step_.h);
   // Residuals over the fastest approach [1]: what the solver tries to reach, near the rounding
   // errors of a double, and what counts as solved.
@@ -128,7 +128,7 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     fastest = std::max(fastest, -hit.approach);
     fastest_slip = std::max({fastest_slip, -hit.approach, norm(hit.relative)});
   }
-  // The problem of the compression has no friction; that of the whole blow below has it.
+  // The problem of the compression has no friction; that of the whole impact below has it.
   auto compression = problem;
   for (auto& block : compression.blocks) {
     block.rows = 1;
@@ -181,7 +181,7 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
   }
   // Nothing rebounds, and the projection decides.
   if (!solids_touch) return;
-  // The problem of the whole blow has the impulses of compression and restitution together.
+  // The problem of the whole impact has the impulses of compression and restitution together.
   const double e = laws.restitution.coefficient;
   for (std::size_t c = 0; c < hits.size(); ++c) {
     auto& block = problem.blocks[c];
@@ -205,9 +205,9 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
   solve(problem);
   auto changes = motions<D>(problem, problem.impulses);
   // The work of the impulses is their product with the mean of the velocities before and after the
-  // blow. In a blow of several contacts, friction and films could make it positive. The impulses
-  // are then moved towards those of the compression, whose work is negative, until it is 0; 50
-  // halvings are exact.
+  // impact. In an impact of several contacts, friction and films could make it positive. The
+  // impulses are then moved towards those of the compression, whose work is negative, until it is
+  // 0; 50 halvings are exact.
   const auto work = [&](const std::vector<double>& impulses) {
     const auto y = motions<D>(problem, impulses);
     double sum = 0;
@@ -288,7 +288,7 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
   for (const auto of : pairs) expect(of, time);
 }
 
-template void Impacts<2>::strike(const std::vector<Hit>&, double);
-template void Impacts<3>::strike(const std::vector<Hit>&, double);
+template void Impacts<2>::apply_impacts(const std::vector<Hit>&, double);
+template void Impacts<3>::apply_impacts(const std::vector<Hit>&, double);
 
 }  // namespace viscontact::particles

@@ -1,5 +1,6 @@
-// Forces that keep linear conditions on velocities: A S A^T l = rate - A S f (held_solver.hpp).
-#include "viscontact/immersed/held_solver.hpp"
+// Forces that keep linear conditions on velocities: A S A^T l = rate - A S f
+// (constrained_solver.hpp).
+#include "viscontact/immersed/constrained_solver.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -23,13 +24,14 @@ constexpr double kResolved = 0.05, kResolvedWithMass = 0.1;
 
 }  // namespace
 
-HeldSolver::HeldSolver(std::unique_ptr<FluidSolver> solver, double relative_error, bool has_inertia)
+ConstrainedSolver::ConstrainedSolver(std::unique_ptr<FluidSolver> solver, double relative_error,
+                                     bool has_inertia)
     : solver_(std::move(solver)), relative_error_(relative_error), has_inertia_(has_inertia) {
   assert(solver_ != nullptr);
   assert(relative_error > 0);
 }
 
-void HeldSolver::hold(std::vector<HeldRow> rows, double h) {
+void ConstrainedSolver::hold(std::vector<VelocityConstraint> rows, double h) {
   assert(h > 0);
   rows_ = std::move(rows);
   stiffnesses_.clear();
@@ -37,7 +39,7 @@ void HeldSolver::hold(std::vector<HeldRow> rows, double h) {
   h_ = h;
 }
 
-Eigen::VectorXd HeldSolver::sums(std::span<const double> velocities) const {
+Eigen::VectorXd ConstrainedSolver::sums(std::span<const double> velocities) const {
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Index>(rows_.size()));
   for (std::size_t r = 0; r < rows_.size(); ++r)
     for (const auto& [component, coefficient] : rows_[r].entries)
@@ -45,19 +47,21 @@ Eigen::VectorXd HeldSolver::sums(std::span<const double> velocities) const {
   return sums;
 }
 
-void HeldSolver::add_row_forces(std::span<double> forces, const Eigen::VectorXd& of_rows) const {
+void ConstrainedSolver::add_row_forces(std::span<double> forces,
+                                       const Eigen::VectorXd& of_rows) const {
   for (std::size_t r = 0; r < rows_.size(); ++r)
     for (const auto& [component, coefficient] : rows_[r].entries)
       forces[component] += coefficient * of_rows[static_cast<Index>(r)];
 }
 
-void HeldSolver::add_responses(std::span<double> velocities, const Eigen::VectorXd& forces) const {
+void ConstrainedSolver::add_responses(std::span<double> velocities,
+                                      const Eigen::VectorXd& forces) const {
   for (std::size_t r = 0; r < rows_.size(); ++r)
     for (std::size_t i = 0; i < velocities.size(); ++i)
       velocities[i] += forces[static_cast<Index>(r)] * responses_[r][i];
 }
 
-void HeldSolver::place(const FluidParticles& bodies) {
+void ConstrainedSolver::place(const FluidParticles& bodies) {
   solver_->place(bodies);
   is_varied_ = false;
   responses_.clear();
@@ -66,8 +70,8 @@ void HeldSolver::place(const FluidParticles& bodies) {
   respond();
 }
 
-void HeldSolver::turn_with(std::span<const HeldRow> rows) {
-  assert(std::ranges::count_if(rows_, &HeldRow::is_geometric) <= std::ssize(rows));
+void ConstrainedSolver::turn_with(std::span<const VelocityConstraint> rows) {
+  assert(std::ranges::count_if(rows_, &VelocityConstraint::is_geometric) <= std::ssize(rows));
   std::size_t known = 0;
   for (auto& row : rows_)
     if (row.is_geometric) row.stiffness = rows[known++].stiffness;
@@ -76,7 +80,7 @@ void HeldSolver::turn_with(std::span<const HeldRow> rows) {
   respond();
 }
 
-void HeldSolver::respond() {
+void ConstrainedSolver::respond() {
   const auto n = static_cast<Index>(rows_.size());
   matrix_.resize(n, n);
   while (responses_.size() < rows_.size()) {
@@ -95,7 +99,7 @@ void HeldSolver::respond() {
   set_stiffnesses(std::move(stiffnesses));
 }
 
-double HeldSolver::theta_for(double z, const HeldRow& row) const {
+double ConstrainedSolver::theta_for(double z, const VelocityConstraint& row) const {
   if (has_inertia_) {
     // The bound keeps 1/theta finite. It changes the force of a spring by less than the relative
     // error of the fluid solver's velocities does, which is at least 1e-9 (error_of_answers()).
@@ -107,7 +111,8 @@ double HeldSolver::theta_for(double z, const HeldRow& row) const {
   return std::isfinite(z) ? (1 + z) / (2 + z) : 1;
 }
 
-std::vector<double> HeldSolver::rates_of_turning(const std::vector<double>& stiffnesses) const {
+std::vector<double> ConstrainedSolver::rates_of_turning(
+    const std::vector<double>& stiffnesses) const {
   std::vector<double> rates(rows_.size(), 0.0);
   const auto of = [&](std::size_t i) { return static_cast<std::size_t>(springs_[i]); };
   for (std::size_t i = 0; i < springs_.size(); ++i) {
@@ -121,7 +126,7 @@ std::vector<double> HeldSolver::rates_of_turning(const std::vector<double>& stif
   return rates;
 }
 
-void HeldSolver::set_stiffnesses(std::vector<double> stiffnesses) {
+void ConstrainedSolver::set_stiffnesses(std::vector<double> stiffnesses) {
   stiffnesses_ = std::move(stiffnesses);
   // Where the step resolves the motion, the row does not act.
   auto rates = rates_of_turning(stiffnesses_);
@@ -147,7 +152,7 @@ void HeldSolver::set_stiffnesses(std::vector<double> stiffnesses) {
   }
 }
 
-std::vector<double> HeldSolver::stiffnesses_for(const Eigen::VectorXd& of_rows) const {
+std::vector<double> ConstrainedSolver::stiffnesses_for(const Eigen::VectorXd& of_rows) const {
   auto stiffnesses = stiffnesses_;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     if (!rows_[r].is_geometric) continue;
@@ -159,7 +164,7 @@ std::vector<double> HeldSolver::stiffnesses_for(const Eigen::VectorXd& of_rows) 
   return stiffnesses;
 }
 
-Eigen::VectorXd HeldSolver::given() const {
+Eigen::VectorXd ConstrainedSolver::given() const {
   Eigen::VectorXd given(static_cast<Index>(rows_.size()));
   for (std::size_t r = 0; r < rows_.size(); ++r)
     given[static_cast<Index>(r)] =
@@ -168,7 +173,7 @@ Eigen::VectorXd HeldSolver::given() const {
   return given;
 }
 
-bool HeldSolver::settle_stiffnesses(std::span<const double> forces, double tolerance) {
+bool ConstrainedSolver::settle_stiffnesses(std::span<const double> forces, double tolerance) {
   assert(tolerance >= 0);
   const auto before = stiffnesses_;
   const Eigen::VectorXd free = sums(solver_->velocities(forces, true));
@@ -194,20 +199,20 @@ bool HeldSolver::settle_stiffnesses(std::span<const double> forces, double toler
   return false;
 }
 
-std::vector<double> HeldSolver::row_forces_under(std::span<const double> forces) {
+std::vector<double> ConstrainedSolver::row_forces_under(std::span<const double> forces) {
   if (rows_.empty()) return {};
   const Eigen::VectorXd of_rows = solve(given() - sums(solver_->velocities(forces, true)), true);
   return {of_rows.begin(), of_rows.end()};
 }
 
-Eigen::VectorXd HeldSolver::missing(std::span<const double> velocities) const {
+Eigen::VectorXd ConstrainedSolver::missing(std::span<const double> velocities) const {
   Eigen::VectorXd missing = -sums(velocities);
   for (std::size_t r = 0; r < rows_.size(); ++r)
     missing[static_cast<Index>(r)] += rows_[r].rate - rows_[r].image_rate;
   return missing;
 }
 
-void HeldSolver::factorise() {
+void ConstrainedSolver::factorise() {
   for (Index r = 0; r < matrix_.rows(); ++r)
     (rows_[static_cast<std::size_t>(r)].is_spring() ? springs_ : fixed_).push_back(r);
   // Rows are divided by the root of their mobility, so that those of lengths and of angles have the
@@ -236,7 +241,7 @@ void HeldSolver::factorise() {
   spring_matrix_ = projection * spring_matrix_ * projection;
 }
 
-Eigen::MatrixXd HeldSolver::solve_fixed(const Eigen::MatrixXd& right) const {
+Eigen::MatrixXd ConstrainedSolver::solve_fixed(const Eigen::MatrixXd& right) const {
   if (fixed_.empty()) return right;
   Eigen::MatrixXd forces = factor_.solve(right);
   // One step of iterative refinement.
@@ -245,7 +250,7 @@ Eigen::MatrixXd HeldSolver::solve_fixed(const Eigen::MatrixXd& right) const {
   return forces;
 }
 
-Eigen::VectorXd HeldSolver::solve(const Eigen::VectorXd& right, bool with_springs) const {
+Eigen::VectorXd ConstrainedSolver::solve(const Eigen::VectorXd& right, bool with_springs) const {
   assert(static_cast<std::size_t>(right.size()) == rows_.size());
   const Eigen::VectorXd scaled = scale_.cwiseProduct(right);
   Eigen::VectorXd of_fixed = solve_fixed(scaled(fixed_));
@@ -277,7 +282,7 @@ Eigen::VectorXd HeldSolver::solve(const Eigen::VectorXd& right, bool with_spring
   return scale_.cwiseProduct(forces);
 }
 
-void HeldSolver::check(const Eigen::VectorXd& right, const Eigen::VectorXd& forces) const {
+void ConstrainedSolver::check(const Eigen::VectorXd& right, const Eigen::VectorXd& forces) const {
   const Eigen::VectorXd scaled = scale_.cwiseProduct(right);
   const Eigen::VectorXd added = scale_.cwiseProduct(matrix_ * forces);
   // The effects of the forces may cancel each other. Errors are therefore relative to the sum of
@@ -302,7 +307,7 @@ void HeldSolver::check(const Eigen::VectorXd& right, const Eigen::VectorXd& forc
                 names);
 }
 
-std::vector<double> HeldSolver::velocities(std::span<const double> forces, bool driving) {
+std::vector<double> ConstrainedSolver::velocities(std::span<const double> forces, bool driving) {
   auto velocities = solver_->velocities(forces, driving);
   if (rows_.empty()) return velocities;
   Eigen::VectorXd prescribed = Eigen::VectorXd::Zero(static_cast<Index>(rows_.size()));
@@ -320,19 +325,20 @@ std::vector<double> HeldSolver::velocities(std::span<const double> forces, bool 
   add_row_forces(all, of_rows);
   // The fluid solver is asked again with these forces, because quantities() and flow() are those of
   // its last solution.
-  auto held = solver_->velocities(all, true);
-  add_responses(held, solve(missing(held), false));
-  return held;
+  auto constrained = solver_->velocities(all, true);
+  add_responses(constrained, solve(missing(constrained), false));
+  return constrained;
 }
 
-std::vector<double> HeldSolver::velocities_without_springs(std::span<const double> forces) {
+std::vector<double> ConstrainedSolver::velocities_without_springs(std::span<const double> forces) {
   auto velocities = solver_->velocities(forces, false);
   if (!rows_.empty()) add_responses(velocities, solve(-sums(velocities), false));
   return velocities;
 }
 
-std::vector<double> HeldSolver::change(std::span<double> velocities,
-                                       std::span<const double> changes, bool with_springs) const {
+std::vector<double> ConstrainedSolver::change(std::span<double> velocities,
+                                              std::span<const double> changes,
+                                              bool with_springs) const {
   if (rows_.empty()) return {};
   assert(changes.size() == rows_.size());
   const auto right =
@@ -342,13 +348,13 @@ std::vector<double> HeldSolver::change(std::span<double> velocities,
   return {forces.begin(), forces.end()};
 }
 
-std::vector<double> HeldSolver::row_forces_for(std::span<const double> changes) const {
+std::vector<double> ConstrainedSolver::row_forces_for(std::span<const double> changes) const {
   if (rows_.empty()) return {};
   const Eigen::VectorXd forces = solve(sums(changes), false);
   return {forces.begin(), forces.end()};
 }
 
-std::vector<double> HeldSolver::forces_of_step() const {
+std::vector<double> ConstrainedSolver::forces_of_step() const {
   std::vector<double> forces(responses_.empty() ? 0 : responses_.front().size());
   std::vector<char> acts;
   for (const auto& row : rows_) acts.push_back(row.is_spring() || row.accelerates ? 1 : 0);
@@ -362,22 +368,22 @@ std::vector<double> HeldSolver::forces_of_step() const {
   return forces;
 }
 
-void HeldSolver::hold_velocities(std::span<double> velocities) const {
+void ConstrainedSolver::hold_velocities(std::span<double> velocities) const {
   if (!rows_.empty()) add_responses(velocities, solve(missing(velocities), false));
 }
 
-double HeldSolver::vary_penalty() {
+double ConstrainedSolver::vary_penalty() {
   is_varied_ = true;
   return solver_->vary_penalty();
 }
 
-SecondMesh HeldSolver::vary_mesh() {
+SecondMesh ConstrainedSolver::vary_mesh() {
   is_varied_ = true;
   return solver_->vary_mesh();
 }
 
-void HeldSolver::correct(const Eigen::VectorXd& right, std::span<const double> forces,
-                         Eigen::VectorXd& of_rows) {
+void ConstrainedSolver::correct(const Eigen::VectorXd& right, std::span<const double> forces,
+                                Eigen::VectorXd& of_rows) {
   // Each correction multiplies the error of the sums by about the relative difference of both
   // mobilities, which is small.
   constexpr int kCorrections = 2;

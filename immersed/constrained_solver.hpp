@@ -18,8 +18,8 @@ namespace viscontact::particles {
 /// A linear condition on the velocities of all particles. Its sum adds coefficient times velocity
 /// over all `entries`, and `image_rate`. The condition is sum = `rate`. For a spring it is force =
 /// -stiffness (extension + theta h sum), with the length h of the step and the number theta, which
-/// HeldSolver explains.
-struct HeldRow {
+/// ConstrainedSolver explains.
+struct VelocityConstraint {
   /// Places of velocities in the array of all particles (MotionLayout), with their coefficients
   /// [1]. The coefficient of an angular velocity in a sum that is a velocity is in [L].
   std::vector<std::pair<std::size_t, double>> entries;
@@ -68,20 +68,20 @@ struct HeldRow {
 /// If rows depend on each other, A S A^T is singular up to the errors of the velocities, and the
 /// compliance 1/(theta h stiffness) of a spring may be far larger or smaller than its entries.
 /// Therefore the rank is found only for the rows without stiffness, which are then eliminated.
-class HeldSolver : public FluidSolver {
+class ConstrainedSolver : public FluidSolver {
  public:
   /// `relative_error` [1] is that of the velocities of `solver`, whose fluid may have inertia.
-  HeldSolver(std::unique_ptr<FluidSolver> solver, double relative_error, bool has_inertia);
+  ConstrainedSolver(std::unique_ptr<FluidSolver> solver, double relative_error, bool has_inertia);
 
   /// Sets the rows that hold from the next place() on, in steps of length h > 0 [T]. place() must
   /// follow before any other function.
-  void hold(std::vector<HeldRow> rows, double h);
+  void hold(std::vector<VelocityConstraint> rows, double h);
 
   void place(const FluidParticles& bodies) override;
   /// Takes the geometric rows `rows` after place(). The first ones, as many as there are geometric
   /// rows already, replace the constant stiffnesses of these; the others are added, and the fluid
   /// solver is asked once for each of them.
-  void turn_with(std::span<const HeldRow> rows);
+  void turn_with(std::span<const VelocityConstraint> rows);
 
   /// Finds the stiffnesses of the geometric rows from the forces of all rows under `forces` of the
   /// caller. Keeps the stiffnesses of before and returns false if none differs from its new value
@@ -146,9 +146,9 @@ class HeldSolver : public FluidSolver {
   void hold_velocities(std::span<double> velocities) const;
 
  private:
-  /// A v, without HeldRow::image_rate.
+  /// A v, without VelocityConstraint::image_rate.
   Eigen::VectorXd sums(std::span<const double> velocities) const;
-  /// HeldRow::rate, 0 for a spring, minus the sum with these velocities.
+  /// VelocityConstraint::rate, 0 for a spring, minus the sum with these velocities.
   Eigen::VectorXd missing(std::span<const double> velocities) const;
   void respond();
   void factorise();
@@ -169,7 +169,7 @@ class HeldSolver : public FluidSolver {
   void add_row_forces(std::span<double> forces, const Eigen::VectorXd& of_rows) const;
   /// Throws Error(kNotConverged) if the forces do not add `right` to the sums of fixed_ rows.
   void check(const Eigen::VectorXd& right, const Eigen::VectorXd& forces) const;
-  double theta_for(double z, const HeldRow& row) const;
+  double theta_for(double z, const VelocityConstraint& row) const;
   std::vector<double> rates_of_turning(const std::vector<double>& stiffnesses) const;
 
   std::unique_ptr<FluidSolver> solver_;
@@ -177,7 +177,7 @@ class HeldSolver : public FluidSolver {
   bool has_inertia_;
   double h_ = 0;
   std::size_t motions_ = 0;  // length of arrays of velocities
-  std::vector<HeldRow> rows_;
+  std::vector<VelocityConstraint> rows_;
   std::vector<double> stiffnesses_, thetas_;
   std::vector<std::vector<double>> responses_;  // velocities by a unit force of each row: S A^T
   Eigen::MatrixXd matrix_;                      // A S A^T

@@ -11,7 +11,7 @@
 #include "tests/immersed/stand_in_fluid.hpp"
 #include "tests/particles/systems.hpp"
 #include "viscontact/common/error.hpp"
-#include "viscontact/immersed/held_solver.hpp"
+#include "viscontact/immersed/constrained_solver.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -31,7 +31,7 @@ InFluid body_in_fluid(double h, double mass, const Vector& force) {
   return system;
 }
 
-TEST(HeldInFluid, ABodyMovesAsOneRigidParticle) {
+TEST(ConstrainedInFluid, ABodyMovesAsOneRigidParticle) {
   auto system = body_in_fluid(0.01, 0, {3, 0, 0});
   auto simulation = system.simulation(constant_drag(2));
   run(simulation, 0.01);
@@ -46,7 +46,7 @@ TEST(HeldInFluid, ABodyMovesAsOneRigidParticle) {
     EXPECT_NEAR(p.angular_velocities[k], body.angular_velocity[2], 1e-14);
 }
 
-TEST(HeldInFluid, ABodyKeepsItsShapeToRoundOffAndMovesWithSecondOrder) {
+TEST(ConstrainedInFluid, ABodyKeepsItsShapeToRoundOffAndMovesWithSecondOrder) {
   for (const double mass : {0.0, 1.5}) {
     SCOPED_TRACE(mass);
     std::vector<Vector> ends;
@@ -75,7 +75,7 @@ InFluid pair_on_axis(double h, double apart, double force) {
   return system;
 }
 
-TEST(HeldInFluid, ASpringRelaxesExponentiallyAndWithSecondOrder) {
+TEST(ConstrainedInFluid, ASpringRelaxesExponentiallyAndWithSecondOrder) {
   const double k = 3, drag = 2, rate = k * 2 / drag;
   std::vector<double> errors;
   for (const double h : {0.1, 0.05, 0.025}) {
@@ -91,7 +91,7 @@ TEST(HeldInFluid, ASpringRelaxesExponentiallyAndWithSecondOrder) {
   EXPECT_GT(std::log2(std::abs(errors[1] / errors[2])), 1.8);
 }
 
-TEST(HeldInFluid, AStiffSpringRelaxesWithoutOscillation) {
+TEST(ConstrainedInFluid, AStiffSpringRelaxesWithoutOscillation) {
   auto system = pair_on_axis(0.1, 4, 0);
   system.setting.links.springs = {{0, 1, 1e8, 3}};
   auto simulation = system.simulation(constant_drag(2));
@@ -100,7 +100,7 @@ TEST(HeldInFluid, AStiffSpringRelaxesWithoutOscillation) {
   EXPECT_NEAR(p.positions[1] - p.positions[0], 3, 1e-6);
 }
 
-TEST(HeldInFluid, AnArmKeepsItsLengthAndItsForceBalancesTheDrag) {
+TEST(ConstrainedInFluid, AnArmKeepsItsLengthAndItsForceBalancesTheDrag) {
   const double drag = 2;
   const SinusoidalLength length{4, 1, 2, 0};
   auto system = pair_on_axis(0.05, 4, 0);
@@ -117,7 +117,7 @@ TEST(HeldInFluid, AnArmKeepsItsLengthAndItsForceBalancesTheDrag) {
   }
 }
 
-TEST(HeldInFluid, ThePowerOfAnArmAddsUpToDissipationAndKineticEnergy) {
+TEST(ConstrainedInFluid, ThePowerOfAnArmAddsUpToDissipationAndKineticEnergy) {
   // At rest at the start, then with kinks of the length at the times 0, 0.5 and 1.
   const double h = 0.01;
   for (const double mass : {0.0, 1e-3, 1.0, 30.0}) {
@@ -144,7 +144,7 @@ TEST(HeldInFluid, ThePowerOfAnArmAddsUpToDissipationAndKineticEnergy) {
   }
 }
 
-TEST(HeldInFluid, AHingedBodySwingsBackWithItsTorsionSpring) {
+TEST(ConstrainedInFluid, AHingedBodySwingsBackWithItsTorsionSpring) {
   const double stiffness = 4, drag = 2;
   auto system = body_in_fluid(0.02, 0, {});
   auto& body = system.state.particles.bodies.bodies[0];
@@ -164,7 +164,7 @@ TEST(HeldInFluid, AHingedBodySwingsBackWithItsTorsionSpring) {
   EXPECT_NEAR(norm(p.position(0) - Vector{49, 50, 0}), 0, 1e-10);
 }
 
-TEST(HeldInFluid, ErrorsOfForcesAreThoseOfTheirLinksOnTwoMeshes) {
+TEST(ConstrainedInFluid, ErrorsOfForcesAreThoseOfTheirLinksOnTwoMeshes) {
   // On the second mesh the drag is 1 % larger, and with it the force of an arm; and the force of a
   // spring, -k (e + theta h rate) with the rate of the drag. The first solution and two corrections
   // leave over 0.01^3 of the force of 1, times 16/15.
@@ -195,12 +195,12 @@ TEST(HeldInFluid, ErrorsOfForcesAreThoseOfTheirLinksOnTwoMeshes) {
   }
 }
 
-TEST(HeldSolver, HasNoForcesOfRowsThatItNoLongerHolds) {
+TEST(ConstrainedSolver, HasNoForcesOfRowsThatItNoLongerHolds) {
   auto system = in_fluid(1, 100, 0.1, 0.01);
   for (const double z : {40.0, 44.0}) add_pushed(system, {z, 0, 0}, 0.5, 0, {});
   const auto& p = system.state.particles;
-  HeldSolver solver(std::make_unique<StandInFluid>(constant_drag(2)), 1e-9, false);
-  const HeldRow rod{.entries = {{0, -1}, {1, 1}}};
+  ConstrainedSolver solver(std::make_unique<StandInFluid>(constant_drag(2)), 1e-9, false);
+  const VelocityConstraint rod{.entries = {{0, -1}, {1, 1}}};
   solver.hold({rod}, 0.1);
   solver.place({&p, {}, {}, {}});
   EXPECT_TRUE(solver.row_forces().empty());
@@ -218,7 +218,7 @@ TEST(HeldSolver, HasNoForcesOfRowsThatItNoLongerHolds) {
   EXPECT_TRUE(solver.thetas().empty());
 }
 
-TEST(HeldInFluid, ConstraintsThatContradictEachOtherAreNamed) {
+TEST(ConstrainedInFluid, ConstraintsThatContradictEachOtherAreNamed) {
   auto system = in_fluid(1, 100, 0.1, 0.01);
   for (const double z : {40.0, 44.0, 48.0}) add_pushed(system, {z, 0, 0}, 0.5, 0, {});
   system.setting.links.arms = {{0, 1, PiecewiseLinearLength{{{0, 4}}}},

@@ -1,4 +1,4 @@
-// The blow of a step in a fluid, docs/physics.md (6.11): in the compression the solids come to
+// The impact of a step in a fluid, docs/physics.md (6.11): in the compression the solids come to
 // rest, in the restitution they give back the share e_d of the impulse that they took up.
 #include <algorithm>
 #include <cassert>
@@ -13,7 +13,7 @@ namespace viscontact::particles {
 namespace {
 
 /// The rate [L/T] at which a gap grows while the particles rest.
-double drift_of(const Contact<2>& contact, const BlowStep& step, double h) {
+double drift_of(const Contact<2>& contact, const ImpactStep& step, double h) {
   const auto& p = step.state.particles;
   if (contact.is_stop()) return 0;
   if (contact.first >= 0) {
@@ -27,12 +27,12 @@ double drift_of(const Contact<2>& contact, const BlowStep& step, double h) {
   return (gap_at(step.end) - gap_at(step.state.time)) / h;
 }
 
-/// One blow, whose work is not positive. solve() may be called once. It calls the other functions
+/// One impact, whose work is not positive. solve() may be called once. It calls the other functions
 /// in an order in which each one uses members of `parts_` that those before it have set.
-class Blow {
+class Impact {
  public:
-  Blow(const StepContacts& contacts, const BlowStep& step, const Mobility& mobility,
-       const ContactConditions& conditions)
+  Impact(const StepContacts& contacts, const ImpactStep& step, const Mobility& mobility,
+         const ContactConditions& conditions)
       : ordinary_(contacts),
         step_(step),
         laws_(step.setting.laws),
@@ -40,7 +40,7 @@ class Blow {
         conditions_(conditions),
         parts_(contacts.contacts.size()) {}
 
-  std::optional<FluidBlow> solve();
+  std::optional<FluidImpact> solve();
 
  private:
   struct Part {
@@ -55,14 +55,14 @@ class Blow {
     double compressed = 0;  // impulse at the end of the compression, load included
     double solid = 0;       // part of `compressed` that the solids take up beyond the load, >= 0
     double left = 0;        // gamma at the end of the compression, <= 0
-    double restored = 0;    // least impulse of the whole blow: compressed + left + e_d solid
+    double restored = 0;    // least impulse of the whole impact: compressed + left + e_d solid
   };
 
   /// Sets the members of each part from `drift` to `late`. Returns true if a contact is hit.
   bool find_hits();
-  /// The contact problem of a blow. Its impulses act on the velocities as forces would do in the
-  /// time BlowStep::kick [T]. The gaps of hit contacts are 0; those of all others are multiplied by
-  /// kick/h, so that they close at the same velocity as in the step.
+  /// The contact problem of an impact. Its impulses act on the velocities as forces would do in the
+  /// time ImpactStep::impulse_time [T]. The gaps of hit contacts are 0; those of all others are
+  /// multiplied by impulse_time/h, so that they close at the same velocity as in the step.
   StepContacts problem() const;
   /// Sets Part::load of the contacts that are closed or hit: the impulses that would keep these
   /// gaps from closing if the forces of the step acted on particles at rest. Returns true if
@@ -70,16 +70,17 @@ class Blow {
   bool take_load();
   /// Divides the impulses at the end of the compression between films and solids. Returns true if
   /// the solids of a contact give back more than its load; otherwise the particles would be apart
-  /// for less than two steps, and there is no blow.
+  /// for less than two steps, and there is no impact.
   bool share_impulses(const std::vector<Contact<2>>& compressed);
-  /// Keeps a blow from adding energy, which it can do if several contacts have films: moves the
+  /// Keeps an impact from adding energy, which it can do if several contacts have films: moves the
   /// impulses `restored` towards those of the compression until their work is not positive.
   void restrain(const StepContacts& compressed, StepContacts& restored) const;
-  /// Sets FluidBlow::moved. A hit contact exerts no force until its hit, and then the force of the
-  /// blow. A contact that is not hit exerts its load until the first hit, and then that force.
-  void move(FluidBlow& blow);
-  /// Sets FluidBlow::absorbed and FluidBlow::rebounds.
-  void book(FluidBlow& blow) const;
+  /// Sets FluidImpact::moved. A hit contact exerts no force until its hit, and then the force of
+  /// the impact. A contact that is not hit exerts its load until the first hit, and then that
+  /// force.
+  void move(FluidImpact& impact);
+  /// Sets FluidImpact::absorbed and FluidImpact::rebounds.
+  void book(FluidImpact& impact) const;
 
   // The stop of a hinge has no film and is in no list: its pair is empty.
   const Pair& pair(std::size_t c) const {
@@ -108,7 +109,7 @@ class Blow {
   }
 
   const StepContacts& ordinary_;  // the contacts of the step, as it was solved without restitution
-  const BlowStep& step_;
+  const ImpactStep& step_;
   const ContactLaws& laws_;
   const Mobility& mobility_;
   const ContactConditions& conditions_;
@@ -116,7 +117,7 @@ class Blow {
   int iterations_ = 0;  // of all problems
 };
 
-bool Blow::find_hits() {
+bool Impact::find_hits() {
   const auto free = conditions_.free_velocities;
   const double h = conditions_.h;
   const double touching = conditions_.solver.tolerance * conditions_.mean_radius;
@@ -172,20 +173,21 @@ bool Blow::find_hits() {
   return any;
 }
 
-StepContacts Blow::problem() const {
-  const double kick = step_.kick;
+StepContacts Impact::problem() const {
+  const double impulse_time = step_.impulse_time;
   StepContacts problem;
   problem.contacts = ordinary_.contacts;
   for (std::size_t c = 0; c < parts_.size(); ++c) {
     auto& contact = problem.contacts[c];
-    contact.gap = parts_[c].is_hit ? kick * parts_[c].drift : contact.gap * (kick / conditions_.h);
+    contact.gap = parts_[c].is_hit ? impulse_time * parts_[c].drift
+                                   : contact.gap * (impulse_time / conditions_.h);
     contact.lowest *= conditions_.share_of_impulse;
     contact.impulse *= conditions_.share_of_impulse;
   }
   return problem;
 }
 
-bool Blow::take_load() {
+bool Impact::take_load() {
   auto load = problem();
   std::vector<Contact<2>> contacts;
   std::vector<std::size_t> numbers;
@@ -193,14 +195,14 @@ bool Blow::take_load() {
     const auto& part = parts_[c];
     if (!part.is_hit && !part.is_closed) continue;
     auto& contact = load.contacts[c];
-    contact.gap = step_.kick * part.pull;
+    contact.gap = step_.impulse_time * part.pull;
     contact.impulse = part.is_hit ? 0 : contact.impulse;
     contacts.push_back(contact);
     numbers.push_back(c);
   }
   load.contacts = std::move(contacts);
   const std::vector<double> still(conditions_.free_velocities.size());
-  auto conditions = conditions_over(step_.kick);
+  auto conditions = conditions_over(step_.impulse_time);
   conditions.free_velocities = still;
   solve_listed(load, mobility_, conditions);
   iterations_ += load.iterations;
@@ -209,7 +211,7 @@ bool Blow::take_load() {
   return load.is_solved;
 }
 
-bool Blow::share_impulses(const std::vector<Contact<2>>& compressed) {
+bool Impact::share_impulses(const std::vector<Contact<2>>& compressed) {
   bool any = false;
   for (std::size_t c = 0; c < parts_.size(); ++c) {
     auto& part = parts_[c];
@@ -218,7 +220,7 @@ bool Blow::share_impulses(const std::vector<Contact<2>>& compressed) {
     const double by_load = std::clamp(gamma - part.load, lowest, 0.0);
     part.solid = RestitutionLaw::solid_impulse(part.compressed - part.load, by_load - lowest);
     part.left = std::clamp(gamma - part.compressed, lowest, 0.0);
-    // A contact that is neither hit nor closed may close after the blow only.
+    // A contact that is neither hit nor closed may close after the impact only.
     const bool gives_back = !compressed[c].is_stop() &&
                             laws_.restitution.coefficient * part.solid > std::max(part.load, 0.0);
     if (gives_back && (part.is_hit || part.is_closed))
@@ -229,9 +231,9 @@ bool Blow::share_impulses(const std::vector<Contact<2>>& compressed) {
   return any;
 }
 
-void Blow::restrain(const StepContacts& compressed, StepContacts& restored) const {
+void Impact::restrain(const StepContacts& compressed, StepContacts& restored) const {
   // The sum over the contacts of the impulse times the mean of the rates of the gap before and
-  // after the blow.
+  // after the impact.
   const auto work = [&](double share) {
     double sum = 0;
     for (std::size_t c = 0; c < parts_.size(); ++c) {
@@ -263,23 +265,23 @@ void Blow::restrain(const StepContacts& compressed, StepContacts& restored) cons
   }
 }
 
-void Blow::move(FluidBlow& blow) {
+void Impact::move(FluidImpact& impact) {
   const auto& layout = conditions_.layout;
   double first = 1;
   for (const auto& part : parts_)
     if (part.is_hit) first = std::min(first, part.late);
-  std::vector<double> loads(blow.velocities.size());
+  std::vector<double> loads(impact.velocities.size());
   for (std::size_t c = 0; c < parts_.size(); ++c) {
     const auto& part = parts_[c];
     const double load = part.is_hit ? 0 : part.load;
     const double rest = 1 - (part.is_hit ? part.late : first);
-    const double impulse = load + rest * (blow.contacts[c].impulse - load);
-    add_contact_force(blow.contacts[c], impulse / step_.kick, loads, layout);
+    const double impulse = load + rest * (impact.contacts[c].impulse - load);
+    add_contact_force(impact.contacts[c], impulse / step_.impulse_time, loads, layout);
   }
-  blow.moved = mobility_(loads);
+  impact.moved = mobility_(loads);
   ++iterations_;
-  for (std::size_t i = 0; i < blow.moved.size(); ++i)
-    blow.moved[i] += conditions_.free_velocities[i];
+  for (std::size_t i = 0; i < impact.moved.size(); ++i)
+    impact.moved[i] += conditions_.free_velocities[i];
   // Because hits have different times, some particles may now overlap, or a gap may be open
   // although its film still pulls. Contact forces then change the displacements.
   StepContacts gaps;
@@ -289,41 +291,43 @@ void Blow::move(FluidBlow& blow) {
   for (std::size_t c = 0; c < parts_.size(); ++c) {
     auto& contact = gaps.contacts[c];
     contact.impulse = 0;
-    contact.lowest = std::min(0.0, pair(c).gamma - blow.absorbed[c]) / conditions_.share_of_impulse;
-    const double after = gap_after(contact, blow.moved.data(), conditions_.h, layout);
+    contact.lowest =
+        std::min(0.0, pair(c).gamma - impact.absorbed[c]) / conditions_.share_of_impulse;
+    const double after = gap_after(contact, impact.moved.data(), conditions_.h, layout);
     any_off = any_off || after < -allowed || (contact.lowest < 0 && after > allowed);
   }
   if (!any_off) return;
   auto conditions = conditions_;
-  conditions.free_velocities = blow.moved;
+  conditions.free_velocities = impact.moved;
   solve_listed(gaps, mobility_, conditions);
   iterations_ += gaps.iterations;
-  blow.is_solved = blow.is_solved && gaps.is_solved;
-  blow.moved = std::move(gaps.velocities);
+  impact.is_solved = impact.is_solved && gaps.is_solved;
+  impact.moved = std::move(gaps.velocities);
 }
 
-void Blow::book(FluidBlow& blow) const {
+void Impact::book(FluidImpact& impact) const {
   // The rate of a gap below this share of its rate before is a rounding error.
   constexpr double kAtRest = 1e-9;
   for (std::size_t c = 0; c < parts_.size(); ++c) {
     const auto& part = parts_[c];
-    const auto& contact = blow.contacts[c];
+    const auto& contact = impact.contacts[c];
     const auto& of = pair(c);
-    blow.absorbed.push_back(contact.impulse);
+    impact.absorbed.push_back(contact.impulse);
     if (!(part.solid > 0)) continue;
     const double gamma =
         RestitutionLaw::gamma_after(part.restored, contact.impulse, lowest_gamma(c), of.gamma);
-    blow.absorbed.back() = of.gamma - gamma;
-    const double approach = rate(c, conditions_.free_velocities), after = rate(c, blow.velocities);
-    blow.rebounds.push_back({step_.state.time + part.late * conditions_.h, of.first, of.second,
-                             std::min(approach, 0.0), part.solid,
-                             after <= kAtRest * std::abs(approach) ? 0 : after});
+    impact.absorbed.back() = of.gamma - gamma;
+    const double approach = rate(c, conditions_.free_velocities),
+                 after = rate(c, impact.velocities);
+    impact.rebounds.push_back({step_.state.time + part.late * conditions_.h, of.first, of.second,
+                               std::min(approach, 0.0), part.solid,
+                               after <= kAtRest * std::abs(approach) ? 0 : after});
   }
 }
 
-std::optional<FluidBlow> Blow::solve() {
+std::optional<FluidImpact> Impact::solve() {
   if (!find_hits()) return std::nullopt;
-  const auto conditions = conditions_over(step_.kick);
+  const auto conditions = conditions_over(step_.impulse_time);
   auto compressed = problem();
   solve_listed(compressed, mobility_, conditions);
   correct_impulses(compressed, 0, mobility_, conditions);
@@ -343,26 +347,27 @@ std::optional<FluidBlow> Blow::solve() {
   correct_impulses(restored, 0, mobility_, conditions);
   iterations_ += restored.iterations;
   restrain(compressed, restored);
-  FluidBlow blow;
-  blow.is_solved = compressed.is_solved && knows_loads && restored.is_solved;
-  blow.contacts = std::move(restored.contacts);
-  blow.loads = std::move(restored.loads);
-  blow.velocities = std::move(restored.velocities);
-  blow.of_gaps = std::move(restored.of_gaps);
-  blow.amplification = restored.amplification;
-  book(blow);
-  move(blow);
-  blow.iterations = iterations_;
-  return blow;
+  FluidImpact impact;
+  impact.is_solved = compressed.is_solved && knows_loads && restored.is_solved;
+  impact.contacts = std::move(restored.contacts);
+  impact.loads = std::move(restored.loads);
+  impact.velocities = std::move(restored.velocities);
+  impact.of_gaps = std::move(restored.of_gaps);
+  impact.amplification = restored.amplification;
+  book(impact);
+  move(impact);
+  impact.iterations = iterations_;
+  return impact;
 }
 
 }  // namespace
 
-std::optional<FluidBlow> solve_blow(const StepContacts& contacts, const BlowStep& step,
-                                    const Mobility& mobility, const ContactConditions& conditions) {
-  assert(step.kick > 0 && step.end > step.state.time);
+std::optional<FluidImpact> solve_impact(const StepContacts& contacts, const ImpactStep& step,
+                                        const Mobility& mobility,
+                                        const ContactConditions& conditions) {
+  assert(step.impulse_time > 0 && step.end > step.state.time);
   assert(step.before.size() == conditions.free_velocities.size());
-  return Blow(contacts, step, mobility, conditions).solve();
+  return Impact(contacts, step, mobility, conditions).solve();
 }
 
 }  // namespace viscontact::particles

@@ -1,4 +1,4 @@
-// Blows at planes that move, jump or turn, and at round walls, against closed forms.
+// Impacts at planes that move, jump or turn, and at round walls, against closed forms.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace viscontact::particles {
 namespace {
 
-TEST(BlowAtAnObstacle, FromAPlaneThatMovesIsThatOfTheRelativeVelocity) {
+TEST(ImpactAtAnObstacle, FromAPlaneThatMovesIsThatOfTheRelativeVelocity) {
   auto scene = flying(2, 3, 1, 0.6, 0.013);
   scene.setting.laws.film.gamma_min = 0;
   scene.setting.planes[0].velocity = constant({0, 0.25, 0});
@@ -19,7 +19,7 @@ TEST(BlowAtAnObstacle, FromAPlaneThatMovesIsThatOfTheRelativeVelocity) {
   EXPECT_NEAR(simulation.state().particles.velocity(0)[1], 0.25 + 0.6 * 1.25, 1e-10);
 }
 
-TEST(BlowAtAnObstacle, FromAPlaneThatStartsIsExactWhereverTheStepsLie) {
+TEST(ImpactAtAnObstacle, FromAPlaneThatStartsIsExactWhereverTheStepsLie) {
   // A disc at rest on a plane that starts to move at t = 1/3 is hit with the whole velocity, not
   // with its mean over the step in which the plane starts.
   for (const auto scheme : {Scheme::kEuler, Scheme::kLeapfrog})
@@ -37,14 +37,14 @@ TEST(BlowAtAnObstacle, FromAPlaneThatStartsIsExactWhereverTheStepsLie) {
     }
 }
 
-TEST(BlowAtAnObstacle, FromAPlaneWhoseVelocityJumpsInAStepOfTheLeapfrogIsExact) {
+TEST(ImpactAtAnObstacle, FromAPlaneWhoseVelocityJumpsInAStepOfTheLeapfrogIsExact) {
   for (const double step : {0.1, 0.01}) {
     auto scene = flying(2, 3, 1.21, 1, step);
     scene.setting.scheme = Scheme::kLeapfrog;
     scene.setting.laws.film.gamma_min = 0;
     scene.state.particles.velocities = {0, -5};
     scene.setting.planes[0].velocity = {{{0.25, {}}, {1e300, {0, 1, 0}}}};
-    // The blow is at t = 0.242, before the plane starts.
+    // The impact is at t = 0.242, before the plane starts.
     Simulation simulation(scene.setting, scene.state, 1);
     run(simulation, 1);
     EXPECT_NEAR(simulation.state().particles.velocity(0)[1], 5, 1e-10) << step;
@@ -64,7 +64,7 @@ Scene in_circle(const Vector& centre, const Vector& velocity, double dry, double
   return scene;
 }
 
-TEST(BlowAtAnObstacle, AtARoundWallKeepsEnergyAndAngularMomentum) {
+TEST(ImpactAtAnObstacle, AtARoundWallKeepsEnergyAndAngularMomentum) {
   for (const double step : {2.0, 0.1, 0.03}) {
     const double angle = 1.1;
     auto scene = in_circle({2.4, 0, 0}, {-std::cos(angle), std::sin(angle), 0}, 1, step);
@@ -73,13 +73,13 @@ TEST(BlowAtAnObstacle, AtARoundWallKeepsEnergyAndAngularMomentum) {
     const auto& p = simulation.state().particles;
     EXPECT_NEAR(norm(p.velocity(0)), 1, 1e-12) << step;
     EXPECT_NEAR(cross(p.position(0), p.velocity(0))[2], 2.4 * std::sin(angle), 1e-9) << step;
-    // The chords between blows are equally long.
+    // The chords between impacts are equally long.
     const double half = std::sqrt(6.25 - 2.4 * 2.4 * std::sin(angle) * std::sin(angle));
     ASSERT_GT(rebounds.size(), 50U);
     for (std::size_t k = 0; k < rebounds.size(); ++k)
       EXPECT_NEAR(rebounds[k].time, half + 2.4 * std::cos(angle) + 2 * half * double(k), 1e-9);
   }
-  // A single oblique blow, at (1.5, 2).
+  // A single oblique impact, at (1.5, 2).
   auto scene = in_circle({-0.053, 2, 0}, {1, 0, 0}, 1, 0.1);
   Simulation simulation(scene.setting, scene.state, 1);
   run(simulation, 2);
@@ -87,7 +87,7 @@ TEST(BlowAtAnObstacle, AtARoundWallKeepsEnergyAndAngularMomentum) {
   EXPECT_NEAR(simulation.state().particles.velocity(0)[1], -0.96, 1e-12);
 }
 
-TEST(BlowAtAnObstacle, EndsWhereADiscSlidesAlongARoundWall) {
+TEST(ImpactAtAnObstacle, EndsWhereADiscSlidesAlongARoundWall) {
   for (const double step : {0.01, 0.003}) {
     auto scene = in_circle({2.4999, 0, 0}, {-0.4535961, 0.8912074, 0}, 0.5, step);
     Simulation simulation(scene.setting, scene.state, 1);
@@ -96,9 +96,9 @@ TEST(BlowAtAnObstacle, EndsWhereADiscSlidesAlongARoundWall) {
   }
 }
 
-TEST(BlowAtAnObstacle, OnAPlaneThatTurnsIsThatOfItsSurface) {
-  // A blow at (10, 1) on the floor that turns about the origin, at the time at which the disc meets
-  // it.
+TEST(ImpactAtAnObstacle, OnAPlaneThatTurnsIsThatOfItsSurface) {
+  // An impact at (10, 1) on the floor that turns about the origin, at the time at which the disc
+  // meets it.
   constexpr double kOmega = 0.5, kDry = 0.7, kSpeed = 2;
   for (const double step : {0.5, 0.1, 0.013}) {
     Scene scene{no_particles(2), {}};
@@ -126,7 +126,7 @@ TEST(BlowAtAnObstacle, OnAPlaneThatTurnsIsThatOfItsSurface) {
   }
 }
 
-TEST(BlowAtAnObstacle, AtAPlaneThatTurnsRubsOnThePointOfContact) {
+TEST(ImpactAtAnObstacle, AtAPlaneThatTurnsRubsOnThePointOfContact) {
   // The disc sticks to the point of the plane that is 0.25 below the pivot.
   Scene scene{no_particles(2), {}};
   add_particle(scene.state, {0, 0.501, 0}, 0.5, 1, {0, -5, 0});
@@ -145,7 +145,7 @@ TEST(BlowAtAnObstacle, AtAPlaneThatTurnsRubsOnThePointOfContact) {
   EXPECT_NEAR(simulation.state().particles.angular_velocities[0], 1.0 / 3, 2e-3);
 }
 
-TEST(BlowAtAnObstacle, EndsOnAPlaneThatTurnsAndCarriesADisc) {
+TEST(ImpactAtAnObstacle, EndsOnAPlaneThatTurnsAndCarriesADisc) {
   for (const double step : {0.01, 0.0025}) {
     Scene scene{no_particles(2), {}};
     add_particle(scene.state, {1, 0.3, 0}, 0.3, 1, {-0.3, 1, 0});

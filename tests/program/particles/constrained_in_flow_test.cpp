@@ -59,7 +59,7 @@ every = {}
   }
 };
 
-class HeldInFlow : public ParticlesCommand {
+class ConstrainedInFlow : public ParticlesCommand {
  protected:
   /// The angle of body 0 at the end.
   double angle(const PendulumCase& pendulum) {
@@ -69,7 +69,7 @@ class HeldInFlow : public ParticlesCommand {
 };
 
 // z = h F/(length 4 pi mu) = 1.99 of the disc that stands on the arm.
-TEST_F(HeldInFlow, AWarningNamesALinkThatPushesTooHard) {
+TEST_F(ConstrainedInFlow, AWarningNamesALinkThatPushesTooHard) {
   const auto text = [](double step) {
     return fmt::format(R"(title = "A disc on an arm"
 [space]
@@ -108,7 +108,7 @@ length = 1.2
   EXPECT_THAT(result.errors, Not(HasSubstr("pushes")));
 }
 
-TEST_F(HeldInFlow, APendulumFallsAndLosesEnergyToTheFluid) {
+TEST_F(ConstrainedInFlow, APendulumFallsAndLosesEnergyToTheFluid) {
   PendulumCase pendulum{.end_time = 0.35, .every = 0.05};
   const double coarse = angle(pendulum);
   // The hinge is 0.55 from the centre of the body.
@@ -140,7 +140,7 @@ TEST_F(HeldInFlow, APendulumFallsAndLosesEnergyToTheFluid) {
   EXPECT_NEAR(coarse / finest, 1, 0.02);
 }
 
-TEST_F(HeldInFlow, APendulumIsTheSameByPenaltyAndInOtherUnits) {
+TEST_F(ConstrainedInFlow, APendulumIsTheSameByPenaltyAndInOtherUnits) {
   PendulumCase pendulum{.end_time = 0.2, .edges = 16};
   const double rigid = angle(pendulum);
   pendulum.constraint = "penalty";
@@ -154,7 +154,7 @@ TEST_F(HeldInFlow, APendulumIsTheSameByPenaltyAndInOtherUnits) {
 
 // One above the other in the middle of the box, discs of a body and discs on an arm fall alike:
 // nothing turns them.
-TEST_F(HeldInFlow, DiscsOfABodyFallLikeDiscsOnAnArm) {
+TEST_F(ConstrainedInFlow, DiscsOfABodyFallLikeDiscsOnAnArm) {
   const std::string discs = R"(title = "Two discs that fall together"
 [space]
 dimension = 2
@@ -190,7 +190,7 @@ density = 3.0
   EXPECT_GT(column("arms.csv", "force").back(), 0) << "the heavier disc pushes the lower one";
 }
 
-TEST_F(HeldInFlow, ContinuesWithTheSameBits) {
+TEST_F(ConstrainedInFlow, ContinuesWithTheSameBits) {
   PendulumCase pendulum{.end_time = 0.2};
   const double whole = angle(pendulum);
   const auto forces = column("hinges.csv", "force_y");

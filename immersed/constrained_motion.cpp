@@ -1,5 +1,5 @@
 // Rows of rigid bodies and links, docs/physics.md (6.7).
-#include "viscontact/immersed/held_rows.hpp"
+#include "viscontact/immersed/constrained_motion.hpp"
 
 #include <fmt/format.h>
 
@@ -21,8 +21,8 @@ bool is_exact(const LinkEquations& link) {
 
 }  // namespace
 
-HeldMotion::HeldMotion(const Links& links, const Particles& particles, const LinkTimes& times,
-                       std::span<const double> link_times)
+ConstrainedMotion::ConstrainedMotion(const Links& links, const Particles& particles,
+                                     const LinkTimes& times, std::span<const double> link_times)
     : links_(links),
       particles_(particles),
       times_(times),
@@ -46,17 +46,17 @@ HeldMotion::HeldMotion(const Links& links, const Particles& particles, const Lin
   turn_rows();
 }
 
-double HeldMotion::link_time(std::int32_t particle) const {
+double ConstrainedMotion::link_time(std::int32_t particle) const {
   return link_times_.empty() ? -1 : link_times_[index_of(particle)];
 }
 
-double HeldMotion::link_time(const LinkEquations& link) const {
+double ConstrainedMotion::link_time(const LinkEquations& link) const {
   double latest = -1;
   for (const auto& part : link.parts()) latest = std::max(latest, link_time(part.particle));
   return latest;
 }
 
-std::vector<double> HeldMotion::velocities_before() const {
+std::vector<double> ConstrainedMotion::velocities_before() const {
   std::vector<double> velocities(particles_.count() * layout_.components);
   const auto n = layout_.directions();
   for (std::size_t k = 0; k < particles_.count(); ++k) {
@@ -67,7 +67,7 @@ std::vector<double> HeldMotion::velocities_before() const {
   return velocities;
 }
 
-void HeldMotion::turn_rows() {
+void ConstrainedMotion::turn_rows() {
   if (link_times_.empty()) return;
   const auto velocities = velocities_before();
   for (std::size_t l = 0; l < equations_.size(); ++l) {
@@ -79,8 +79,8 @@ void HeldMotion::turn_rows() {
   }
 }
 
-void HeldMotion::add_body_rows(const RigidBody& body, std::size_t number,
-                               std::vector<HeldRow>& rows) const {
+void ConstrainedMotion::add_body_rows(const RigidBody& body, std::size_t number,
+                                      std::vector<VelocityConstraint>& rows) const {
   const auto first = body.members.front();
   const Vector start = present_offset(body, 0, particles_.dimension);
   const auto& of_images = image_velocities_[number];
@@ -88,7 +88,7 @@ void HeldMotion::add_body_rows(const RigidBody& body, std::size_t number,
     const auto member = body.members[m];
     const Vector apart = present_offset(body, m, particles_.dimension) - start;
     for (std::size_t d = 0; d < 3; ++d) {
-      HeldRow row;
+      VelocityConstraint row;
       row.name = fmt::format("body {}", number);
       row.accelerates = link_time(first) >= 0;
       row.entries = {{layout_.at(member, d), 1}, {layout_.at(first, d), -1}};
@@ -103,7 +103,7 @@ void HeldMotion::add_body_rows(const RigidBody& body, std::size_t number,
   }
 }
 
-void HeldMotion::add_entries(const LinkPart& part, HeldRow& row) const {
+void ConstrainedMotion::add_entries(const LinkPart& part, VelocityConstraint& row) const {
   if (part.is_turn) {
     row.entries.emplace_back(layout_.at(part.particle, 2), 1);
     return;
@@ -117,9 +117,9 @@ void HeldMotion::add_entries(const LinkPart& part, HeldRow& row) const {
     row.entries.emplace_back(layout_.at(part.particle, 2), moment);
 }
 
-std::vector<HeldRow> HeldMotion::rows() const { return rows_of(in_rows_); }
+std::vector<VelocityConstraint> ConstrainedMotion::rows() const { return rows_of(in_rows_); }
 
-double HeldMotion::rate_of(const LinkEquations& link, const LinkRow& row) const {
+double ConstrainedMotion::rate_of(const LinkEquations& link, const LinkRow& row) const {
   // Without inertia of the fluid the velocities are those of the whole step, and the rate also
   // removes the error that the place or length has at its beginning. In a fluid with inertia
   // (rate_to > rate_from) they are those at the beginning of the step, and a correction of places
@@ -131,13 +131,14 @@ double HeldMotion::rate_of(const LinkEquations& link, const LinkRow& row) const 
          (times_.rate_to - times_.rate_from);
 }
 
-std::vector<HeldRow> HeldMotion::rows_of(const std::vector<LinkEquations>& equations) const {
-  std::vector<HeldRow> rows;
+std::vector<VelocityConstraint> ConstrainedMotion::rows_of(
+    const std::vector<LinkEquations>& equations) const {
+  std::vector<VelocityConstraint> rows;
   const auto& bodies = particles_.bodies.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) add_body_rows(bodies[b], b, rows);
   for (const auto& link : equations) {
     for (const auto& equation : link.rows) {
-      HeldRow row;
+      VelocityConstraint row;
       row.accelerates = link_time(link) >= 0;
       row.name = name_of(link, links_, particles_);
       for (const auto& part : equation.parts) add_entries(part, row);
@@ -151,7 +152,8 @@ std::vector<HeldRow> HeldMotion::rows_of(const std::vector<LinkEquations>& equat
   return rows;
 }
 
-UnitMotion HeldMotion::motion_of_body(std::size_t body, std::span<const double> velocities) const {
+UnitMotion ConstrainedMotion::motion_of_body(std::size_t body,
+                                             std::span<const double> velocities) const {
   assert(body < weights_.size());
   UnitMotion motion;
   const auto& of = particles_.bodies.bodies[body];
@@ -165,7 +167,8 @@ UnitMotion HeldMotion::motion_of_body(std::size_t body, std::span<const double> 
   return motion;
 }
 
-UnitMotion HeldMotion::motion_of(const LinkPart& part, std::span<const double> velocities) const {
+UnitMotion ConstrainedMotion::motion_of(const LinkPart& part,
+                                        std::span<const double> velocities) const {
   UnitMotion motion;
   const auto particle = part.particle;
   const auto of_unit = periods_in_unit(particles_, particle);
@@ -182,17 +185,17 @@ UnitMotion HeldMotion::motion_of(const LinkPart& part, std::span<const double> v
   return {times_.h * motion.displacement, times_.h * motion.turn};
 }
 
-std::vector<UnitMotion> HeldMotion::motions_of(const LinkEquations& link,
-                                               std::span<const double> velocities) const {
+std::vector<UnitMotion> ConstrainedMotion::motions_of(const LinkEquations& link,
+                                                      std::span<const double> velocities) const {
   std::vector<UnitMotion> motions;
   for (const auto& part : link.parts()) motions.push_back(motion_of(part, velocities));
   return motions;
 }
 
-std::vector<double> HeldMotion::missing(std::span<const double> velocities,
-                                        std::span<const double> row_forces,
-                                        std::span<const double> thetas,
-                                        std::span<const double> stiffnesses) const {
+std::vector<double> ConstrainedMotion::missing(std::span<const double> velocities,
+                                               std::span<const double> row_forces,
+                                               std::span<const double> thetas,
+                                               std::span<const double> stiffnesses) const {
   assert(thetas.size() == stiffnesses.size() && row_forces.size() >= thetas.size());
   std::vector<double> changes(body_rows_, 0.0);
   for (std::size_t l = 0; l < equations_.size(); ++l) {
@@ -224,16 +227,16 @@ std::vector<double> HeldMotion::missing(std::span<const double> velocities,
   return changes;
 }
 
-double HeldMotion::sum_of(const LinkRow& row, std::span<const double> velocities) const {
+double ConstrainedMotion::sum_of(const LinkRow& row, std::span<const double> velocities) const {
   double sum = 0;
   for (const auto& part : row.parts) sum += value_of(part, motion_of(part, velocities));
   return sum / times_.h;
 }
 
-std::vector<double> HeldMotion::hold_at_end(std::span<const double> velocities,
-                                            std::span<const double> mobility,
-                                            const std::vector<char>& is_stiff,
-                                            std::span<double> at_end) const {
+std::vector<double> ConstrainedMotion::hold_at_end(std::span<const double> velocities,
+                                                   std::span<const double> mobility,
+                                                   const std::vector<char>& is_stiff,
+                                                   std::span<double> at_end) const {
   assert(mobility.size() == at_end.size() && velocities.size() == at_end.size());
   // The rate of an arm's length may jump at the end of the step. It is therefore taken slightly
   // earlier, by 1e-9 of the step, more than the rounding error of the time.
@@ -305,7 +308,7 @@ std::vector<double> HeldMotion::hold_at_end(std::span<const double> velocities,
   return forces;
 }
 
-std::vector<double> HeldMotion::with_finite_turns(std::span<const double> velocities) const {
+std::vector<double> ConstrainedMotion::with_finite_turns(std::span<const double> velocities) const {
   std::vector<double> result(velocities.begin(), velocities.end());
   const auto& bodies = particles_.bodies.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -322,7 +325,7 @@ std::vector<double> HeldMotion::with_finite_turns(std::span<const double> veloci
   return result;
 }
 
-void HeldMotion::make_rigid(std::span<double> velocities) const {
+void ConstrainedMotion::make_rigid(std::span<double> velocities) const {
   const auto& bodies = particles_.bodies.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const auto motion = motion_of_body(b, velocities);
@@ -336,8 +339,10 @@ void HeldMotion::make_rigid(std::span<double> velocities) const {
   }
 }
 
-void HeldMotion::keep_torques(std::span<const double> velocities, std::span<const double> of_fluid,
-                              std::span<const double> stiffnesses, std::span<double> forces) const {
+void ConstrainedMotion::keep_torques(std::span<const double> velocities,
+                                     std::span<const double> of_fluid,
+                                     std::span<const double> stiffnesses,
+                                     std::span<double> forces) const {
   assert(stiffnesses.size() >= turns_.size() && of_fluid.size() == forces.size());
   const auto& bodies = particles_.bodies.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -359,7 +364,7 @@ void HeldMotion::keep_torques(std::span<const double> velocities, std::span<cons
   }
 }
 
-std::size_t HeldMotion::arm(std::size_t k) const {
+std::size_t ConstrainedMotion::arm(std::size_t k) const {
   const auto found = std::ranges::find_if(equations_, [&](const LinkEquations& link) {
     return link.kind == LinkEquations::Kind::kArm && link.number == k;
   });
@@ -367,18 +372,18 @@ std::size_t HeldMotion::arm(std::size_t k) const {
   return static_cast<std::size_t>(found - equations_.begin());
 }
 
-double HeldMotion::rate_of_arm(std::size_t k, std::span<const double> velocities) const {
+double ConstrainedMotion::rate_of_arm(std::size_t k, std::span<const double> velocities) const {
   return sum_of(in_rows_[arm(k)].rows.front(), velocities);
 }
 
-double HeldMotion::rate_of_arm_at_end(std::size_t k, std::span<const double> moved,
-                                      std::span<const double> velocities) const {
+double ConstrainedMotion::rate_of_arm_at_end(std::size_t k, std::span<const double> moved,
+                                             std::span<const double> velocities) const {
   const auto& link = equations_[arm(k)];
   const auto turned = turned_equations(link, links_, particles_, motions_of(link, moved));
   return sum_of(turned.rows.front(), velocities);
 }
 
-std::vector<double> HeldMotion::row_forces(std::span<const double> link_forces) const {
+std::vector<double> ConstrainedMotion::row_forces(std::span<const double> link_forces) const {
   if (link_forces.empty()) return {};
   assert(link_forces.size() == links_.force_count(particles_.dimension));
   std::vector<double> forces(body_rows_, 0.0);
@@ -388,7 +393,7 @@ std::vector<double> HeldMotion::row_forces(std::span<const double> link_forces) 
   return forces;
 }
 
-std::vector<double> HeldMotion::link_forces(std::span<const double> row_forces) const {
+std::vector<double> ConstrainedMotion::link_forces(std::span<const double> row_forces) const {
   std::vector<double> forces(links_.force_count(particles_.dimension), 0.0);
   std::size_t r = body_rows_;
   for (const auto& link : equations_)

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "viscontact/constraint_rows/link_rows.hpp"
-#include "viscontact/immersed/held_solver.hpp"
+#include "viscontact/immersed/constrained_solver.hpp"
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/state/particles.hpp"
 
 namespace viscontact::particles {
 
-/// What HeldMotion::add_turns() needs of a step: the forces that turn with the motion.
+/// What ConstrainedMotion::add_turns() needs of a step: the forces that turn with the motion.
 struct ForcesOfStep {
   std::span<const double> of_rows;       ///< forces of the rows, as far as they are known
   std::span<const double> on_particles;  ///< given forces and torques, without those of contacts
@@ -25,9 +25,9 @@ struct ForcesOfStep {
 };
 
 /// The rows of one step from the present places of the particles, and the motion of their units. A
-/// row is a condition on velocities (HeldRow), a unit a rigid body or a particle without a body.
-/// Arrays of velocities have motion_components() numbers for each particle [L/T, 1/T], arrays of
-/// forces of rows one number for each row [M L/T^2, M L^2/T^2].
+/// row is a condition on velocities (VelocityConstraint), a unit a rigid body or a particle without
+/// a body. Arrays of velocities have motion_components() numbers for each particle [L/T, 1/T],
+/// arrays of forces of rows one number for each row [M L/T^2, M L^2/T^2].
 ///
 /// A unit accelerates if it has a mass and no given motion. The rows of a link with such a unit are
 /// taken at the places that its units reach after about half of the step with the velocities before
@@ -35,16 +35,16 @@ struct ForcesOfStep {
 /// in a step in which velocities may jump at the present places, which keeps the angular momentum.
 /// So are the rows of units without mass, because FluidSimulation extrapolates the change of
 /// velocities that the turning of links causes.
-class HeldMotion {
+class ConstrainedMotion {
  public:
-  /// `links` and `particles` must outlive this object. `times.kick` is not used. `link_times` is
-  /// StepEquation::link_times(); if it is empty, no particle accelerates.
-  HeldMotion(const Links& links, const Particles& particles, const LinkTimes& times,
-             std::span<const double> link_times = {});
+  /// `links` and `particles` must outlive this object. `times.impulse_time` is not used.
+  /// `link_times` is StepEquation::link_times(); if it is empty, no particle accelerates.
+  ConstrainedMotion(const Links& links, const Particles& particles, const LinkTimes& times,
+                    std::span<const double> link_times = {});
 
   /// The rows that make bodies rigid, motion_components() for each member of a body but its first,
   /// and then the rows of the links.
-  std::vector<HeldRow> rows() const;
+  std::vector<VelocityConstraint> rows() const;
 
   /// Adds geometric rows, docs/physics.md (6.15), for the forces whose turning the step may not
   /// resolve: pulling links and films across their line, and bodies and hinged particles about
@@ -55,17 +55,17 @@ class HeldMotion {
   /// mobilities of the last add_turns(): K is the stiffness of physics.md (6.15), without its sign.
   double pushing() const { return pushing_; }
   /// They follow rows().
-  std::vector<HeldRow> geometric_rows() const;
+  std::vector<VelocityConstraint> geometric_rows() const;
 
   /// For each row the number [L/T, 1/T] by which its sum must change, so that hinges and arms hold
   /// after a step with `velocities`, in which bodies turn by finite angles. For a spring of which
-  /// an end accelerates, it is the error of its equation (HeldRow),
+  /// an end accelerates, it is the error of its equation (VelocityConstraint),
   ///
   ///     -(force + stiffness (extension + theta growth))/(theta h stiffness),
   ///
   /// with the finite growth of the extension in the step, and the same for a geometric row with the
   /// growth of its sum; it is 0 for bodies and all other links. `thetas` and `stiffnesses` are
-  /// those of the HeldSolver.
+  /// those of the ConstrainedSolver.
   std::vector<double> missing(std::span<const double> velocities,
                               std::span<const double> row_forces, std::span<const double> thetas,
                               std::span<const double> stiffnesses) const;
@@ -123,18 +123,18 @@ class HeldMotion {
     enum What : std::int32_t { kLink, kUnit, kFilm };
     using Key = std::array<std::int32_t, 4>;
     Key key;
-    HeldRow row;
+    VelocityConstraint row;
   };
   /// The place in turns_ of the row that turns the unit of a particle; turns_.size(): none.
   std::size_t turn_of_unit(std::int32_t particle) const;
-  HeldRow row_across(const LinkEquations& link, double length) const;
+  VelocityConstraint row_across(const LinkEquations& link, double length) const;
   std::vector<Turn> turns_of_links(std::span<const double> before) const;
   std::vector<Turn> turns_of_units(const ForcesOfStep& step, std::span<const double> before) const;
   std::vector<Turn> turns_of_films(const ForcesOfStep& step) const;
   void turn_to_end(std::span<const LinkEquations> turned, std::span<const double> velocities,
-                   std::vector<HeldRow>& rows, std::vector<double>& rates) const;
+                   std::vector<VelocityConstraint>& rows, std::vector<double>& rates) const;
   // The sum of a row [L/T, 1/T].
-  static double sum_of(const HeldRow& row, std::span<const double> velocities);
+  static double sum_of(const VelocityConstraint& row, std::span<const double> velocities);
   std::vector<double> velocities_before() const;
   // Displacement [L] and turn [rad] in the step, of the periodic image that the part names.
   UnitMotion motion_of(const LinkPart& part, std::span<const double> velocities) const;
@@ -148,9 +148,10 @@ class HeldMotion {
   std::size_t arm(std::size_t k) const;
   double rate_of(const LinkEquations& link, const LinkRow& row) const;
   double sum_of(const LinkRow& row, std::span<const double> velocities) const;
-  std::vector<HeldRow> rows_of(const std::vector<LinkEquations>& equations) const;
-  void add_entries(const LinkPart& part, HeldRow& row) const;
-  void add_body_rows(const RigidBody& body, std::size_t number, std::vector<HeldRow>& rows) const;
+  std::vector<VelocityConstraint> rows_of(const std::vector<LinkEquations>& equations) const;
+  void add_entries(const LinkPart& part, VelocityConstraint& row) const;
+  void add_body_rows(const RigidBody& body, std::size_t number,
+                     std::vector<VelocityConstraint>& rows) const;
 
   const Links& links_;
   const Particles& particles_;

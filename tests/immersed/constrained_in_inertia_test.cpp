@@ -30,7 +30,7 @@ constexpr double kDrag = 0.3;
 
 // Two discs of mass 2 at the distance 2 as a body without forces: the centre moves straight on, and
 // all rates decay by the drag.
-TEST(HeldInInertia, ABodyKeepsItsMomentaButForTheDrag) {
+TEST(ConstrainedInInertia, ABodyKeepsItsMomentaButForTheDrag) {
   constexpr double kEnd = 2, kSpin = 1.5;
   const auto at_end = [&](double h) {
     auto system = with_inertia(2, h);
@@ -93,7 +93,7 @@ Pendulum swinging(double h, double drag, double end) {
   return result;
 }
 
-TEST(HeldInInertia, APendulumSwingsToSecondOrder) {
+TEST(ConstrainedInInertia, APendulumSwingsToSecondOrder) {
   // I w' = -cos(angle) - resistance w by Runge & Kutta's method of fourth order.
   constexpr double kEnd = 3;
   const double resistance = kDrag * (2 + 1);
@@ -132,7 +132,7 @@ double oscillating(double h, double stiffness, double end) {
   return z[1];
 }
 
-TEST(HeldInInertia, SpringsOscillateToSecondOrderAndStiffOnesAreDamped) {
+TEST(ConstrainedInInertia, SpringsOscillateToSecondOrderAndStiffOnesAreDamped) {
   // Both masses together oscillate with the square 2 k of the frequency.
   constexpr double kEnd = 3;
   expect_order_2([&](double h) { return oscillating(h, 2, kEnd); }, 46.5 + 0.5 * std::cos(2 * kEnd),
@@ -142,7 +142,7 @@ TEST(HeldInInertia, SpringsOscillateToSecondOrderAndStiffOnesAreDamped) {
     EXPECT_NEAR(oscillating(0.1, stiffness, 6), 46.5, 1e-6) << stiffness;
 }
 
-TEST(HeldInInertia, AnArmMovesSpheresByTheirMasses) {
+TEST(ConstrainedInInertia, AnArmMovesSpheresByTheirMasses) {
   // The middle of mass stays where it is, because there is nearly no drag.
   const SinusoidalLength length{10, 2, 3, 0};
   const auto place = [&](double h) {

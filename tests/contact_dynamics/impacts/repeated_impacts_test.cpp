@@ -15,8 +15,8 @@ namespace viscontact::particles {
 namespace {
 
 // Velocities fall by e_d, and bounces end when a flight would be shorter than a twentieth of the
-// step. After each blow the gap is 0 but for a rounding error, whose sign must not matter. On a
-// plane that turns, the blows are found by bisection.
+// step. After each impact the gap is 0 but for a rounding error, whose sign must not matter. On a
+// plane that turns, the impacts are found by bisection.
 
 enum class Partner { kPlane, kTurningPlane, kRoundWall, kParticle };
 
@@ -25,21 +25,21 @@ struct Bounces {
   Scheme scheme = Scheme::kLeapfrog;
   double dry = 0.9, step = 0.02;
 
-  /// The speed of the first blow. The path of the default scheme begins with half a step's load.
+  /// The speed of the first impact. The path of the default scheme begins with half a step's load.
   double first_speed() const {
     return std::sqrt(2 + (scheme == Scheme::kEuler ? step * step / 4 : 0));
   }
-  /// The times of all blows until `end`.
+  /// The times of all impacts until `end`.
   std::vector<double> times(double end) const {
-    std::vector<double> blows;
+    std::vector<double> impacts;
     double speed = first_speed();
     double time = speed - (scheme == Scheme::kEuler ? step / 2 : 0);
     while (2 * dry * speed >= step / 20 && time < end) {
-      blows.push_back(time);
+      impacts.push_back(time);
       speed *= dry;
       time += 2 * speed;
     }
-    return blows;
+    return impacts;
   }
 };
 
@@ -82,7 +82,7 @@ Ball ball_of(const Bounces& bounces, Partner partner, int dimension, double deca
       setting.planes[0].start = {place + (7 * length) * n, {}, 7 * length};
     setting.planes[0].pivot = place;
     // The whole turn is within the tolerance of the times below. This plane is decided as one that
-    // turns; RepeatedBlowsAtAPlane has planes that turn far.
+    // turns; RepeatedImpactsAtAPlane has planes that turn far.
     if (partner == Partner::kTurningPlane)
       setting.planes[0].angular_velocity = {0, 0, 1e-15 / time};
   }
@@ -104,7 +104,7 @@ void expect_closed_form(const Bounces& bounces, Partner partner, int dimension, 
       << bounces.dry << " units " << length << " " << ball.time;
   double speed = bounces.first_speed();
   for (std::size_t k = 0; k < times.size(); ++k) {
-    // Errors of 1e-15 of positions near 10 give errors of 1e-9 after a hundred blows on a round
+    // Errors of 1e-15 of positions near 10 give errors of 1e-9 after a hundred impacts on a round
     // partner, which multiply errors of the direction.
     EXPECT_NEAR(rebounds[k].time / ball.time, times[k], 1e-8) << k;
     EXPECT_NEAR(rebounds[k].approach_velocity * ball.time / length, -speed, 1e-8) << k;
@@ -112,14 +112,14 @@ void expect_closed_form(const Bounces& bounces, Partner partner, int dimension, 
   }
 }
 
-class RepeatedBlows : public ::testing::TestWithParam<std::pair<int, Partner>> {};
+class RepeatedImpacts : public ::testing::TestWithParam<std::pair<int, Partner>> {};
 INSTANTIATE_TEST_SUITE_P(
-    Partners, RepeatedBlows,
+    Partners, RepeatedImpacts,
     ::testing::Values(std::pair(2, Partner::kPlane), std::pair(3, Partner::kPlane),
                       std::pair(2, Partner::kTurningPlane), std::pair(2, Partner::kRoundWall),
                       std::pair(2, Partner::kParticle), std::pair(3, Partner::kParticle)));
 
-TEST_P(RepeatedBlows, EndWhenAFlightWouldBeShorterThanATwentiethOfTheStep) {
+TEST_P(RepeatedImpacts, EndWhenAFlightWouldBeShorterThanATwentiethOfTheStep) {
   const auto [dimension, partner] = GetParam();
   Random random(7);
   for (const auto scheme : {Scheme::kEuler, Scheme::kLeapfrog})
@@ -130,9 +130,9 @@ TEST_P(RepeatedBlows, EndWhenAFlightWouldBeShorterThanATwentiethOfTheStep) {
                              1.1 * std::sqrt(2) * (1 + dry) / (1 - dry), decades, random);
 }
 
-TEST_P(RepeatedBlows, OfFlightsMuchShorterThanAStepWithoutLossGoOn) {
+TEST_P(RepeatedImpacts, OfFlightsMuchShorterThanAStepWithoutLossGoOn) {
   // With e_d = 1 each flight takes 2 sqrt(2), which is a fifth or a fifteenth of the step. A round
-  // partner multiplies errors of the direction in each blow, so that the ball leaves it sooner or
+  // partner multiplies errors of the direction in each impact, so that the ball leaves it sooner or
   // later.
   const auto [dimension, partner] = GetParam();
   const double end = partner == Partner::kParticle ? 30 : 1000;
@@ -142,9 +142,9 @@ TEST_P(RepeatedBlows, OfFlightsMuchShorterThanAStepWithoutLossGoOn) {
       expect_closed_form({Scheme::kLeapfrog, 1, step}, partner, dimension, end, decades, random);
 }
 
-TEST(RepeatedBlowsOfDiscs, ThatTurnAroundEachOtherDoNotDependOnTheStep) {
+TEST(RepeatedImpactsOfDiscs, ThatTurnAroundEachOtherDoNotDependOnTheStep) {
   // A disc leaps over a heavy one. Its parabolas are exact at each step, so that all steps, of
-  // which the longest has several blows, give the same blows.
+  // which the longest has several impacts, give the same impacts.
   std::vector<Rebound> shortest;
   for (const double step : {1.0 / 512, 1.0 / 16, 0.5}) {
     Scene scene{no_particles(2), {}};
@@ -158,13 +158,13 @@ TEST(RepeatedBlowsOfDiscs, ThatTurnAroundEachOtherDoNotDependOnTheStep) {
     if (shortest.empty()) shortest = rebounds;
     ASSERT_GT(rebounds.size(), 10U);
     ASSERT_EQ(rebounds.size(), shortest.size()) << step;
-    // Errors of the normal grow with each blow on a round partner.
+    // Errors of the normal grow with each impact on a round partner.
     for (std::size_t k = 0; k < rebounds.size(); ++k)
       EXPECT_NEAR(rebounds[k].time, shortest[k].time, 1e-8) << step << " " << k;
   }
 }
 
-TEST(RepeatedBlowsOfDiscs, ThatComeBackToARoundPartnerInALongStepAreHit) {
+TEST(RepeatedImpactsOfDiscs, ThatComeBackToARoundPartnerInALongStepAreHit) {
   // A disc has left a heavy one tangentially at 45 degrees below its top, with v^2 = (1 + excess) g
   // R cos(45 degrees), and flies up. With the centre of the heavy disc as origin, x^2 - R^2 = t^2
   // (v^2 - g R c - v g c t + g^2 t^2/4) with c = cos(45 degrees), which is 0 again at `hit`.
@@ -193,7 +193,7 @@ TEST(RepeatedBlowsOfDiscs, ThatComeBackToARoundPartnerInALongStepAreHit) {
     }
 }
 
-TEST(RepeatedBlowsOfDiscs, ThatComeBackWithoutAFlightDoNotDependOnRoundingErrors) {
+TEST(RepeatedImpactsOfDiscs, ThatComeBackWithoutAFlightDoNotDependOnRoundingErrors) {
   // The first disc hits the second one, and the film keeps them together or nearly so. The second
   // one hits the heavy third one, which touches it, and comes back to the first one with a gap of
   // 0.
@@ -228,11 +228,11 @@ TEST(RepeatedBlowsOfDiscs, ThatComeBackWithoutAFlightDoNotDependOnRoundingErrors
   }
 }
 
-/// Blows of a ball of radius 1/2 that falls, with the acceleration 1, on a plane through the origin
-/// that turns about it: the next zero of the gap after each blow, by small steps and bisection,
-/// until the flight would be shorter than a twentieth of `step`.
-std::vector<Rebound> blows_on_turning_plane(Vector x, Vector v, double omega, double dry,
-                                            double step, double end) {
+/// Impacts of a ball of radius 1/2 that falls, with the acceleration 1, on a plane through the
+/// origin that turns about it: the next zero of the gap after each impact, by small steps and
+/// bisection, until the flight would be shorter than a twentieth of `step`.
+std::vector<Rebound> impacts_on_turning_plane(Vector x, Vector v, double omega, double dry,
+                                              double step, double end) {
   const Vector pull{0, -1, 0}, spin{0, 0, omega};
   const auto normal = [&](double t) {
     return Vector{-std::sin(omega * t), std::cos(omega * t), 0};
@@ -242,7 +242,7 @@ std::vector<Rebound> blows_on_turning_plane(Vector x, Vector v, double omega, do
     return x + (t - begin) * v + ((t - begin) * (t - begin) / 2) * pull;
   };
   const auto gap = [&](double t) { return dot(normal(t), place(t)) - 0.5; };
-  std::vector<Rebound> blows;
+  std::vector<Rebound> impacts;
   const double small = step / 200;
   for (double t = small; t < end; t += small) {
     if (gap(t) > 0) continue;
@@ -254,23 +254,23 @@ std::vector<Rebound> blows_on_turning_plane(Vector x, Vector v, double omega, do
     constexpr double kD = 1e-4;
     const double pulls = (gap(high + kD) - 2 * gap(high) + gap(high - kD)) / (kD * kD);
     if (-rate <= 0.05 * step * -pulls / (2 * dry)) break;
-    blows.push_back({high, -1, 0, rate, 0, -dry * rate});
+    impacts.push_back({high, -1, 0, rate, 0, -dry * rate});
     begin = high;
     x = at;
     v = flies - ((1 + dry) * rate) * n;
     t = high;
   }
-  return blows;
+  return impacts;
 }
 
-TEST(RepeatedBlowsAtAPlane, ThatTurnsFollowItsMotion) {
+TEST(RepeatedImpactsAtAPlane, ThatTurnsFollowItsMotion) {
   // A plane that turns against the ball, and one that turns away from it.
   for (const auto& [omega, lever] : {std::pair(0.4, 2.0), std::pair(-0.2, 0.5)})
     for (const double dry : {0.7, 0.8})
       for (const double step : {0.005, 0.02, 0.1, 0.5}) {
         constexpr double kEnd = 4;
         const Vector place{lever, 0.6, 0};
-        const auto expected = blows_on_turning_plane(place, {}, omega, dry, step, kEnd);
+        const auto expected = impacts_on_turning_plane(place, {}, omega, dry, step, kEnd);
         Scene scene{no_particles(2), {}};
         add_particle(scene.state, place, 0.5, 1);
         scene.setting.planes = {plane_at_rest({}, {0, 1, 0})};
@@ -290,8 +290,8 @@ TEST(RepeatedBlowsAtAPlane, ThatTurnsFollowItsMotion) {
       }
 }
 
-TEST(RepeatedBlowsOfDiscs, OfABlowAtTheEndOfAStepGoOnInTheNextStep) {
-  // The first blow, at v = 1 and t = 1, is at the end of a step but for rounding errors. The next
+TEST(RepeatedImpactsOfDiscs, OfAImpactAtTheEndOfAStepGoOnInTheNextStep) {
+  // The first impact, at v = 1 and t = 1, is at the end of a step but for rounding errors. The next
   // flight, of 0.6, lasts less than the step.
   Random random(9);
   for (int k = 0; k < 50; ++k) {
@@ -306,7 +306,7 @@ TEST(RepeatedBlowsOfDiscs, OfABlowAtTheEndOfAStepGoOnInTheNextStep) {
     const auto rebounds = rebounds_until(3, simulation);
     ASSERT_EQ(rebounds.size(), 3U) << k;
     // Times that differ by 1e-9 of the step count as equal (kSameTime in impacts.cpp), so that a
-    // blow beyond the end of a step by less is moved to the end.
+    // impact beyond the end of a step by less is moved to the end.
     EXPECT_NEAR(rebounds[0].time, 1, 1e-9);
     EXPECT_NEAR(rebounds[1].time, 1.6, 1e-9);
     EXPECT_NEAR(rebounds[2].time, 1.78, 1e-9);
