@@ -10,6 +10,7 @@
 
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/common/vtk/vtk_xml.hpp"
+#include "viscontact/particle_runs/io/contact_columns.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -22,46 +23,37 @@ void append(std::vector<double>& values, const Vector& x, int dimension) {
     values.insert(values.end(), x.begin(), x.end());
 }
 
+/// The array of a column in the rows of a frame.
+template <class Row, class Rows>
+std::string array_of(const Column<Row>& column, const Rows& rows, int dimension) {
+  const auto components = static_cast<int>(column.count_in_frames(dimension));
+  return column.is_whole()
+             ? vtk_array(column.name, components,
+                         values_of<std::int32_t>(column, rows, dimension, true))
+             : vtk_array(column.name, components, values_of<double>(column, rows, dimension, true));
+}
+
 /// The cells of a frame: a vertex for each contact with an obstacle, then a line for each other
-/// contact.
+/// contact. Cells have the numbers of particles, and rows their ids.
 struct ContactCells {
-  std::vector<double> gaps, gammas, normal_forces, tangential_forces, solid_forces;
-  std::vector<std::int32_t> firsts, seconds, images, frictions;
-  std::vector<ShownMemory> shown;
   PolyCells cells;
+  std::vector<ContactRow> rows;
 
   ContactCells(const Particles& particles, std::span<const CurrentContact> contacts) {
+    rows.reserve(contacts.size());
     for (const bool wall : {true, false})
       for (const auto& contact : contacts)
         if ((contact.first < 0) == wall) add(particles, contact);
   }
 
-  /// The number at index `place` of ShownMemory (pair_memory.hpp) of all cells.
-  std::vector<double> memory(std::size_t place) const {
-    std::vector<double> values;
-    for (const auto& numbers : shown) values.push_back(std::span(numbers)[place]);
-    return values;
-  }
-
  private:
-  /// `firsts` and `seconds` have the numbers of ids_of(), cells those of particles.
   void add(const Particles& particles, const CurrentContact& contact) {
     assert(contact.second >= 0 && index_of(contact.second) < particles.count());
     if (contact.first < 0)
       cells.add_vertex(contact.second);
     else
       cells.add_line(contact.first, contact.second);
-    gaps.push_back(contact.gap);
-    gammas.push_back(contact.gamma);
-    normal_forces.push_back(contact.normal_force);
-    append(tangential_forces, contact.tangential_force, particles.dimension);
-    solid_forces.push_back(contact.solid_force);
-    const auto [first, second] = ids_of(particles, contact);
-    firsts.push_back(first);
-    seconds.push_back(second);
-    images.push_back(contact.image);
-    frictions.push_back(static_cast<std::int32_t>(contact.friction));
-    shown.push_back(contact.shown);
+    rows.push_back({particles, contact});
   }
 };
 
@@ -102,18 +94,13 @@ std::string write_vtp(const Particles& particles, std::span<const CurrentContact
   text += listed.cells.opening(particles.count());
   text += point_data(particles);
   text += "<CellData Scalars=\"gamma\">\n";
-  text += vtk_array("gap", 1, listed.gaps);
-  text += vtk_array("gamma", 1, listed.gammas);
-  text += vtk_array("i", 1, listed.firsts);
-  text += vtk_array("j", 1, listed.seconds);
-  if (particles.cell.is_periodic()) text += vtk_array("image", 1, listed.images);
-  if (has_friction) text += vtk_array("friction", 1, listed.frictions);
-  text += vtk_array("normal_force", 1, listed.normal_forces);
-  if (has_friction) text += vtk_array("tangential_force", 3, listed.tangential_forces);
-  std::size_t place = 0;
-  for (const auto& field : kMemoryFields)
-    if (field.is_shown) text += vtk_array(field.name, 1, listed.memory(place++));
-  if (has_friction) text += vtk_array("solid_force", 1, listed.solid_forces);
+  RunFacts run;
+  run.dimension = particles.dimension;
+  run.has_friction = has_friction;
+  run.is_periodic = particles.cell.is_periodic();
+  for (const auto* column :
+       columns_in(Output::kFrames, contact_columns(), run, kFirstOfContactFrames))
+    text += array_of(*column, listed.rows, particles.dimension);
   text += "</CellData>\n" + listed.cells.closing(points);
   text += kVtkClosing;
   return text;
