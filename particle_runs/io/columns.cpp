@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <iterator>
-#include <limits>
 
 #include "viscontact/common/text/number.hpp"
 
@@ -47,15 +46,6 @@ std::size_t ColumnForm::count_in_frames(int dimension) const {
   return shape == ValueShape::kVector ? 3 : count(dimension);
 }
 
-std::array<double, 9> ColumnForm::entries(const Numbers& numbers, int dimension,
-                                          bool in_frames) const {
-  auto values = numbers.values;
-  if (!numbers.exist) values.fill(std::numeric_limits<double>::quiet_NaN());
-  if (shape == ValueShape::kTurn && dimension == 2) values[0] = values[2];
-  if (shape == ValueShape::kVector && dimension == 1 && in_frames) values = {0, 0, values[0]};
-  return values;
-}
-
 std::vector<std::string> ColumnForm::names(int dimension) const {
   const bool is_one =
       shape == ValueShape::kNumber || (shape == ValueShape::kTurn && dimension == 2);
@@ -76,18 +66,13 @@ std::vector<std::string> ColumnForm::names(int dimension) const {
   return names;
 }
 
-void ColumnForm::add_fields(std::string& row, const Numbers& numbers, int dimension) const {
-  const auto values = entries(numbers, dimension, false);
-  for (std::size_t i = 0; i < count(dimension); ++i) {
-    row += ',';
-    if (!numbers.exist) continue;
-    if (is_whole())
-      fmt::format_to(std::back_inserter(row), "{}", static_cast<std::int64_t>(values[i]));
-    else if (kind == ValueKind::kRounded)
-      fmt::format_to(std::back_inserter(row), "{:.3g}", values[i]);
-    else
-      row += format_number(values[i]);
-  }
+void ColumnForm::append(std::string& row, double entry) const {
+  if (is_whole())
+    fmt::format_to(std::back_inserter(row), "{}", static_cast<std::int64_t>(entry));
+  else if (kind == ValueKind::kRounded)
+    fmt::format_to(std::back_inserter(row), "{:.3g}", entry);
+  else
+    append_number(row, entry);
 }
 
 namespace {

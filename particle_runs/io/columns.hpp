@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
 #include <optional>
 #include <ranges>
 #include <span>
@@ -91,11 +92,8 @@ struct Rounded {
 enum class ValueShape : std::uint8_t { kNumber, kVector, kTurn, kQuaternion, kTensor };
 enum class ValueKind : std::uint8_t { kDecimal, kRounded, kWhole, kTruth, kText };
 
-/// The numbers of a column in a row, of which an empty field has none.
-struct Numbers {
-  std::array<double, 9> values{};
-  bool exist = true;
-};
+/// The numbers of a value, which are at most so many as a tensor has.
+using Entries = std::array<double, 9>;
 
 /// What is known of a column whatever its rows are.
 struct ColumnForm : Declaration {
@@ -103,22 +101,29 @@ struct ColumnForm : Declaration {
   ValueKind kind = ValueKind::kDecimal;
 
   bool is_whole() const { return kind == ValueKind::kWhole || kind == ValueKind::kTruth; }
+  /// Whether the value is more than a number.
+  bool is_vector(int dimension) const {
+    return shape != ValueShape::kNumber && !(shape == ValueShape::kTurn && dimension == 2);
+  }
   /// The number of fields of a row in tables, and of entries in Python.
   std::size_t count(int dimension) const;
   /// The number of entries of a row in frames, where vectors have three components.
   std::size_t count_in_frames(int dimension) const;
-  /// The numbers in the order of these entries; a vector on an axis is along z in frames.
-  std::array<double, 9> entries(const Numbers& numbers, int dimension, bool in_frames) const;
+  /// The first of the entries that count() counts: a disc turns about the third axis.
+  std::size_t begin(int dimension) const {
+    return shape == ValueShape::kTurn && dimension == 2 ? 2 : 0;
+  }
   /// The names of the fields in tables.
   std::vector<std::string> names(int dimension) const;
   std::string_view name_in_hdf5() const { return in_hdf5.empty() ? name : in_hdf5; }
-  /// Adds the fields to a row of a table, each after a comma.
-  void add_fields(std::string& row, const Numbers& numbers, int dimension) const;
+  /// Appends an entry to a row of a table.
+  void append(std::string& row, double entry) const;
 };
 
 template <class Row>
 struct Column : ColumnForm {
-  Numbers (*numbers)(const Row&) = nullptr;        ///< null for texts
+  /// Sets the entries that count() counts; false if the field is empty. Null for texts.
+  bool (*read)(const Row&, Entries& to) = nullptr;
   std::string_view (*text)(const Row&) = nullptr;  ///< null but for texts
 };
 
@@ -154,22 +159,20 @@ void set_form(ColumnForm& form) {
 }
 
 template <class Value>
-Numbers numbers_of(const Value& value) {
-  Numbers numbers;
+bool set_entries(const Value& value, Entries& to) {
   if constexpr (IsOptional<Value>::value) {
-    if (value) return numbers_of(*value);
-    numbers.exist = false;
+    return value && set_entries(*value, to);
   } else if constexpr (std::is_same_v<Value, Turn>) {
-    return numbers_of(value.vector);
+    return set_entries(value.vector, to);
   } else if constexpr (std::is_same_v<Value, Rounded>) {
-    numbers.values[0] = value.number;
+    to[0] = value.number;
   } else if constexpr (std::ranges::range<Value>) {
-    assert(std::size(value) <= numbers.values.size());
-    std::ranges::copy(value, numbers.values.begin());
+    assert(std::size(value) <= to.size());
+    std::ranges::copy(value, to.begin());
   } else {
-    numbers.values[0] = static_cast<double>(value);
+    to[0] = static_cast<double>(value);
   }
-  return numbers;
+  return true;
 }
 
 }  // namespace detail
@@ -185,7 +188,7 @@ Column<Row> column(const Declaration& declaration, Read /*read*/) {
     made.text = [](const Row& row) -> std::string_view { return Read{}(row); };
   } else {
     detail::set_form<Value>(made);
-    made.numbers = [](const Row& row) { return detail::numbers_of(Read{}(row)); };
+    made.read = [](const Row& row, Entries& to) { return detail::set_entries(Read{}(row), to); };
   }
   return made;
 }
@@ -217,30 +220,46 @@ std::vector<const AnyColumn*> columns_in(Output output, const std::vector<AnyCol
 template <class Row>
 class CsvTable {
  public:
-  /// The columns, of which there is at least one, must live as long as this object.
-  CsvTable(std::vector<const Column<Row>*> columns, int dimension)
-      : columns_(std::move(columns)), dimension_(dimension) {}
+  /// The columns must live as long as this object.
+  template <class AnyColumn>
+  CsvTable(const std::vector<const AnyColumn*>& columns, int dimension) : dimension_(dimension) {
+    for (const AnyColumn* one : columns)
+      fields_.push_back(
+          {one, one->begin(dimension), one->begin(dimension) + one->count(dimension)});
+  }
 
   /// The line with the names of the columns.
   std::string header() const {
     std::string text;
-    for (const auto* one : columns_)
-      for (const auto& name : one->names(dimension_)) (text += ',') += name;
-    return text.substr(1) + "\n";
+    for (const auto& field : fields_)
+      for (const auto& name : field.column->names(dimension_))
+        text += (text.empty() ? "" : ",") + name;
+    return text + "\n";
   }
   void add(std::string& text, const Row& row) const {
     const auto begin = text.size();
-    for (const auto* one : columns_)
-      if (one->kind == ValueKind::kText)
-        (text += ',') += one->text(row);
-      else
-        one->add_fields(text, one->numbers(row), dimension_);
+    Entries entries;
+    for (const auto& [column, first, last] : fields_) {
+      if (column->text != nullptr) {
+        (text += ',') += column->text(row);
+        continue;
+      }
+      const bool exists = column->read(row, entries);
+      for (std::size_t i = first; i < last; ++i) {
+        text += ',';
+        if (exists) column->append(text, entries[i]);
+      }
+    }
     text.erase(begin, 1);
     text += '\n';
   }
 
  private:
-  std::vector<const Column<Row>*> columns_;
+  struct Field {
+    const Column<Row>* column;
+    std::size_t first, last;  ///< of its entries
+  };
+  std::vector<Field> fields_;
   int dimension_;
 };
 
@@ -251,17 +270,21 @@ CsvTable<Row> table_over_time(const std::vector<Column<Row>>& columns, int dimen
 }
 
 /// The values of a column in all rows, of each row count_in_frames() entries if `in_frames` is
-/// true, else count(); NaN where a field is empty.
+/// true, else count(); NaN where a field is empty. A vector on an axis is along z in frames.
 template <class Number, class Row, class Rows>
 std::vector<Number> values_of(const Column<Row>& column, const Rows& rows, int dimension,
                               bool in_frames) {
-  assert(column.kind != ValueKind::kText);
+  assert(column.read != nullptr);
   const auto count = in_frames ? column.count_in_frames(dimension) : column.count(dimension);
+  const bool is_turned = in_frames && dimension == 1 && column.shape == ValueShape::kVector;
   std::vector<Number> values(count * std::ranges::size(rows));
   auto to = values.begin();
+  Entries entries;
   for (const auto& row : rows) {
-    const auto numbers = column.entries(column.numbers(row), dimension, in_frames);
-    to = std::transform(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(count), to,
+    if (!column.read(row, entries)) entries.fill(std::numeric_limits<double>::quiet_NaN());
+    if (is_turned) entries = {0, 0, entries[0]};
+    const double* from = entries.data() + column.begin(dimension);
+    to = std::transform(from, from + count, to,
                         [](double number) { return static_cast<Number>(number); });
   }
   return values;

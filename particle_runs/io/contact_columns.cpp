@@ -26,7 +26,7 @@ bool set_value(ContactFriction& value, std::span<const double> entries) {
 
 /// A column with a member of CurrentContact.
 template <auto kMember>
-ContactColumn of(const Declaration& declaration) {
+ContactColumn of_contact(const Declaration& declaration) {
   return {
       column<ContactRow>(declaration, [](const ContactRow& row) { return row.contact.*kMember; }),
       [](CurrentContact& contact, std::span<const double> entries) {
@@ -67,12 +67,12 @@ constexpr Condition kOffAxis{[](const RunFacts& run) { return run.dimension > 1;
                              "not on an axis"};
 
 constexpr Presence kFilesOnly{.python = kNever};
-constexpr Presence not_in_tables(const Condition& in_frames) {
+constexpr Presence frames_and_python(const Condition& in_frames) {
   return {.at_end = kNever, .over_time = kNever, .frames = in_frames};
 }
-constexpr Presence kPythonOnly = not_in_tables(kNever);
+constexpr Presence kPythonOnly = frames_and_python(kNever);
 
-std::vector<ContactColumn> make_columns() {
+std::vector<ContactColumn> make_contact_columns() {
   using Contact = CurrentContact;
   std::vector<ContactColumn> columns = {
       derived({"time", "T", "", {.at_end = kNever, .frames = kNever, .python = kNever}},
@@ -88,23 +88,26 @@ std::vector<ContactColumn> make_columns() {
       derived({"second", "", "id of the second particle; at an obstacle that of the particle",
                kPythonOnly},
               [](const ContactRow& row) { return id_of(row.particles, row.contact.second); }),
-      of<&Contact::gap>({"gap", "L", "< 0 where the two overlap"}),
-      of<&Contact::gamma>({"gamma", "M L/T", "minus the impulse that the film has absorbed, <= 0"}),
-      of<&Contact::gamma_error>({"gamma_error",
-                                 "M L/T",
-                                 "[estimate](particles.md#the-projection) of the error of gamma",
-                                 {.over_time = kNever, .frames = kNever}}),
-      of<&Contact::image>({"image", "",
-                           "the periodic image of the second particle that meets the first one, x "
-                           "+ 3 y + 9 z for a shift by x, y and z periods, each -1, 0 or 1",
-                           not_in_tables(kInPeriods)}),
-      of<&Contact::friction>(
-          {"friction", "", "0 none, 1 sticks, 2 slides", not_in_tables(kWithFriction)}),
-      of<&Contact::normal_force>(
+      of_contact<&Contact::gap>({"gap", "L", "< 0 where the two overlap"}),
+      of_contact<&Contact::gamma>(
+          {"gamma", "M L/T", "minus the impulse that the film has absorbed, <= 0"}),
+      of_contact<&Contact::gamma_error>(
+          {"gamma_error",
+           "M L/T",
+           "[estimate](particles.md#the-projection) of the error of gamma",
+           {.over_time = kNever, .frames = kNever}}),
+      of_contact<&Contact::image>(
+          {"image", "",
+           "the periodic image of the second particle that meets the first one, x "
+           "+ 3 y + 9 z for a shift by x, y and z periods, each -1, 0 or 1",
+           frames_and_python(kInPeriods)}),
+      of_contact<&Contact::friction>(
+          {"friction", "", "0 none, 1 sticks, 2 slides", frames_and_python(kWithFriction)}),
+      of_contact<&Contact::normal_force>(
           {"normal_force", "M L/T²", "that of film and solids, > 0 where it pushes both apart"}),
-      of<&Contact::normal>(
+      of_contact<&Contact::normal>(
           {"normal", "1", "unit vector from the first to the second body", kPythonOnly}),
-      of<&Contact::tangential_force>(
+      of_contact<&Contact::tangential_force>(
           {"tangential_force",
            "M L/T²",
            "on the second particle, or at an obstacle on the particle: the friction and, of a film "
@@ -112,13 +115,14 @@ std::vector<ContactColumn> make_columns() {
            "the normal, which acts on the centres "
            "([physics.md](physics.md#5-many-particles-particles), (5.21))",
            {.at_end = kOffAxis, .over_time = kOffAxis, .frames = kWithFriction}}),
-      of<&Contact::branch>({"branch", "L",
-                            "from the centre of the first particle, or the nearest point of an "
-                            "obstacle, to the centre of the second",
-                            kPythonOnly}),
+      of_contact<&Contact::branch>(
+          {"branch", "L",
+           "from the centre of the first particle, or the nearest point of an "
+           "obstacle, to the centre of the second",
+           kPythonOnly}),
   };
   add_memories(columns, std::make_index_sequence<std::tuple_size_v<ShownMemory>>());
-  columns.push_back(of<&Contact::solid_force>(
+  columns.push_back(of_contact<&Contact::solid_force>(
       {"solid_force",
        "M L/T²",
        "the part of `normal_force` that the solids bear, and not the film: Coulomb's law is "
@@ -131,7 +135,7 @@ std::vector<ContactColumn> make_columns() {
 }  // namespace
 
 const std::vector<ContactColumn>& contact_columns() {
-  static const auto columns = make_columns();
+  static const auto columns = make_contact_columns();
   return columns;
 }
 

@@ -25,8 +25,7 @@ RunFacts facts_of(int dimension, bool has_friction) {
 }
 
 CsvTable<ContactRow> contact_table(Output output, int dimension, bool has_friction) {
-  const auto found = columns_in(output, contact_columns(), facts_of(dimension, has_friction));
-  return {{found.begin(), found.end()}, dimension};
+  return {columns_in(output, contact_columns(), facts_of(dimension, has_friction)), dimension};
 }
 
 std::string contact_rows(const Setting& setting, const State& state, std::span<const double>) {

@@ -11,6 +11,7 @@
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/common/vtk/vtk_xml.hpp"
 #include "viscontact/particle_runs/io/contact_columns.hpp"
+#include "viscontact/particle_runs/io/particle_columns.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -57,29 +58,14 @@ struct ContactCells {
   }
 };
 
-std::string point_data(const Particles& particles) {
-  std::vector<double> velocities;
-  std::vector<std::int32_t> ids;
-  for (std::size_t k = 0; k < particles.count(); ++k) {
-    append(velocities, particles.velocity(k), particles.dimension);
-    ids.push_back(particles.id(k));
-  }
-  std::string text = "<PointData Scalars=\"radius\" Vectors=\"velocity\">\n";
-  text += vtk_array("radius", 1, particles.radii);
-  text += vtk_array("velocity", 3, velocities);
-  text += vtk_array("id", 1, ids);
-  if (std::ranges::any_of(particles.masses, [](double mass) { return mass > 0; }))
-    text += vtk_array("mass", 1, particles.masses);
-  if (!particles.angles.empty()) {
-    text += vtk_array("angle", 1, particles.angles);
-    text += vtk_array("angular_velocity", 1, particles.angular_velocities);
-  }
-  if (!particles.orientations.empty()) {
-    text += vtk_array("orientation", 4, particles.orientations);
-    text += vtk_array("angular_velocity", 3, particles.angular_velocities);
-  }
-  if (!particles.bodies.empty()) text += vtk_array("body", 1, particles.bodies.of_particle);
-  return text + "</PointData>\n";
+/// `first` are columns that stand before the others.
+template <class AnyColumn, class Rows>
+std::string arrays_of(const std::vector<AnyColumn>& columns, const Rows& rows, const RunFacts& run,
+                      std::span<const std::string_view> first) {
+  std::string text;
+  for (const auto* column : columns_in(Output::kFrames, columns, run, first))
+    text += array_of(*column, rows, run.dimension);
+  return text;
 }
 
 }  // namespace
@@ -92,15 +78,13 @@ std::string write_vtp(const Particles& particles, std::span<const CurrentContact
   const ContactCells listed(particles, contacts);
   std::string text = vtk_opening("PolyData");
   text += listed.cells.opening(particles.count());
-  text += point_data(particles);
-  text += "<CellData Scalars=\"gamma\">\n";
-  RunFacts run;
-  run.dimension = particles.dimension;
+  auto run = facts_of(particles);
   run.has_friction = has_friction;
-  run.is_periodic = particles.cell.is_periodic();
-  for (const auto* column :
-       columns_in(Output::kFrames, contact_columns(), run, kFirstOfContactFrames))
-    text += array_of(*column, listed.rows, particles.dimension);
+  text += "<PointData Scalars=\"radius\" Vectors=\"velocity\">\n";
+  text += arrays_of(particle_columns(), rows_of(particles, 0, nullptr, {}), run,
+                    kFirstOfParticleFrames);
+  text += "</PointData>\n<CellData Scalars=\"gamma\">\n";
+  text += arrays_of(contact_columns(), listed.rows, run, kFirstOfContactFrames);
   text += "</CellData>\n" + listed.cells.closing(points);
   text += kVtkClosing;
   return text;

@@ -13,6 +13,7 @@
 #include "viscontact/common/system/module.hpp"
 #include "viscontact/common/vtk/vtk_xml.hpp"
 #include "viscontact/particle_runs/io/contact_columns.hpp"
+#include "viscontact/particle_runs/io/particle_columns.hpp"
 #include "viscontact/particle_runs/io/vtk.hpp"
 #include "viscontact/particle_runs/run/module/hdf5_module.hpp"
 #include "viscontact/particle_runs/run/particles_pages.hpp"
@@ -124,7 +125,9 @@ template <class AnyColumn>
 std::array<std::vector<Array>, 2> arrays_of(const std::vector<AnyColumn>& columns,
                                             std::string_view section, int dimension) {
   std::array<std::vector<Array>, 2> arrays;
-  for (const auto* column : columns_in(Output::kFrames, columns, kAllFacts))
+  RunFacts run = kAllFacts;
+  run.dimension = dimension;
+  for (const auto* column : columns_in(Output::kFrames, columns, run))
     arrays[column->is_whole() ? 1 : 0].push_back({section, column->name,
                                                   std::string(column->name_in_hdf5()),
                                                   column->count_in_frames(dimension)});
@@ -138,17 +141,10 @@ void copy_frames(const ParticlesCase& c, const fs::path& folder, Hdf5File& file)
   if (frames.empty()) throw_bad_input({(folder / "particles.pvd").string()}, "has no frame");
   const auto last_text = read_file(folder / frames.back().second);
   const VtkReader last(last_text, (folder / frames.back().second).string(), "frame");
-  const bool is_flat = c.particles.dimension < 3;  // then the angular velocity is one number
   Rows<double> times(file, "time", 1);
-  Table particles(file, "particles/",
-                  {{"Points", "Points", "position", 3},
-                   {"PointData", "velocity", "velocity", 3},
-                   {"PointData", "radius", "radius", 1},
-                   {"PointData", "mass", "mass", 1},
-                   {"PointData", "angle", "angle", 1},
-                   {"PointData", "orientation", "orientation", 4},
-                   {"PointData", "angular_velocity", "angular_velocity", is_flat ? 1U : 3U}},
-                  {{"PointData", "id", "id", 1}, {"PointData", "body", "body", 1}}, last);
+  auto of_points = arrays_of(particle_columns(), "PointData", c.particles.dimension);
+  of_points[0].insert(of_points[0].begin(), {"Points", "Points", "position", 3});
+  Table particles(file, "particles/", of_points[0], of_points[1], last);
   const auto of_contacts = arrays_of(contact_columns(), "CellData", c.particles.dimension);
   Table contacts(file, "contacts/", of_contacts[0], of_contacts[1], last);
   for (const auto& [time, name] : frames) {
