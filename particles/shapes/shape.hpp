@@ -3,13 +3,14 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
-namespace viscontact::particles {
+#include "viscontact/particles/values/vector2.hpp"
 
-/// A vector in the plane.
-using Vector2 = std::array<double, 2>;
+namespace viscontact::particles {
 
 enum class ShapeKind : std::uint8_t { kDisc, kSphere, kPlate, kEllipse };
 inline constexpr std::size_t kShapeKinds = 4;
@@ -28,6 +29,25 @@ struct OutlinePoint {
 struct Arc {
   Vector2 centre{};     ///< relative to the centre of the shape [L]
   Vector2 semi_axes{};  ///< [L]
+
+  // The functions take a unit vector, and are relative to `centre`.
+  double support(const Vector2& normal) const {
+    return is_circle() ? semi_axes[0]
+                       : norm(Vector2{semi_axes[0] * normal[0], semi_axes[1] * normal[1]});
+  }
+  Vector2 support_point(const Vector2& normal) const {
+    if (is_circle()) return semi_axes[0] * normal;
+    const double height = support(normal);
+    return {semi_axes[0] / height * semi_axes[0] * normal[0],
+            semi_axes[1] / height * semi_axes[1] * normal[1]};
+  }
+  /// Radius of curvature at support_point() [L], a^2 b^2/h^3 with the support h.
+  double curvature_radius(const Vector2& normal) const {
+    if (is_circle()) return semi_axes[0];
+    const double height = support(normal), part = semi_axes[0] / height * semi_axes[1];
+    return part * part / height;
+  }
+  bool is_circle() const { return semi_axes[0] == semi_axes[1]; }
 };
 
 /// A straight part of a convex outline, and the arcs before and after it, counter-clockwise.
