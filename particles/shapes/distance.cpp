@@ -5,16 +5,15 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <utility>
+
+#include "viscontact/particles/shapes/normal_search.hpp"
 
 namespace viscontact::particles {
 namespace {
 
 struct DistanceTuning {
-  /// Bisections alone need 60.
-  int most_iterations = 100;
-  /// The last turn of the normal [rad]. Newton's method squares it, times a factor of the order of
-  /// the ratio of the axes.
-  double last_turn = 1e-10;
   /// Sides whose directions differ by less are parallel [rad], because sines and cosines of their
   /// angles are rounded.
   double parallel = 1e-15;
@@ -226,7 +225,7 @@ std::optional<Vector2> ShapePair::separating_normal() const {
   double side = cross(between_, right);
   int n = 0;
   for (;; ++n) {  // another point, on the other side of the line
-    if (side == 0 || n == kDistanceTuning.most_iterations) return {};
+    if (side == 0 || n == kNormalSearchTuning.most_iterations) return {};
     normal = (side < 0 ? 1 : -1) * unit(quarter_turn(right));
     if (separates(normal, left)) return normal;
     const double other = cross(between_, left);
@@ -235,7 +234,7 @@ std::optional<Vector2> ShapePair::separating_normal() const {
     side = other;
   }
   if (side > 0) std::swap(left, right);
-  for (; n < kDistanceTuning.most_iterations; ++n) {
+  for (; n < kNormalSearchTuning.most_iterations; ++n) {
     const Vector2 chord = left - right;
     if (chord == Vector2{}) return {};
     normal = -quarter_turn(unit(chord));
@@ -261,29 +260,12 @@ NearestPoints ShapePair::maximum(const Arcs& arcs, Vector2 normal) const {
     at.gap = distance - (arcs[0].semi_axes[0] + arcs[1].semi_axes[0]);
     return points(at);
   }
-  std::optional<Vector2> from, to;
-  Vector2 inside = normal;
-  BoundingLines at;
-  for (int n = 0; n < kDistanceTuning.most_iterations; ++n) {
-    at = lines(arcs, normal);
-    Vector2 next{};
-    if (are_apart(at.gap)) {
-      (at.slope > 0 ? from : to) = inside = normal;
-      const double turn = at.slope / at.bend;
-      // The direction from centre of curvature to centre of curvature.
-      next = unit(normal + turn * quarter_turn(normal));
-      if (std::abs(turn) <= kDistanceTuning.last_turn) return points(lines(arcs, next));
-    } else {
-      next = normal;
-      (cross(inside, normal) > 0 ? to : from) = normal;
-    }
-    if (from && to) {
-      if (!(cross(*from, *to) > std::numeric_limits<double>::epsilon() / 2)) break;
-      if (!(cross(*from, next) > 0) || !(cross(next, *to) > 0)) next = unit(*from + *to);
-    }
-    normal = next;
+  NormalSearch search;
+  for (int n = 0; n < kNormalSearchTuning.most_iterations && !search.is_done(); ++n) {
+    const auto at = lines(arcs, normal);
+    normal = are_apart(at.gap) ? search.next(normal, at.slope, at.bend) : search.back_from(normal);
   }
-  return points(at);
+  return points(lines(arcs, normal));
 }
 
 /// The largest maximum among those found from many normals.
@@ -301,20 +283,20 @@ NearestPoints ShapePair::deep_maximum() const {
         best = found.points;
     }
     for (int k = 0; k < kDistanceTuning.directions; ++k) {
-      const auto outline = shape.at(2 * 3.141592653589793 * k / kDistanceTuning.directions);
+      const auto outline = shape.at(2 * std::numbers::pi * k / kDistanceTuning.directions);
       const Vector2 normal = sign * from_axes(axis, outline.normal);
       if (dot(normal, between_) < 0) continue;  // the opposite normal has a larger gap
       if (const auto here = lines(arcs_at(normal), normal); here.gap > at.gap) at = here;
     }
   }
   double shorter = 1;
-  for (int n = 0; n < kDistanceTuning.most_iterations; ++n) {
+  for (int n = 0; n < kNormalSearchTuning.most_iterations; ++n) {
     const double newton = at.bend > 0 ? at.slope / at.bend : at.slope > 0 ? 1 : -1;
     const double most = kDistanceTuning.largest_turn;
     const double turn = shorter * std::clamp(newton, -most, most);
     const Vector2 normal = unit(at.normal + turn * quarter_turn(at.normal));
     const auto next = lines(arcs_at(normal), normal);
-    const bool is_last = std::abs(turn) <= kDistanceTuning.last_turn;
+    const bool is_last = std::abs(turn) <= kNormalSearchTuning.last_turn;
     // The gap is as exact as the square of a turn.
     const bool is_better = next.gap >= at.gap || (shorter == 1 && std::abs(turn) < 1e-7);
     if (is_better) at = next;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "viscontact/particles/shapes/normal_search.hpp"
 #include "viscontact/particles/shapes/shape_rule.hpp"
 
 namespace viscontact::particles {
@@ -11,20 +12,13 @@ namespace {
 /// The normal of the ellipse `arc`, between the directions `from` and `to`, counter-clockwise, at
 /// which the distance of its points from the origin has a maximum. The distance grows at `from` and
 /// falls at `to`, or is stationary there, and has no other stationary points in between.
-Vector2 farthest_between(const Arc& arc, Vector2 from, Vector2 to) {
-  constexpr int kMostIterations = 100;  // bisections alone need 50
-  constexpr double kLeastTurn = 1e-10;  // Newton's method squares it
+Vector2 farthest_between(const Arc& arc, const Vector2& from, const Vector2& to) {
+  NormalSearch search(from, to);
   Vector2 normal = unit(from + to);
-  for (int n = 0; n < kMostIterations; ++n) {
+  for (int n = 0; n < kNormalSearchTuning.most_iterations && !search.is_done(); ++n) {
     const Vector2 far = arc.centre + arc.support_point(normal);
-    const double slope = dot(far, quarter_turn(normal));
-    (slope > 0 ? from : to) = normal;
-    const double bend = dot(far, normal) - arc.curvature_radius(normal);  // minus the second one
-    const Vector2 next = unit(normal + (slope / bend) * quarter_turn(normal));
-    if (bend > 0 && std::abs(slope) <= kLeastTurn * bend) return next;
-    const bool inside = bend > 0 && cross(from, next) > 0 && cross(next, to) > 0;
-    normal = inside ? next : unit(from + to);
-    if (!(cross(from, to) > 1e-16)) break;
+    normal = search.next(normal, dot(far, quarter_turn(normal)),
+                         dot(far, normal) - arc.curvature_radius(normal));
   }
   return normal;
 }
