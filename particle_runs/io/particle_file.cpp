@@ -243,7 +243,6 @@ std::string write_particles(const Particles& particles, const std::optional<Flui
          forces->values.size() == particles.count() * motion_components(particles.dimension));
   assert(!forces || forces->errors.empty() ||
          forces->errors.size() == particles.count() * motion_components(particles.dimension));
-  assert(!forces || forces->semi_axes.empty() || forces->semi_axes.size() == particles.count());
   std::string text = fmt::format("# rows: {}\n", particles.count());
   text += d == 1   ? "id,z,vz,radius,mass"
           : d == 2 ? "id,x,y,vx,vy,radius,mass"
@@ -252,7 +251,8 @@ std::string write_particles(const Particles& particles, const std::optional<Flui
     for (const auto name : fluid_columns(particles.dimension)) (text += ',') += name;
   else if (particles.turn())
     for (const auto name : turning_columns(particles.dimension)) (text += ',') += name;
-  if (forces && !forces->semi_axes.empty()) text += ",semi_axis_1,semi_axis_2";
+  const bool has_shapes = forces && !particles.shapes.empty();
+  if (has_shapes) text += ",semi_axis_1,semi_axis_2";
   if (!loads.empty())
     for (const auto& name : load_columns(particles.dimension, particles.turn()))
       (text += ',') += name;
@@ -277,8 +277,8 @@ std::string write_particles(const Particles& particles, const std::optional<Flui
       for (std::size_t i = 0; i < components; ++i) add_or_empty(forces->values, i);
       add_or_empty(forces->errors, 0);
       if (components == 3) add_or_empty(forces->errors, 2);
-      if (!forces->semi_axes.empty())
-        for (const double axis : forces->semi_axes[k]) add(axis);
+      if (has_shapes)
+        for (const double axis : particles.shapes[k].semi_axes()) add(axis);
     } else if (particles.turn()) {
       if (d == 2) add(particles.angles[k]);
       const std::size_t turns = d == 3 ? 3 : 1;
