@@ -2,6 +2,9 @@
 // physics.md (4.1) and (4.2).
 #pragma once
 
+#include <cstddef>
+#include <limits>
+
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/integration/cvode.hpp"
 #include "viscontact/reduced_model/motion.hpp"
