@@ -15,8 +15,8 @@ struct SwimTuning {
   // Points on a leg for its sums. The integrands are analytic, so that each doubling of the points
   // squares the error. Legs of 1e-3 radii need 8 points, legs across the whole table 64.
   static constexpr int kFewest = 8, kMost = 512;
-  // Relative change of the integrals at the last doubling; the displacement, to which the path of
-  // the arms is the scale, must change by a tenth of it.
+  // Relative change of energy and length at the last doubling. The change of the displacement over
+  // the path of the arms must be a tenth of it.
   static constexpr double kTolerance = 1e-12;
   // Points between two rows, exact to round-off if rows are at most 1/100 of a stroke apart.
   static constexpr int kBetweenRows = 16;
