@@ -249,7 +249,7 @@ int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<
   for (std::size_t r = 0; r < problem_.rows.size(); ++r)
     values_[r] = problem_.rows[r].offset + problem_.product(r, y_);
   failed_ = false;
-  paths_ = 0;
+  paths_ = path_iterations_ = 0;
   int iterations = 0;
   const double first = error_at(0, true);
   double before = first;
@@ -270,7 +270,9 @@ int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<
       if (failed_) break;
       ++paths_;
       error_at(0, true);
+      const int before_path = iterations;
       const double share = follow_path(iterations);
+      path_iterations_ += iterations - before_path;
       before = error_at(0, true);
       if (share == 1) break;
       failed_ = share < kLeastShare;
