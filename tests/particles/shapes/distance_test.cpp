@@ -347,8 +347,30 @@ TEST(Distance, ShapesAroundOnePointOverlap) {
   EXPECT_DOUBLE_EQ(gap(plate, Shape::disc(0)), -1);
 }
 
-// Closed forms, with Pythagorean numbers: an ellipse with the semi-axes 5 and 3 has the points
-// (3, 12/5) and (4, 9/5); disc of the same radii.
+// Where the normal is not determined, because the gap is minus the sum of the curvature radii, any
+// normal is a result, and the gap is as exact as elsewhere.
+TEST(Distance, AtCentresOfCurvatureTheGapIsExact) {
+  RandomShapes random(22);
+  for (int n = 0; n < 3000; ++n) {
+    const auto kind = kKinds[static_cast<std::size_t>(n) % kKinds.size()];
+    const auto first = random.at_random_angle(random.shape(kind, 20, 10));
+    const auto [a, b] = first.shape.semi_axes();
+    const double least = first.shape.least_curvature_radius(), most = std::max(a, b);
+    // The end of a plate's spine, the centre of a disc, that of the curvature of an ellipse's tip.
+    Vector2 own = {most - least, 0};
+    if (b > a) std::swap(own[0], own[1]);
+    PlacedShape second{random.coin() ? Shape::disc(random.uniform(0, 3)) : Shape::disc(0),
+                       first.centre + from_axes(first.axis, own)};
+    for (auto& x : second.centre) x += random.uniform(-4, 4) * 1e-16;
+    const std::optional<Vector2> guess =
+        random.coin() ? std::optional(random.direction()) : std::nullopt;
+    const auto found = nearest_points(first, second, guess);
+    const double exact = -(least + second.shape.bounding_radius());
+    EXPECT_NEAR(found.gap, exact, 1e-14 * size_of_pair(first, second));
+    EXPECT_NEAR(norm(found.normal), 1, 1e-15);
+  }
+}
+
 TEST(Distance, ClosedFormsOfDiscsPointsAndPlates) {
   const PlacedShape disc{Shape::disc(2), {1, 2}};
   const auto discs = nearest_points(disc, {Shape::disc(1), {4, 6}});
