@@ -79,7 +79,8 @@ double gap_of_row(const lubrication::MotionTable& table, Eigen::Index row) {
   return table.rows[static_cast<std::size_t>(row)].gap;
 }
 
-/// Of the chi-squared distribution. The type is double, because it compiles faster than long double.
+/// Of the chi-squared distribution. The type is double, because it compiles faster than long
+/// double.
 double chi_squared_quantile(double degrees_of_freedom) {
   assert(degrees_of_freedom > 0);
   using DoublePolicy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;

@@ -35,8 +35,8 @@ double distance_to_walls(const particles::Domain& domain, const Point& x) {
 struct MembraneEdgeTuning {
   // Increase of the edge length per distance from a curve with 24 edges.
   static constexpr double kGrowthAt24Edges = 0.25;
-  // Largest edge over the distance from a curve, which makes two edges across a gap. An edge as long
-  // as those of the curve over kOfOwnEdge is always allowed.
+  // Largest edge over the distance from a curve, which makes two edges across a gap. An edge as
+  // long as those of the curve over kOfOwnEdge is always allowed.
   static constexpr double kOfGap = 0.5, kOfOwnEdge = 8;
   // Least number of edges on a round wall, whose polygon is then nearly a circle.
   static constexpr std::size_t kLeastOnWall = 24;
