@@ -38,9 +38,8 @@ EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain&
   const double ratio = EdgeTuning::kUsualEdges / fluid.edges_per_particle;
   double smallest = kFar;
   for (std::size_t k = 0; k < p.count(); ++k) {
-    outlines_.push_back(particles::outline_of(fluid, p, bodies.angles, k));
-    smallest = std::min(smallest, fluid.is_ellipse(k) ? std::ranges::min(fluid.semi_axes[k])
-                                                      : fluid.end_radius(k, p.radii[k]));
+    outlines_.push_back(p.placed_shape(k, bodies.angles));
+    smallest = std::min(smallest, outlines_.back().shape.inner_radius());
   }
   cap_ = coarsening * size_of(domain) / EdgeTuning::kEdgesOfAWall;
   per_radius_ = coarsening * 2 * std::numbers::pi / fluid.edges_per_particle;
@@ -71,7 +70,7 @@ EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain&
     auto& neighbours = neighbours_.emplace_back();
     for (std::size_t i = 0; i < images_.size(); ++i) {
       const auto& other = images_[i];
-      const double gap = distance_to(other, outline.centre) - outline.radius;
+      const double gap = other.distance_to(outline.centre) - outline.shape.bounding_radius();
       // Discs of one rigid body may overlap; there is then no gap between them to resolve.
       const bool is_joined = gap < 0 && p.bodies.are_one(static_cast<std::int32_t>(k),
                                                          static_cast<std::int32_t>(i % p.count()));
@@ -96,7 +95,7 @@ double EdgeLengths::distance_to_wall(const Point& x) const {
 std::array<double, 2> EdgeLengths::distances_to_particles(const Point& x) const {
   double nearest = kFar, second = kFar;
   for (const auto& image : images_) {
-    const double distance = distance_to(image, x);
+    const double distance = image.distance_to(x);
     second = std::min(second, std::max(nearest, distance));
     nearest = std::min(nearest, distance);
   }
@@ -106,16 +105,17 @@ std::array<double, 2> EdgeLengths::distances_to_particles(const Point& x) const 
 double EdgeLengths::on_particle(std::size_t k, const Point& x) const {
   assert(k < neighbours_.size());
   double distance = distance_to_wall(x);
-  for (const auto& other : neighbours_[k]) distance = std::min(distance, distance_to(other, x));
+  for (const auto& other : neighbours_[k]) distance = std::min(distance, other.distance_to(x));
   return std::min(longest_, across(distance));
 }
 
 double EdgeLengths::on_outline(std::size_t k, double t) const {
   assert(k < outlines_.size());
   const auto& outline = outlines_[k];
-  const double length = on_particle(k, outline.at(t));
-  if (outline.is_circle()) return length;
-  return std::min(length, per_radius_ * outline.curvature_radius_at(t));
+  const auto at = outline.at(t);
+  const double length = on_particle(k, at.point);
+  if (outline.shape.is_round()) return length;
+  return std::min(length, per_radius_ * at.curvature_radius);
 }
 
 double EdgeLengths::on_wall(const Point& x) const {

@@ -7,13 +7,12 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 #include "viscontact/immersed/fluid_solver.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/setting/fluid.hpp"
-#include "viscontact/particles/setting/outline.hpp"
+#include "viscontact/particles/shapes/distance.hpp"
 
 namespace viscontact::freefem_flow {
 
@@ -66,8 +65,8 @@ class EdgeLengths {
   /// That of an edge on the smallest particle, or less if another surface is near.
   double on_particle(std::size_t k, const Point& x) const;
 
-  /// The same at the point outlines()[k].at(t). On an ellipse or plate the length is also at most
-  /// `coarsening` times 2 pi/edges_per_particle times the radius of curvature at the point.
+  /// The same at the point outlines()[k].at(t). On a particle that is not round the length is also
+  /// at most `coarsening` times 2 pi/edges_per_particle times the radius of curvature at the point.
   double on_outline(std::size_t k, double t) const;
 
   /// It increases with the distance from the nearest particle, to at most `coarsening` times a
@@ -82,7 +81,7 @@ class EdgeLengths {
   /// limit of on_wall().
   double uniform() const { return longest_; }
 
-  const std::vector<particles::Outline>& outlines() const { return outlines_; }
+  const std::vector<particles::PlacedShape>& outlines() const { return outlines_; }
 
  private:
   /// Negative outside the domain; infinite if all sides of a box are periodic.
@@ -100,10 +99,10 @@ class EdgeLengths {
   double longest_, growth_, of_gap_, further_, narrow_;
   double cap_;         // the longest edge on walls and in the fluid [L]
   double per_radius_;  // edge on a particle over the radius of curvature there
-  std::vector<particles::Outline> outlines_;
-  std::vector<particles::Outline> images_;  // with those of the particles
+  std::vector<particles::PlacedShape> outlines_;
+  std::vector<particles::PlacedShape> images_;  // with those of the particles
   // For each particle the outlines that shorten its edges.
-  std::vector<std::vector<particles::Outline>> neighbours_;
+  std::vector<std::vector<particles::PlacedShape>> neighbours_;
 };
 
 /// Throws Error(kNotConverged) if an edge of the length `edge` [L] is not longer than 1e-7 times
@@ -168,38 +167,35 @@ std::vector<Point> cut_line(const Point& from, const Point& to, const EdgeLength
 }
 
 /// Cuts an outline into edges. Returns their ends counter-clockwise; the last point is equal to the
-/// first. There are at least `least` edges; on a plate at least least/4, rounded down, on each of
-/// its two sides and two round ends. `edge_length(t)` [L] is the wanted length at outline.at(t).
+/// first. There are at least `least` edges. On an outline with sides, each side and each part
+/// between two sides has at least `least` edges over the number of these parts, rounded down, and
+/// its ends are points of the mesh. `edge_length(t)` [L] is the wanted length at outline.at(t).
 /// Throws Error(kNotConverged) as cut_curve() does.
 template <class EdgeLength>
-std::vector<Point> cut_outline(const particles::Outline& outline, std::size_t least,
+std::vector<Point> cut_outline(const particles::PlacedShape& outline, std::size_t least,
                                const EdgeLength& edge_length) {
-  if (outline.is_plate) {
-    // Each round end and each side is cut by itself, so that its ends are points of the mesh.
-    const double length = outline.length(), per = 2 * std::numbers::pi / length;
-    const double arc = std::numbers::pi * outline.end_radius(), side = length / 2 - arc;
-    std::vector<Point> points;
-    for (const auto& [from, of_part] : {std::pair{-arc / 2, arc},
-                                        {arc / 2, side},
-                                        {arc / 2 + side, arc},
-                                        {3 * arc / 2 + side, side}}) {
-      const auto at = [&](double s) { return per * (from + s); };
-      for (const double s :
-           cut_curve(of_part, least / 4, [&](double t) { return edge_length(at(t)); }))
-        if (s < of_part) points.push_back(outline.at(at(s)));
-    }
-    points.push_back(points.front());
-    return points;
+  const auto& shape = outline.shape;
+  std::vector<double> joints;  // parameters at which parts begin or end
+  for (int k = 0; k < shape.sides(); ++k) {
+    joints.push_back(shape.side(k).from_parameter);
+    joints.push_back(shape.side(k).to_parameter);
   }
-  // The outline is cut along s = radius t, which is the length of the curve on a circle.
-  const double r = outline.radius;
-  const auto along_s = [&](double s) {
-    const double t = s / r;
-    return outline.is_circle() ? edge_length(t) : edge_length(t) * r / outline.speed_at(t);
-  };
+  if (joints.empty()) joints.push_back(0);
+  const auto parts = joints.size();
+  joints.push_back(joints.front() + 2 * std::numbers::pi);
+  // The outline is cut along s = r t, which is the length of the curve on a circle.
+  const double r = shape.bounding_radius();
   std::vector<Point> points;
-  for (const double s : cut_curve(2 * std::numbers::pi * r, least, along_s))
-    points.push_back(outline.at(s / r));
+  for (std::size_t part = 0; part < parts; ++part) {
+    const double from = joints[part], length = (joints[part + 1] - from) * r;
+    const auto along_s = [&](double s) {
+      const double t = from + s / r, speed = outline.at(t).speed, wanted = edge_length(t);
+      return speed == r ? wanted : wanted * r / speed;
+    };
+    for (const double s : cut_curve(length, least / parts, along_s))
+      if (parts == 1 || s < length) points.push_back(outline.at(from + s / r).point);
+  }
+  if (parts > 1) points.emplace_back();
   points.back() = points.front();
   return points;
 }

@@ -12,7 +12,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
 #include "viscontact/freefem_flow/boundary/periodic_cells.hpp"
-#include "viscontact/particles/setting/outline.hpp"
+#include "viscontact/particles/setting/chords.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {
@@ -42,8 +42,9 @@ class BoundaryMaker {
         lengths_(fluid, domain, bodies, coarsening) {}
 
   MeshBoundary of(const particles::DiscDomain& disc) {
-    const particles::Outline wall{{disc.centre[0], disc.centre[1]}, disc.radius};
-    add_outline(wall, 1, false, [&](double t) { return on_wall(wall.at(t)); });
+    const particles::PlacedShape wall{particles::Shape::disc(disc.radius),
+                                      {disc.centre[0], disc.centre[1]}};
+    add_outline(wall, 1, false, [&](double t) { return on_wall(wall.at(t).point); });
     add_particles();
     return std::move(boundary_);
   }
@@ -87,7 +88,7 @@ class BoundaryMaker {
 
   /// Adds a closed curve. The curve of a hole is clockwise, so that the fluid is on its left.
   template <class EdgeLength>
-  void add_outline(const particles::Outline& outline, int label, bool is_hole,
+  void add_outline(const particles::PlacedShape& outline, int label, bool is_hole,
                    const EdgeLength& edge_length) {
     auto points = cut_outline(outline, EdgeTuning::kLeastOnCircle, edge_length);
     if (is_hole) std::ranges::reverse(points);
@@ -105,10 +106,10 @@ class BoundaryMaker {
       }
       if (!has_holes_) {
         auto inner = outline;
-        inner.radius *= BoundaryTuning::kOfRadius;
-        for (auto& axis : inner.semi_axes) axis *= BoundaryTuning::kOfRadius;
-        add_outline(inner, kInsideLabel, false,
-                    [&](double) { return BoundaryTuning::kLongest * outline.radius; });
+        inner.shape = inner.shape.scaled(BoundaryTuning::kOfRadius);
+        add_outline(inner, kInsideLabel, false, [&](double) {
+          return BoundaryTuning::kLongest * outline.shape.bounding_radius();
+        });
       }
       add_outline(outline, kFirstParticleLabel + static_cast<int>(k), has_holes_,
                   [&](double t) { return lengths_.on_outline(k, t); });
@@ -120,15 +121,16 @@ class BoundaryMaker {
     const auto chords = chords_of(fluid_, bodies_, k);
     constexpr double kTurn = 2 * std::numbers::pi;
     const auto& circle = lengths_.outlines()[k];
+    const double radius = circle.shape.bounding_radius();
     for (std::size_t c = 0; c < chords.size(); ++c) {
       const auto &before = chords[c], &after = chords[(c + 1) % chords.size()];
       const double from = before.middle + before.half;
       const double to = after.middle - after.half + (c + 1 < chords.size() ? 0 : kTurn);
-      const auto at = [&](double s) { return from + s / circle.radius; };
+      const auto at = [&](double s) { return from + s / radius; };
       std::vector<Point> points;
-      for (const double s : cut_curve((to - from) * circle.radius, 1,
+      for (const double s : cut_curve((to - from) * radius, 1,
                                       [&](double t) { return lengths_.on_outline(k, at(t)); }))
-        points.push_back(circle.at(at(s)));
+        points.push_back(circle.at(at(s)).point);
       points.front() = before.to;
       points.back() = after.from;
       std::ranges::reverse(points);
@@ -192,17 +194,16 @@ class BoundaryMaker {
     double z = height;
     for (const auto k : order) {
       const auto& circle = outlines[k];
-      const double top = circle.centre[1] + circle.radius, bottom = top - 2 * circle.radius;
+      const double radius = circle.shape.bounding_radius();
+      const double top = circle.centre[1] + radius, bottom = top - 2 * radius;
       add_line({0, z}, {0, top}, kAxisLabel, fluid);
       const auto at = [&](double s) {
-        const double angle = s / circle.radius;
-        return Point{circle.radius * std::sin(angle),
-                     circle.centre[1] + circle.radius * std::cos(angle)};
+        const double angle = s / radius;
+        return Point{radius * std::sin(angle), circle.centre[1] + radius * std::cos(angle)};
       };
       std::vector<Point> points;
-      for (const double s :
-           cut_curve(std::numbers::pi * circle.radius, EdgeTuning::kLeastOnCircle / 2,
-                     [&](double t) { return lengths_.on_particle(k, at(t)); }))
+      for (const double s : cut_curve(std::numbers::pi * radius, EdgeTuning::kLeastOnCircle / 2,
+                                      [&](double t) { return lengths_.on_particle(k, at(t)); }))
         points.push_back(at(s));
       points.front() = {0, top};
       points.back() = {0, bottom};

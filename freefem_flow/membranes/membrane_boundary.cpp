@@ -68,12 +68,13 @@ class WantedEdges {
                 std::hypot(nodes(i, 0) - x[0], nodes(i, 1) - x[1]));
     for (std::size_t k = 0; k < curves_.discs.size(); ++k) {
       const auto& disc = curves_.discs[k];
-      const double edge = particles::kTwoPi * disc.radius / curves_.edges_of_disc;
+      const double edge = particles::kTwoPi * disc.shape.bounding_radius() / curves_.edges_of_disc;
       if (k == own)
         wanted = std::min(wanted, edge);
       else
         shorten(edge, curves_.edges_of_disc,
-                std::hypot(disc.centre[0] - x[0], disc.centre[1] - x[1]) - disc.radius);
+                std::hypot(disc.centre[0] - x[0], disc.centre[1] - x[1]) -
+                    disc.shape.bounding_radius());
     }
     return wanted;
   }
@@ -81,7 +82,8 @@ class WantedEdges {
   /// The same on the disc with the number `own`, but shorter near a wall.
   double on_disc(const particles::Domain& domain, std::size_t own, const Point& x) const {
     assert(own < curves_.discs.size());
-    const double edge = particles::kTwoPi * curves_.discs[own].radius / curves_.edges_of_disc;
+    const double edge =
+        particles::kTwoPi * curves_.discs[own].shape.bounding_radius() / curves_.edges_of_disc;
     return std::min(at(x, own),
                     std::max(edge / MembraneEdgeTuning::kOfOwnEdge,
                              MembraneEdgeTuning::kOfGap * distance_to_walls(domain, x)));
@@ -108,12 +110,14 @@ void check_places(const particles::Domain& domain, const InnerCurves& curves,
       const Point x = {node(0), node(1)};
       if (!(distance_to_walls(domain, x) > 0)) fail("a membrane leaves the domain", x);
       for (const auto& disc : curves.discs)
-        if (!(std::hypot(x[0] - disc.centre[0], x[1] - disc.centre[1]) > disc.radius))
+        if (!(std::hypot(x[0] - disc.centre[0], x[1] - disc.centre[1]) >
+              disc.shape.bounding_radius()))
           fail("a membrane meets a particle", x);
     }
   for (const auto& disc : curves.discs) {
     const Point x = {disc.centre[0], disc.centre[1]};
-    if (!(distance_to_walls(domain, x) > disc.radius)) fail("a particle leaves the domain", x);
+    if (!(distance_to_walls(domain, x) > disc.shape.bounding_radius()))
+      fail("a particle leaves the domain", x);
   }
 }
 
@@ -130,7 +134,8 @@ double shift_between_membranes(const particles::Domain& domain, const InnerCurve
   };
   for (const auto& own : curves.membranes)
     add(own.col(0).minCoeff(), own.col(0).maxCoeff() - own.col(0).minCoeff());
-  for (const auto& disc : curves.discs) add(disc.centre[0] - disc.radius, 2 * disc.radius);
+  for (const auto& disc : curves.discs)
+    add(disc.centre[0] - disc.shape.bounding_radius(), 2 * disc.shape.bounding_radius());
   std::ranges::sort(ranges);
   double end = ranges.front()[1], widest = 0, middle = 0;
   for (const auto& range : ranges) end = std::max(end, range[1]);
@@ -154,9 +159,10 @@ MeshBoundary membrane_boundary(const particles::Domain& domain, const InnerCurve
   const auto wanted_at = [&](const Point& x) { return edges.at(x); };
   MeshBoundary boundary;
   if (const auto* disc = std::get_if<DiscDomain>(&domain)) {
-    const particles::Outline wall{{disc->centre[0], disc->centre[1]}, disc->radius};
+    const particles::PlacedShape wall{particles::Shape::disc(disc->radius),
+                                      {disc->centre[0], disc->centre[1]}};
     boundary.add(cut_outline(wall, MembraneEdgeTuning::kLeastOnWall,
-                             [&](double t) { return wanted_at(wall.at(t)); }),
+                             [&](double t) { return wanted_at(wall.at(t).point); }),
                  1);
   } else {
     const auto& box = std::get<BoxDomain>(domain);
@@ -177,7 +183,7 @@ MeshBoundary membrane_boundary(const particles::Domain& domain, const InnerCurve
   for (std::size_t k = 0; k < curves.discs.size(); ++k) {
     const auto& disc = curves.discs[k];
     auto points = cut_outline(disc, EdgeTuning::kLeastOnCircle,
-                              [&](double t) { return edges.on_disc(domain, k, disc.at(t)); });
+                              [&](double t) { return edges.on_disc(domain, k, disc.at(t).point); });
     std::ranges::reverse(points);  // clockwise, so that the fluid is on the left
     boundary.add(points, kFirstParticleLabel + static_cast<int>(k));
   }

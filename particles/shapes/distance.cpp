@@ -348,7 +348,8 @@ PlacedShape PlacedShape::at_angle(const Shape& shape, const Vector2& centre, dou
 
 OutlinePoint PlacedShape::at(double t) const {
   OutlinePoint at = shape.at(t);
-  at.point = centre + from_axes(axis, at.point);
+  const auto [x, y] = at.point;
+  at.point = {centre[0] + axis[0] * x - axis[1] * y, centre[1] + axis[1] * x + axis[0] * y};
   at.normal = from_axes(axis, at.normal);
   return at;
 }

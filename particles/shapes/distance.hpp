@@ -18,6 +18,10 @@ struct PlacedShape {
   static PlacedShape at_angle(const Shape& shape, const Vector2& centre, double angle);
   /// Shape::at() of the parameter t, at this place: its point is a place [L].
   OutlinePoint at(double t) const;
+  /// Distance of the point x [L] from the outline [L]; < 0 inside.
+  double distance_to(const Vector2& x) const {
+    return shape.distance_to(along_axes(axis, x - centre));
+  }
 };
 
 /// The nearest points x_1 and x_2 of two shapes, x_2 = x_1 + gap n. If the shapes overlap, they are

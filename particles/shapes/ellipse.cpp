@@ -9,6 +9,40 @@
 namespace viscontact::particles {
 namespace {
 
+/// Distance of the point (x, y), x >= 0 and y >= 0, from an ellipse with the semi-axes a >= b along
+/// the axes; < 0 inside. The nearest point of the ellipse is (a^2 x/(s + a^2), b^2 y/(s + b^2))
+/// with the largest root s of (a x/(s + a^2))^2 + (b y/(s + b^2))^2 = 1. The code divides s by b^2.
+/// For s > -1 the left side of the equation decreases and is convex, so that Newton's method,
+/// started below the root, approaches it from below and never passes it.
+double distance_to_ellipse(double a, double b, double x, double y) {
+  const double square = (a / b) * (a / b);
+  const double u = x / a, v = y / b;
+  double near_x = 0, near_y = b;
+  if (v > 0) {
+    double s = std::max(v - 1, square * (u - 1));  // below the root, because one of the terms is 1
+    // Newton's method ends by itself when s no longer grows.
+    for (int n = 0; n < kNormalSearchTuning.most_iterations; ++n) {
+      const double p = square * u / (s + square), q = v / (s + 1);
+      const double value = p * p + q * q - 1;
+      const double slope = 2 * (p * p / (s + square) + q * q / (s + 1));
+      if (!(value > 0) || !(slope > 0)) break;
+      const double next = s + value / slope;
+      if (!(next > s)) break;
+      s = next;
+    }
+    near_x = square * x / (s + square);
+    near_y = y / (s + 1);
+  } else if (const double part = a * x / (a * a - b * b); part < 1) {
+    near_x = a * part;
+    near_y = b * std::sqrt(1 - part * part);
+  } else {
+    near_x = a;
+    near_y = 0;
+  }
+  const double distance = std::hypot(x - near_x, y - near_y);
+  return u * u + v * v < 1 ? -distance : distance;
+}
+
 /// The normal of the ellipse `arc`, between the directions `from` and `to`, counter-clockwise, at
 /// which the distance of its points from the origin has a maximum. The distance grows at `from` and
 /// falls at `to`, or is stationary there, and has no other stationary points in between.
@@ -63,6 +97,12 @@ FarPoints far_points_in_quadrant(const Vector2& s, const Vector2& centre) {
 
 constexpr ShapeRule kEllipseRule = {
     .name = "ellipse",
+    .key = {.name = "semi_axes",
+            .is_pair = true,
+            .meaning = "[in a fluid](#particles-in-a-fluid) in the plane, in place of `radius`: an "
+                       "ellipse, whose first semi-axis points along `angle`",
+            .otherwise = "from `radius`",
+            .semi_axes = [](const Vector2& numbers, double) { return numbers; }},
     .measure = [](const Vector2& s) { return std::numbers::pi * s[0] * s[1]; },
     .inertia = [](const Vector2& s, double mass) { return mass / 4 * (s[0] * s[0] + s[1] * s[1]); },
     // By arithmetic and geometric means, whose number of equal digits doubles each time.
@@ -78,6 +118,8 @@ constexpr ShapeRule kEllipseRule = {
           }
           return 4 * std::numbers::pi * sum / (mean + geometric);
         },
+    .bounding_radius = [](const Vector2& s) { return std::max(s[0], s[1]); },
+    .inner_radius = [](const Vector2& s) { return std::min(s[0], s[1]); },
     .least_curvature_radius =
         [](const Vector2& s) {
           const auto [least, most] = std::minmax(s[0], s[1]);
@@ -86,7 +128,7 @@ constexpr ShapeRule kEllipseRule = {
     .at =
         [](const Vector2& s, double t) {
           const double c = std::cos(t), sine = std::sin(t);
-          const double speed = norm(Vector2{s[0] * sine, s[1] * c});
+          const double speed = std::hypot(s[0] * sine, s[1] * c);
           return OutlinePoint{{s[0] * c, s[1] * sine},
                               {s[1] * c / speed, s[0] * sine / speed},
                               speed,
@@ -114,6 +156,12 @@ constexpr ShapeRule kEllipseRule = {
             far.normals[n] = mapped(far.normals[n]);
           }
           return far;
+        },
+    .distance_to =
+        [](const Vector2& s, const Vector2& point) {
+          const double along = std::abs(point[0]), across = std::abs(point[1]);
+          return s[0] > s[1] ? distance_to_ellipse(s[0], s[1], along, across)
+                             : distance_to_ellipse(s[1], s[0], across, along);
         }};
 
 }  // namespace viscontact::particles

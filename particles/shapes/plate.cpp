@@ -19,6 +19,16 @@ Arc arc_of_plate_end(const Vector2& s, double sign) {
 
 constexpr ShapeRule kPlateRule = {
     .name = "plate",
+    .key = {.name = "length",
+            .needs_radius = true,
+            .meaning = "[in a fluid](#particles-in-a-fluid) in the plane: the particle is a plate "
+                       "of this length along `angle`, with round ends of the `radius`",
+            .otherwise = "none",
+            .semi_axes =
+                [](const Vector2& numbers, double radius) {
+                  return Vector2{numbers[0] / 2, radius};
+                },
+            .least_ratio = 1.01},
     .measure = [](const Vector2& s) { return area_of_plate_ends(s) + 4 * half_spine(s) * s[1]; },
     // The sum of the moments of a rectangle with the half sides l and b, and of two half discs,
     // whose centroids are 4 b/(3 pi) beyond the ends of the rectangle.
@@ -31,6 +41,8 @@ constexpr ShapeRule kPlateRule = {
           return mass / (discs + rectangle) * (rectangle * of_rectangle + discs * of_discs);
         },
     .perimeter = [](const Vector2& s) { return 2 * std::numbers::pi * s[1] + 4 * half_spine(s); },
+    .bounding_radius = [](const Vector2& s) { return s[0]; },
+    .inner_radius = [](const Vector2& s) { return s[1]; },
     .least_curvature_radius = [](const Vector2& s) { return s[1]; },
     .at =
         [](const Vector2& s, double t) {
@@ -56,8 +68,16 @@ constexpr ShapeRule kPlateRule = {
           const double sign = k == 0 ? 1 : -1;
           const Vector2 normal = {0, sign}, half = {sign * half_spine(s), 0};
           const Vector2 middle = s[1] * normal;
-          return Side{normal, middle + half, middle - half, arc_of_plate_end(s, sign),
-                      arc_of_plate_end(s, -sign)};
+          constexpr double kPi = std::numbers::pi;
+          const double per_length = kPi / (kPi * s[1] + 2 * half_spine(s));
+          const double from = kPi / 2 * s[1] * per_length + k * kPi;
+          return Side{normal,
+                      middle + half,
+                      middle - half,
+                      arc_of_plate_end(s, sign),
+                      arc_of_plate_end(s, -sign),
+                      from,
+                      from + 2 * half_spine(s) * per_length};
         },
     .far_points =
         [](const Vector2& s, const Vector2& from) {
@@ -74,6 +94,11 @@ constexpr ShapeRule kPlateRule = {
             far.distances[n] = norm(to_end) + s[1];
           }
           return far;
+        },
+    .distance_to =
+        [](const Vector2& s, const Vector2& point) {
+          const double beyond = std::max(0.0, std::abs(point[0]) - half_spine(s));
+          return norm(Vector2{beyond, point[1]}) - s[1];
         }};
 
 }  // namespace viscontact::particles

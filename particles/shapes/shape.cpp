@@ -13,6 +13,13 @@ const ShapeRule& rule_of(ShapeKind kind) { return *kShapeRules[static_cast<std::
 
 }  // namespace
 
+Shape Shape::disc(double radius) { return {ShapeKind::kDisc, {radius, radius}}; }
+Shape Shape::sphere(double radius) { return {ShapeKind::kSphere, {radius, radius}}; }
+Shape Shape::plate(double half_length, double end_radius) {
+  return {ShapeKind::kPlate, {half_length, end_radius}};
+}
+Shape Shape::ellipse(double first, double second) { return {ShapeKind::kEllipse, {first, second}}; }
+
 Shape::Shape(ShapeKind kind, const Vector2& semi_axes) : kind_(kind), semi_axes_(semi_axes) {
   assert(std::ranges::min(semi_axes) > 0 || kind == ShapeKind::kDisc);
   assert(semi_axes[0] > semi_axes[1] || kind != ShapeKind::kPlate);
@@ -22,7 +29,8 @@ std::string_view Shape::name() const { return rule_of(kind_).name; }
 double Shape::measure() const { return rule_of(kind_).measure(semi_axes_); }
 double Shape::inertia(double mass) const { return rule_of(kind_).inertia(semi_axes_, mass); }
 double Shape::perimeter() const { return rule_of(kind_).perimeter(semi_axes_); }
-double Shape::bounding_radius() const { return std::ranges::max(semi_axes_); }
+double Shape::bounding_radius() const { return rule_of(kind_).bounding_radius(semi_axes_); }
+double Shape::inner_radius() const { return rule_of(kind_).inner_radius(semi_axes_); }
 double Shape::least_curvature_radius() const {
   return rule_of(kind_).least_curvature_radius(semi_axes_);
 }
@@ -43,6 +51,9 @@ Side Shape::side(int k) const {
 }
 FarPoints Shape::far_points(const Vector2& from) const {
   return rule_of(kind_).far_points(semi_axes_, from);
+}
+double Shape::distance_to(const Vector2& point) const {
+  return rule_of(kind_).distance_to(semi_axes_, point);
 }
 
 }  // namespace viscontact::particles

@@ -1,5 +1,5 @@
-// Shapes of rigid particles: disc, sphere, plate with round ends, ellipse. Each kind is a row of
-// the table of shape_rule.hpp.
+// Shapes of rigid particles. Each kind, such as a plate with round ends, is a row of the table of
+// shape_rule.hpp.
 #pragma once
 
 #include <array>
@@ -12,8 +12,7 @@
 
 namespace viscontact::particles {
 
-enum class ShapeKind : std::uint8_t { kDisc, kSphere, kPlate, kEllipse };
-inline constexpr std::size_t kShapeKinds = 4;
+enum class ShapeKind : std::uint8_t;  // its values stand beside the table in shape_rule.hpp
 
 /// A point of an outline and what the outline is like there.
 struct OutlinePoint {
@@ -56,6 +55,9 @@ struct Side {
   Vector2 from{},    ///< end at which `before` ends, relative to the centre of the shape [L]
       to{};          ///< end at which `after` begins [L]
   Arc before{}, after{};
+  /// The parameters of Shape::at() at both ends. Those of the sides in their order increase, and
+  /// differ by less than 2 pi.
+  double from_parameter = 0, to_parameter = 0;
 };
 
 /// The points of an outline that are further from a given point than their neighbours on the
@@ -71,26 +73,27 @@ struct FarPoints {
 class Shape {
  public:
   /// A disc; the radius [L] is >= 0, and 0 makes it a point.
-  static Shape disc(double radius) { return {ShapeKind::kDisc, {radius, radius}}; }
+  static Shape disc(double radius);
   /// A sphere. Its outline, sides and arcs are those of the disc in which a plane through its
   /// centre cuts it.
-  static Shape sphere(double radius) { return {ShapeKind::kSphere, {radius, radius}}; }
+  static Shape sphere(double radius);
   /// All points at a distance of at most `end_radius` [L] from a spine, a line of the length 2
   /// (half_length - end_radius) along the first axis, with half_length > end_radius > 0.
-  static Shape plate(double half_length, double end_radius) {
-    return {ShapeKind::kPlate, {half_length, end_radius}};
-  }
+  static Shape plate(double half_length, double end_radius);
   /// An ellipse with two semi-axes > 0 [L], of which either may be the larger one.
-  static Shape ellipse(double first, double second) {
-    return {ShapeKind::kEllipse, {first, second}};
-  }
+  static Shape ellipse(double first, double second);
+  /// `semi_axes` are those of semi_axes().
   Shape(ShapeKind kind, const Vector2& semi_axes);
 
   ShapeKind kind() const { return kind_; }
   /// [L]; for a disc and a sphere twice the radius, for a plate half_length and end_radius.
   const Vector2& semi_axes() const { return semi_axes_; }
-  /// `disc`, `sphere`, `plate` or `ellipse`.
+  /// For example `disc` or `plate`.
   std::string_view name() const;
+  /// Both semi-axes are multiplied by `factor` > 0.
+  Shape scaled(double factor) const { return {kind_, factor * semi_axes_}; }
+  /// True if the outline is a circle, so that a turn changes nothing.
+  bool is_round() const { return sides() == 0 && arc_at({1, 0}).is_circle(); }
 
   /// Area [L^2], or volume of a sphere [L^3].
   double measure() const;
@@ -100,6 +103,8 @@ class Shape {
   double perimeter() const;
   /// Largest distance of a point from the centre [L].
   double bounding_radius() const;
+  /// Radius of the largest disc around the centre that is inside the shape [L].
+  double inner_radius() const;
   /// The smallest radius of curvature of the outline [L].
   double least_curvature_radius() const;
 
@@ -121,6 +126,8 @@ class Shape {
   /// Side k, 0 to sides() - 1.
   Side side(int k) const;
   FarPoints far_points(const Vector2& from) const;
+  /// Distance of the point from the outline [L]; < 0 inside.
+  double distance_to(const Vector2& point) const;
 
   bool operator==(const Shape&) const = default;
 

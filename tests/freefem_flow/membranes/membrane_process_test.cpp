@@ -50,7 +50,7 @@ struct Scene {
     beads.velocities.resize(places.size());
     beads.radii.assign(places.size() / 2, 0.01 * unit);
     beads.masses.resize(places.size() / 2);
-    solver = start_fluid_solver(fluid, box, beads.radii, 2);
+    solver = start_fluid_solver(fluid, box, shapes_of(beads), 2);
     std::vector<double> angles(beads.radii.size());
     solver->place({&beads, angles, {}, {}});
   }

@@ -16,6 +16,7 @@ using particles::CylinderDomain;
 using particles::DiscDomain;
 using particles::Fluid;
 using particles::LinearFlow;
+using particles::Shape;
 using particles::SideVelocities;
 using particles::WallVelocity;
 using ::testing::HasSubstr;
@@ -30,20 +31,21 @@ Fluid fluid_with(decltype(Fluid::boundary) boundary) {
 
 TEST(Opening, SaysAllThatTheSolverMustKnow) {
   const auto fluid = fluid_with(LinearFlow{{0, 1.5, 0, 0}});
-  EXPECT_EQ(opening(fluid, DiscDomain{{1, -2, 0}, 8}, std::array{1.0, 0.25}, 2),
-            "viscontact-fluid 2\n"
-            "dimension 2\n"
-            "viscosity 0.1\n"
-            "constraint penalty 1e-07\n"
-            "mesh fitted\n"
-            "edges 24\n"
-            "domain disc 1 -2 8\n"
-            "walls 1\n"
-            "1 moving 0 0 1.5 0 0 0 0 0\n"
-            "gradient 0 0 0 0\n"
-            "particles 2\n"
-            "1\n"
-            "0.25\n");
+  EXPECT_EQ(
+      opening(fluid, DiscDomain{{1, -2, 0}, 8}, std::array{Shape::disc(1), Shape::disc(0.25)}, 2),
+      "viscontact-fluid 2\n"
+      "dimension 2\n"
+      "viscosity 0.1\n"
+      "constraint penalty 1e-07\n"
+      "mesh fitted\n"
+      "edges 24\n"
+      "domain disc 1 -2 8\n"
+      "walls 1\n"
+      "1 moving 0 0 1.5 0 0 0 0 0\n"
+      "gradient 0 0 0 0\n"
+      "particles 2\n"
+      "1\n"
+      "0.25\n");
 }
 
 TEST(Opening, NamesTheOtherConstraintAndMesh) {

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "viscontact/particles/shapes/distance.hpp"
+#include "viscontact/particles/shapes/shape_rule.hpp"
 
 namespace viscontact::particles {
 
