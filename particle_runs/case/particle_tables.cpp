@@ -18,13 +18,23 @@ constexpr Allowed kMassWithoutFluid = {
     "from 1e-100 to 1e100 (0 is allowed only in a case with [fluid], or with a given motion)"};
 constexpr std::array kKeysOfRotation = {"torque", "angle", "angular_velocity", "moment_of_inertia"};
 
+/// The rules of shapes with a key, in the order in which the keys are read: first those that stand
+/// in place of the radius.
+std::vector<const ShapeRule*> shape_rules_of_keys() {
+  std::vector<const ShapeRule*> rules;
+  for (const bool needs_radius : {false, true})
+    for (const auto* rule : kShapeRules)
+      if (!rule->key.name.empty() && rule->key.needs_radius == needs_radius) rules.push_back(rule);
+  return rules;
+}
+
 /// Throws Error(kBadInput) for keys of a table [[particle]] that are not allowed in this dimension
 /// (1, 2 or 3), with or without a fluid, or beside each other.
 void check_keys(const case_file::TomlSection& section, int dimension, bool in_fluid) {
   const ShapeKey* given = nullptr;  // the first key of a shape that the table has
-  for (const auto* rule : kShapeRules) {
+  for (const auto* rule : shape_rules_of_keys()) {
     const auto& key = rule->key;
-    if (key.name.empty() || !section.has(key.name)) continue;
+    if (!section.has(key.name)) continue;
     section.require(in_fluid && dimension == 2, key.name,
                     "makes this particle a shape, '{}', which is possible in a fluid in the plane; "
                     "this particle must have a radius alone",
@@ -130,12 +140,13 @@ bool read_shape_keys(case_file::Keys& keys, bool beside_radius, ParticleTable& p
     any = true;
     if (!keys.reads()) continue;
     const Vector2 axes = key.semi_axes(numbers, p.radius);
-    const double smaller = std::ranges::min(axes), larger = std::ranges::max(axes);
-    const double ratio = larger / smaller;
-    keys.require(ratio >= key.least_ratio && ratio <= key.most_ratio, key.name,
-                 "gives the {} half sizes {:.6g} and {:.6g}; the larger one must be from {} to {} "
-                 "times the smaller one",
-                 kShapeRules[kind]->name, larger, smaller, key.least_ratio, key.most_ratio);
+    const double ratio =
+        key.is_pair ? std::ranges::max(axes) / std::ranges::min(axes) : axes[0] / axes[1];
+    keys.require(
+        ratio >= key.least_ratio && ratio <= key.most_ratio, key.name,
+        "gives the shape '{}' the half sizes {:.6g} and {:.6g} with the ratio {:.6g}; this "
+        "ratio must be from {} to {}",
+        kShapeRules[kind]->name, axes[0], axes[1], ratio, key.least_ratio, key.most_ratio);
     p.shape = Shape(static_cast<ShapeKind>(kind), axes);
   }
   return any;

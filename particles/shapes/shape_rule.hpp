@@ -19,8 +19,9 @@ struct ShapeKey {
   /// Shape::semi_axes() from the numbers [L] of the key, of which a single length is the first, and
   /// `radius`.
   Vector2 (*semi_axes)(const Vector2& numbers, double radius) = nullptr;
-  /// Bounds of the ratio of the larger to the smaller semi-axis: meshes were tested up to
-  /// `most_ratio`; a shape below `least_ratio` is nearly another one.
+  /// Bounds of the ratio of the first semi-axis to the second, or with `is_pair` of the larger to
+  /// the smaller one: meshes were tested up to `most_ratio`; a shape below `least_ratio` is nearly
+  /// another one.
   double least_ratio = 1, most_ratio = 100;
 };
 
