@@ -1,8 +1,6 @@
 // Measures, initial shapes and checks of membranes.
 #include "viscontact/membranes/membrane_shape.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -10,7 +8,6 @@
 #include <numbers>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/common/text/number.hpp"
 #include "viscontact/membranes/membrane_curve.hpp"
 #include "viscontact/membranes/membrane_motion.hpp"
 #include "viscontact/membranes/necklace.hpp"
@@ -118,22 +115,6 @@ void join_neighbours(std::span<const Membrane> membranes, Particles& particles) 
     for (std::int32_t k = 0; k < membrane.count(); ++k)
       particles.neighbours[index_of(membrane.bead(k))] = {membrane.bead(k - 1),
                                                           membrane.bead(k + 1)};
-}
-
-std::string membrane_rows(const Setting& setting, const State& state,
-                          std::span<const double> /*force_errors*/) {
-  std::string text;
-  const auto& membranes = membranes_of(setting);
-  for (std::size_t m = 0; m < membranes.size(); ++m) {
-    const auto measures = measure(membranes[m], state.particles);
-    text += fmt::format("{},{}", format_number(state.time), m);
-    for (const double value :
-         {measures.x, measures.y, measures.inclination, measures.area, measures.perimeter,
-          measures.membrane_speed, measures.tank_treading_frequency})
-      text += "," + format_number(value);
-    text += '\n';
-  }
-  return text;
 }
 
 namespace {

@@ -9,6 +9,8 @@
 #include "viscontact/freefem_flow/freefem_solver.hpp"
 #include "viscontact/particle_runs/case/particles_case.hpp"
 #include "viscontact/particle_runs/io/contact_columns.hpp"
+#include "viscontact/particle_runs/io/particle_columns.hpp"
+#include "viscontact/particle_runs/io/step_columns.hpp"
 #include "viscontact/particle_runs/run/particles_earlier_run.hpp"
 #include "viscontact/particle_runs/run/start_simulation.hpp"
 #include "viscontact/particles/steps/current_contacts.hpp"
@@ -206,38 +208,72 @@ py::object contacts(const PythonParticles& self) {
       p.dimension);
 }
 
-/// The entries of a table, in lines for help().
+py::object final_particles(PythonParticles& self) {
+  self.check_idle();
+  auto& simulation = self.simulation();
+  const auto p = simulation.reported_particles();
+  auto run = particles::facts_of(p);
+  const auto& fluid = self.case_file().setting.fluid;
+  run.is_in_fluid = fluid.has_value();
+  particles::FluidForces forces;
+  std::vector<double> values, errors;
+  if (fluid) {
+    values = simulation.fluid_forces();
+    errors = simulation.force_errors().of_fluid;
+    forces = {values, errors, fluid->semi_axes};
+    run.has_semi_axes = !fluid->semi_axes.empty();
+  }
+  const auto& loads = simulation.state().given_loads;
+  run.has_given_loads = !fluid && !loads.empty();
+  return table_of(
+      particles::columns_in(particles::Output::kPython, particles::particle_columns(), run),
+      particles::rows_of(p, simulation.state().time, fluid ? &forces : nullptr, loads),
+      p.dimension);
+}
+
+/// What a column contains, for help().
+std::string help_of(const particles::ColumnForm& column) {
+  std::string text(column.meaning);
+  if (!column.unit.empty()) text += fmt::format("{}[{}]", text.empty() ? "" : " ", column.unit);
+  return text;
+}
+
+/// The entries of a table, in a line each.
 template <class AnyColumn>
 std::string help_of(const std::vector<AnyColumn>& columns) {
   std::string text;
   for (const auto* column :
        particles::columns_in(particles::Output::kPython, columns, particles::kAllFacts))
-    text += fmt::format("{:<18} {}{}{}\n", column->name, column->meaning,
-                        column->unit.empty() || column->meaning.empty() ? "" : " ",
-                        column->unit.empty() ? "" : fmt::format("[{}]", column->unit));
+    text += fmt::format("{:<18} {}\n", column->name, help_of(*column));
   return text;
+}
+
+/// The value of a column without components in a row.
+template <class Row>
+py::object value_of(const particles::Column<Row>& column, const Row& row) {
+  particles::Entries entries{};
+  column.read(row, entries);
+  if (column.kind == particles::ValueKind::kTruth) return py::bool_(entries[0] != 0);
+  if (column.is_whole()) return py::int_(static_cast<std::int64_t>(entries[0]));
+  return py::float_(entries[0]);
 }
 
 void add_step_report(py::module_& module) {
   using particles::StepReport;
-  py::class_<StepReport>(module, "StepReport", "What a step did; see Particles.step.")
-      .def_readonly("time", &StepReport::time, "at the end of the step [T]")
-      .def_readonly("contacts", &StepReport::contacts, "number of close pairs")
-      .def_readonly("glued", &StepReport::glued, "number of contacts with gamma < 0")
-      .def_readonly("iterations", &StepReport::iterations, "of the projection")
-      .def_readonly("converged", &StepReport::converged,
-                    "whether all residuals are within the tolerances of the case")
-      .def_readonly("residual", &StepReport::residual,
-                    "of gaps, friction and links, over the mean radius")
-      .def_readonly("impulse_residual", &StepReport::impulse_residual,
-                    "of the impulses, over those at work")
-      .def_readonly("largest_overlap", &StepReport::largest_overlap, "over the mean radius")
-      .def_readonly("parts", &StepReport::parts, "number of parts that the step was divided into")
-      .def("__repr__", [](const StepReport& report) {
-        return fmt::format("<viscontact.StepReport time {}, {} contacts, {} iterations, {}>",
-                           report.time, report.contacts, report.iterations,
-                           report.converged ? "converged" : "not converged");
-      });
+  py::class_<StepReport> reports(module, "StepReport", "What a step did; see Particles.step.");
+  for (const auto* column : particles::columns_in(particles::Output::kPython,
+                                                  particles::step_columns(), particles::kAllFacts))
+    reports.def_property_readonly(
+        std::string(column->name).c_str(),
+        [column](const StepReport& report) {
+          return value_of(*column, particles::StepRow{report});
+        },
+        help_of(*column).c_str());
+  reports.def("__repr__", [](const StepReport& report) {
+    return fmt::format("<viscontact.StepReport time {}, {} contacts, {} iterations, {}>",
+                       report.time, report.contacts, report.iterations,
+                       report.converged ? "converged" : "not converged");
+  });
 }
 
 }  // namespace
@@ -330,6 +366,12 @@ until      the time [T], at most end_time of the case; None: end_time)",
             return array;
           },
           "The velocities at the present time (N, D) [L/T], as in final_particles.csv: a copy.")
+      .def("particles", &final_particles,
+           ("The particles, a copy of an array for each column of final_particles.csv, whose "
+            "vectors\nhave the shape (N, D). Those of a fluid, of given motions and of bodies are "
+            "there only with\nthem; NaN stands for what is not known:\n\n" +
+            help_of(particles::particle_columns()))
+               .c_str())
       .def("contacts", &contacts,
            ("The present contacts, an array for each column, whose vectors have the shape (C, D) "
             "for C contacts:\n\n" +

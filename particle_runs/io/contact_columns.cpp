@@ -129,6 +129,7 @@ std::vector<ContactColumn> make_contact_columns() {
        "\\|T\\| "
        "<= mu_s `solid_force`",
        {.at_end = kWithFriction, .over_time = kWithFriction, .frames = kWithFriction}}));
+  // A new column stands here, at the end of the list, so that the others keep their places.
   return columns;
 }
 

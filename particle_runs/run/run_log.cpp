@@ -9,6 +9,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/particle_runs/io/contact_file.hpp"
+#include "viscontact/particle_runs/io/step_columns.hpp"
 #include "viscontact/particle_runs/io/vtk.hpp"
 #include "viscontact/particles/steps/current_contacts.hpp"
 
@@ -63,7 +64,7 @@ RunLog::RunLog(const ParticlesCase& c, fs::path folder, const results::Provenanc
   if (!c.setting.links.empty()) add_list(kLinksFile);
   if (c.setting.fluid) add_list(kFlowFile);
   if (c.setting.fluid && !c.setting.fluid->probes.empty())
-    add_file("probes.csv", TextKind::kHashComment, std::string(kProbesHeader));
+    add_file("probes.csv", TextKind::kHashComment, probes_header());
   for (const auto& tables :
        {time_tables(c.setting, c.particles), asked_tables(c.setting, c.particles, c.tables)})
     for (const auto& table : tables) {

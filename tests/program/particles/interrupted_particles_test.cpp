@@ -92,8 +92,6 @@ TEST_F(InterruptedParticles, ListEachReboundOnce) {
   expect_done(run("parts"));
   expect_same_files(path("whole"), path("parts"));
   const auto rebounds = read_file(path("whole/rebounds.csv"));
-  EXPECT_THAT(rebounds,
-              HasSubstr("\ntime,first,second,approach_velocity,solid_impulse,velocity\n"));
   // The disc 12 falls on the floor.
   EXPECT_THAT(rebounds, HasSubstr(",12,-1,"));
 }
