@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
+#include "viscontact/immersed/flow_simulation.hpp"
 #include "viscontact/immersed/fluid_solver.hpp"
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/setting/setting.hpp"
@@ -24,13 +25,6 @@ class StepEquation;
 struct ContactConditions;
 struct FluidImpact;
 struct StepContacts;
-
-/// Estimates of the errors of the forces of one step, >= 0 [M L/T^2, M L^2/T^2]; empty if there are
-/// none.
-struct ForceErrors {
-  std::vector<double> of_fluid;  ///< errors of FluidSimulation::fluid_forces()
-  std::vector<double> of_links;  ///< errors of State::link_forces
-};
 
 /// Rigid particles in a fluid. Each step asks the fluid solver for the velocities that the
 /// particles take at their places under forces, torques and contact forces, and moves them. With
@@ -56,7 +50,7 @@ struct ForceErrors {
 /// and all forces again, at x^1. The state and the report of the first step have no forces,
 /// impulses and dissipation, and films absorb none of its impulses, because sums over the steps
 /// would otherwise contain them twice.
-class FluidSimulation {
+class FluidSimulation : public FlowSimulation {
  public:
   /// `setting` has a fluid. `state` is that of a restart file, or a state of which only the
   /// particles are set. Throws Error(kBadInput) if the fluid has inertia and the state has done
@@ -75,51 +69,37 @@ class FluidSimulation {
   /// - if a particle moves too far for the precision of a double.
   /// After an error the state is that before the step. With a smaller residual that is not allowed
   /// StepReport::converged is false.
-  StepReport step(double end);
+  StepReport step(double end) override;
 
-  /// Forces of the caller on the particles [M L/T^2], which the caller may change between steps, in
-  /// the order of Particles::velocities. On driven particles, whose motion is given, they have no
-  /// effect.
-  std::span<double> added_forces() { return added_forces_for(state_.particles, setting_); }
-  /// The same for torques [M L^2/T^2], one for each particle; empty if particles do not turn.
-  std::span<double> added_torques() { return added_torques_for(state_.particles, setting_); }
+  /// On driven particles, whose motion is given, the forces and torques have no effect.
+  std::span<double> added_forces() override { return added_forces_for(state_.particles, setting_); }
+  std::span<double> added_torques() override {
+    return added_torques_for(state_.particles, setting_);
+  }
 
-  const State& state() const { return state_; }
-  /// The state with the flow of a fluid with inertia, for a restart file. Throws the errors of
-  /// FluidSolver.
-  State state_to_save();
+  const State& state() const override { return state_; }
+  /// The state with the flow of a fluid with inertia.
+  State state_to_save() override;
   const Setting& setting() const { return setting_; }  ///< with the added forces
 
-  /// The flow of the last step, around the places of the particles at its beginning. Throws the
-  /// errors of FluidSolver.
-  FlowField flow() {
+  FlowField flow() override {
     assert(!quantities_.fluid_forces.empty() || state_.particles.count() == 0);
     return solver_->flow();
   }
 
-  /// The flow around the particles at their present places. It is that of the next step, whose
-  /// problem is solved without moving anything. Throws the errors of FluidSolver, and
+  /// The flow is that of the next step, whose problem is solved without moving anything. Throws also
   /// Error(kNotConverged) if links or plates make step() throw it.
-  FlowField flow_at_present();
+  FlowField flow_at_present() override;
 
-  /// Forces and torques of the fluid on the particles in the last step [M L/T^2, M L^2/T^2],
-  /// motion_components() numbers each; empty before the first step.
-  const std::vector<double>& fluid_forces() const { return quantities_.fluid_forces; }
+  std::vector<double> fluid_forces() const override { return quantities_.fluid_forces; }
+  ForceErrors force_errors() const override { return force_errors_; }
+  std::span<const Rebound> rebounds() const override { return rebounds_; }
 
-  /// Of the last step; empty without restitution.
-  const std::vector<Rebound>& rebounds() const { return rebounds_; }
+  /// With velocities that are extrapolated from two meshes, if the last step estimated errors.
+  Particles reported_particles() const override;
 
-  /// Of the last step; empty if it did not estimate them.
-  const ForceErrors& force_errors() const { return force_errors_; }
-
-  /// The particles after the last step, with velocities that are extrapolated from two meshes if it
-  /// estimated errors.
-  Particles reported_particles() const;
-
-  /// Of the last mesh; 0 if the solver does not say.
-  std::size_t unknowns() const { return solver_->unknowns(); }
-  /// The largest memory of the solver so far [MiB]; 0 if it runs in this process.
-  double solver_peak_memory_mebibytes() const { return solver_->peak_memory_mebibytes(); }
+  std::size_t unknowns() const override { return solver_->unknowns(); }
+  double solver_peak_memory_mebibytes() const override { return solver_->peak_memory_mebibytes(); }
 
  private:
   struct Motion;

@@ -8,8 +8,9 @@
 
 #include "viscontact/freefem_flow/freefem_solver.hpp"
 #include "viscontact/particle_runs/case/particles_case.hpp"
-#include "viscontact/particle_runs/run/particle_simulation.hpp"
+#include "viscontact/particle_runs/io/contact_columns.hpp"
 #include "viscontact/particle_runs/run/particles_earlier_run.hpp"
+#include "viscontact/particle_runs/run/start_simulation.hpp"
 #include "viscontact/particles/steps/current_contacts.hpp"
 #include "viscontact/python/call.hpp"
 
@@ -23,12 +24,13 @@ class PythonParticles {
  public:
   PythonParticles(const fs::path& path, int threads, const std::optional<fs::path>& restart)
       : case_(particles::read_particles_case(path)),
-        simulation_(case_.setting, particles::first_state(case_, restart ? restart->string() : ""),
-                    threads, freefem_flow::start_fluid_solver, interrupt_token()) {}
+        simulation_(particles::start_simulation(
+            case_.setting, particles::first_state(case_, restart ? restart->string() : ""), threads,
+            freefem_flow::start_fluid_solver, interrupt_token())) {}
 
   const particles::ParticlesCase& case_file() const { return case_; }
   /// The caller must have called check_idle(), or be a step that compute() runs.
-  particles::ParticleSimulation& simulation() { return simulation_; }
+  particles::ParticleSimulation& simulation() { return *simulation_; }
 
   /// Throws Error(kWrongUsage) while another thread computes steps. All functions that read or
   /// change the simulation call check_idle(). Only a thread that holds the interpreter's lock may
@@ -45,7 +47,7 @@ class PythonParticles {
   /// the handler would take 5 us, which is 2 % of a short step of 1000 discs.
   template <class Step>
   particles::StepReport compute_step(const Step& step) {
-    if (simulation_.has_fluid()) return compute([&](const StopToken&) { return step(); });
+    if (case_.setting.fluid) return compute([&](const StopToken&) { return step(); });
     check_idle();
     const Computing computing(is_computing_);
     const py::gil_scoped_release released;
@@ -62,7 +64,7 @@ class PythonParticles {
 
   const State& state() const {
     check_idle();
-    return simulation_.state();
+    return simulation_->state();
   }
   bool is_finished() const {
     return state().time >= case_.end_time - 1e-6 * case_.setting.time_step;
@@ -82,7 +84,7 @@ class PythonParticles {
   };
 
   particles::ParticlesCase case_;
-  particles::ParticleSimulation simulation_;
+  std::unique_ptr<particles::ParticleSimulation> simulation_;
   bool is_computing_ = false;  // the interpreter's lock protects it
 };
 
@@ -166,39 +168,54 @@ std::int64_t run(PythonParticles& self, const std::optional<double>& until) {
   });
 }
 
-/// An array of the shape (contacts, `dimension`), whose rows are the vectors value(contact).
-template <class Value>
-py::array vectors(const std::vector<particles::CurrentContact>& contacts, int dimension,
-                  const Value& value) {
-  py::array_t<double> array(
-      {static_cast<py::ssize_t>(contacts.size()), static_cast<py::ssize_t>(dimension)});
-  double* to = array.mutable_data();
-  for (const auto& contact : contacts) {
-    const particles::Vector v = value(contact);
-    for (int d = 0; d < dimension; ++d) *to++ = v[static_cast<std::size_t>(d)];
-  }
+/// A new array of the values of a column: (rows,), or (rows, components) of a vector, also on an
+/// axis.
+template <class Number, class Row>
+py::array array_of(const particles::Column<Row>& column, const std::vector<Row>& rows,
+                   int dimension) {
+  const auto values = particles::values_of<Number>(column, rows, dimension, false);
+  std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(rows.size())};
+  if (column.is_vector(dimension))
+    shape.push_back(static_cast<py::ssize_t>(column.count(dimension)));
+  py::array_t<Number> array(shape);
+  std::ranges::copy(values, array.mutable_data());
   return array;
+}
+
+/// The object of the class Columns with these columns.
+template <class AnyColumn, class Row>
+py::object table_of(const std::vector<const AnyColumn*>& columns, const std::vector<Row>& rows,
+                    int dimension) {
+  py::dict table;
+  for (const AnyColumn* column : columns)
+    table[py::str(std::string(column->name))] =
+        column->is_whole() ? array_of<std::int32_t, Row>(*column, rows, dimension)
+                           : array_of<double, Row>(*column, rows, dimension);
+  return as_columns(table);
 }
 
 py::object contacts(const PythonParticles& self) {
   const auto& p = self.state().particles;
   const auto all = particles::contacts_of(self.case_file().setting, self.state());
-  using Contact = particles::CurrentContact;
-  py::dict columns;
-  const auto id_of = [&](std::int32_t number) {
-    return number < 0 ? number : p.id(index_of(number));
-  };
-  columns["first"] = column(all, [&](const Contact& c) { return id_of(c.first); });
-  columns["second"] = column(all, [&](const Contact& c) { return id_of(c.second); });
-  columns["gap"] = column(all, [](const Contact& c) { return c.gap; });
-  columns["gamma"] = column(all, [](const Contact& c) { return c.gamma; });
-  columns["normal_force"] = column(all, [](const Contact& c) { return c.normal_force; });
-  columns["normal"] = vectors(all, p.dimension, [](const Contact& c) { return c.normal; });
-  columns["tangential_force"] =
-      vectors(all, p.dimension, [](const Contact& c) { return c.tangential_force; });
-  columns["branch"] = vectors(all, p.dimension, [](const Contact& c) { return c.branch; });
-  columns["solid_force"] = column(all, [](const Contact& c) { return c.solid_force; });
-  return as_columns(columns);
+  std::vector<particles::ContactRow> rows;
+  for (const auto& contact : all) rows.push_back({p, contact, self.state().time});
+  particles::RunFacts run;
+  run.dimension = p.dimension;
+  return table_of(
+      particles::columns_in(particles::Output::kPython, particles::contact_columns(), run), rows,
+      p.dimension);
+}
+
+/// The entries of a table, in lines for help().
+template <class AnyColumn>
+std::string help_of(const std::vector<AnyColumn>& columns) {
+  std::string text;
+  for (const auto* column :
+       particles::columns_in(particles::Output::kPython, columns, particles::kAllFacts))
+    text += fmt::format("{:<18} {}{}{}\n", column->name, column->meaning,
+                        column->unit.empty() || column->meaning.empty() ? "" : " ",
+                        column->unit.empty() ? "" : fmt::format("[{}]", column->unit));
+  return text;
 }
 
 void add_step_report(py::module_& module) {
@@ -313,17 +330,11 @@ until      the time [T], at most end_time of the case; None: end_time)",
             return array;
           },
           "The velocities at the present time (N, D) [L/T], as in final_particles.csv: a copy.")
-      .def("contacts", &contacts, R"(The present contacts, an array for each column (C contacts):
-
-first, second      (C,) ids of both particles; at a wall or plane `first` is -1, -2, ...
-gap, gamma         (C,) [L], [M L/T]
-normal_force       (C,) mean of the last step [M L/T^2], > 0 where it pushes both apart
-normal             (C, D) unit vector from `first` to `second`
-tangential_force   (C, D) mean friction on `second` in the last step [M L/T^2]
-branch             (C, D) from the centre of `first`, or the nearest point of a wall, to that of
-                   `second` [L]
-solid_force        (C,) the part of normal_force that the solids bear, which bounds the friction;
-                   0 without [friction])")
+      .def("contacts", &contacts,
+           ("The present contacts, an array for each column, whose vectors have the shape (C, D) "
+            "for C contacts:\n\n" +
+            help_of(particles::contact_columns()) + "\nForces are means of the last step.")
+               .c_str())
       .def_property_readonly(
           "time", [](const PythonParticles& self) { return self.state().time; }, "[T]")
       .def_property_readonly(

@@ -59,7 +59,7 @@ RunLog::RunLog(const ParticlesCase& c, fs::path folder, const results::Provenanc
   add_list(kFrameFile);
   add_file("steps.csv", TextKind::kHashComment, steps_header(c.setting.fluid));
   if (c.setting.laws.restitution.is_on())
-    add_file("rebounds.csv", TextKind::kHashComment, kReboundsHeader);
+    add_file("rebounds.csv", TextKind::kHashComment, rebounds_header());
   if (!c.setting.links.empty()) add_list(kLinksFile);
   if (c.setting.fluid) add_list(kFlowFile);
   if (c.setting.fluid && !c.setting.fluid->probes.empty())
