@@ -81,8 +81,8 @@ void run(ShapeKind one, ShapeKind other, double ratio, Place place) {
 int main() {
   fmt::print("first    second   ratios up to         cold  warm\n");
   for (const auto& [one, other] : {std::pair{ShapeKind::kDisc, ShapeKind::kDisc},
-                                  {ShapeKind::kPlate, ShapeKind::kDisc},
-                                  {ShapeKind::kPlate, ShapeKind::kPlate}})
+                                   {ShapeKind::kPlate, ShapeKind::kDisc},
+                                   {ShapeKind::kPlate, ShapeKind::kPlate}})
     run(one, other, 20, Place::kNear);
   for (const double ratio : {1.01, 5.0, 20.0}) {
     run(ShapeKind::kEllipse, ShapeKind::kDisc, ratio, Place::kNear);

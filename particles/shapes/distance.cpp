@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -23,7 +24,7 @@ struct DistanceTuning {
   /// Directions from each shape in a search for deep overlaps. Of 216 000 random pairs with ratios
   /// up to 20, whose centres are anywhere within each other, 5 had another maximum that was larger
   /// by up to 2e-4 of the sizes; with 24 directions 17, and 2e-3.
-  int directions = 36;
+  std::size_t directions = 36;
   /// Largest turn of the normal in one step from there [rad].
   double largest_turn = 0.3;
 };
@@ -320,8 +321,9 @@ NearestPoints ShapePair::deep_maximum() const {
       if (found.where == SideMaximum::Where::kHere && found.points.gap > best.gap)
         best = found.points;
     }
-    for (int k = 0; k < kDistanceTuning.directions; ++k, ++count) {
-      const auto outline = shape.at(2 * std::numbers::pi * k / kDistanceTuning.directions);
+    for (std::size_t k = 0; k < kDistanceTuning.directions; ++k, ++count) {
+      const auto outline = shape.at(2 * std::numbers::pi * static_cast<double>(k) /
+                                    static_cast<double>(kDistanceTuning.directions));
       const Vector2 normal = (own == 0 ? 1 : -1) * from_axes(axis, outline.normal);
       grid[count] = lines(arcs_at(normal), normal);
       angles[count] = std::atan2(normal[1], normal[0]);

@@ -416,8 +416,31 @@ TEST(Distance, PlatesSideBySideTouchInTheMiddleOfTheFacingPart) {
   }
 }
 
-// A plate that is turned by little touches with an end. A hundred thousandth of a rounding error
-// beside the normal of the side must not take the other end.
+// In one direction, but not side by side, ends touch.
+TEST(Distance, ParallelPlatesBeyondEachOtherTouchWithTheirEnds) {
+  RandomShapes random(23);
+  for (int n = 0; n < 200; ++n) {
+    const double l = random.log_uniform(0.1, 10), b = random.log_uniform(0.1, 10);
+    const double m = random.log_uniform(0.1, 10), c = random.log_uniform(0.1, 10);
+    const double sign = random.coin() ? 1 : -1, up = random.coin() ? 1 : -1;
+    const double beyond = random.log_uniform(1e-3, 10), height = random.log_uniform(1e-3, 10);
+    const double angle = random.angle(), half_turn = random.coin() ? pi : 0;
+    const auto first = PlacedShape::at_angle(Shape::plate(l + b, b), {1, 2}, angle);
+    auto second = PlacedShape::at_angle(Shape::plate(m + c, c), {}, angle + half_turn);
+    const Vector2 between = {sign * (l + m + beyond), up * height};
+    second.centre = first.centre + from_axes(first.axis, between);
+    const auto found = nearest_points(first, second);
+    const double error = 1e-14 * size_of_pair(first, second);
+    const Vector2 apart = {sign * beyond, up * height}, normal = unit(apart);
+    EXPECT_NEAR(found.gap, norm(apart) - b - c, error);
+    EXPECT_LT(norm(along_axes(first.axis, found.first_arm) - (Vector2{sign * l, 0} + b * normal)),
+              error * (1 + b / norm(apart)));
+    EXPECT_LT(norm(along_axes(first.axis, found.second_arm) + (Vector2{sign * m, 0} + c * normal)),
+              error * (1 + c / norm(apart)));
+  }
+}
+
+// The normal is that of the side, or next to it, where rounding errors must not take the other end.
 TEST(Distance, APointBeyondTheEndOfASideIsNearestToThatEnd) {
   RandomShapes random(19);
   for (int n = 0; n < 2000; ++n) {
@@ -427,11 +450,14 @@ TEST(Distance, APointBeyondTheEndOfASideIsNearestToThatEnd) {
                  height = b + random.log_uniform(1e-9, 5);
     const double sign = random.coin() ? 1 : -1, up = random.coin() ? 1 : -1;
     const Vector2 at = {sign * (a - b + beyond), up * height};
-    const auto found =
-        nearest_points(plate, {Shape::disc(0), plate.centre + from_axes(plate.axis, at)});
-    const Vector2 own = along_axes(plate.axis, found.first_arm);
-    EXPECT_NEAR(own[0], sign * (a - b), 1e-9);
-    EXPECT_NEAR(own[1], up * b, 1e-9);
+    const PlacedShape point{Shape::disc(0), plate.centre + from_axes(plate.axis, at)};
+    const double turn = random.uniform(-3e-16, 3e-16);
+    const Vector2 guess = from_axes(plate.axis, {turn, up});
+    for (const auto& found : {nearest_points(plate, point), nearest_points(plate, point, guess)}) {
+      const Vector2 own = along_axes(plate.axis, found.first_arm);
+      EXPECT_NEAR(own[0], sign * (a - b), 1e-9);
+      EXPECT_NEAR(own[1], up * b, 1e-9);
+    }
   }
 }
 
