@@ -375,6 +375,7 @@ void solve_listed(StepContacts& step, const Mobility& mobility,
   step.loads = problem.loads();
   step.velocities = problem.velocities();
   step.iterations += problem.iterations();
+  step.stages += problem.stages();
 }
 
 double reach_of(const State& state, const Fluid& fluid, std::span<const double> velocities,
@@ -415,10 +416,12 @@ StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links&
     correct_impulses(step, mu_s, mobility, conditions);
   };
   int iterations = 0;
+  contact_solver::StagesRun stages;
   for (;;) {
     StepContacts step;
     step.iterations = iterations;
-    list_pairs(step, state, obstacles, reach, pool);
+      step.stages = stages;
+      list_pairs(step, state, obstacles, reach, pool);
     std::erase_if(step.pairs, is_left_out);
     std::erase_if(step.walls, is_left_out);
     make_contacts(step, p, fluid, obstacles, conditions, friction);
@@ -439,6 +442,7 @@ StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links&
       return step;
     }
     iterations = step.iterations;
+    stages = step.stages;
     reach = 2 * needed;
   }
 }

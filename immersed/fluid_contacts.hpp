@@ -172,6 +172,7 @@ class ContactProblem {
   /// Sums of the contact forces p/h, and of their torques, on each particle.
   std::vector<double> loads() const;
   int iterations() const { return iterations_; }
+  const contact_solver::StagesRun& stages() const { return stages_; }
   bool is_rough() const { return is_rough_; }
   /// Velocities of all particles by a unit force of each contact; empty if they were not needed.
   std::vector<std::vector<double>> responses() const {
@@ -196,6 +197,7 @@ class ContactProblem {
   double amplification_ = 1;
   bool is_dense_ = true, are_different_ = false;
   int iterations_ = 0;
+  contact_solver::StagesRun stages_;
   bool is_rough_ = false;
 };
 
@@ -286,6 +288,7 @@ struct StepContacts {
   std::vector<double> loads;       ///< forces and torques of contacts and friction on particles
   std::vector<double> velocities;  ///< with these forces
   int iterations = 0;  ///< products with the mobility, and iterations of a dense problem
+  contact_solver::StagesRun stages;  ///< which methods of solution ran
   bool is_solved = true;
   bool has_given_loads = false;  ///< given loads bound the friction (solve_with_friction())
   double reach = 0;  ///< all pairs whose surfaces are nearer than this are listed [L], > 0

@@ -16,6 +16,38 @@
 
 namespace viscontact::freefem_flow {
 
+/// Free choices of the lengths of edges, from the table of errors in bench/README.md. Those with
+/// AtEdges are for 24 edges on the smallest particle, and 24/n times as large for n edges.
+struct EdgeTuning {
+  /// The default of fluid.edges_per_particle.
+  static constexpr double kUsualEdges = 24;
+  /// Ratio of the longest edge in a narrow gap to the gap, and the largest such ratio for any
+  /// number of edges. It allows two edges across the gap, because the fluid in a gap with one edge
+  /// across it resists 7 % too much.
+  static constexpr double kOfGapAt24Edges = 0.4, kLargestOfGap = 0.5;
+  /// In gaps wider than kNarrow radii of the smallest particle, where the fluid resists less, edges
+  /// may be longer: kFurtherAt24Edges times the excess of the gap over this width is added.
+  static constexpr double kNarrow = 0.3, kFurtherAt24Edges = 0.35;
+  /// Increase of the edge length per distance from the nearest particle; it depends on the number
+  /// of edges as the ratio in a gap does, so that all edges shrink by one factor.
+  static constexpr double kGrowthAt24Edges = 0.1;
+  /// In a fluid with inertia the error is largest near the particles, so that edges further away
+  /// may be longer: the increase per distance is multiplied by kFasterWithInertia, but not beyond
+  /// kFastestWithInertia, which equals kGrowthAt24Edges, so that meshes with 24 or fewer edges on
+  /// the smallest particle are the same as without inertia.
+  static constexpr double kFasterWithInertia = 2, kFastestWithInertia = 0.1;
+  /// Least number of edges across the domain, so that the flow far from all particles is resolved.
+  static constexpr double kEdgesOfAWall = 6;
+  /// Least edge over the length of its curve: FreeFEM merges nearer points.
+  static constexpr double kShortest = 1e-7;
+  /// Least number of edges on a circle, which is the least that a case may ask for.
+  static constexpr std::size_t kLeastOnCircle = 6;
+  /// Samples of 1/length in each edge, for the integral that places the ends of edges.
+  static constexpr double kSamplesPerEdge = 8;
+  /// Relative rounding error of a length along a curve, and of a number of edges.
+  static constexpr double kRoundingOfLength = 1e-12, kRoundingOfCount = 1e-9;
+};
+
 /// x and y in the plane, r and z in a cylinder [L].
 using Point = std::array<double, 2>;
 
@@ -87,7 +119,6 @@ std::vector<double> cut_curve(double length, std::size_t least, const EdgeLength
   // cost[i] approximates the integral of 1/edge_length from 0 to place[i], which is the number of
   // edges up to there before it is rounded.
   std::vector<double> place = {0}, cost = {0};
-  constexpr double kSamplesPerEdge = 8;  // of that integral
   const auto wanted_at = [&](double s) {
     const double wanted = std::min(edge_length(s), length);
     check_edge_length(wanted, length);
@@ -96,14 +127,15 @@ std::vector<double> cut_curve(double length, std::size_t least, const EdgeLength
   double wanted = wanted_at(0);
   while (place.back() < length) {
     const double s = place.back();
-    const double step = wanted / kSamplesPerEdge;
-    const double next = s + step < length * (1 - 1e-12) ? s + step : length;
+    const double step = wanted / EdgeTuning::kSamplesPerEdge;
+    const double next = s + step < length * (1 - EdgeTuning::kRoundingOfLength) ? s + step : length;
     const double wanted_next = wanted_at(next);
     cost.push_back(cost.back() + 2 * (next - s) / (wanted + wanted_next));
     place.push_back(next);
     wanted = wanted_next;
   }
-  const auto edges = std::max(least, static_cast<std::size_t>(std::ceil(cost.back() - 1e-9)));
+  const auto edges = std::max(
+      least, static_cast<std::size_t>(std::ceil(cost.back() - EdgeTuning::kRoundingOfCount)));
   std::vector<double> ends = {0};
   std::size_t i = 0;
   for (std::size_t e = 1; e < edges; ++e) {

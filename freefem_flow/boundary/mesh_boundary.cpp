@@ -17,8 +17,17 @@
 namespace viscontact::freefem_flow {
 namespace {
 
-// The least number of edges on a circle, which is the least that a case may ask for.
-constexpr std::size_t kLeastOnCircle = 6;
+/// Free choices of the boundary; EdgeTuning has those of its edges.
+struct BoundaryTuning {
+  // If the inside of a particle is meshed, too, a polygon in it, kOfRadius times as large as the
+  // outline and with edges of up to kLongest radii, makes this part of the mesh coarse: FreeFEM
+  // derives the size of triangles from the nearest edges, and a few triangles represent a rigid
+  // motion exactly. kOfRadius must be between 0.2 and 0.7, because curved_mesh.idp looks for both
+  // parts of a particle at these two fractions of its radius.
+  static constexpr double kOfRadius = 0.5, kLongest = 10;
+  // Relative error of an area, above the rounding errors of positions that move with their body.
+  static constexpr double kRounding = 1e-9;
+};
 
 /// Makes the boundary for one placement of the particles. of() may be called once only. The
 /// arguments must outlive the object.
@@ -81,20 +90,15 @@ class BoundaryMaker {
   template <class EdgeLength>
   void add_outline(const particles::PlacedShape& outline, int label, bool is_hole,
                    const EdgeLength& edge_length) {
-    auto points = cut_outline(outline, kLeastOnCircle, edge_length);
+    auto points = cut_outline(outline, EdgeTuning::kLeastOnCircle, edge_length);
     if (is_hole) std::ranges::reverse(points);
     boundary_.add(points, label);
   }
 
-  /// Adds the surfaces of the particles. If the inside of a particle is meshed, too, a polygon in
-  /// it, kOfRadius times as large as the outline and with edges of up to kLongest radii, makes this
-  /// part of the mesh coarse: FreeFEM derives the size of triangles from the nearest edges, and a
-  /// few triangles represent a rigid motion exactly. kOfRadius must be between 0.2 and 0.7, because
-  /// curved_mesh.idp looks for both parts of a particle at these two fractions of its radius.
+  /// Adds the surfaces of the particles and, if their inside is meshed, too, a polygon in each.
   void add_particles() {
     if (!fitted_) return;
     for (std::size_t k = 0; k < lengths_.outlines().size(); ++k) {
-      constexpr double kOfRadius = 0.5, kLongest = 10;
       const auto& outline = lengths_.outlines()[k];
       if (k < fluid_.cut_areas.size() && fluid_.cut_areas[k] > 0) {
         add_arcs(k);
@@ -102,9 +106,10 @@ class BoundaryMaker {
       }
       if (!has_holes_) {
         auto inner = outline;
-        inner.shape = inner.shape.scaled(kOfRadius);
-        add_outline(inner, kInsideLabel, false,
-                    [&](double) { return kLongest * outline.shape.bounding_radius(); });
+        inner.shape = inner.shape.scaled(BoundaryTuning::kOfRadius);
+        add_outline(inner, kInsideLabel, false, [&](double) {
+          return BoundaryTuning::kLongest * outline.shape.bounding_radius();
+        });
       }
       add_outline(outline, kFirstParticleLabel + static_cast<int>(k), has_holes_,
                   [&](double t) { return lengths_.on_outline(k, t); });
@@ -197,7 +202,7 @@ class BoundaryMaker {
         return Point{radius * std::sin(angle), circle.centre[1] + radius * std::cos(angle)};
       };
       std::vector<Point> points;
-      for (const double s : cut_curve(std::numbers::pi * radius, kLeastOnCircle / 2,
+      for (const double s : cut_curve(std::numbers::pi * radius, EdgeTuning::kLeastOnCircle / 2,
                                       [&](double t) { return lengths_.on_particle(k, at(t)); }))
         points.push_back(at(s));
       points.front() = {0, top};
@@ -226,9 +231,8 @@ void check_unions(const particles::Fluid& fluid, const particles::Particles& par
   for (std::size_t k = 0; k < fluid.cut_areas.size(); ++k) {
     double area = 0;
     for (const auto& chord : chords_of(fluid, particles, k)) area += chord.area;
-    // Above the rounding errors of positions that move with their body.
-    constexpr double kRounding = 1e-9;
-    if (std::abs(area - fluid.cut_areas[k]) > kRounding * particles.radii[k] * particles.radii[k])
+    if (std::abs(area - fluid.cut_areas[k]) >
+        BoundaryTuning::kRounding * particles.radii[k] * particles.radii[k])
       throw Error(ErrorKind::kNotConverged,
                   "particle {} overlaps one of its body across a side of the period, where the "
                   "mesh does not join them; another origin of the period, or a plate in place of "

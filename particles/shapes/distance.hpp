@@ -42,10 +42,10 @@ struct NearestPoints {
 ///
 /// If the shapes are apart, or overlap by less than the sum of their least curvature radii, then
 /// there is one maximum, and `guess`, a unit normal, say of the step before, only saves time. If
-/// they overlap more, a search finds the largest maximum, and `guess` is not used. The gap has a
-/// rounding error of some 1e-16 of the sizes and the distance; the normal has one of this over the
-/// sum of the gap and both curvature radii. If both shapes are exchanged, the results are the same
-/// bits, with -n, unless sides face each other.
+/// they overlap more, a search finds the largest of several maxima, except if two are almost equal,
+/// and `guess` is not used. The gap has a rounding error of some 1e-16 of the sizes and the
+/// distance; the normal has one of this over the sum of the gap and both curvature radii. If both
+/// shapes are exchanged, the results are the same bits, with -n, unless two sides face each other.
 NearestPoints nearest_points(const PlacedShape& first, const PlacedShape& second,
                              const std::optional<Vector2>& guess = {});
 

@@ -2,6 +2,7 @@
 // normal's angle has a maximum.
 #pragma once
 
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -31,33 +32,35 @@ class NormalSearch {
   NormalSearch(const Vector2& from, const Vector2& to) : from_(from), to_(to) {}
 
   /// The next normal, if at `normal` the derivative of the function by the angle is `slope`, and
-  /// that of the slope -`bend`.
+  /// that of the slope -`bend`, where bend > 0 if the maximum is not known to be between normals.
   Vector2 next(const Vector2& normal, double slope, double bend) {
     (slope > 0 ? from_ : to_) = inside_ = normal;
+    const bool is_enclosed = from_ && to_;
+    assert(bend > 0 || is_enclosed);
+    if (!(bend > 0)) return middle();
     const double turn = slope / bend;
     const Vector2 newton = unit(normal + turn * quarter_turn(normal));
-    if (bend > 0 && std::abs(turn) <= kNormalSearchTuning.last_turn) {
+    if (std::abs(turn) <= kNormalSearchTuning.last_turn) {
       is_done_ = true;
       return newton;
     }
-    const bool is_slow = !(bend > 0) || std::abs(turn) > turn_before_ / 2;
+    const bool is_slow = std::abs(turn) > turn_before_ / 2;
     turn_before_ = std::exchange(last_turn_, std::abs(turn));
-    return is_slow && from_ && to_ ? middle() : between(newton);
+    const bool is_between =
+        is_enclosed && cross(*from_, newton) > 0 && cross(newton, *to_) > 0 && !is_slow;
+    return is_between || !is_enclosed ? newton : middle();
   }
-  /// The next normal, if `normal` is beyond the maximum, where the slope may have any sign.
+  /// The next normal, if `normal`, a result of next(), is beyond the maximum, where the slope may
+  /// have any sign.
   Vector2 back_from(const Vector2& normal) {
     (cross(inside_, normal) > 0 ? to_ : from_) = normal;
+    assert(from_ && to_);
     return middle();
   }
   /// Whether the last result is the maximum.
   bool is_done() const { return is_done_; }
 
  private:
-  Vector2 between(const Vector2& normal) {
-    const bool is_between =
-        (!from_ || cross(*from_, normal) > 0) && (!to_ || cross(normal, *to_) > 0);
-    return is_between || !from_ || !to_ ? normal : middle();
-  }
   Vector2 middle() {
     is_done_ = !(cross(*from_, *to_) > std::numeric_limits<double>::epsilon() / 2);
     return unit(*from_ + *to_);

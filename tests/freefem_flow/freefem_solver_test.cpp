@@ -73,7 +73,7 @@ TEST(StartFluidSolver, RefusesAParticleTooSmallForTheDomain) {
       failure(
           ErrorKind::kBadInput,
           [&] { start_fluid_solver(fluid, small, std::array{particles::Shape::disc(1e-15)}, 2); }),
-      Says("too small for the domain"));
+      Names("1e-15", "24"));
 }
 
 TEST(StartFluidSolver, StartsTheSolverOfAUser) {
@@ -128,7 +128,7 @@ TEST(StartFluidSolver, SaysHowToInstallFreeFem) {
               [] {
                 start_fluid_solver(fluid_of_solver({}), particles::DiscDomain{{}, 1}, {}, 2, {});
               }),
-      AllOf(Names("no-such-freefem"), Says("apt-get install"), Names("VISCONTACT_FREEFEM")));
+      Names("no-such-freefem", "apt-get install", "VISCONTACT_FREEFEM"));
 }
 
 TEST(StartFluidSolver, SaysWhatToDoWithoutAProgram) {

@@ -248,7 +248,7 @@ TEST(MeshBoundary, OfParticlesThatTouchIsRefused) {
                           boundary_of(fluid_with(24), DiscDomain{{}, 6},
                                       {{-1 - gap / 2, 0, 1}, {1 + gap / 2, 0, 1}});
                         }),
-                Says("overlap or have too narrow a gap"));
+                Names("fluid.threshold_gap", "time_step"));
 }
 
 TEST(MeshBoundary, OfManyDiscsIsMadeFast) {

@@ -210,7 +210,7 @@ TEST(FlowProcess, RefusesNumbersThatAreNotFinite) {
   solver.place({&disc, angles, {}, {}});
   const std::vector<double> forces = {0, std::numeric_limits<double>::quiet_NaN(), 0};
   EXPECT_THAT(failure(ErrorKind::kNotConverged, [&] { solver.velocities(forces, true); }),
-              Says("a force"));
+              Names("force", "nan"));
   // The solver was not asked and answers the next request.
   EXPECT_THAT(solver.velocities(std::vector{0.0, 0.0, 0.0}, true), ElementsAre(0, 0, 0));
 }

@@ -347,8 +347,30 @@ TEST(Distance, ShapesAroundOnePointOverlap) {
   EXPECT_DOUBLE_EQ(gap(plate, Shape::disc(0)), -1);
 }
 
-// Closed forms, with Pythagorean numbers: an ellipse with the semi-axes 5 and 3 has the points
-// (3, 12/5) and (4, 9/5); disc of the same radii.
+// Where the normal is not determined, because the gap is minus the sum of the curvature radii, any
+// normal is a result, and the gap is as exact as elsewhere.
+TEST(Distance, AtCentresOfCurvatureTheGapIsExact) {
+  RandomShapes random(22);
+  for (int n = 0; n < 3000; ++n) {
+    const auto kind = kKinds[static_cast<std::size_t>(n) % kKinds.size()];
+    const auto first = random.at_random_angle(random.shape(kind, 20, 10));
+    const auto [a, b] = first.shape.semi_axes();
+    const double least = first.shape.least_curvature_radius(), most = std::max(a, b);
+    // The end of a plate's spine, the centre of a disc, that of the curvature of an ellipse's tip.
+    Vector2 own = {most - least, 0};
+    if (b > a) std::swap(own[0], own[1]);
+    PlacedShape second{random.coin() ? Shape::disc(random.uniform(0, 3)) : Shape::disc(0),
+                       first.centre + from_axes(first.axis, own)};
+    for (auto& x : second.centre) x += random.uniform(-4, 4) * 1e-16;
+    const std::optional<Vector2> guess =
+        random.coin() ? std::optional(random.direction()) : std::nullopt;
+    const auto found = nearest_points(first, second, guess);
+    const double exact = -(least + second.shape.bounding_radius());
+    EXPECT_NEAR(found.gap, exact, 1e-14 * size_of_pair(first, second));
+    EXPECT_NEAR(norm(found.normal), 1, 1e-15);
+  }
+}
+
 TEST(Distance, ClosedFormsOfDiscsPointsAndPlates) {
   const PlacedShape disc{Shape::disc(2), {1, 2}};
   const auto discs = nearest_points(disc, {Shape::disc(1), {4, 6}});
@@ -394,8 +416,31 @@ TEST(Distance, PlatesSideBySideTouchInTheMiddleOfTheFacingPart) {
   }
 }
 
-// A plate that is turned by little touches with an end. A hundred thousandth of a rounding error
-// beside the normal of the side must not take the other end.
+// In one direction, but not side by side, ends touch.
+TEST(Distance, ParallelPlatesBeyondEachOtherTouchWithTheirEnds) {
+  RandomShapes random(23);
+  for (int n = 0; n < 200; ++n) {
+    const double l = random.log_uniform(0.1, 10), b = random.log_uniform(0.1, 10);
+    const double m = random.log_uniform(0.1, 10), c = random.log_uniform(0.1, 10);
+    const double sign = random.coin() ? 1 : -1, up = random.coin() ? 1 : -1;
+    const double beyond = random.log_uniform(1e-3, 10), height = random.log_uniform(1e-3, 10);
+    const double angle = random.angle(), half_turn = random.coin() ? pi : 0;
+    const auto first = PlacedShape::at_angle(Shape::plate(l + b, b), {1, 2}, angle);
+    auto second = PlacedShape::at_angle(Shape::plate(m + c, c), {}, angle + half_turn);
+    const Vector2 between = {sign * (l + m + beyond), up * height};
+    second.centre = first.centre + from_axes(first.axis, between);
+    const auto found = nearest_points(first, second);
+    const double error = 1e-14 * size_of_pair(first, second);
+    const Vector2 apart = {sign * beyond, up * height}, normal = unit(apart);
+    EXPECT_NEAR(found.gap, norm(apart) - b - c, error);
+    EXPECT_LT(norm(along_axes(first.axis, found.first_arm) - (Vector2{sign * l, 0} + b * normal)),
+              error * (1 + b / norm(apart)));
+    EXPECT_LT(norm(along_axes(first.axis, found.second_arm) + (Vector2{sign * m, 0} + c * normal)),
+              error * (1 + c / norm(apart)));
+  }
+}
+
+// The normal is that of the side, or next to it, where rounding errors must not take the other end.
 TEST(Distance, APointBeyondTheEndOfASideIsNearestToThatEnd) {
   RandomShapes random(19);
   for (int n = 0; n < 2000; ++n) {
@@ -405,11 +450,14 @@ TEST(Distance, APointBeyondTheEndOfASideIsNearestToThatEnd) {
                  height = b + random.log_uniform(1e-9, 5);
     const double sign = random.coin() ? 1 : -1, up = random.coin() ? 1 : -1;
     const Vector2 at = {sign * (a - b + beyond), up * height};
-    const auto found =
-        nearest_points(plate, {Shape::disc(0), plate.centre + from_axes(plate.axis, at)});
-    const Vector2 own = along_axes(plate.axis, found.first_arm);
-    EXPECT_NEAR(own[0], sign * (a - b), 1e-9);
-    EXPECT_NEAR(own[1], up * b, 1e-9);
+    const PlacedShape point{Shape::disc(0), plate.centre + from_axes(plate.axis, at)};
+    const double turn = random.uniform(-3e-16, 3e-16);
+    const Vector2 guess = from_axes(plate.axis, {turn, up});
+    for (const auto& found : {nearest_points(plate, point), nearest_points(plate, point, guess)}) {
+      const Vector2 own = along_axes(plate.axis, found.first_arm);
+      EXPECT_NEAR(own[0], sign * (a - b), 1e-9);
+      EXPECT_NEAR(own[1], up * b, 1e-9);
+    }
   }
 }
 
