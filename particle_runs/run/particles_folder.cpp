@@ -98,13 +98,15 @@ void StepTotals::add_means(const std::vector<double>& values, double duration) {
     contact_means[k] += (values[k] - contact_means[k]) * (duration / contact_time);
 }
 
-std::string steps_header(const std::optional<Fluid>& fluid) {
+std::string steps_header(const std::optional<Fluid>& fluid,
+                         std::span<const std::string> step_columns) {
   std::string header =
       "step,time,contacts,glued,iterations,residual,largest_overlap,converged,impulse_residual,"
       "parts,unresolved";
   if (fluid) header += ",dissipation,apparent_viscosity,fluid_seconds";
   if (fluid && fluid->has_inertia())
     header += ",kinetic_energy_fluid,reynolds_number,courant_number,given_force_x,given_force_y";
+  for (const auto& column : step_columns) header += "," + column;
   return header + "\n";
 }
 
@@ -117,8 +119,8 @@ std::string probe_rows(const FluidStepReport& report, std::span<const Probe> pro
   return rows;
 }
 
-std::string step_row(std::int64_t step, const StepReport& report,
-                     const std::optional<Fluid>& fluid) {
+std::string step_row(std::int64_t step, const StepReport& report, const std::optional<Fluid>& fluid,
+                     std::span<const std::string> step_columns) {
   auto row =
       fmt::format("{},{},{},{},{},{},{},{},{},{},{}", step, format_number(report.time),
                   report.contacts, report.glued, report.iterations, format_number(report.residual),
@@ -133,6 +135,7 @@ std::string step_row(std::int64_t step, const StepReport& report,
         fmt::format(",{},{},{},{},{}", format_number(of_fluid.kinetic_energy),
                     format_number(of_fluid.reynolds_number), format_number(of_fluid.courant_number),
                     format_number(of_fluid.given_force[0]), format_number(of_fluid.given_force[1]));
+  for (std::size_t k = 0; k < step_columns.size(); ++k) row += "," + report.solver_stages;
   return row + "\n";
 }
 
