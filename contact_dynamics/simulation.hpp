@@ -13,6 +13,7 @@
 
 #include "viscontact/arrangement/pouring.hpp"
 #include "viscontact/common/system/thread_pool.hpp"
+#include "viscontact/contact_solver/stages.hpp"
 #include "viscontact/membranes/membrane_shape.hpp"
 #include "viscontact/particles/setting/setting.hpp"
 #include "viscontact/particles/state/rebound.hpp"
@@ -198,7 +199,8 @@ class Simulation : public ParticleSimulation {
   State state_;
   Pouring pouring_;
   double mean_radius_;
-  double first_time_;  // time of the state that the constructor was given [T]
+  double first_time_;                 // time of the state that the constructor was given [T]
+  contact_solver::StagesRun stages_;  // of the parts of the step that are done
   std::unique_ptr<ThreadPool> pool_;
   // Of particles, and then of planes under a load: h u* (without contacts), later h v (with
   // contacts) [L], and h/m [T/M], which is 0 if the motion is given.
