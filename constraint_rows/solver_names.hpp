@@ -4,6 +4,7 @@
 #include "viscontact/contact_solver/constraint_problem.hpp"
 #include "viscontact/contact_solver/constraint_solver.hpp"
 #include "viscontact/contact_solver/contact_conditions.hpp"
+#include "viscontact/contact_solver/dense_constraints.hpp"
 #include "viscontact/contact_solver/dual_problem.hpp"
 #include "viscontact/contact_solver/mass_dual_problem.hpp"
 #include "viscontact/contact_solver/refinement.hpp"
@@ -18,6 +19,7 @@ using contact_solver::ConstraintSolution;
 using contact_solver::ConstraintStart;
 using contact_solver::contact_residual;
 using contact_solver::ContactBounds;
+using contact_solver::DenseConstraints;
 using contact_solver::DualProblem;
 using contact_solver::FreeSetFactor;
 using contact_solver::FrictionBound;
@@ -32,5 +34,7 @@ using contact_solver::RigidUnit;
 using contact_solver::RowPart;
 using contact_solver::SolvableDualProblem;
 using contact_solver::SolverResult;
+using contact_solver::Stage;
+using contact_solver::StagesRun;
 
 }  // namespace viscontact::particles

@@ -236,7 +236,7 @@ ProjectionResult Simulation::project(double h, double next) {
   }
   bool is_constrained = has_constraints() || pulled_across();
   bool can_have_springs = true;                      // films, across their pairs
-  int discarded = 0;                                 // iterations
+  SolverResult discarded;                            // iterations and stages
   std::vector<double> no_turns, no_turn_mobilities;  // of particles that do not turn
   for (;;) {
     rebuild_wall_list(state_, planes, margin, *pool_);
@@ -274,7 +274,8 @@ ProjectionResult Simulation::project(double h, double next) {
         has_constraints() ||
         (can_have_springs && (is_constrained || pull_across(projected.pairs, projected.impulses)));
     if (is_constrained != was_constrained) {
-      discarded += projected.iterations;
+      discarded.iterations += projected.iterations;
+      discarded.stages += projected.stages;
       undo_impacts();
       move_freely<D>(h, next);
       continue;
@@ -289,7 +290,8 @@ ProjectionResult Simulation::project(double h, double next) {
     gone += gone_planes();
     if (gone <= margin && neighbour_list_is_valid(state_, displacements_, *pool_)) {
       projected.lacks_springs = !can_have_springs;
-      projected.iterations += discarded;
+      projected.iterations += discarded.iterations;
+      projected.stages += discarded.stages;
       return projected;
     }
     // The impulses moved particles further than the lists of pairs allow for, so that pairs may be
@@ -504,6 +506,7 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
     impacts<D>()->add_lags(state_.particles);
     if (!body_steps_.empty()) place_members(state_.particles);
     report.iterations += impacts<D>()->iterations();
+    stages_ += impacts<D>()->stages();
     if (!impacts<D>()->converged()) {
       report.converged = false;
       report.excess = std::numeric_limits<double>::infinity();
@@ -523,6 +526,7 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
   report.buckling = std::max(report.buckling, projected.buckling);
   report.has_given_loads = report.has_given_loads || projected.has_given_loads;
   report.iterations += projected.iterations;
+  stages_ += projected.stages;
   report_residuals(projected.residuals, mean_radius_, report);
 }
 
@@ -572,6 +576,7 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
     if (projected.residuals.converged) take_impulses(projected);
     const double middle = state_.time + h / 2;
     report.iterations += projected.iterations;
+    stages_ += projected.stages;
     scale_impulses(0.5);
     advance<D>(h / 2, middle, halvings + 1, report);
     advance<D>(h / 2, next, halvings + 1, report);
@@ -623,6 +628,7 @@ StepReport Simulation::step(double end) {
   if (!interval) return {.time = state_.time, .parts = 1};
   const auto& p = state_.particles;
   StepReport report{.time = interval->end};
+  stages_ = {};
   rebounds_.clear();
   link_impulses_.assign(setting_.links.force_count(p.dimension), 0.0);
   link_time_ = 0;
@@ -660,6 +666,7 @@ StepReport Simulation::step(double end) {
   wrap_into_cell(state_);
   StepGrid::count(state_, *interval);
   pour();
+  report.solver_stages = text_of(stages_);
   return report;
 }
 

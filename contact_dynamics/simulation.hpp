@@ -13,11 +13,13 @@
 
 #include "viscontact/arrangement/pouring.hpp"
 #include "viscontact/common/system/thread_pool.hpp"
+#include "viscontact/contact_solver/stages.hpp"
 #include "viscontact/membranes/membrane_shape.hpp"
 #include "viscontact/particles/setting/setting.hpp"
 #include "viscontact/particles/state/rebound.hpp"
 #include "viscontact/particles/state/rigid_bodies.hpp"
 #include "viscontact/particles/state/state.hpp"
+#include "viscontact/particles/steps/particle_simulation.hpp"
 #include "viscontact/particles/steps/step_report.hpp"
 #include "viscontact/particles/steps/step_times.hpp"
 
@@ -42,14 +44,14 @@ class Impacts;
 /// in which gamma_ij reaches 0. gamma_ij falls no lower than gamma_min (film_law.hpp); there the
 /// solids carry the rest of the load. No bit of the results depends on the number of threads, or on
 /// whether the run was continued from a restart file.
-class Simulation {
+class Simulation : public ParticleSimulation {
  public:
   /// `setting` has no fluid (for a fluid there is FluidSimulation). `state` is what read_restart()
   /// returned, or a state of which only the particles are set; their dimension is 2 or 3. Throws
   /// Error(kBadInput) if membranes of a state that has done steps do not fit the setting
   /// (check_shapes() in membrane.hpp).
   Simulation(Setting setting, State state, int threads);
-  ~Simulation();
+  ~Simulation() override;
   Simulation(Simulation&&) noexcept;
 
   /// Computes one step, and then adds the particles of Setting::sources that are due at its end.
@@ -70,33 +72,30 @@ class Simulation {
   /// projection has not converged and leaves an overlap of more than the mean radius, or if links
   /// and contacts contradict each other. After an error the state is that before the step. A step
   /// that has not converged for another reason is accepted, and StepReport::converged is false.
-  StepReport step(double end);
+  StepReport step(double end) override;
 
   /// How often a step may be halved. In the smallest part, 1/256 of the step, equal particles may
   /// pass each other by one radius, and in the step by 256 radii. A larger value resolves faster
   /// particles, but multiplies the number of parts.
   static constexpr int kMostHalvings = 8;
 
-  /// Forces on the particles [M L/T^2] that the caller may set, in addition to those of the
-  /// setting: as many numbers for each particle as there are dimensions, 0 at first. The state does
-  /// not contain them. They act in each of the next steps with the values that they have when the
-  /// step begins; with Scheme::kLeapfrog from the middle of the last step to the middle of the next
-  /// one, so that the scheme keeps its second order also for forces that depend on positions.
-  std::span<double> added_forces() { return added_forces_for(state_.particles, setting_); }
-  /// Torques [M L^2/T^2], with the same rules: one for each disc, three for each sphere; empty if
-  /// the particles do not turn.
-  std::span<double> added_torques() { return added_torques_for(state_.particles, setting_); }
+  /// The forces act in each of the next steps with the values that they have when the step begins;
+  /// with Scheme::kLeapfrog from the middle of the last step to the middle of the next one, so that
+  /// the scheme keeps its second order also for forces that depend on positions.
+  std::span<double> added_forces() override { return added_forces_for(state_.particles, setting_); }
+  std::span<double> added_torques() override {
+    return added_torques_for(state_.particles, setting_);
+  }
 
-  const State& state() const { return state_; }
+  const State& state() const override { return state_; }
   const Setting& setting() const { return setting_; }  ///< with the added forces and torques
 
-  /// The impacts (impacts of solids) of the last step, in order of time; empty without restitution.
-  const std::vector<Rebound>& rebounds() const { return rebounds_; }
+  std::span<const Rebound> rebounds() const override { return rebounds_; }
 
-  /// The particles with their velocities at the present time. With Scheme::kLeapfrog, the velocity
-  /// that forces, gravity and torques have given since the time of the state's velocities is added,
-  /// for particles and bodies without links and without an impulse of a contact in the last step.
-  Particles reported_particles() const;
+  /// With Scheme::kLeapfrog, the velocity that forces, gravity and torques have given since the time
+  /// of the state's velocities is added, for particles and bodies without links and without an
+  /// impulse of a contact in the last step.
+  Particles reported_particles() const override;
 
  private:
   // In all private members `h` is the length of a step or of a part of it, and `next` the time at
@@ -200,7 +199,8 @@ class Simulation {
   State state_;
   Pouring pouring_;
   double mean_radius_;
-  double first_time_;  // time of the state that the constructor was given [T]
+  double first_time_;                 // time of the state that the constructor was given [T]
+  contact_solver::StagesRun stages_;  // of the parts of the step that are done
   std::unique_ptr<ThreadPool> pool_;
   // Of particles, and then of planes under a load: h u* (without contacts), later h v (with
   // contacts) [L], and h/m [T/M], which is 0 if the motion is given.

@@ -10,22 +10,38 @@
 namespace viscontact::contact_solver {
 namespace {
 
-/// This part [1] of the change of a scaled impulse is added to that of its gap or slip. It bounds
-/// the entries of the matrix at 1e10 times the masses.
-constexpr double kRegularisation = 1e-10;
-
-/// The product of `bound` and `spare` over tau on each path: a larger one smooths the bound of the
-/// friction more. The second path is for problems on which the first one fails or is long, the
-/// third one for those on which the second one does. On 88 problems of 300 to 1900 contacts the
-/// first path took 10900, 9300 and 9900 factorisations with 3, 9 and 20.
-constexpr std::array<double, CoulombPath<2>::kPaths> kSmoothing = {10, 100, 30};
-/// The product (bound, p) o (z, v) on each path over tau. With 1 and 0.6 runs of bench/box2d.cpp
-/// took longer.
-constexpr double kOfFriction = 2;
-
-/// The products stay between kNear and 1/kNear times their values on the path. On the problems
-/// above, 0.2 took as many factorisations, and 0.5 a fifth more.
-constexpr double kNear = 0.3;
+struct PathTuning {
+  // This part [1] of the change of a scaled impulse is added to that of its gap or slip. It bounds
+  // the entries of the matrix at 1e10 times the masses.
+  static constexpr double kRegularisation = 1e-10;
+  // The product of `bound` and `spare` over tau on each path: a larger one smooths the bound of the
+  // friction more. The second path is for problems on which the first one fails or is long, the
+  // third one for those on which the second one does. On 88 problems of 300 to 1900 contacts the
+  // first path took 10900, 9300 and 9900 factorisations with 3, 9 and 20.
+  static constexpr std::array<double, CoulombPath<2>::kPaths> kSmoothing = {10, 100, 30};
+  // The product (bound, p) o (z, v) on each path over tau. With 1 and 0.6 runs of bench/box2d.cpp
+  // took longer.
+  static constexpr double kOfFriction = 2;
+  // The products stay between kNear and 1/kNear times their values on the path. On the problems
+  // above, 0.2 took as many factorisations, and 0.5 a fifth more.
+  static constexpr double kNear = 0.3;
+  // Lengths are changes of ln(tau). A step may be kGrowth times as long as the one before, and is
+  // tried with kLess times its length while it leaves the neighbourhood of the path.
+  static constexpr double kLongest = 0.9, kGrowth = 4, kLess = 0.7;
+  // If the end of a step cannot be corrected, the step is taken again with kShorter times its
+  // length. After kMostTries the same is done with the step before. The last kKept steps are kept.
+  // Without steps back, 5 of the problems above were lost.
+  static constexpr double kShorter = 0.3;
+  static constexpr int kMostTries = 3;
+  static constexpr std::size_t kKept = 8;
+  // If no length of kShortest or more leads to a point near the path, only the correction is made,
+  // and kAfterNone is the next length.
+  static constexpr double kShortest = 1e-5, kAfterNone = 1e-3;
+  // Only rounding errors are left if the root of tau is below kSmall times its size at the start,
+  // and kPatience factorisations do not halve tau.
+  static constexpr double kSmall = 1e-6;
+  static constexpr int kPatience = 30;
+};
 
 template <std::size_t N>
 double inner(const std::array<double, N>& a, const std::array<double, N>& b) {
@@ -172,7 +188,7 @@ void CoulombPath<D>::start() {
     const double beyond_film = point.r - (block.capacity - block.lowest) / part.scale;
     point.bound = positive_root(part.bound_per_impulse * beyond_film, smoothing_ * tau);
     point.spare = smoothing_ * tau / point.bound;
-    point.z = kOfFriction * tau / point.bound;
+    point.z = PathTuning::kOfFriction * tau / point.bound;
   }
   measure();
   error_per_tau_ = error_;
@@ -191,14 +207,15 @@ bool CoulombPath<D>::factorise() {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     auto& part = parts_[i];
     const auto& point = state_.points[i];
-    part.weight = 1 / ((part.is_equation ? part.compliance : point.u / point.r) + kRegularisation);
+    part.weight = 1 / ((part.is_equation ? part.compliance : point.u / point.r) +
+                       PathTuning::kRegularisation);
     matrix_.add_product(part.block, part.row, part.row, part.weight * part.scale * part.scale);
     if (!part.rubs) continue;
     // Without the change of z the changes of friction, slip and bound obey, but for constant terms,
     // (z I - p v^T/bound) dp = - (bound I - p p^T/bound) dv - (v - z p/bound) dbound + ...
     const auto cone = matrix_of(point.bound, -1 / point.bound, point.p, point.p);
     auto left = matrix_of(point.z, -1 / point.bound, point.p, point.v);
-    for (std::size_t k = 0; k < left.size(); ++k) left[k] += kRegularisation * cone[k];
+    for (std::size_t k = 0; k < left.size(); ++k) left[k] += PathTuning::kRegularisation * cone[k];
     part.inverse = inverse_of(left);
     Tangent right;
     for (std::size_t k = 0; k < kTangents; ++k)
@@ -244,7 +261,7 @@ void CoulombPath<D>::find_changes(double of_errors, double of_tau, const State* 
     }
     change.r =
         part.weight * ((of_tau - of_errors * at.u * at.r - second.u * second.r) / at.r - change.u);
-    change.u += kRegularisation * change.r;
+    change.u += PathTuning::kRegularisation * change.r;
     if (!part.rubs) return change;
     const double of_r = part.bound_per_impulse * change.r;
     change.bound = (smoothing_ * of_tau - of_errors * at.bound * at.spare -
@@ -252,7 +269,8 @@ void CoulombPath<D>::find_changes(double of_errors, double of_tau, const State* 
                    (at.bound + at.spare);
     change.spare = change.bound - of_r;
     if (is_moved) change.v = slip(part, changes.y);
-    const double goal = kOfFriction * of_tau - of_errors * (at.bound * at.z + inner(at.p, at.v)) -
+    const double goal = PathTuning::kOfFriction * of_tau -
+                        of_errors * (at.bound * at.z + inner(at.p, at.v)) -
                         second.bound * second.z - inner(second.p, second.v);
     for (std::size_t k = 0; k < kTangents; ++k)
       change.v[k] += of_errors * part.slip_error[k] - of_tau * part.slip_error_per_tau[k];
@@ -265,7 +283,7 @@ void CoulombPath<D>::find_changes(double of_errors, double of_tau, const State* 
     change.p = times(part.inverse, right);
     for (std::size_t k = 0; k < kTangents; ++k) {
       change.p[k] += part.by_bound[k] * change.bound;
-      change.v[k] += kRegularisation * change.p[k];
+      change.v[k] += PathTuning::kRegularisation * change.p[k];
     }
     change.z =
         (goal - at.z * change.bound - inner(at.p, change.v) - inner(at.v, change.p)) / at.bound;
@@ -305,7 +323,7 @@ bool CoulombPath<D>::is_inside(const Step& step, double length) const {
       step.at.tau + step.correction.tau + length * step.tangent.tau + square * step.second.tau;
   if (!(tau > 0)) return false;
   const auto is_near = [&](double product, double goal) {
-    return product >= kNear * goal && product <= goal / kNear;
+    return product >= PathTuning::kNear * goal && product <= goal / PathTuning::kNear;
   };
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const auto& part = parts_[i];
@@ -331,7 +349,8 @@ bool CoulombPath<D>::is_inside(const Step& step, double length) const {
     }
     if (!(bound * bound > inner(p, p) && z > 0 && z * z > inner(v, v))) return false;
     const double along = bound * z + inner(p, v), beside = std::sqrt(inner(across, across));
-    if (!is_near(along - beside, kOfFriction * tau) || !is_near(along + beside, kOfFriction * tau))
+    if (!is_near(along - beside, PathTuning::kOfFriction * tau) ||
+        !is_near(along + beside, PathTuning::kOfFriction * tau))
       return false;
   }
   return true;
@@ -389,40 +408,28 @@ void CoulombPath<D>::find_second(Step& step) {
 
 template <int D>
 int CoulombPath<D>::follow(int number, double accuracy, int max_iterations) {
-  // Lengths are changes of ln(tau). A step may be kGrowth times as long as the one before.
-  constexpr double kLongest = 0.9, kGrowth = 4, kLess = 0.7;
-  // If the end of a step cannot be corrected, the step is taken again with kShorter times its
-  // length. After kMostTries the same is done with the step before. The last kKept steps are kept.
-  constexpr double kShorter = 0.3;
-  constexpr int kMostTries = 3;
-  constexpr std::size_t kKept = 8;
-  // If no length of kShortest or more leads to a point near the path, only the correction is made,
-  // and kAfterNone is the next length.
-  constexpr double kShortest = 1e-5, kAfterNone = 1e-3;
-  // Only rounding errors are left if the root of tau is below kSmall times its size at the start,
-  // and kPatience factorisations do not halve tau.
-  constexpr double kSmall = 1e-6;
-  constexpr int kPatience = 30;
+  using Tuning = PathTuning;
   assert(number >= 0 && number < kPaths && accuracy > 0 && accuracy < 1);
   assert(w_.size() == problem_.rows.size());
-  smoothing_ = kSmoothing[static_cast<std::size_t>(number)];
+  smoothing_ = Tuning::kSmoothing[static_cast<std::size_t>(number)];
   set_parts();
   start();
   best_ = state_;
   std::deque<Step> kept;
   Step step;
-  double length = kLongest, halved = state_.tau;
+  double length = Tuning::kLongest, halved = state_.tau;
   int iterations = 0, halved_at = 0, tries = 0;
   while (size_ > 0 && degree_ > 0 && iterations < max_iterations) {
     ++iterations;
     if (!find_direction(step)) {
       ++tries;
-      while (!kept.empty() && (tries > kMostTries || kShorter * kept.back().length < kShortest)) {
+      while (!kept.empty() && (tries > Tuning::kMostTries ||
+                               Tuning::kShorter * kept.back().length < Tuning::kShortest)) {
         kept.pop_back();
         tries = 1;
       }
       if (kept.empty()) break;
-      length = kept.back().length *= kShorter;
+      length = kept.back().length *= Tuning::kShorter;
       state_ = end_of(kept.back(), length);
       continue;
     }
@@ -432,17 +439,18 @@ int CoulombPath<D>::follow(int number, double accuracy, int max_iterations) {
       halved = best_.tau;
       halved_at = iterations;
     }
-    if (std::sqrt(best_.tau) < kSmall * size_ && iterations - halved_at > kPatience) break;
+    if (std::sqrt(best_.tau) < Tuning::kSmall * size_ && iterations - halved_at > Tuning::kPatience)
+      break;
     find_second(step);
-    length = std::min(kLongest, kGrowth * length);
-    while (length >= kShortest && !is_inside(step, length)) length *= kLess;
-    if (length < kShortest) length = 0;
+    length = std::min(Tuning::kLongest, Tuning::kGrowth * length);
+    while (length >= Tuning::kShortest && !is_inside(step, length)) length *= Tuning::kLess;
+    if (length < Tuning::kShortest) length = 0;
     state_ = end_of(step, length);
     step.length = length;
     kept.push_back(std::move(step));
     step = {};
-    if (kept.size() > kKept) kept.pop_front();
-    if (length == 0) length = kAfterNone;
+    if (kept.size() > Tuning::kKept) kept.pop_front();
+    if (length == 0) length = Tuning::kAfterNone;
     if (std::sqrt(state_.tau) > accuracy * size_) continue;
     best_ = state_;
     break;

@@ -39,7 +39,7 @@ class CoulombPath {
   CoulombPath(const ConstraintProblem<D>& problem, const std::vector<double>& w,
               UnitMatrix<D>& matrix);
 
-  /// Paths smooth the bound of the friction differently (kSmoothing). Mostly the first one
+  /// Paths smooth the bound of the friction differently. Mostly the first one
   /// suffices.
   static constexpr int kPaths = 3;
 

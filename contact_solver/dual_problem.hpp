@@ -12,6 +12,7 @@
 
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/contact_solver/contact_conditions.hpp"
+#include "viscontact/contact_solver/stages.hpp"
 
 namespace viscontact::contact_solver {
 
@@ -28,6 +29,7 @@ struct SolverResult {
   /// Largest DualProblem::residual() of all contacts [1]; infinite if the method gave up. At most 1
   /// if all contacts have converged. NaN if a number of the problem is NaN.
   double residual = 0;
+  StagesRun stages;  ///< which methods ran
 };
 
 /// The unknowns are the impulses p [M L/T] of the contacts. Without them the particles have the

@@ -1,5 +1,6 @@
 // When to use conjugate gradients, a sparse factor or Newton's method for (5.4), docs/physics.md.
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -89,59 +90,127 @@ class Preconditioner {
   std::vector<double> half_swept_;
 };
 
+struct DualTuning {
+  // Iterations with the same free contacts after which a new factor is made, if there is one
+  // already, for a rough solution, and for an accurate one. A rough solution changes the free
+  // contacts often, so that a factor would soon be too old. 10 in place of 30 saves 7 % of the time
+  // of bench/box2d.cpp.
+  static constexpr int kPatienceWithFactor = 10, kPatienceOfRough = 40, kPatience = 10;
+  // Newton's method is tried again after so many iterations in all, because in packings it may
+  // fail, and takes at most so many of its own.
+  static constexpr int kLongPatience = 300, kMostNewton = 10;
+  // Bodies of a chain that sweeps solve in less time than a factor takes.
+  static constexpr std::size_t kLongChain = 6;
+  // Contacts form chains or columns, with almost no cycles, if they are not more than the bodies
+  // by this part of them.
+  static constexpr std::size_t kPartOfBodies = 8;
+  // Residual of a guess over the allowed one with which Newton's method is not needed. It is small
+  // because in a long chain even small residuals mean large errors of the impulses.
+  static constexpr double kNearlySolved = 1e-4;
+};
+
+/// The state of a solution of a dual problem.
+template <int D>
+class DualLadder {
+ public:
+  DualLadder(MassDualProblem<D>& problem, int max_iterations, FreeSetFactor<D>& factor)
+      : problem_(problem),
+        most_(max_iterations),
+        factor_(factor),
+        mprgp_(problem, Preconditioner<D>(problem, factor)) {
+    const bool has_chains =
+        problem.largest_island > DualTuning::kLongChain &&
+        problem.count() < problem.bodies() + problem.bodies() / DualTuning::kPartOfBodies;
+    is_newton_first_ = has_chains && mprgp_.residual() > DualTuning::kNearlySolved;
+  }
+
+  SolverResult solve() {
+    run_stages(kTable, *this);
+    return result_;
+  }
+
+  bool is_done() {
+    if (is_solved_by_newton_) return true;
+    if (is_newton_first_) return false;
+    if (!is_fresh_ && is_ended()) {
+      mprgp_.refresh();  // the updated gradient has accumulated rounding errors
+      is_fresh_ = true;
+    }
+    result_.residual = mprgp_.residual();
+    return is_ended();
+  }
+
+ private:
+  bool is_ended() const { return !(mprgp_.residual() > 1) || result_.iterations >= most_; }
+
+  bool needs_newton() const { return is_newton_first_ || result_.iterations >= next_newton_; }
+  bool needs_factor() const {
+    const int patience = factor_.exists()    ? DualTuning::kPatienceWithFactor
+                         : problem_.is_rough ? DualTuning::kPatienceOfRough
+                                             : DualTuning::kPatience;
+    return is_factorisable_ && !has_new_factor_ && mprgp_.steps_between_same() >= patience;
+  }
+  bool always() const { return true; }
+
+  void take_newton(Stage stage) {
+    FreeSetFactor<D> of_newton(0);
+    const auto solved = active_set_newton(problem_, of_newton, DualTuning::kMostNewton);
+    count(stage, solved.iterations);
+    if (is_newton_first_) {
+      is_newton_first_ = false;
+      result_.residual = solved.residual;
+      is_solved_by_newton_ = solved.residual <= 1;
+      if (!is_solved_by_newton_) mprgp_.refresh();
+      return;
+    }
+    mprgp_.drop_regularisation();
+    next_newton_ = std::max(DualTuning::kLongPatience, 2 * result_.iterations);
+    is_fresh_ = true;
+  }
+  void make_factor(Stage stage) {
+    is_factorisable_ = mprgp_.factorise();
+    has_new_factor_ = true;
+    if (is_factorisable_) ++result_.stages[stage];
+  }
+  void take_gradient_step(Stage stage) {
+    count(stage, mprgp_.step());
+    is_fresh_ = has_new_factor_ = false;
+  }
+  void count(Stage stage, int iterations) {
+    result_.iterations += iterations;
+    result_.stages[stage] += iterations;
+  }
+
+  using Self = DualLadder<D>;
+  // Each stage takes one step, and the table is read again.
+  static constexpr std::array<StageRow<Self>, 3> kTable{{
+      // First in chains and columns, with almost no cycles, because conjugate gradients take about
+      // as many iterations as a chain has contacts: bench/columns.cpp needs 19 to 31 iterations for
+      // 100 to 10 000 contacts. In packings only after many iterations.
+      {Stage::kNewton, &Self::needs_newton, nullptr, &Self::take_newton, nullptr, nullptr},
+      // After iterations with the same free contacts, unless a factor is too large.
+      {Stage::kFactors, &Self::needs_factor, nullptr, &Self::make_factor, nullptr, nullptr},
+      // With sweeps as the preconditioner until there is a factor.
+      {Stage::kGradients, &Self::always, nullptr, &Self::take_gradient_step, nullptr, nullptr},
+  }};
+
+  MassDualProblem<D>& problem_;
+  int most_;
+  FreeSetFactor<D>& factor_;
+  Mprgp<MassDualProblem<D>, Preconditioner<D>> mprgp_;
+  SolverResult result_;
+  int next_newton_ = DualTuning::kLongPatience;
+  bool is_newton_first_ = false, is_solved_by_newton_ = false;
+  bool is_fresh_ = true;  // no step since the gradient was computed anew
+  bool is_factorisable_ = true, has_new_factor_ = false;
+};
+
 }  // namespace
 
 template <int D>
 SolverResult solve_dual_problem(MassDualProblem<D>& problem, int max_iterations,
                                 FreeSetFactor<D>& factor) {
-  Mprgp mprgp(problem, Preconditioner<D>(problem, factor));
-  SolverResult solved;
-  // After so many iterations with the same free contacts, a new factor is made. A rough solution
-  // changes them often, so that a factor would soon be too old. For an accurate one, 10 in place of
-  // 30 saves 7 % of the time on bench/box2d.cpp.
-  constexpr int kPatienceWithFactor = 10;
-  const int patience_without = problem.is_rough ? 40 : 10;
-  // Where contacts form chains or columns, with almost no cycles, Newton's method comes first,
-  // because conjugate gradients take about as many iterations as a chain has contacts. In packings
-  // it may fail, so that it is tried only after many iterations.
-  constexpr int kLongPatience = 300, kNewtonIterations = 10;
-  // Sweeps solve chains of up to kLongChain bodies in less time than a factor takes.
-  constexpr std::size_t kLongChain = 6;
-  const bool has_chains = problem.largest_island > kLongChain &&
-                          problem.count() < problem.bodies() + problem.bodies() / 8;
-  // If the residual of the guess is at most this fraction of the allowed one, Newton's method is
-  // not needed. The fraction is small, because in a long chain even small residuals mean large
-  // errors of the impulses.
-  constexpr double kNearlySolved = 1e-4;
-  const auto newton = [&] {
-    FreeSetFactor<D> of_newton(0);
-    return active_set_newton(problem, of_newton, kNewtonIterations);
-  };
-  if (has_chains && mprgp.residual() > kNearlySolved) {
-    solved = newton();
-    if (solved.residual <= 1) return solved;
-    mprgp.refresh();
-  }
-  int next_newton = kLongPatience;
-  bool fresh = true, factorisable = true;
-  for (;;) {
-    solved.residual = mprgp.residual();
-    if (!(solved.residual > 1) || solved.iterations >= max_iterations) {
-      if (fresh) return solved;
-      mprgp.refresh();  // the updated gradient has accumulated rounding errors
-      fresh = true;
-    } else if (solved.iterations >= next_newton) {
-      solved.iterations += newton().iterations;
-      mprgp.drop_regularisation();
-      next_newton = std::max(kLongPatience, 2 * solved.iterations);
-      fresh = true;
-    } else {
-      const int patience = factor.exists() ? kPatienceWithFactor : patience_without;
-      if (factorisable && mprgp.steps_between_same() >= patience) factorisable = mprgp.factorise();
-      solved.iterations += mprgp.step();
-      fresh = false;
-    }
-  }
+  return DualLadder<D>(problem, max_iterations, factor).solve();
 }
 
 template SolverResult solve_dual_problem<2>(MassDualProblem<2>&, int, FreeSetFactor<2>&);

@@ -9,12 +9,20 @@
 namespace viscontact::contact_solver {
 namespace {
 
-/// This part [1] of the change of r is added to the change of u. It bounds the entries of the
-/// matrix at 1e10 times the masses, so that its factorisation keeps six digits of the masses.
-constexpr double kInnerRegularisation = 1e-10;
-
-/// A step ends after this part [1] of the way to the boundary of the nearest cone.
-constexpr double kInside = 0.995;
+struct InteriorTuning {
+  // This part [1] of the change of r is added to the change of u. It bounds the entries of the
+  // matrix at 1e10 times the masses, so that its factorisation keeps six digits of the masses.
+  static constexpr double kRegularisation = 1e-10;
+  // A step ends after this part [1] of the way to the boundary of the nearest cone.
+  static constexpr double kInside = 0.995;
+  // If the error is below kNear times its size at the start, and an iteration does not reduce it to
+  // kSlow times the least error so far, only rounding errors are left. If it exceeds the least one
+  // by kLost, nothing will be gained.
+  static constexpr double kNear = 1e-6, kSlow = 0.5, kLost = 10;
+  // The second solution of find_direction() saves iterations only near the end: when the error
+  // divided by its size at the start is below kNearEnd and below kNearAccuracy times the accuracy.
+  static constexpr double kNearEnd = 1e-3, kNearAccuracy = 1e3;
+};
 
 /// The larger of |x_0| and the distance from the axis, which does not depend on the choice of
 /// tangents in space; NaN if one is NaN.
@@ -168,7 +176,8 @@ double InteriorPoints<D>::measure() {
 template <int D>
 void InteriorPoints<D>::begin_predictor(Single& part) {
   part.goal = -part.u;
-  part.weight = 1 / ((part.is_equation ? part.compliance : part.u / part.r) + kInnerRegularisation);
+  part.weight = 1 / ((part.is_equation ? part.compliance : part.u / part.r) +
+                     InteriorTuning::kRegularisation);
 }
 
 template <int D>
@@ -179,8 +188,8 @@ void InteriorPoints<D>::begin_predictor(Cones& part) {
 
 template <int D>
 ConePoint InteriorPoints<D>::change_of_r(const Cones& part, const ConePoint& numbers) {
-  return part.is_bound_given ? part.scaling.solve_beside(kInnerRegularisation, numbers)
-                             : part.scaling.solve(kInnerRegularisation, numbers);
+  return part.is_bound_given ? part.scaling.solve_beside(InteriorTuning::kRegularisation, numbers)
+                             : part.scaling.solve(InteriorTuning::kRegularisation, numbers);
 }
 
 template <int D>
@@ -252,10 +261,11 @@ void InteriorPoints<D>::find_direction(int solutions) {
       problem_.add_impulse(part.row, part.scale * part.change_of_r, right_);
     for (const auto& part : cones_) add_impulse(part, part.change_of_r, right_);
   }
-  for (auto& part : singles_) part.change_of_u += kInnerRegularisation * part.change_of_r;
+  for (auto& part : singles_)
+    part.change_of_u += InteriorTuning::kRegularisation * part.change_of_r;
   for (auto& part : cones_) {
     for (std::size_t k = 0; k < 3; ++k)
-      part.change_of_u[k] += kInnerRegularisation * part.change_of_r[k];
+      part.change_of_u[k] += InteriorTuning::kRegularisation * part.change_of_r[k];
     if (!part.is_bound_given) continue;
     // The change of z follows from the second number of W^2 dr + du, which must be that of the
     // goal. The first number is much larger near a solution, so that digits would be lost.
@@ -268,7 +278,7 @@ void InteriorPoints<D>::find_direction(int solutions) {
 
 template <int D>
 double InteriorPoints<D>::length_to_boundary() const {
-  double length = 1 / kInside;
+  double length = 1 / InteriorTuning::kInside;
   for (const auto& part : singles_) {
     if (part.is_equation) continue;
     if (part.u + length * part.change_of_u < 0) length = -part.u / part.change_of_u;
@@ -364,12 +374,7 @@ void InteriorPoints<D>::start(double size) {
 
 template <int D>
 int InteriorPoints<D>::solve(double accuracy, int max_iterations) {
-  // If the error is below kNear times its size at the start, and an iteration does not reduce it to
-  // kSlow times the least error so far, only rounding errors are left.
-  constexpr double kNear = 1e-6, kSlow = 0.5;
-  // The second solution of find_direction() saves iterations only near the end: when the error
-  // divided by its size at the start is below kNearEnd and below kNearAccuracy * accuracy.
-  constexpr double kNearAccuracy = 1e3, kNearEnd = 1e-3;
+  using Tuning = InteriorTuning;
   assert(accuracy > 0 && accuracy < 1 && w_.size() == problem_.rows.size());
   set_parts();
   // The impulses get their least allowed values, and y_ the motions with these impulses.
@@ -377,14 +382,14 @@ int InteriorPoints<D>::solve(double accuracy, int max_iterations) {
   for (const auto& part : singles_) impulses_[part.row] = part.base;
   y_ = motions(problem_, impulses_);
   const double size = largest_value();
-  const double twice_below = std::min(kNearEnd, kNearAccuracy * accuracy) * size;
+  const double twice_below = std::min(Tuning::kNearEnd, Tuning::kNearAccuracy * accuracy) * size;
   start(size);
   int iterations = 0;
   double least = std::numeric_limits<double>::infinity();
   for (; size > 0; ++iterations) {
     const double left = measure();
-    if (!(left < 10 * least)) break;
-    const bool is_at_end = left < kNear * size && left > kSlow * least;
+    if (!(left < Tuning::kLost * least)) break;
+    const bool is_at_end = left < Tuning::kNear * size && left > Tuning::kSlow * least;
     if (left < least) {
       least = left;
       take_impulses();
@@ -393,7 +398,7 @@ int InteriorPoints<D>::solve(double accuracy, int max_iterations) {
     find_direction(1);
     set_corrector(gap_, std::min(1.0, length_to_boundary()));
     find_direction(left > twice_below ? 1 : 2);
-    move(kInside * length_to_boundary());
+    move(Tuning::kInside * length_to_boundary());
   }
   return iterations;
 }

@@ -13,6 +13,25 @@
 
 namespace viscontact::contact_solver {
 
+struct MprgpTuning {
+  // Added to the diagonal of W, which is 1. Redundant contacts make W singular: along some
+  // directions the slope and the curvature are only rounding errors, and impulses would move along
+  // them without end. It is above rounding errors, far below the curvatures of a chain of 10000
+  // contacts (1e-8), and below any tolerance. Where particles are jammed in a wedge, impulses may
+  // be so large that it leaves a gap; Mprgp::drop_regularisation() is for such impulses.
+  static constexpr double kRegularisation = 1e-14;
+  // First length of a projected gradient step: 2 over the largest eigenvalue of W, which is at most
+  // 4 in packings of similar particles, because W has the diagonal 1. With a step shorter than
+  // kShortest a rise of the objective is a rounding error.
+  static constexpr double kLength = 0.5, kShortest = 1e-6;
+  // If contacts contradict each other, the objective has no minimum, and the length of a step,
+  // which is about 1 otherwise, is almost infinite: a conjugate gradient step longer than kEndless
+  // ends at a bound, and one that leaves the bounds is at most kLongest.
+  static constexpr double kEndless = 1e12, kLongest = 1e6;
+  // Only one pass of so many computes all statistics where the preconditioner sweeps.
+  static constexpr int kPassesBetweenMeasurements = 4;
+};
+
 /// Minimises z^T W z/2 + b^T z over z >= bound. Contacts with z above the bound are free. The free
 /// gradient is the gradient g = W z + b on them, the chopped gradient the negative part of g on the
 /// others, which would move them off the bound. Sums are taken in blocks of the thread pool, so
@@ -68,7 +87,7 @@ class Mprgp {
     return std::isnan(sums) ? sums : statistics_.residual;
   }
 
-  /// From now on omits the 1e-14 that the object adds to the diagonal of W.
+  /// From now on omits MprgpTuning::kRegularisation.
   void drop_regularisation() {
     regularisation_ = 0;
     refresh();
@@ -90,11 +109,8 @@ class Mprgp {
     if (restart_) start_directions();
     before_ = problem_.z;
     ++steps_between_same_;
-    // If contacts contradict each other, the objective has no minimum, and the length of the step,
-    // which is about 1 otherwise, is almost infinite.
-    constexpr double kEndless = 1e12;
     const double length = slope_ / curvature_;
-    if (!(length < kEndless)) return go_to_bound();
+    if (!(length < MprgpTuning::kEndless)) return go_to_bound();
     move(length);
     if (statistics_.distance_to_bound < 0) return expand(length);
     const double slope = preconditioner_.apply(gradient_, swept_, y_);
@@ -171,8 +187,8 @@ class Mprgp {
   /// in the same loop, which reads the same rows, and only every fourth call computes all
   /// statistics.
   void move(double length) {
-    constexpr int kPassesBetweenMeasurements = 4;
-    [[maybe_unused]] const bool measure = restart_ || ++passes_ % kPassesBetweenMeasurements == 0;
+    [[maybe_unused]] const bool measure =
+        restart_ || ++passes_ % MprgpTuning::kPassesBetweenMeasurements == 0;
     if constexpr (Preconditioner::kMaySweep) {
       if (preconditioner_.sweeps()) {
         if (measure)
@@ -248,9 +264,7 @@ class Mprgp {
         if (problem_.is_free(c))
           problem_.z[c] = std::max(problem_.bound[c], problem_.z[c] - step_ * gradient_[c]);
       refresh();
-      // With a step shorter than this, a rise of the objective is a rounding error.
-      constexpr double kShortest = 1e-6;
-      if (objective() <= before || step_ < kShortest) return products;
+      if (objective() <= before || step_ < MprgpTuning::kShortest) return products;
       // An eigenvalue of W exceeds 4, as a particle with many contacts can cause.
       step_ /= 2;
       problem_.z = here;
@@ -262,30 +276,20 @@ class Mprgp {
     for (std::size_t c = 0; c < problem_.count(); ++c)
       direction_[c] = !problem_.is_free(c) && gradient_[c] < 0 ? gradient_[c] : 0.0;
     const double curvature = problem_.to_bodies(direction_, y_direction_);
-    // The length is 1 for a single contact. Contacts that contradict each other would make it
-    // infinite.
-    constexpr double kLongest = 1e6;
     restart_ = true;
-    move(std::min(statistics_.chopped_square / curvature, kLongest));
+    move(std::min(statistics_.chopped_square / curvature, MprgpTuning::kLongest));
     return 1;
   }
 
   Problem& problem_;
   Preconditioner preconditioner_;
-  /// Length of a projected gradient step: 2 over the largest eigenvalue of W, which is at most 4 in
-  /// packings of similar particles, because W has the diagonal 1.
-  double step_ = 0.5;
+  double step_ = MprgpTuning::kLength;  // of a projected gradient step
   std::vector<double> before_;
   std::vector<double> y_;            // B z after refresh(), later B swept
   std::vector<double> y_direction_;  // B direction
   std::vector<double> gradient_, direction_, swept_;
   PassStatistics statistics_;
-  /// Added to the diagonal of W, which is 1. Redundant contacts make W singular: along some
-  /// directions the slope and the curvature are only rounding errors, and impulses would move along
-  /// them without end. 1e-14 is above rounding errors, far below the curvatures of a chain of 10000
-  /// contacts (1e-8), and below any tolerance. Where particles are jammed in a wedge, impulses may
-  /// be so large that this term leaves a gap; drop_regularisation() is for such impulses.
-  double regularisation_ = 1e-14;
+  double regularisation_ = MprgpTuning::kRegularisation;
   double slope_ = 0;  // inner product of gradient and direction
   double curvature_ = 0;
   bool restart_ = true;

@@ -7,6 +7,29 @@
 #include <limits>
 
 namespace viscontact::contact_solver {
+namespace {
+
+struct StepTuning {
+  // A step of Newton's method with Coulomb's law is halved, at most kMostHalvings times, until the
+  // error falls by kPromised times its fall in a linear equation.
+  static constexpr double kPromised = 0.1;
+  static constexpr int kMostHalvings = 8;
+  // In a convex problem the derivative along a step shall fall to kReached times its size at the
+  // beginning, in at most kMostTrials lengths.
+  static constexpr double kReached = 0.1;
+  static constexpr int kMostTrials = 20;
+  // Paths of ProximalStep::follow_path(), and the share of the error that one must remove.
+  static constexpr int kMostPaths = 3;
+  static constexpr double kLeastShare = 0.05;
+  // Factors in convex problems of spheres are renewed if a step reduces the error by less than
+  // kSlow. For spheres a step of length 1 ends the iteration if the error is at most kExact times
+  // the first one.
+  static constexpr double kSlow = 0.1, kExact = 1e-10;
+  // Rounding errors over the size of the numbers: a safe multiple of the machine epsilon.
+  static constexpr double kRounding = 1e4 * std::numeric_limits<double>::epsilon();
+};
+
+}  // namespace
 
 template <int D>
 ProximalStep<D>::ProximalStep(const ConstraintProblem<D>& problem, const std::vector<double>& w,
@@ -185,20 +208,15 @@ void ProximalStep<D>::find_direction() {
 template <int D>
 double ProximalStep<D>::length_of_step(double before) {
   if (problem_.is_convex) return length_to_minimum();
-  // The step is halved until the error falls by kPromised times its fall in a linear equation.
-  constexpr double kPromised = 0.1;
-  constexpr int kMostHalvings = 8;
   double length = 1;
-  for (int n = 0; n < kMostHalvings; ++n, length /= 2)
-    if (error_at(length, false) <= (1 - kPromised * length) * before) return length;
+  for (int n = 0; n < StepTuning::kMostHalvings; ++n, length /= 2)
+    if (error_at(length, false) <= (1 - StepTuning::kPromised * length) * before) return length;
   return 0;
 }
 
 template <int D>
 double ProximalStep<D>::length_to_minimum() {
-  // The derivative along direction_ shall fall to kReached times its size at the beginning.
-  constexpr double kReached = 0.1;
-  constexpr int kMostTrials = 20;
+  using Tuning = StepTuning;
   const auto derivative = [&](double t) {
     error_at(t, false);
     double sum = 0;
@@ -208,13 +226,13 @@ double ProximalStep<D>::length_to_minimum() {
   };
   const double first = derivative(0);
   double low = 0, high = 1, at_low = first, at_high = derivative(1);
-  if (!(first < 0) || at_high <= -kReached * first) return 1;
+  if (!(first < 0) || at_high <= -Tuning::kReached * first) return 1;
   double length = 1;
-  for (int n = 0; n < kMostTrials; ++n) {
+  for (int n = 0; n < Tuning::kMostTrials; ++n) {
     // Secant and bisection alternate, because a kink of the derivative can make the secant slow.
     length = n % 2 == 0 ? low + (high - low) * at_low / (at_low - at_high) : (low + high) / 2;
     const double here = derivative(length);
-    if (std::abs(here) <= -kReached * first) break;
+    if (std::abs(here) <= -Tuning::kReached * first) break;
     (here < 0 ? low : high) = length;
     (here < 0 ? at_low : at_high) = here;
   }
@@ -230,26 +248,20 @@ double ProximalStep<D>::rounding_error() const {
     const auto impulse = problem_.units[u].impulse_of(y_[u]);
     for (std::size_t k = 0; k < impulse.size(); ++k) square += impulse[k] * y_[u][k];
   }
-  // A safe multiple of the machine epsilon.
-  constexpr double kRounding = 1e4 * std::numeric_limits<double>::epsilon();
-  return kRounding * std::sqrt(square);
+  return StepTuning::kRounding * std::sqrt(square);
 }
 
 template <int D>
 int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<Motion<D>>& start,
                            int max_iterations) {
-  // kSlow and kExact are explained where they are used. At most kMostPaths paths are followed, and
-  // a path fails if it removes less than kLeastShare of the error.
-  constexpr double kSlow = 0.1, kExact = 1e-10;
-  constexpr int kMostPaths = 3;
-  constexpr double kLeastShare = 0.05;
+  using Tuning = StepTuning;
   assert(center.size() == problem_.rows.size() && start.size() == problem_.units.size());
   center_ = center;
   y_ = start;
   for (std::size_t r = 0; r < problem_.rows.size(); ++r)
     values_[r] = problem_.rows[r].offset + problem_.product(r, y_);
   failed_ = false;
-  paths_ = 0;
+  paths_ = path_iterations_ = 0;
   int iterations = 0;
   const double first = error_at(0, true);
   double before = first;
@@ -266,14 +278,16 @@ int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<
     const auto last = factored_;
     if (length == 0) {
       if (before <= rounding_error()) break;
-      failed_ = D == 3 || paths_ == kMostPaths;
+      failed_ = D == 3 || paths_ == Tuning::kMostPaths;
       if (failed_) break;
       ++paths_;
       error_at(0, true);
+      const int before_path = iterations;
       const double share = follow_path(iterations);
+      path_iterations_ += iterations - before_path;
       before = error_at(0, true);
       if (share == 1) break;
-      failed_ = share < kLeastShare;
+      failed_ = share < Tuning::kLeastShare;
       if (failed_) break;
       continue;
     }
@@ -283,10 +297,11 @@ int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<
     // rounding errors, because the equation is then linear. For spheres the error must also be at
     // most kExact times the first one, or the step must have failed to halve it. In a convex
     // problem such a failure counts only if the factors are new.
-    const bool is_linear = D == 2 || here <= kExact * first ||
+    const bool is_linear = D == 2 || here <= Tuning::kExact * first ||
                            ((is_fresh || !problem_.is_convex) && here > before / 2);
     // For spheres the matrix also changes while contacts slip.
-    if (D == 3 && problem_.is_convex && !is_fresh && here > kSlow * before) has_factor_ = false;
+    if (D == 3 && problem_.is_convex && !is_fresh && here > Tuning::kSlow * before)
+      has_factor_ = false;
     if (here == 0 || (length == 1 && last == branches_ && is_linear)) break;
     // In convex problems the error may grow on the way to the minimum. While it has the size of
     // rounding errors, iterations go on as long as they halve it, because impulses that must grow

@@ -64,6 +64,8 @@ class ProximalStep {
   bool failed() const { return failed_; }
   /// True if the last solve() followed a path.
   bool followed_path() const { return paths_ > 0; }
+  /// The iterations of the last solve() that were changes of branches on paths.
+  int path_iterations() const { return path_iterations_; }
   /// P^{k+1} [M L/T] of the last solve(), also if it failed.
   const std::vector<double>& impulses() const { return projected_; }
 
@@ -134,7 +136,7 @@ class ProximalStep {
   std::vector<Motion<D>> y_, direction_, error_;
   UnitMatrix<D>& matrix_;
   bool has_factor_ = false, failed_ = false;
-  int paths_ = 0;  // of the last solve()
+  int paths_ = 0, path_iterations_ = 0;  // of the last solve()
 };
 
 }  // namespace viscontact::contact_solver

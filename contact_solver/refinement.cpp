@@ -16,8 +16,19 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-/// Most entries of W in parts, which bounds time and memory where a unit has many rows.
-constexpr std::size_t kMostProducts = 1'000'000;
+struct RefinementTuning {
+  // Most entries of W in parts, which bounds time and memory where a unit has many rows.
+  static constexpr std::size_t kMostProducts = 1'000'000;
+  // Rows up to which the matrix is dense.
+  static constexpr Eigen::Index kDense = 64;
+  // Where the matrix is singular but for rounding errors, the solution is not the one that made the
+  // right side. This difference is far above the errors that masses of the ratio 1e12 cause.
+  static constexpr double kUnique = 1e-3;
+  // Steps end when one of them is not below kGain times the one before. Then the error must be
+  // below kSmall times the largest impulse. Each change of a branch takes a step of its own.
+  static constexpr int kMostSteps = 20;
+  static constexpr double kGain = 0.1, kSmall = 1e-10;
+};
 
 }  // namespace
 
@@ -58,8 +69,7 @@ class Refinement<D>::Factor {
   using Entries = std::vector<Eigen::Triplet<double>>;
   /// Returns false if the matrix is singular.
   bool compute(Eigen::Index size, const Entries& entries) {
-    constexpr Eigen::Index kDense = 64;
-    is_dense_ = size <= kDense;
+    is_dense_ = size <= RefinementTuning::kDense;
     Eigen::VectorXd probe(size);
     for (Eigen::Index r = 0; r < size; ++r) probe[r] = (r * 7 / 3) % 2 == 0 ? 1 : -1;
     Eigen::VectorXd right;
@@ -75,10 +85,7 @@ class Refinement<D>::Factor {
       sparse_.compute(matrix);
       if (sparse_.info() != Eigen::Success) return false;
     }
-    // Where the matrix is singular but for rounding errors, the solution is not the one that made
-    // the right side. 1e-3 is far above the errors that masses of the ratio 1e12 cause.
-    constexpr double kUnique = 1e-3;
-    return (solve(right) - probe).cwiseAbs().maxCoeff() <= kUnique;
+    return (solve(right) - probe).cwiseAbs().maxCoeff() <= RefinementTuning::kUnique;
   }
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const {
     if (is_dense_) return dense_.solve(right);
@@ -136,7 +143,7 @@ bool Refinement<D>::is_worth_it() const {
   const bool is_tree = joints < problem_.units.size();
   const auto [least, largest] = std::ranges::minmax_element(mobility);
   const bool are_different = *largest > kDifferent * *least;
-  if (products > kMostProducts) return false;
+  if (products > RefinementTuning::kMostProducts) return false;
   if (are_different) return is_tree || rows <= kMost;
   return is_tree && rows <= kMany;
 }
@@ -375,13 +382,10 @@ std::vector<double> Refinement<D>::solved(std::vector<double> right) const {
 
 template <int D>
 bool Refinement<D>::iterate() {
-  // Steps end when one of them is not below kGain times the one before. Then the error must be
-  // below kSmall times the largest impulse. Each change of a branch takes a step of its own.
-  constexpr int kMostSteps = 20;
-  constexpr double kGain = 0.1, kSmall = 1e-10;
+  using Tuning = RefinementTuning;
   double before = std::numeric_limits<double>::infinity();
   last_.assign(impulses_.size(), 0.0);
-  for (int n = 0; n < kMostSteps; ++n) {
+  for (int n = 0; n < Tuning::kMostSteps; ++n) {
     evaluate();
     const bool is_same = find_laws();
     if (!is_same && !factorise()) return false;
@@ -403,8 +407,8 @@ bool Refinement<D>::iterate() {
     if (!std::isfinite(largest)) return false;
     if (is_exact) return true;
     const bool is_linear = std::ranges::all_of(laws_, &Law::is_linear);
-    if ((is_same || (n > 0 && !is_linear)) && !(largest_change < kGain * before))
-      return largest_change <= kSmall * largest;
+    if ((is_same || (n > 0 && !is_linear)) && !(largest_change < Tuning::kGain * before))
+      return largest_change <= Tuning::kSmall * largest;
     before = largest_change;
   }
   return false;

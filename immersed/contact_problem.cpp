@@ -1,15 +1,15 @@
 // Newton's method and MPRGP for ContactProblem. The scaled W is W/(w_i w_j)^(1/2) [1] with its
 // diagonal w; a contact is free if its impulse is above its lower bound.
 #include <Eigen/Core>
+#include <array>
 #include <cassert>
 #include <limits>
 #include <set>
 #include <utility>
 
-#include "viscontact/common/matrices/decompositions.hpp"
 #include "viscontact/constraint_rows/contact_rows.hpp"
 #include "viscontact/contact_solver/active_set_newton.hpp"
-#include "viscontact/contact_solver/mprgp.hpp"
+#include "viscontact/contact_solver/dense_dual_problem.hpp"
 #include "viscontact/immersed/closed_contacts.hpp"
 #include "viscontact/immersed/fluid_contacts.hpp"
 
@@ -149,140 +149,6 @@ Eigen::MatrixXd dense_w(std::span<const Contact<2>> contacts,
   return matrix;
 }
 
-/// The same problem for few contacts. A vector y = B z holds the product of scaled_matrix and z,
-/// and then z.
-class DenseDualProblem : public DualProblem {
- public:
-  /// `full_w` is dense_w() of the contacts; the matrix of the problem is its symmetric part. If W
-  /// is not symmetric, the product of its skew part and the present impulses is added to the gaps.
-  DenseDualProblem(std::span<const Contact<2>> contacts, const ContactConditions& conditions,
-                   const Eigen::MatrixXd& full_w)
-      : DualProblem(contacts.size()) {
-    assert(full_w.rows() == std::ssize(contacts) && full_w.cols() == full_w.rows());
-    Eigen::VectorXd further = Eigen::VectorXd::Zero(full_w.rows());
-    if (!conditions.is_symmetric)
-      for (std::size_t c = 0; c < contacts.size(); ++c) {
-        const auto i = static_cast<Index>(c);
-        further += contacts[c].impulse / 2 * (full_w.col(i) - full_w.row(i).transpose());
-      }
-    for (std::size_t c = 0; c < contacts.size(); ++c)
-      set(c, bounds_of(contacts[c]),
-          gap_without_contact(contacts[c], conditions) + further[static_cast<Index>(c)]);
-    const Eigen::Map<const Eigen::VectorXd> scales(scale.data(), std::ssize(scale));
-    scaled_matrix = full_w.cwiseQuotient(scales * scales.transpose());
-    scaled_matrix = (scaled_matrix + scaled_matrix.transpose().eval()) / 2;
-  }
-
-  std::size_t displacement_count() const { return 2 * count(); }
-  ThreadPool& pool() const { return pool_; }
-
-  double to_bodies(std::span<const double> values, std::span<double> y) const {
-    const auto n = static_cast<Index>(count());
-    const Eigen::Map<const Eigen::VectorXd> z_of(values.data(), n);
-    Eigen::Map<Eigen::VectorXd> product(y.data(), n);
-    product = scaled_matrix * z_of;
-    std::ranges::copy(values, y.begin() + n);
-    return product.dot(z_of);
-  }
-  double combine(std::span<const double> y, double factor, std::span<double> into) const {
-    double form = 0;
-    for (std::size_t i = 0; i < into.size(); ++i) into[i] = y[i] + factor * into[i];
-    for (std::size_t c = 0; c < count(); ++c) form += into[c] * into[count() + c];
-    return form;
-  }
-  double to_contact(std::size_t c, const double* y) const { return y[c]; }
-
-  Eigen::MatrixXd scaled_matrix;  ///< [1], symmetric, with the diagonal 1
-
- private:
-  mutable ThreadPool pool_{1};
-};
-
-/// For active_set_newton().
-class DenseFactor {
- public:
-  explicit DenseFactor(double error_of_w) : error_of_w_(error_of_w) { assert(error_of_w >= 0); }
-
-  bool exists() const { return !free_.empty(); }  ///< true after the first factorise()
-  /// Of the contacts c with free[c] != 0. Returns true in any case.
-  bool factorise(const DenseDualProblem& problem, const std::vector<char>& free) {
-    free_ = free;
-    chosen_.clear();
-    for (std::size_t c = 0; c < free.size(); ++c)
-      if (free[c] != 0) chosen_.push_back(static_cast<Index>(c));
-    matrix_ = problem.scaled_matrix(chosen_, chosen_);
-    // Redundant contacts make W singular, up to its errors. The term, which is as large as these
-    // errors, bounds the impulses of redundant contacts. The refinement in solve() removes the
-    // error that the term causes in all other impulses.
-    Eigen::MatrixXd regular = matrix_;
-    regular.diagonal() *= 1 + error_of_w_;
-    factor_.compute(regular);
-    return true;
-  }
-  /// Sets `solved` to the inverse of the scaled W between the chosen contacts times `gradient`.
-  void solve(std::span<const double> gradient, std::span<double> solved) const {
-    const Eigen::VectorXd right =
-        Eigen::Map<const Eigen::VectorXd>(gradient.data(), std::ssize(gradient))(chosen_);
-    Eigen::VectorXd values = factor_.solve(right);
-    constexpr int kRefinements = 2;
-    for (int i = 0; i < kRefinements; ++i) values += factor_.solve(right - matrix_ * values);
-    std::ranges::fill(solved, 0.0);
-    for (std::size_t i = 0; i < chosen_.size(); ++i)
-      solved[static_cast<std::size_t>(chosen_[i])] = values[static_cast<Index>(i)];
-  }
-
- private:
-  double error_of_w_;
-  std::vector<char> free_;
-  std::vector<Index> chosen_;
-  Eigen::MatrixXd matrix_;
-  Eigen::LDLT<Eigen::MatrixXd> factor_;
-};
-
-/// The identity, as the preconditioner of Mprgp: the diagonal of the scaled W is about 1.
-template <SolvableDualProblem Problem>
-class IdentityPreconditioner {
- public:
-  /// Tells Mprgp to use apply() alone.
-  static constexpr bool kMaySweep = false;
-  explicit IdentityPreconditioner(Problem& problem) : problem_(&problem) {}
-
-  /// Sets `swept` to the gradient of free contacts, 0 for all others, and `y` to B swept. Returns
-  /// the inner product of both.
-  double apply(std::span<const double> gradient, std::vector<double>& swept,
-               std::vector<double>& y) const {
-    double product = 0;
-    for (std::size_t c = 0; c < gradient.size(); ++c) {
-      swept[c] = problem_->is_free(c) ? gradient[c] : 0.0;
-      product += swept[c] * gradient[c];
-    }
-    problem_->to_bodies(swept, y);
-    return product;
-  }
-
- private:
-  Problem* problem_;
-};
-
-/// Improves problem.z by MPRGP until all residuals are allowed, or until `most` products with W are
-/// done. Returns their number.
-template <SolvableDualProblem Problem>
-int solve_by_gradients(Problem& problem, int most) {
-  contact_solver::Mprgp mprgp(problem, IdentityPreconditioner<Problem>(problem));
-  bool is_fresh = true;
-  for (int products = 1;;) {
-    if (!(mprgp.residual() > 1) || products >= most) {
-      if (is_fresh) return products;
-      mprgp.refresh();  // the updated gradient has accumulated rounding errors
-      ++products;
-      is_fresh = true;
-    } else {
-      products += mprgp.step();
-      is_fresh = false;
-    }
-  }
-}
-
 struct Correction {
   int products = 0;
   double amplification = 1;  ///< largest change of a scaled impulse over the largest residual
@@ -340,6 +206,104 @@ Correction correct_by_gradients(Problem& problem, int most) {
     if (problem.is_free(c)) problem.z[c] = std::max(problem.bound[c], problem.z[c] + change[c]);
   return correction;
 }
+
+struct DenseTuning {
+  // Newton's method takes few steps, or it cycles.
+  static constexpr int kNewtonSteps = 50;
+  // As long as the load of a heavy particle on a light one is not known, the allowed residuals may
+  // be below rounding errors. A first solution may have residuals that are larger by this factor.
+  static constexpr double kRough = 1e6;
+};
+
+/// One solution of the problem with a matrix W.
+class DenseLadder {
+ public:
+  DenseLadder(std::span<Contact<2>> contacts, const ContactConditions& conditions,
+              const Eigen::MatrixXd& w, int max_iterations)
+      : contacts_(contacts), conditions_(conditions), w_(w), most_(max_iterations) {
+    for (const auto& contact : contacts) gaps_.push_back(gap_without_contact(contact, conditions));
+  }
+
+  SolverResult solve() {
+    contact_solver::run_stages(kTable, *this);
+    return result_;
+  }
+  bool is_done() const { return is_done_; }
+
+ private:
+  int left() const { return most_ - result_.iterations; }
+  bool is_first() const { return tries_ == 0; }
+  bool may_try_roughly() const { return tries_ == 1 && left() > 0; }
+  bool always() const { return true; }
+
+  contact_solver::DenseDualProblem problem() const {
+    std::vector<ContactBounds> bounds;
+    for (const auto& contact : contacts_) bounds.push_back(bounds_of(contact));
+    return {bounds, gaps_, w_, conditions_.is_symmetric};
+  }
+  void take(const contact_solver::DenseDualProblem& problem) {
+    for (std::size_t c = 0; c < contacts_.size(); ++c) contacts_[c].impulse = problem.impulse(c);
+  }
+  void count(Stage stage, int iterations) {
+    result_.iterations += iterations;
+    result_.stages[stage] += iterations;
+  }
+  bool newton(Stage stage) {
+    auto of = problem();
+    contact_solver::DenseFactor factor(conditions_.velocity_error);
+    const auto solved =
+        contact_solver::active_set_newton(of, factor, std::min(left(), DenseTuning::kNewtonSteps));
+    count(stage, solved.iterations);
+    take(of);
+    return solved.residual <= 1;
+  }
+
+  void take_newton(Stage stage) {
+    ++tries_;
+    is_done_ = newton(stage);
+  }
+  void take_newton_roughly(Stage stage) {
+    ++tries_;
+    for (auto& contact : contacts_) contact.allowed *= DenseTuning::kRough;
+    if (!newton(stage)) {
+      for (auto& contact : contacts_) contact.allowed /= DenseTuning::kRough;
+      return;
+    }
+    set_allowed(contacts_, conditions_);
+    for (auto& contact : contacts_) contact.allowed /= 2;
+    is_done_ = newton(stage);
+  }
+  void take_gradients(Stage stage) {
+    auto of = problem();
+    count(stage, contact_solver::solve_by_gradients(of, left()));
+    take(of);
+    is_done_ = true;
+  }
+
+  using Row = contact_solver::StageRow<DenseLadder>;
+  static const std::array<Row, 3> kTable;
+
+  std::span<Contact<2>> contacts_;
+  const ContactConditions& conditions_;
+  Eigen::MatrixXd w_;
+  int most_;
+  std::vector<double> gaps_;
+  SolverResult result_;
+  int tries_ = 0;  // of Newton's method
+  bool is_done_ = false;
+};
+
+// Stage; when it is entered; its step. Each takes one step.
+const std::array<DenseLadder::Row, 3> DenseLadder::kTable{{
+    // At first.
+    {Stage::kNewton, &DenseLadder::is_first, nullptr, &DenseLadder::take_newton, nullptr, nullptr},
+    // If it has cycled: again, to wider tolerances, and from there to those asked for.
+    {Stage::kNewton, &DenseLadder::may_try_roughly, nullptr, &DenseLadder::take_newton_roughly,
+     nullptr, nullptr},
+    // If it cycles then, too.
+    {Stage::kGradients, &DenseLadder::always, nullptr, &DenseLadder::take_gradients, nullptr,
+     nullptr},
+}};
 
 }  // namespace
 
@@ -418,41 +382,11 @@ bool ContactProblem::solve(bool is_rough) {
 }
 
 void ContactProblem::solve_dense() {
-  constexpr int kNewtonSteps = 50;  // Newton's method takes few steps, or it cycles
-  const auto w = dense_w(contacts_, responses_, conditions_.layout);
-  int iterations = 0;
-  const auto most = [&] { return conditions_.solver.max_iterations - iterations_ - iterations; };
-  const auto newton = [&](DenseDualProblem& problem) {
-    DenseFactor factor(conditions_.velocity_error);
-    const auto solved = active_set_newton(problem, factor, std::min(most(), kNewtonSteps));
-    iterations += solved.iterations;
-    for (std::size_t c = 0; c < contacts_.size(); ++c) contacts_[c].impulse = problem.impulse(c);
-    return solved.residual <= 1;
-  };
-  const auto solve = [&] {
-    DenseDualProblem problem(contacts_, conditions_, w);
-    return newton(problem);
-  };
-  bool is_solved = solve();
-  if (!is_solved && most() > 0) {
-    // As long as the load of a heavy particle on a light one is not known, the allowed residuals
-    // may be below rounding errors.
-    constexpr double kRough = 1e6;
-    for (auto& contact : contacts_) contact.allowed *= kRough;
-    if (solve()) {
-      set_allowed(contacts_, conditions_);
-      for (auto& contact : contacts_) contact.allowed /= 2;
-      is_solved = solve();
-    } else {
-      for (auto& contact : contacts_) contact.allowed /= kRough;
-    }
-  }
-  if (!is_solved) {
-    DenseDualProblem problem(contacts_, conditions_, w);
-    iterations += solve_by_gradients(problem, most());
-    for (std::size_t c = 0; c < contacts_.size(); ++c) contacts_[c].impulse = problem.impulse(c);
-  }
-  iterations_ += iterations;
+  DenseLadder ladder(contacts_, conditions_, dense_w(contacts_, responses_, conditions_.layout),
+                     conditions_.solver.max_iterations - iterations_);
+  const auto solved = ladder.solve();
+  iterations_ += solved.iterations;
+  stages_ += solved.stages;
   take_velocities();
 }
 
@@ -477,7 +411,10 @@ void ContactProblem::take_velocities() {
 
 void ContactProblem::solve_by_products() {
   FluidDualProblem problem(contacts_, conditions_, mobility_);
-  iterations_ += 1 + solve_by_gradients(problem, conditions_.solver.max_iterations - iterations_);
+  const int products =
+      contact_solver::solve_by_gradients(problem, conditions_.solver.max_iterations - iterations_);
+  iterations_ += 1 + products;
+  stages_[Stage::kGradients] += products;
   if (!is_rough_) {
     // A correction by a tenth takes less than a solution.
     constexpr int kMostProducts = 40;

@@ -1,6 +1,5 @@
 // Coulomb's law of contacts in a fluid, docs/physics.md (6.14). In rounds, the gaps are made exact
 // for the friction found so far, and then all impulses are improved together.
-#include <Eigen/Core>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -9,17 +8,14 @@
 #include <variant>
 #include <vector>
 
-#include "viscontact/common/matrices/decompositions.hpp"
 #include "viscontact/constraint_rows/contact_rows.hpp"
-#include "viscontact/contact_solver/constraint_solver.hpp"
+#include "viscontact/contact_solver/dense_constraints.hpp"
 #include "viscontact/immersed/closed_contacts.hpp"
 #include "viscontact/immersed/fluid_contacts.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 
 namespace viscontact::particles {
 namespace {
-
-using Eigen::Index;
 
 /// The problem of all contacts together is solved to this share of the allowed residuals; the rest
 /// is left for errors of its velocities. Any share well below 1 works.
@@ -62,111 +58,6 @@ double allowed_for(const ContactFrictionInFluid& friction, const Contact<2>& con
   const double largest = conditions.solver.tolerance * conditions.mean_radius / 2;
   if (!(contact.w > 0)) return largest;
   return std::min(largest, contact.allowed * std::max(1.0, friction.w / contact.w));
-}
-
-/// A gap and, with friction, a slip for each contact. With the impulses p, gaps and slips after the
-/// step are q + W p.
-struct CoupledRows {
-  std::vector<double> q;                            ///< gaps and slips without contact [L]
-  std::vector<double> p;                            ///< normal and tangential impulses [M L/T]
-  std::vector<const std::vector<double>*> answers;  ///< velocities by a unit force of each row
-  std::vector<ConstraintBlock> blocks;
-};
-
-/// The eigenvectors of a symmetric matrix W with a positive diagonal that is known up to a relative
-/// error, after its rows and columns were scaled to the diagonal 1. Eigenvectors whose eigenvalue
-/// is 0 within the error are unmoved: no impulse changes the sum of the rows, each divided by
-/// (W_rr)^(1/2), with the entries of such a vector as weights.
-struct MovedDirections {
-  Eigen::MatrixXd root;     ///< a matrix L with W = L L^T within the error
-  Eigen::MatrixXd unmoved;  ///< as columns
-  Eigen::VectorXd scales;   ///< (W_rr)^(1/2)
-
-  /// `w` is W [T/M], and `error` [1] its relative error.
-  MovedDirections(const Eigen::MatrixXd& w, double error) : scales(w.diagonal().cwiseSqrt()) {
-    assert(w.rows() == w.cols() && error > 0);
-    const Eigen::MatrixXd scaled = w.cwiseQuotient(scales * scales.transpose());
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(scaled);
-    const double least = error * modes.eigenvalues().maxCoeff();
-    const auto count = (modes.eigenvalues().array() <= least).count();  // they come first
-    unmoved = modes.eigenvectors().leftCols(count);
-    Eigen::VectorXd roots = modes.eigenvalues().cwiseMax(0).cwiseSqrt();
-    roots.head(count).setZero();
-    root = scales.asDiagonal() * modes.eigenvectors() * roots.asDiagonal();
-  }
-
-  /// Removes from the offsets [L] the sums that no impulse can change, if the error `rounding` [L]
-  /// of each offset explains them. Otherwise the impulses would grow without end.
-  Eigen::VectorXd consistent(const Eigen::VectorXd& offsets, double rounding) const {
-    Eigen::VectorXd scaled = offsets.cwiseQuotient(scales);
-    for (Index m = 0; m < unmoved.cols(); ++m) {
-      const auto mode = unmoved.col(m);
-      const double sum = mode.dot(scaled);
-      if (std::abs(sum) <= rounding * mode.cwiseAbs().cwiseQuotient(scales).sum())
-        scaled -= sum * mode;
-    }
-    return scaled.cwiseProduct(scales);
-  }
-};
-
-/// Adds the rows to a problem whose matrix is W = root root^T. Each column of `root` is an imagined
-/// degree of freedom, which a unit impulse moves by a unit length; three of them make a RigidUnit.
-void add_rows(const Eigen::MatrixXd& root, std::span<const double> offsets,
-              std::span<const double> guesses, ConstraintProblem<2>& problem) {
-  assert(offsets.size() == guesses.size() && root.rows() == std::ssize(offsets));
-  constexpr Index kOfUnit = 3;
-  const Index units = (root.cols() + kOfUnit - 1) / kOfUnit;
-  RigidUnit<2> unit;
-  unit.mobility = unit.inverse_mobility = 1;
-  unit.turn_mobility = unit.inverse_turn_mobility = {1};
-  problem.units.assign(static_cast<std::size_t>(units), unit);
-  std::vector<RowPart<2>> parts(static_cast<std::size_t>(units));
-  for (Index r = 0; r < root.rows(); ++r) {
-    for (Index u = 0; u < units; ++u) {
-      auto& part = parts[static_cast<std::size_t>(u)];
-      part = {static_cast<std::int32_t>(u), {}};
-      for (Index k = 0; k < kOfUnit && kOfUnit * u + k < root.cols(); ++k)
-        part.coefficients[static_cast<std::size_t>(k)] = root(r, kOfUnit * u + k);
-    }
-    problem.add_row(offsets[static_cast<std::size_t>(r)], parts,
-                    guesses[static_cast<std::size_t>(r)]);
-  }
-}
-
-/// Improves the impulses rows.p in at most about `most` iterations, and returns their number. `w`
-/// [T/M] has the relative error `error`, and gaps and slips have the error `rounding` [L]. In a
-/// fluid with inertia W is not symmetric: its skew part times the impulses of the round before is
-/// added to the offsets. With `gives_loads` the loads of the first guess bound the friction,
-/// docs/physics.md (5.17), not those of the solution.
-int improve(const Eigen::MatrixXd& w, double error, double rounding, bool gives_loads, int most,
-            CoupledRows& rows) {
-  assert(w.rows() == std::ssize(rows.q) && rows.p.size() == rows.q.size());
-  const Eigen::MatrixXd symmetric = (w + w.transpose()) / 2, skew = w - symmetric;
-  const MovedDirections directions(symmetric, error);
-  const auto n = std::ssize(rows.q);
-  double allowed = std::numeric_limits<double>::infinity();
-  for (const auto& block : rows.blocks) allowed = std::min(allowed, block.allowed);
-  // Each round multiplies the error by about the ratio of the skew part to the symmetric part. The
-  // limit is the same as kRoundsOfSkewPart in contact_problem.cpp.
-  constexpr int kRounds = 40;
-  int iterations = 0;
-  for (int round = 0; round < kRounds && (gives_loads || iterations < most); ++round) {
-    const Eigen::VectorXd before = Eigen::Map<const Eigen::VectorXd>(rows.p.data(), n);
-    const auto offsets = directions.consistent(
-        Eigen::Map<const Eigen::VectorXd>(rows.q.data(), n) + skew * before, rounding);
-    ConstraintProblem<2> problem;
-    problem.blocks = rows.blocks;
-    add_rows(directions.root, {offsets.data(), rows.q.size()}, rows.p, problem);
-    const auto solution = gives_loads ? solve_with_given_loads(problem, false)
-                                      : solve_constraints(problem, most - iterations,
-                                                          ConstraintStart::kLeastImpulses);
-    iterations += solution.result.iterations;
-    rows.p = problem.impulses;
-    const Eigen::VectorXd change =
-        skew * (Eigen::Map<const Eigen::VectorXd>(rows.p.data(), n) - before);
-    if (gives_loads || change.cwiseAbs().maxCoeff() <= allowed) break;
-  }
-  return iterations;
 }
 
 /// Keeps the velocities that unit forces of contacts cause, so that the fluid solver computes each
@@ -346,8 +237,10 @@ class FrictionSolver {
   /// Improves the normal and tangential impulses of all contacts in one problem. With `gives_loads`
   /// the loads of the solids at the present impulses bound the friction.
   void solve_together(bool gives_loads) {
-    CoupledRows rows;
-    std::vector<std::size_t> contacts, frictions;  // numbers for each block; kNone: no friction
+    // A gap and, with friction, a slip for each contact.
+    DenseConstraints problem;
+    std::vector<const std::vector<double>*> answers;  // velocities by a unit force of each row
+    std::vector<std::size_t> contacts, frictions;     // numbers for each block; kNone: no friction
     constexpr auto kNone = static_cast<std::size_t>(-1);
     const auto* free = conditions_.free_velocities.data();
     std::size_t f = 0;
@@ -361,57 +254,58 @@ class FrictionSolver {
       }
       if (!(contact.w > 0)) continue;
       ConstraintBlock block;
-      block.row = rows.q.size();
+      block.row = problem.offsets.size();
       block.lowest = contact.lowest;
       block.allowed = block.allowed_slip = kShareOfAllowed * contact.allowed;
-      rows.answers.push_back(&respond_to_gap(c));
-      rows.q.push_back(gap_after(contact, free, conditions_.h, conditions_.layout));
-      rows.p.push_back(contact.impulse);
+      answers.push_back(&respond_to_gap(c));
+      problem.offsets.push_back(gap_after(contact, free, conditions_.h, conditions_.layout));
+      problem.impulses.push_back(contact.impulse);
       if (number != kNone) {
         const auto& friction = step_.frictions[number];
-        rows.answers.push_back(&respond(number));
+        answers.push_back(&respond(number));
         block.rows = 2;
         block.friction = mu_s_;
         block.capacity = friction.capacity;
         block.allowed_slip = kShareOfAllowed * allowed_for(friction, contact, conditions_);
-        rows.q.push_back(friction.slip(contact, free, conditions_.h, conditions_.layout));
-        rows.p.push_back(friction.impulse);
+        problem.offsets.push_back(friction.slip(contact, free, conditions_.h, conditions_.layout));
+        problem.impulses.push_back(friction.impulse);
       }
-      rows.blocks.push_back(block);
+      problem.blocks.push_back(block);
       contacts.push_back(c);
       frictions.push_back(number);
     }
     // W has the relative error of the velocities.
-    const double error =
-        std::max(std::numeric_limits<double>::epsilon(), conditions_.velocity_error);
-    const double rounding = rounding_error_of_gaps(conditions_);
-    const int most = conditions_.solver.max_iterations;
-    step_.iterations += improve(matrix_of(rows, contacts, frictions), error, rounding, gives_loads,
-                                most - step_.iterations, rows);
-    for (std::size_t b = 0; b < rows.blocks.size(); ++b) {
-      const auto row = rows.blocks[b].row;
-      step_.contacts[contacts[b]].impulse = rows.p[row];
-      if (frictions[b] != kNone) step_.frictions[frictions[b]].impulse = rows.p[row + 1];
+    problem.error = std::max(std::numeric_limits<double>::epsilon(), conditions_.velocity_error);
+    problem.rounding = rounding_error_of_gaps(conditions_);
+    set_w(answers, contacts, frictions, problem);
+    const auto solved = solve_dense_constraints(
+        problem, conditions_.solver.max_iterations - step_.iterations, gives_loads);
+    step_.iterations += solved.iterations;
+    step_.stages += solved.stages;
+    for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
+      const auto row = problem.blocks[b].row;
+      step_.contacts[contacts[b]].impulse = problem.impulses[row];
+      if (frictions[b] != kNone) step_.frictions[frictions[b]].impulse = problem.impulses[row + 1];
     }
   }
 
-  /// W [T/M]: column c has the rates of all gaps and slips by a unit force of row c.
-  Eigen::MatrixXd matrix_of(const CoupledRows& rows, std::span<const std::size_t> contacts,
-                            std::span<const std::size_t> frictions) const {
-    const auto n = std::ssize(rows.q);
-    Eigen::MatrixXd w(n, n);
-    for (Index column = 0; column < n; ++column) {
-      const auto* answer = rows.answers[static_cast<std::size_t>(column)]->data();
-      for (std::size_t b = 0; b < rows.blocks.size(); ++b) {
+  /// Column c of W has the rates of all gaps and slips by a unit force of row c, its answer.
+  void set_w(std::span<const std::vector<double>* const> answers,
+             std::span<const std::size_t> contacts, std::span<const std::size_t> frictions,
+             DenseConstraints& problem) const {
+    const auto n = answers.size();
+    problem.w.resize(n * n);
+    for (std::size_t column = 0; column < n; ++column) {
+      const auto* answer = answers[column]->data();
+      for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
         const auto& contact = step_.contacts[contacts[b]];
-        const auto row = static_cast<Index>(rows.blocks[b].row);
-        w(row, column) = opening(contact, answer, conditions_.layout);
-        if (rows.blocks[b].rows > 1)
-          w(row + 1, column) =
+        const auto& block = problem.blocks[b];
+        problem.w[block.row * n + column] = opening(contact, answer, conditions_.layout);
+        if (block.rows > 1)
+          problem.w[(block.row + 1) * n + column] =
               step_.frictions[frictions[b]].slip_rate(contact, answer, conditions_.layout);
       }
     }
-    return w;
   }
 
   const std::vector<double>& respond_to_gap(std::size_t c) {
@@ -435,16 +329,15 @@ class FrictionSolver {
 
 ContactFrictionInFluid friction_of_contact(const FrictionOfStep& step, const Particles& particles,
                                            const Pair& pair, const Contact<2>& contact,
-                                           const FrictionPlace& place,
+                                           const FrictionPlace& place, const PairRadii& radii,
                                            const ContactConditions& conditions) {
   assert(step.end > step.begin);
   const auto& setting = step.setting;
   ContactFrictionInFluid friction{.tangent = {-contact.normal[1], contact.normal[0]}};
   friction.levers = {pair.first < 0 ? 0 : -place.arms[0], -place.arms[1]};
-  const double lowest =
-      setting.laws.lowest_gamma(pair, step.memories.of(pair.memory),
-                                radii_in_fluid(*setting.fluid, pair, particles, step.obstacles));
-  friction.capacity = (pair.gamma - lowest) / conditions.share_of_impulse;
+  const double lowest = setting.laws.lowest_gamma(pair, step.memories.of(pair.memory), radii);
+  // Where the surface of a particle that rolls is curved more, gamma_min is nearer to 0.
+  friction.capacity = std::max(0.0, pair.gamma - lowest) / conditions.share_of_impulse;
   const Vector before = step.memories.of(pair.memory).friction();
   const auto along = [&](const Vector& x) {
     return friction.tangent[0] * x[0] + friction.tangent[1] * x[1];

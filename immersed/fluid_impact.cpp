@@ -8,12 +8,13 @@
 
 #include "viscontact/immersed/closed_contacts.hpp"
 #include "viscontact/immersed/fluid_motion.hpp"
+#include "viscontact/particles/contact/shaped_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {
 
 /// The rate [L/T] at which a gap grows while the particles rest.
-double drift_of(const Contact<2>& contact, const ImpactStep& step, double h) {
+double drift_of(const Contact<2>& contact, const Pair& pair, const ImpactStep& step, double h) {
   const auto& p = step.state.particles;
   if (contact.is_stop()) return 0;
   if (contact.first >= 0) {
@@ -23,7 +24,12 @@ double drift_of(const Contact<2>& contact, const ImpactStep& step, double h) {
   }
   const auto& obstacle = step.obstacles[index_of(contact.obstacle)];
   const auto k = index_of(contact.second);
-  const auto gap_at = [&](double t) { return gap(obstacle.at(t), p.position(k), p.radii[k]); };
+  const auto gap_at = [&](double t) {
+    if (is_round(p, pair)) return gap(obstacle.at(t), p.position(k), p.radii[k]);
+    const auto place = obstacle.at(t);
+    const auto shape = p.placed_shape(k);
+    return WallContacts(place, shape).at(pair.place, place, shape).gap;
+  };
   return (gap_at(step.end) - gap_at(step.state.time)) / h;
 }
 
@@ -93,9 +99,7 @@ class Impact {
   double lowest_gamma(std::size_t c) const {
     if (ordinary_.contacts[c].is_stop()) return 0;
     const auto& of = pair(c);
-    return laws_.lowest_gamma(
-        of, step_.state.memories.of(of.memory),
-        radii_in_fluid(*step_.setting.fluid, of, step_.state.particles, step_.obstacles));
+    return laws_.lowest_gamma(of, step_.state.memories.of(of.memory), ordinary_.circles[c].radii);
   }
   double rate(std::size_t c, std::span<const double> velocities) const {
     return opening(ordinary_.contacts[c], velocities.data(), conditions_.layout) + parts_[c].drift;
@@ -115,6 +119,7 @@ class Impact {
   const ContactConditions& conditions_;
   std::vector<Part> parts_;
   int iterations_ = 0;  // of all problems
+  StagesRun stages_;    // of the same
 };
 
 bool Impact::find_hits() {
@@ -137,7 +142,7 @@ bool Impact::find_hits() {
   for (std::size_t c = 0; c < parts_.size(); ++c) {
     auto& part = parts_[c];
     const auto& contact = ordinary_.contacts[c];
-    part.drift = drift_of(contact, step_, h);
+    part.drift = drift_of(contact, pair(c), step_, h);
     part.start = std::max(0.0, contact.gap - h * part.drift);
     part.is_closed = part.start <= touching || contact.lowest < 0;
     if (approaches(c)) approaching.push_back(c);
@@ -206,6 +211,7 @@ bool Impact::take_load() {
   conditions.free_velocities = still;
   solve_listed(load, mobility_, conditions);
   iterations_ += load.iterations;
+  stages_ += load.stages;
   for (std::size_t i = 0; i < numbers.size(); ++i)
     parts_[numbers[i]].load = load.contacts[i].impulse;
   return load.is_solved;
@@ -301,6 +307,7 @@ void Impact::move(FluidImpact& impact) {
   conditions.free_velocities = impact.moved;
   solve_listed(gaps, mobility_, conditions);
   iterations_ += gaps.iterations;
+  stages_ += gaps.stages;
   impact.is_solved = impact.is_solved && gaps.is_solved;
   impact.moved = std::move(gaps.velocities);
 }
@@ -332,6 +339,7 @@ std::optional<FluidImpact> Impact::solve() {
   solve_listed(compressed, mobility_, conditions);
   correct_impulses(compressed, 0, mobility_, conditions);
   iterations_ += compressed.iterations;
+  stages_ += compressed.stages;
   const bool knows_loads = take_load();
   if (!share_impulses(compressed.contacts)) return std::nullopt;
   auto restored = problem();
@@ -346,6 +354,7 @@ std::optional<FluidImpact> Impact::solve() {
   solve_listed(restored, mobility_, conditions);
   correct_impulses(restored, 0, mobility_, conditions);
   iterations_ += restored.iterations;
+  stages_ += restored.stages;
   restrain(compressed, restored);
   FluidImpact impact;
   impact.is_solved = compressed.is_solved && knows_loads && restored.is_solved;
@@ -357,6 +366,7 @@ std::optional<FluidImpact> Impact::solve() {
   book(impact);
   move(impact);
   impact.iterations = iterations_;
+  impact.stages = stages_;
   return impact;
 }
 

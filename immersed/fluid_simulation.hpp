@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
+#include "viscontact/immersed/flow_simulation.hpp"
 #include "viscontact/immersed/fluid_solver.hpp"
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/setting/setting.hpp"
@@ -24,13 +25,6 @@ class StepEquation;
 struct ContactConditions;
 struct FluidImpact;
 struct StepContacts;
-
-/// Estimates of the errors of the forces of one step, >= 0 [M L/T^2, M L^2/T^2]; empty if there are
-/// none.
-struct ForceErrors {
-  std::vector<double> of_fluid;  ///< errors of FluidSimulation::fluid_forces()
-  std::vector<double> of_links;  ///< errors of State::link_forces
-};
 
 /// Rigid particles in a fluid. Each step asks the fluid solver for the velocities that the
 /// particles take at their places under forces, torques and contact forces, and moves them. With
@@ -56,7 +50,7 @@ struct ForceErrors {
 /// and all forces again, at x^1. The state and the report of the first step have no forces,
 /// impulses and dissipation, and films absorb none of its impulses, because sums over the steps
 /// would otherwise contain them twice.
-class FluidSimulation {
+class FluidSimulation : public FlowSimulation {
  public:
   /// `setting` has a fluid. `state` is that of a restart file, or a state of which only the
   /// particles are set. Throws Error(kBadInput) if the fluid has inertia and the state has done
@@ -70,56 +64,42 @@ class FluidSimulation {
   /// - if an overlap of more than the mean radius is left;
   /// - if the length or place of a link is off by more than the mean radius, or links contradict
   ///   each other;
-  /// - if an ellipse comes as near to a wall, plane or particle as the threshold gap, or two plates
-  ///   touch at a place that was no contact at the beginning of the step;
+  /// - if two particles with sides touch at a place that was no contact at the beginning of the
+  ///   step;
   /// - if a particle moves too far for the precision of a double.
   /// After an error the state is that before the step. With a smaller residual that is not allowed
   /// StepReport::converged is false.
-  StepReport step(double end);
+  StepReport step(double end) override;
 
-  /// Forces of the caller on the particles [M L/T^2], which the caller may change between steps, in
-  /// the order of Particles::velocities. On driven particles, whose motion is given, they have no
-  /// effect.
-  std::span<double> added_forces() { return added_forces_for(state_.particles, setting_); }
-  /// The same for torques [M L^2/T^2], one for each particle; empty if particles do not turn.
-  std::span<double> added_torques() { return added_torques_for(state_.particles, setting_); }
+  /// On driven particles, whose motion is given, the forces and torques have no effect.
+  std::span<double> added_forces() override { return added_forces_for(state_.particles, setting_); }
+  std::span<double> added_torques() override {
+    return added_torques_for(state_.particles, setting_);
+  }
 
-  const State& state() const { return state_; }
-  /// The state with the flow of a fluid with inertia, for a restart file. Throws the errors of
-  /// FluidSolver.
-  State state_to_save();
+  const State& state() const override { return state_; }
+  /// The state with the flow of a fluid with inertia.
+  State state_to_save() override;
   const Setting& setting() const { return setting_; }  ///< with the added forces
 
-  /// The flow of the last step, around the places of the particles at its beginning. Throws the
-  /// errors of FluidSolver.
-  FlowField flow() {
+  FlowField flow() override {
     assert(!quantities_.fluid_forces.empty() || state_.particles.count() == 0);
     return solver_->flow();
   }
 
-  /// The flow around the particles at their present places. It is that of the next step, whose
-  /// problem is solved without moving anything. Throws the errors of FluidSolver, and
-  /// Error(kNotConverged) if links or plates make step() throw it.
-  FlowField flow_at_present();
+  /// The flow is that of the next step, whose problem is solved without moving anything. Throws also
+  /// Error(kNotConverged) if links or particles with sides make step() throw it.
+  FlowField flow_at_present() override;
 
-  /// Forces and torques of the fluid on the particles in the last step [M L/T^2, M L^2/T^2],
-  /// motion_components() numbers each; empty before the first step.
-  const std::vector<double>& fluid_forces() const { return quantities_.fluid_forces; }
+  std::vector<double> fluid_forces() const override { return quantities_.fluid_forces; }
+  ForceErrors force_errors() const override { return force_errors_; }
+  std::span<const Rebound> rebounds() const override { return rebounds_; }
 
-  /// Of the last step; empty without restitution.
-  const std::vector<Rebound>& rebounds() const { return rebounds_; }
+  /// With velocities that are extrapolated from two meshes, if the last step estimated errors.
+  Particles reported_particles() const override;
 
-  /// Of the last step; empty if it did not estimate them.
-  const ForceErrors& force_errors() const { return force_errors_; }
-
-  /// The particles after the last step, with velocities that are extrapolated from two meshes if it
-  /// estimated errors.
-  Particles reported_particles() const;
-
-  /// Of the last mesh; 0 if the solver does not say.
-  std::size_t unknowns() const { return solver_->unknowns(); }
-  /// The largest memory of the solver so far [MiB]; 0 if it runs in this process.
-  double solver_peak_memory_mebibytes() const { return solver_->peak_memory_mebibytes(); }
+  std::size_t unknowns() const override { return solver_->unknowns(); }
+  double solver_peak_memory_mebibytes() const override { return solver_->peak_memory_mebibytes(); }
 
  private:
   struct Motion;
@@ -135,9 +115,6 @@ class FluidSimulation {
   std::optional<FluidImpact> solve_contacts_of(const StepEquation& equation,
                                                std::span<const double> free, double h, double next,
                                                StepContacts& contacts);
-  /// Throws Error(kNotConverged) if an ellipse comes too near, because contacts of ellipses are not
-  /// computed. Ellipses with a given motion may be near to walls, planes and driven particles.
-  void check_ellipses() const;
   /// Replaces Motion::quantities by those extrapolated from two meshes under the same `forces`,
   /// which include those of contacts, and sets errors and, except with Coupling::kSplitting,
   /// Motion::reported.
@@ -178,7 +155,7 @@ class FluidSimulation {
   /// returns the largest error of a length or place [L] that is left.
   double hold_turned(const ConstrainedMotion& constrained, double h,
                      std::vector<double>& velocities, std::vector<double>& row_forces) const;
-  /// The contacts of the step before, except those of plates, at their present places and with the
+  /// The contacts of the step before, of round particles only, at their present places and with the
   /// impulses of the same forces in a step of length h.
   std::vector<Contact<2>> contacts_before(double h) const;
   /// Adds the geometric rows for the forces of links and contacts, and finds their stiffnesses
@@ -188,10 +165,10 @@ class FluidSimulation {
                     std::vector<double> loaded, std::span<const Contact<2>> contacts,
                     std::span<const double> row_forces, std::vector<double>& settled);
   /// The largest z, physics.md (6.15), of films that pull along their direction at the beginning of
-  /// the step: those of the ends of plates, and with Coupling::kSplitting those of discs. z >= 0
-  /// [1] bounds the length of the step times the rate at which what the film pulls turns. A film
-  /// along the side of a plate turns with the plate and has none.
-  double turn_of_films(std::span<const Contact<2>> contacts, const StepEquation& equation) const;
+  /// the step: those of particles that are not round, and with Coupling::kSplitting those of discs.
+  /// z >= 0 [1] bounds the length of the step times the rate at which what the film pulls turns. A
+  /// film along a side turns with the side and has none.
+  double turn_of_films(const StepContacts& step, const StepEquation& equation) const;
   /// Makes bodies rigid, and hinges and arms hold, at the end of a step with contacts: contacts
   /// change the angles by which bodies and links turn, and with these the forces of the rows, with
   /// which the contacts are solved again. Ends as soon as there is an impact.

@@ -21,6 +21,11 @@
 namespace viscontact::particles {
 namespace {
 
+[[noreturn]] void refuse_added_forces() {
+  throw Error(ErrorKind::kWrongUsage,
+              "membranes in a fluid take no forces of the caller; give forces in the case");
+}
+
 constexpr std::size_t kComponents = 3;  // of a particle: x, y and turn
 
 }  // namespace
@@ -330,6 +335,7 @@ StepContacts MembraneSimulation::Implementation::solve_contacts_of(
            "room?";
   });
   report.iterations = contacts.iterations;
+  report.solver_stages = text_of(contacts.stages);
   report.converged = contacts.is_solved;
   report_residuals(residuals, radius, report);
   impulse_errors_ = residuals.impulse_errors;
@@ -442,6 +448,9 @@ MembraneSimulation::MembraneSimulation(Setting setting, State state,
 MembraneSimulation::~MembraneSimulation() = default;
 
 StepReport MembraneSimulation::step(double end) { return implementation_->step(end); }
+
+std::span<double> MembraneSimulation::added_forces() { refuse_added_forces(); }
+std::span<double> MembraneSimulation::added_torques() { refuse_added_forces(); }
 
 const State& MembraneSimulation::state() const { return implementation_->state(); }
 

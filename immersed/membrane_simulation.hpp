@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "viscontact/immersed/flow_simulation.hpp"
 #include "viscontact/immersed/fluid_solver.hpp"
 #include "viscontact/membranes/membrane_shape.hpp"
 #include "viscontact/particles/setting/setting.hpp"
@@ -25,37 +26,36 @@ namespace viscontact::particles {
 /// backward difference of second order; the first step is of first order. Discs move in the same
 /// steps. Beads of different membranes, discs and walls make viscous contact, whose forces are
 /// added to P f.
-class MembraneSimulation {
+class MembraneSimulation : public FlowSimulation {
  public:
   /// `setting.fluid` has membranes. The particles of `state` that are no beads are discs without
   /// mass. `state` is that of a restart file, or a state of which only the particles are set; the
   /// fluid solver then computes the velocities at the start. Throws Error(kBadInput) if membranes
   /// of a restart file have other lengths or areas than those of the case (check_shapes()).
   MembraneSimulation(Setting setting, State state, std::unique_ptr<FluidSolver> solver);
-  ~MembraneSimulation();
+  ~MembraneSimulation() override;
 
   /// Computes one step of the length Setting::time_step, or up to the time `end` [T] if this is
   /// nearer. If the state has reached `end`, computes no step and returns a report without
   /// contacts. Throws Error(kNotConverged) if the equations of the membranes are not solved, or if
   /// a contact leaves an overlap of more than the mean radius, and the errors of FluidSolver; the
   /// state is then that before the step.
-  StepReport step(double end);
+  StepReport step(double end) override;
 
-  const State& state() const;
+  const State& state() const override;
 
-  /// The flow with the membranes and discs at their places before the last step. Throws the errors
-  /// of FluidSolver.
-  FlowField flow();
-  /// The same at their present places.
-  FlowField flow_at_present();
+  /// Membranes take no forces and torques of the caller.
+  std::span<double> added_forces() override;
+  std::span<double> added_torques() override;
 
-  /// Forces of the fluid on all particles in the last step: x, y [M L/T^2] and torque [M L^2/T^2]
-  /// of each. Before the first step they are the forces at the start.
-  std::vector<double> fluid_forces() const;
+  FlowField flow() override;
+  FlowField flow_at_present() override;
 
-  std::size_t unknowns() const;  ///< on the last mesh; 0 if it is not known
-  /// The largest memory of the solver so far [MiB]; 0 if the solver runs in this process.
-  double solver_peak_memory_mebibytes() const;
+  /// Before the first step they are the forces at the start.
+  std::vector<double> fluid_forces() const override;
+
+  std::size_t unknowns() const override;
+  double solver_peak_memory_mebibytes() const override;
 
  private:
   class Implementation;

@@ -11,8 +11,8 @@
 #include "viscontact/particle_runs/io/contact_columns.hpp"
 #include "viscontact/particle_runs/io/particle_columns.hpp"
 #include "viscontact/particle_runs/io/step_columns.hpp"
-#include "viscontact/particle_runs/run/particle_simulation.hpp"
 #include "viscontact/particle_runs/run/particles_earlier_run.hpp"
+#include "viscontact/particle_runs/run/start_simulation.hpp"
 #include "viscontact/particles/steps/current_contacts.hpp"
 #include "viscontact/python/call.hpp"
 
@@ -26,12 +26,13 @@ class PythonParticles {
  public:
   PythonParticles(const fs::path& path, int threads, const std::optional<fs::path>& restart)
       : case_(particles::read_particles_case(path)),
-        simulation_(case_.setting, particles::first_state(case_, restart ? restart->string() : ""),
-                    threads, freefem_flow::start_fluid_solver, interrupt_token()) {}
+        simulation_(particles::start_simulation(
+            case_.setting, particles::first_state(case_, restart ? restart->string() : ""), threads,
+            freefem_flow::start_fluid_solver, interrupt_token())) {}
 
   const particles::ParticlesCase& case_file() const { return case_; }
   /// The caller must have called check_idle(), or be a step that compute() runs.
-  particles::ParticleSimulation& simulation() { return simulation_; }
+  particles::ParticleSimulation& simulation() { return *simulation_; }
 
   /// Throws Error(kWrongUsage) while another thread computes steps. All functions that read or
   /// change the simulation call check_idle(). Only a thread that holds the interpreter's lock may
@@ -48,7 +49,7 @@ class PythonParticles {
   /// the handler would take 5 us, which is 2 % of a short step of 1000 discs.
   template <class Step>
   particles::StepReport compute_step(const Step& step) {
-    if (simulation_.has_fluid()) return compute([&](const StopToken&) { return step(); });
+    if (case_.setting.fluid) return compute([&](const StopToken&) { return step(); });
     check_idle();
     const Computing computing(is_computing_);
     const py::gil_scoped_release released;
@@ -65,7 +66,7 @@ class PythonParticles {
 
   const State& state() const {
     check_idle();
-    return simulation_.state();
+    return simulation_->state();
   }
   bool is_finished() const {
     return state().time >= case_.end_time - 1e-6 * case_.setting.time_step;
@@ -85,7 +86,7 @@ class PythonParticles {
   };
 
   particles::ParticlesCase case_;
-  particles::ParticleSimulation simulation_;
+  std::unique_ptr<particles::ParticleSimulation> simulation_;
   bool is_computing_ = false;  // the interpreter's lock protects it
 };
 

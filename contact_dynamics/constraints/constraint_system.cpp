@@ -8,31 +8,9 @@
 #include <limits>
 #include <utility>
 
+#include "viscontact/contact_dynamics/constraints/island_ladder.hpp"
+
 namespace viscontact::particles {
-
-namespace {
-
-/// Twice the kinetic energy of the `motions`, times the length of the step [M L^2/T].
-template <int D>
-double energy_of(const ConstraintProblem<D>& problem, std::span<const Motion<D>> motions) {
-  double energy = 0;
-  for (std::size_t u = 0; u < motions.size(); ++u) {
-    const auto impulse = problem.units[u].impulse_of(motions[u]);
-    for (std::size_t k = 0; k < impulse.size(); ++k) energy += impulse[k] * motions[u][k];
-  }
-  return energy;
-}
-
-/// The sum of the magnitudes of the normal impulses of all contacts [M L/T].
-template <int D>
-double sum_of_loads(const ConstraintProblem<D>& problem) {
-  double sum = 0;
-  for (const auto& block : problem.blocks)
-    if (block.is_contact) sum += std::abs(problem.impulses[block.row]);
-  return sum;
-}
-
-}  // namespace
 
 template <int D>
 ConstraintSystem<D>::ConstraintSystem(const ConstraintStep& step, const Particles& particles,
@@ -247,27 +225,6 @@ bool ConstraintSystem<D>::begin_without_contacts(ContactSystem<D>& system, Islan
 }
 
 template <int D>
-bool ConstraintSystem<D>::has_large_shifts(const Island& island) const {
-  constexpr double kPart = 1e-6;  // of the mean radius
-  const std::size_t contacts = island.contacts.size();
-  for (std::size_t b = 0; b < island.shifts.size(); ++b) {
-    const bool is_angle = b >= contacts && links_[island.links[b - contacts]].is_angle();
-    if (std::max(island.shifts[b], island.shifts_across[b]) * (is_angle ? mean_radius_ : 1) >
-        kPart * mean_radius_)
-      return true;
-  }
-  return false;
-}
-
-template <int D>
-bool ConstraintSystem<D>::can_use_distances(ContactSystem<D>& system, const Island& island) const {
-  return system.may_use_distances() && std::ranges::any_of(island.contacts, [&](std::size_t c) {
-           const auto& contact = system.contacts[c];
-           return contact.first >= 0 && system.is_held(contact) && !system.uses_distance(contact);
-         });
-}
-
-template <int D>
 void ConstraintSystem<D>::take_over(ContactSystem<D>& system, const Island& island,
                                     const ConstraintSolution<D>& solution) {
   const auto& problem = island.problem;
@@ -322,20 +279,6 @@ void ConstraintSystem<D>::take_over(ContactSystem<D>& system, const Island& isla
 }
 
 template <int D>
-double ConstraintSystem<D>::change_of_impulses(const Island& island,
-                                               const Refinement<D>& refinement) const {
-  if (std::ranges::all_of(island.shifts, [](double shift) { return shift == 0; })) return 0;
-  const auto [allowed, of_values] = errors_of_values(island);
-  const auto changes = refinement.changes_by(island.shifts);
-  const auto unavoidable = refinement.changes_by(of_values);
-  double largest = 0;
-  for (std::size_t b = 0; b < allowed.size(); ++b)
-    if (changes[b] > 0)
-      largest = std::max(largest, changes[b] / std::max(allowed[b], unavoidable[b]));
-  return largest;
-}
-
-template <int D>
 void ConstraintSystem<D>::take_errors(const Island& island, const Refinement<D>* refinement) {
   std::vector<double> of_shifts, unavoidable;
   if (refinement != nullptr) {
@@ -382,43 +325,6 @@ BlockResidual ConstraintSystem<D>::residual_of_contact(
 }
 
 template <int D>
-bool ConstraintSystem<D>::may_give_up(const Island& island) const {
-  const auto has_own_load = [](const ConstraintBlock& block) {
-    return block.is_contact && block.rows > 1 && block.friction_bound != FrictionBound::kGiven;
-  };
-  return island.can_give_up && !island.has_given_up && !island.problem.is_rough &&
-         std::ranges::any_of(island.problem.blocks, has_own_load);
-}
-
-template <int D>
-bool ConstraintSystem<D>::give_up(Island& island, bool have_diverged,
-                                  ConstraintSolution<D>& solution, SolverResult& result) {
-  auto& problem = island.problem;
-  if (!may_give_up(island)) return false;
-  const auto with_own_loads = problem;
-  const auto is_solved = [&](bool without_friction) {
-    auto with_given_loads = solve_with_given_loads(problem, without_friction);
-    result.iterations += with_given_loads.result.iterations;
-    if (!(with_given_loads.result.residual <= 1)) return false;
-    solution = std::move(with_given_loads);
-    return true;
-  };
-  island.has_given_up = (!have_diverged && is_solved(false)) || is_solved(true);
-  if (!island.has_given_up) {
-    island.can_give_up = false;
-    for (const auto c : island.contacts) contact_states_[c].could_not_give_up = true;
-    problem = with_own_loads;
-    return false;
-  }
-  for (std::size_t b = 0; b < island.contacts.size(); ++b) {
-    auto& state = contact_states_[island.contacts[b]];
-    state.gave_up = true;
-    state.given_load = problem.blocks[b].given_load;
-  }
-  return true;
-}
-
-template <int D>
 SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
                                         double roughly_allowed, int max_iterations) {
   using Solved = typename Progress::Solved;
@@ -435,8 +341,10 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
     for (const auto b : island.bodies)
       progress.iterations = std::max(progress.iterations, progress_[index_of(b)].iterations);
     if (!is_solved(system, island, is_rough)) {
-      const auto solved = solve_island(system, island, is_rough, roughly_allowed,
-                                       max_iterations - progress.iterations);
+      const auto solved = IslandLadder<D>(*this, system, island, is_rough, roughly_allowed,
+                                          max_iterations - progress.iterations)
+                              .solve();
+      result.stages += solved.stages;
       progress.iterations += solved.iterations;
       progress.solved = is_rough               ? Solved::kRoughly
                         : solved.residual <= 1 ? Solved::kAccurately
@@ -456,167 +364,14 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
 }
 
 template <int D>
-SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island& island,
-                                               bool is_rough, double roughly_allowed,
-                                               int max_iterations) {
-  auto& problem = island.problem;
-  // Each correction multiplies the error by about the turn of the bodies in the step [rad].
-  // Corrections count as divergent if they grow kPatience times in succession, or if
-  // kMostWithoutGain of them do not halve the largest one. (Five factors of 0.87 would halve it.)
-  // Then the constraints contradict each other, or the step is too long.
-  constexpr int kPatience = 3, kMostWithoutGain = 5;
-  // A correction is fast if it is below kFast times the one before.
-  constexpr double kFast = 0.1;
-  // An unsolved problem is still corrected if its residual is this small part of the correction.
-  constexpr double kSmallPart = 1e-3;
-  // Corrected problems take 10 to 300 iterations, unless constraints contradict each other.
-  constexpr int kMostCorrected = 1000;
-  // Corrected problems may take this many also if the solution before left fewer iterations.
-  constexpr int kLeastCorrected = 100;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  double last_change = kInfinity, gained_change = kInfinity;
-  int growing = 0, gained_at = 0;
-  ConstraintSolution<D> solution;
-  std::optional<Refinement<D>> refinement;
-  SolverResult result;
-  const auto restart = [&] {
-    make_problem(system, island, is_rough, roughly_allowed);
-    if (has_motions_without_contacts(island) && !begin_without_contacts(system, island))
-      make_problem(system, island, is_rough, roughly_allowed);
-    last_change = gained_change = kInfinity;
-    growing = gained_at = 0;
-  };
-  // Begins anew with friction that the loads of `impulses` bound, or, if it is empty, those of a
-  // solution without friction. If this fails, restores the problem and returns false.
-  const auto retry_with_given_loads = [&](const std::vector<double>& impulses) {
-    if (!may_give_up(island)) return false;
-    auto corrected = problem;
-    const auto tensions = island.tensions;
-    const auto shifts = island.shifts, shifts_across = island.shifts_across;
-    restart();
-    // The rows of tensions, which are the last ones, may have changed.
-    std::copy_n(impulses.begin(), std::min(impulses.size(), problem.impulses.size()),
-                problem.impulses.begin());
-    if (give_up(island, impulses.empty(), solution, result)) return true;
-    problem = std::move(corrected);
-    island.tensions = tensions;
-    island.shifts = shifts;
-    island.shifts_across = shifts_across;
-    return false;
-  };
-  // Begins anew with gaps that are distances. Returns false if this would change no gap.
-  const auto use_distances = [&] {
-    if (!can_use_distances(system, island)) return false;
-    system.use_distances(island.bodies.front());
-    restart();
-    return true;
-  };
-  restart();
-  // These members belong to the problem without corrections: the larger energy of its motions
-  // without and with impulses, the sum of its loads, and its impulses. Impulses of Coulomb's law
-  // can have any size where friction locks a body, and are not kept.
-  double first_energy = 0, first_loads = 0;
-  std::vector<double> first_impulses;
-  for (int n = 0;; ++n) {
-    int most = island.has_given_up ? kMostOfGivenLoads : max_iterations - result.iterations;
-    if (n > 0) most = std::max(most, kLeastCorrected);
-    if (n > 0 && can_use_distances(system, island)) most = std::min(most, kMostCorrected);
-    solution = solve_constraints(problem, std::max(1, most));
-    result.iterations += solution.result.iterations;
-    refinement.reset();
-    if (!is_rough) refinement.emplace(problem, solution);
-    const auto is_exhausted = [&] {
-      return result.iterations >= max_iterations + (island.has_given_up ? kMostOfGivenLoads : 0);
-    };
-    // A body that friction locks between two contacts still turns about the line through them. The
-    // correction for this turn demands a motion that the locks prevent. The convex relaxation then
-    // has a solution, whose loads are larger by orders of magnitude and add energy. Planes and arms
-    // that move may add energy, too, but without such loads.
-    constexpr double kMostEnergy = 1.01, kMostLoads = 10;  // times first_energy and first_loads
-    if (n == 0) {
-      const std::vector<double> none(problem.rows.size());
-      first_energy = std::max(energy_of<D>(problem, solution.motions),
-                              energy_of<D>(problem, motions<D>(problem, none)));
-      first_loads = sum_of_loads(problem);
-      if (is_convex_) first_impulses = problem.impulses;
-    } else if (is_convex_ && first_loads > 0 && sum_of_loads(problem) > kMostLoads * first_loads &&
-               energy_of<D>(problem, solution.motions) > kMostEnergy * first_energy &&
-               retry_with_given_loads(first_impulses)) {
-      n = 0;
-      continue;
-    }
-    // A convex problem is given up only if further iterations would not solve it.
-    if (!(solution.result.residual <= 1) && !is_rough && !(is_convex_ && is_exhausted())) {
-      if (n > 0 && use_distances()) {
-        max_iterations += result.iterations;
-        n = -1;
-        continue;
-      }
-      if (n > 0 && retry_with_given_loads(first_impulses)) {
-        n = 0;
-        continue;
-      }
-      // Where friction locks particles that must move, impulses grow without bound, so that loads
-      // have no meaning. This happens in every convex problem without a solution.
-      if (give_up(island, is_convex_, solution, result)) refinement.emplace(problem, solution);
-    }
-    result.residual = solution.result.residual;
-    constexpr int kWithTheirTensions = 4;  // corrections, which suffice for unique loads
-    island.loads_may_drift = n >= kWithTheirTensions && !(refinement && refinement->is_done());
-    double change = correct(system, island, solution.motions);
-    if (refinement && refinement->is_done())
-      change = std::max(change, change_of_impulses(island, *refinement));
-    result.residual += change;
-    growing = change < last_change ? 0 : growing + 1;
-    const bool is_fast = change < kFast * last_change;
-    last_change = change;
-    if (change < gained_change / 2) {
-      gained_change = change;
-      gained_at = n;
-    }
-    const bool is_unsolved =
-        !(solution.result.residual <= (is_exhausted() ? 1 : std::max(1.0, kSmallPart * change)));
-    // Half of what is allowed is left to the residual of the solution.
-    if (change <= 0.5 || is_rough || is_unsolved) break;
-    if (growing == kPatience || n - gained_at == kMostWithoutGain) {
-      if (!has_large_shifts(island)) break;
-      if (use_distances()) {
-        n = -1;
-        continue;
-      }
-      // Friction may turn bodies so far that corrections do not converge.
-      if (island.has_given_up) break;
-      if (!retry_with_given_loads({})) break;
-      n = 0;
-      continue;
-    }
-    // The loads of a solution bound the friction of the next one. With large friction this may
-    // repeat without end, while corrections would follow the loads. The first correction contains
-    // most of what turns change. The solution after it therefore begins with the same loads, and
-    // all later solutions keep the loads that it finds.
-    if (n == 0 && !problem.keeps_loads)
-      for (std::size_t b = 0; b < island.contacts.size(); ++b)
-        problem.blocks[b].given_load = contact_states_[island.contacts[b]].first_load;
-    if (n > 0) problem.keeps_loads = true;
-    problem.is_near =
-        n > 0 && solution.result.residual <= 1 && (is_fast || !has_large_shifts(island));
+void ConstraintSystem<D>::keep_motions_without_contacts(const ContactSystem<D>& system,
+                                                        const Island& island,
+                                                        std::span<const Motion<D>> motions) {
+  without_contacts_.resize(system.bodies().size());
+  for (const auto b : island.bodies) {
+    const auto unit = unit_of_particle_[index_of(system.bodies()[index_of(b)])];
+    if (unit >= 0) without_contacts_[index_of(b)] = motions[index_of(unit)];
   }
-  take_over(system, island, solution);
-  take_errors(island, refinement && refinement->is_done() ? &*refinement : nullptr);
-  if (island.contacts.empty() && result.residual <= 1) {
-    without_contacts_.resize(system.bodies().size());
-    for (const auto b : island.bodies) {
-      const auto unit = unit_of_particle_[index_of(system.bodies()[index_of(b)])];
-      if (unit >= 0) without_contacts_[index_of(b)] = solution.motions[index_of(unit)];
-    }
-  }
-  if (is_rough)
-    for (const auto c : island.contacts)
-      contact_states_[c].first_load = contact_states_[c].solid_load;
-  if (is_rough || island.has_given_up) return result;
-  for (std::size_t b = 0; b < island.contacts.size(); ++b)
-    contact_states_[island.contacts[b]].last_load = problem.blocks[b].given_load;
-  return result;
 }
 
 template <int D>

@@ -66,6 +66,9 @@ Motion<D> row_of(const LinkPart& part) {
 }
 
 template <int D>
+class IslandLadder;
+
+template <int D>
 class ConstraintSystem {
  public:
   /// All arguments must outlive this object. `displacements` are those without contacts and links
@@ -107,30 +110,16 @@ class ConstraintSystem {
   /// forces of links. If `is_rough`, all residuals may be up to `roughly_allowed` > 0 [L].
   ///
   /// Returns the iterations, in all calls together, of the island with the most, at most about
-  /// `max_iterations`, and the largest residual of the last problems plus the largest correction
-  /// that would follow, both over what is allowed [1]. If it is at most 1, the problems are solved,
-  /// with given loads where has_given_up() says so.
+  /// `max_iterations`, the stages of this call, and the largest residual of the last problems plus
+  /// the largest correction that would follow, both over what is allowed [1]. If it is at most 1,
+  /// the problems are solved, with given loads where has_given_up() says so.
   ///
-  /// The equations are linear in the motions. Each problem is therefore solved again, with offsets
-  /// corrected by the difference between lengths of links and gaps of bodies after finite turns and
-  /// their linear values, until this difference is below half of what is allowed. If the motion of
-  /// the links without contacts leaves all contacts open, it is the solution. (Equations that are
-  /// linear about the beginning of the step would stop a particle that a hinge or arm takes past an
-  /// obstacle.) Gaps are at first taken along the normals at the beginning of the step. If the
-  /// corrected problem is not solved, or corrections diverge, gaps become distances
-  /// (ContactSystem::use_distances()), and the solution begins anew.
-  ///
-  /// An island gives up, that is, bounds its friction by given loads in all later calls, if
-  /// - Coulomb's law is not solved in `max_iterations`: by the loads of the best iterate, so that
-  ///   gaps, films and links are exact, or, if this fails, those of a solution without friction.
-  ///   residual() remains that of Coulomb's law;
-  /// - the convex relaxation (5.9) has no solution, because friction locks particles that must
-  ///   move: by the loads of a solution without friction, (5.17), which residual() then is about;
-  /// - corrections diverge also with distances: by the loads of a solution without friction;
-  /// - friction locks a body that turns about the line through two contacts, so that the corrected
-  ///   problem has no solution with Coulomb's law: by the loads of a solution without friction.
-  ///   With (5.9) it has one, but with loads more than ten times those without corrections and 1 %
-  ///   more energy: by the loads without corrections.
+  /// IslandLadder lists the strategies. If the motion of the links without contacts leaves all
+  /// contacts open, it is the solution. (Equations that are linear about the beginning of the step
+  /// would stop a particle that a hinge or arm takes past an obstacle.) Gaps are at first taken
+  /// along the normals at the beginning of the step. An island that gives up bounds its friction by
+  /// given loads in all later calls. residual() remains that of Coulomb's law, but is about the
+  /// given loads with the convex relaxation (5.9).
   SolverResult solve(ContactSystem<D>& system, bool is_rough, double roughly_allowed,
                      int max_iterations);
 
@@ -176,6 +165,7 @@ class ConstraintSystem {
   std::vector<double> least_violations() const;
 
  private:
+  friend class IslandLadder<D>;
   // The block of a row of geometric stiffness.
   struct Tension {
     std::size_t source = 0;   // block of the link or film
@@ -220,8 +210,6 @@ class ConstraintSystem {
   // True if it was solved as accurately before, no contact was added since, and residuals are
   // allowed, but for those of Coulomb's law if it has given up.
   bool is_solved(const ContactSystem<D>& system, const Island& island, bool is_rough) const;
-  SolverResult solve_island(ContactSystem<D>& system, Island& island, bool is_rough,
-                            double roughly_allowed, int max_iterations);
   bool is_given(std::int32_t particle) const { return !(mobilities_[index_of(particle)] > 0); }
   UnitMotion given_motion(std::int32_t particle) const;
   // The side of an obstacle has no unit (-1).
@@ -263,29 +251,19 @@ class ConstraintSystem {
   // The motions of a solution with links, and of free units where there was none.
   std::vector<Motion<D>> motions_without_contacts(const ContactSystem<D>& system,
                                                   const Island& island) const;
+  void keep_motions_without_contacts(const ContactSystem<D>& system, const Island& island,
+                                     std::span<const Motion<D>> motions);
   // Linearises about these motions. Returns true if they leave all contacts open and are the
   // solution.
   bool begin_without_contacts(ContactSystem<D>& system, Island& island);
-  // True if a correction is larger than rounding errors and errors of solutions.
-  bool has_large_shifts(const Island& island) const;
-  // True if ContactSystem::use_distances() would change a gap of the island.
-  bool can_use_distances(ContactSystem<D>& system, const Island& island) const;
   void make_problem(const ContactSystem<D>& system, Island& island, bool is_rough,
                     double roughly_allowed);
-  // True if the island has not given up yet, and a load of its own could be given.
-  bool may_give_up(const Island& island) const;
-  // Solves with the loads of the present impulses or, if they fail or `have_diverged`, of a
-  // solution without friction. If this fails, too, returns false and changes nothing but the
-  // iterations of `result`.
-  bool give_up(Island& island, bool have_diverged, ConstraintSolution<D>& solution,
-               SolverResult& result);
   // A contact gets the load at which its island gave up, or that of the step before if it was added
   // later, or, from an island that joined later, that of its last solution that could be given up.
   void give_loads_of_step(Island& island);
   // For each block the error of its impulse that is asked for, and the rounding errors of its
   // values.
   std::pair<std::vector<double>, std::vector<double>> errors_of_values(const Island& island) const;
-  double change_of_impulses(const Island& island, const Refinement<D>& refinement) const;
   void take_errors(const Island& island, const Refinement<D>* refinement);
   // The residual [L] is that of Coulomb's law if it was asked for, also with given loads.
   BlockResidual residual_of_contact(const Island& island, std::size_t b,

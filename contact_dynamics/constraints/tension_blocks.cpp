@@ -189,7 +189,7 @@ double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Isla
   };
   for (const auto& tension : island.tensions) take(tension.source);
   for (const auto& row : rows) take(row.tension.source);
-  constexpr double kSmall = 0.5;  // of what is allowed, as in solve_island()
+  constexpr double kSmall = 0.5;  // of what is allowed, as IslandTuning::kEnd
   if (largest <= kSmall && !is_always) return largest;
   if (!island.tensions.empty()) {
     const auto first_row = problem.blocks[sources].row;

@@ -104,14 +104,14 @@ void Impacts<D>::move_unit(std::int32_t particle, const Motion<D>& change, doubl
   auto& step = step_.bodies[index_of(body)];
   const double rest = step_.h - time;
   step.displacement = step.displacement + rest * velocity;
-  step.velocity_lag = step.velocity_lag + (time / step_.h) * velocity;
+  step.velocity_excess = step.velocity_excess + (time / step_.h) * velocity;
   step.turn = step.turn + rest * turn;
   // In space, constrain() (rigid_bodies.hpp) adds the effect of the remaining contacts to this
   // angular momentum. In the plane, constrain() computes the angular momentum as I turn/h +
-  // momentum_lag, and turn/h lacks the part time/h of the change.
+  // momentum_excess, and turn/h lacks the part time/h of the change.
   const Vector momentum = present_inertia(body_at(particle, time), D) * turn;
   step.angular_momentum = step.angular_momentum + momentum;
-  step.momentum_lag = step.momentum_lag + (time / step_.h) * momentum;
+  step.momentum_excess = step.momentum_excess + (time / step_.h) * momentum;
 }
 
 template <int D>
@@ -154,6 +154,7 @@ void Impacts<D>::apply_impacts(const std::vector<Hit>& hits, double time) {
     const auto is_solved = [&](ConstraintStart start, int most_iterations) {
       const auto result = solve_constraints(of, most_iterations, start).result;
       iterations_ += result.iterations;
+      stages_ += result.stages;
       return result.residual * kExact <= kSolved;
     };
     if (hits.size() > 1 && is_solved(ConstraintStart::kLeastImpulses, 200)) return;

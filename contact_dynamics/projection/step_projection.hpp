@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
+#include "viscontact/constraint_rows/selection.hpp"
 #include "viscontact/contact_dynamics/constraints/constraint_system.hpp"
 #include "viscontact/contact_dynamics/constraints/contact_system.hpp"
 #include "viscontact/contact_dynamics/impacts/impacts.hpp"
@@ -112,6 +113,7 @@ inline constexpr double kBroken = 1e-3;
 struct ProjectionResult {
   /// Iterations of all solutions; with constraints those of the island that needs most.
   int iterations = 0;
+  StagesRun stages;  ///< the methods that ran, summed over all islands and solutions
   /// StepResiduals::converged tells whether the step is solved; impulse_errors [M L/T] are in the
   /// order of `pairs`.
   StepResiduals residuals;
@@ -248,7 +250,7 @@ class StepProjection {
   bool gap_would_close(std::size_t k, double margin);
   // True if pair k is not chosen yet, but has a particle that the solution has moved.
   bool may_have_closed(std::size_t k) {
-    return is_chosen_[k] == 0 &&
+    return !selection_.is_decided(k) &&
            (takes_part(pair(k).second) || takes_part(pair(k).first) || takes_part(loaded_plane(k)));
   }
   // True if an impulse of pair k moves at least one of its bodies.
@@ -281,8 +283,8 @@ class StepProjection {
   // False if a Refinement of these contacts would do nothing; found without making its problem.
   bool is_worth_refining(const std::vector<std::size_t>& island);
   ImpulseError error_of_contact(std::size_t c) const;
-  // Returns the number of iterations, which began with `iterations`.
-  int solve_contacts(bool is_rough, double length, int iterations, int max_iterations);
+  // Adds to the iterations and stages of `result`.
+  void solve_contacts(bool is_rough, double length, int max_iterations, ProjectionResult& result);
   // Adds pairs that are connected with `pairs` and whose gaps may close next.
   std::vector<std::size_t> with_connected_pairs(const std::vector<std::size_t>& pairs, int round);
   // Must precede solve_contacts().
@@ -311,10 +313,9 @@ class StepProjection {
   // exactly back onto a circle. If other contacts move it along the tangent, an error of second
   // order remains.
   std::vector<PlanePosition> tangents_;
-  double tolerated_ = 0;             // [L]
-  double margin_ = 0;                // gap below which a pair is nearly closed [L]
-  std::vector<std::size_t> chosen_;  // pair of each contact of system_
-  std::vector<char> is_chosen_;      // in the order of pair()
+  double tolerated_ = 0;  // [L]
+  double margin_ = 0;     // gap below which a pair is nearly closed [L]
+  Selection selection_;   // of pair(); its members are the contacts of system_
   ContactSystem<D> system_;
   const Links* links_ = nullptr;
   const ConstraintStep* step_ = nullptr;  // null without constraints

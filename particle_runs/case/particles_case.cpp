@@ -10,7 +10,7 @@
 #include "viscontact/particle_runs/case/particles_sections.hpp"
 #include "viscontact/particle_runs/io/contact_file.hpp"
 #include "viscontact/particles/domain/bounded_region.hpp"
-#include "viscontact/particles/setting/outline.hpp"
+#include "viscontact/particles/setting/chords.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -197,6 +197,14 @@ void output_keys(case_file::Keys& keys, ParticlesCase& c) {
     keys.require(std::ranges::find(kAskedTables, name) != kAskedTables.end(), "tables",
                  "has '{}'; the tables are {}", name, fmt::join(kAskedTables, ", "));
   }
+  keys.optional(
+      "step_columns", case_file::texts(c.step_columns),
+      {"further columns of `steps.csv`: `\"solver_stages\"`, the methods of the contact "
+       "solver that ran ([file-formats.md](file-formats.md#the-folder-of-many-particles))",
+       "none", "a list of names"});
+  for (const auto& name : c.step_columns)
+    keys.require(std::ranges::find(kStepColumns, name) != kStepColumns.end(), "step_columns",
+                 "has '{}'; the columns are {}", name, fmt::join(kStepColumns, ", "));
 }
 
 constexpr int kInPlane = 2;  // with it pieces_of_turn() reads one number

@@ -116,10 +116,12 @@ std::vector<Column<ParticleRow>> make_particle_columns() {
           {"fluid_torque_error_estimate", "M L²/T²", "that of the force times the radius",
            at_end(kDiscsInFluid)},
           [](const ParticleRow& row) { return component(in_fluid(row, &FluidForces::errors), 2); }),
-      of_particle({"semi_axis_1", "L", "along the angle", at_end(kWithSemiAxes)},
-                  [](const ParticleRow& row) { return row.forces->semi_axes[row.k][0]; }),
-      of_particle({"semi_axis_2", "L", "", at_end(kWithSemiAxes)},
-                  [](const ParticleRow& row) { return row.forces->semi_axes[row.k][1]; }),
+      of_particle(
+          {"semi_axis_1", "L", "along the angle", at_end(kWithSemiAxes)},
+          [](const ParticleRow& row) { return row.particles.shapes[row.k].semi_axes()[0]; }),
+      of_particle(
+          {"semi_axis_2", "L", "", at_end(kWithSemiAxes)},
+          [](const ParticleRow& row) { return row.particles.shapes[row.k].semi_axes()[1]; }),
       of_particle(
           {"contact_force", "M L/T²",
            "mean force of all contacts, impacts and links in the last step on a particle whose "
@@ -150,6 +152,7 @@ RunFacts facts_of(const Particles& particles) {
   run.do_turn = particles.turn();
   run.has_mass = std::ranges::any_of(particles.masses, [](double mass) { return mass > 0; });
   run.has_bodies = !particles.bodies.empty();
+  run.has_semi_axes = !particles.shapes.empty();
   return run;
 }
 

@@ -202,11 +202,9 @@ std::string write_particles(const Particles& particles, const std::optional<Flui
          forces->values.size() == particles.count() * motion_components(particles.dimension));
   assert(!forces || forces->errors.empty() ||
          forces->errors.size() == particles.count() * motion_components(particles.dimension));
-  assert(!forces || forces->semi_axes.empty() || forces->semi_axes.size() == particles.count());
   auto run = facts_of(particles);
   run.is_in_fluid = forces.has_value();
   run.do_turn = run.do_turn || run.is_in_fluid;
-  run.has_semi_axes = forces && !forces->semi_axes.empty();
   run.has_given_loads = !loads.empty();
   const CsvTable<ParticleRow> table(columns_in(Output::kAtEnd, particle_columns(), run),
                                     particles.dimension);

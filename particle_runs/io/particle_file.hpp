@@ -20,7 +20,8 @@ struct ParticleFile {
 /// Reads a file. `dimension` is 1 (spheres on an axis), 2 (discs) or 3 (spheres). The columns are
 /// x,y[,z],radius,mass and, if they exist, vx,vy[,vz] and id. Without columns of velocities the
 /// particles are at rest; without the column id, or with ids 0, 1, ..., Particles::ids is empty.
-/// The file final_particles.csv of a run can be read, too, unless the run has ellipses or plates.
+/// The file final_particles.csv of a run can be read, too, unless the run has other shapes than
+/// discs and spheres.
 ///
 /// On an axis (dimension 1) the columns are z,radius,mass and, if they exist, vz and id. In a fluid
 /// (`in_fluid`) discs have an angle and an angular velocity, which are 0 if their columns are
@@ -45,8 +46,6 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension,
 struct FluidForces {
   std::span<const double> values;
   std::span<const double> errors;
-  /// Fluid::semi_axes of all particles [L]; empty if all particles are discs or spheres.
-  std::span<const std::array<double, 2>> semi_axes{};
 };
 
 /// final_particles.csv: a line "# rows: N" with the number of particles, the names of the columns

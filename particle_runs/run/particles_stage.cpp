@@ -23,11 +23,11 @@
 #include "viscontact/particle_runs/io/contact_file.hpp"
 #include "viscontact/particle_runs/io/particle_file.hpp"
 #include "viscontact/particle_runs/io/restart.hpp"
-#include "viscontact/particle_runs/run/particle_simulation.hpp"
 #include "viscontact/particle_runs/run/particles_earlier_run.hpp"
 #include "viscontact/particle_runs/run/particles_folder.hpp"
 #include "viscontact/particle_runs/run/particles_pages.hpp"
 #include "viscontact/particle_runs/run/run_log.hpp"
+#include "viscontact/particle_runs/run/start_simulation.hpp"
 #include "viscontact/particles/steps/current_contacts.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/results/run_folder.hpp"
@@ -51,6 +51,7 @@ class Run {
       const results::Provenance& provenance, RunLog& log, const StopToken& stop)
       : case_(c),
         simulation_(simulation),
+        flow_(flow_of(simulation)),
         folder_(std::move(folder)),
         provenance_(provenance),
         log_(log),
@@ -73,9 +74,9 @@ class Run {
       } catch (const Error&) {
         return std::current_exception();
       }
-      if (simulation_.has_fluid()) {
-        log_.totals().unknowns = simulation_.unknowns();
-        if (log_.lacks_flow()) log_.add_flow(simulation_.flow());
+      if (flow_ != nullptr) {
+        log_.totals().unknowns = flow_->unknowns();
+        if (log_.lacks_flow()) log_.add_flow(flow_->flow());
       }
       log_.add_step(report, simulation_.state(), simulation_.rebounds());
       if (report.time >= next_frame - tiny_time(case_)) {
@@ -143,7 +144,7 @@ class Run {
     if (!is_at_end() || stop_.stop_requested() || !log_.lacks_flow()) return;
     std::optional<FlowField> flow;
     try {
-      flow = simulation_.flow_at_present();
+      flow = flow_->flow_at_present();
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::kInterrupted) throw;
       terminal::warn("particles: warning: the flow at the end of the run is missing ({})",
@@ -154,17 +155,16 @@ class Run {
 
   void add_frame() {
     std::vector<double> link_force_errors;
-    if (simulation_.has_fluid()) link_force_errors = simulation_.force_errors().of_links;
+    if (flow_ != nullptr) link_force_errors = flow_->force_errors().of_links;
     log_.add_frame(simulation_.state(), link_force_errors);
   }
 
   std::string final_particles() {
     const auto reported = simulation_.reported_particles();
-    if (!simulation_.has_fluid())
-      return write_particles(reported, {}, simulation_.state().given_loads);
-    const auto forces = simulation_.fluid_forces();
-    const auto errors = simulation_.force_errors().of_fluid;
-    return write_particles(reported, FluidForces{forces, errors, case_.setting.fluid->semi_axes});
+    if (flow_ == nullptr) return write_particles(reported, {}, simulation_.state().given_loads);
+    const auto forces = flow_->fluid_forces();
+    const auto errors = flow_->force_errors().of_fluid;
+    return write_particles(reported, FluidForces{forces, errors});
   }
 
   /// Adds the computing time of this call [s] and takes the larger memory [MiB].
@@ -174,7 +174,7 @@ class Run {
     auto& totals = record.totals;
     totals.seconds += seconds_since(begin_);
     double peak = static_cast<double>(usage.ru_maxrss) / 1024;
-    if (simulation_.has_fluid()) peak += simulation_.solver_peak_memory_mebibytes();
+    if (flow_ != nullptr) peak += flow_->solver_peak_memory_mebibytes();
     totals.peak_memory_mebibytes = std::max(totals.peak_memory_mebibytes, peak);
     return record;
   }
@@ -183,8 +183,7 @@ class Run {
   /// the record says, and a run that is killed at any time can continue.
   void save(const RunRecord& record) {
     log_.sync();
-    // In a fluid with inertia the solver has a part of the state, the flow.
-    const auto state = simulation_.has_fluid() ? simulation_.state_to_save() : simulation_.state();
+    const auto state = simulation_.state_to_save();
     write("restart.bin", TextKind::kHashComment,
           record_comment(record, state.steps) + write_restart(state));
     last_saved_ = Clock::now();
@@ -201,6 +200,7 @@ class Run {
 
   const ParticlesCase& case_;
   ParticleSimulation& simulation_;
+  FlowSimulation* flow_;  // null without a fluid
   fs::path folder_;
   const results::Provenance& provenance_;
   RunLog& log_;
@@ -225,12 +225,13 @@ void warn_of_jam(const StepTotals& record) {
 void warn_of_buckling(const ParticlesCase& c, const StepTotals& record) {
   if (record.buckling == 0) return;
   // Where a vibration has grown, the forces of its films say nothing about the step that is stable.
-  const bool may_grow = c.setting.fluid && (!c.setting.fluid->plates.empty() ||
+  const bool may_grow = c.setting.fluid && (c.particles.has_other_shapes() ||
                                             c.setting.fluid->coupling == Coupling::kSplitting);
   if (c.setting.fluid)
     terminal::warn(
         "particles: warning: in {} of {} steps a link pushes so hard that what it pushes buckles "
-        "within the step, and rounding errors decide how, or a film of a plate (with coupling = "
+        "within the step, and rounding errors decide how, or a film of a particle that is no disc "
+        "(with coupling = "
         "\"splitting\" any film) pulls so hard that what it pulls may vibrate across it with a "
         "growing amplitude (run.json: buckling_steps); a time_step of {:.2g} resolves it",
         record.buckling, record.steps,
@@ -406,9 +407,9 @@ void run_particles(const ParticlesRequest& request) {
   }
   warn_of_case(c);
   warn_of_fine_mesh(c, state.particles);
-  ParticleSimulation simulation(c.setting, std::move(state), request.threads, request.start_solver,
-                                request.stop);
-  Run run(c, simulation, folder, provenance, log, request.stop);
+  const auto simulation = start_simulation(c.setting, std::move(state), request.threads,
+                                           request.start_solver, request.stop);
+  Run run(c, *simulation, folder, provenance, log, request.stop);
   // If a file cannot be written, or the fluid solver fails between two steps, simulate() throws;
   // the same command continues from restart.bin.
   const auto failure = run.simulate();
@@ -424,7 +425,7 @@ void run_particles(const ParticlesRequest& request) {
     std::rethrow_exception(failure);
   }
   if (request.json) fmt::print("{}", json);
-  warn_or_fail(c, log.totals(), simulation.state(), folder, request.stop);
+  warn_or_fail(c, log.totals(), simulation->state(), folder, request.stop);
 }
 
 }  // namespace viscontact::particles

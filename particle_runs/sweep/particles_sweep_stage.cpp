@@ -16,8 +16,8 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/shell_words.hpp"
-#include "viscontact/particle_runs/run/particle_simulation.hpp"
 #include "viscontact/particle_runs/run/particles_earlier_run.hpp"
+#include "viscontact/particle_runs/run/start_simulation.hpp"
 #include "viscontact/particle_runs/sweep/particles_run.hpp"
 #include "viscontact/pipeline/sweep_stage.hpp"
 #include "viscontact/terminal/progress.hpp"
@@ -101,10 +101,6 @@ double seconds_since(std::chrono::steady_clock::time_point time) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - time).count();
 }
 
-State saved_state(ParticleSimulation& simulation) {
-  return simulation.has_fluid() ? simulation.state_to_save() : simulation.state();
-}
-
 struct StepCost {
   double time = 0;     ///< of the motion [T]
   double seconds = 0;  ///< computing time of a step there [s]
@@ -117,19 +113,19 @@ StepCost cost_of_steps(const ParticlesCase& c, const StartFluidSolver& start_sol
                        const StopToken& stop, State& state, double& first) {
   constexpr double kEnough = 1;  // [s]; a step may take longer
   StepCost cost{state.time, 0};
-  ParticleSimulation simulation(c.setting, std::move(state), 1, start_solver, stop);
+  const auto simulation = start_simulation(c.setting, std::move(state), 1, start_solver, stop);
   auto start = std::chrono::steady_clock::now();
-  simulation.step(c.end_time);
+  simulation->step(c.end_time);
   first = seconds_since(start);
   cost.seconds = first;
   start = std::chrono::steady_clock::now();
   int steps = 0;
   while (seconds_since(start) < kEnough &&
-         simulation.state().time + 1e-6 * c.setting.time_step < c.end_time) {
-    simulation.step(c.end_time);
+         simulation->state().time + 1e-6 * c.setting.time_step < c.end_time) {
+    simulation->step(c.end_time);
     cost.seconds = seconds_since(start) / ++steps;
   }
-  state = saved_state(simulation);
+  state = simulation->state_to_save();
   return cost;
 }
 
@@ -144,13 +140,14 @@ void move_on_roughly(const ParticlesCase& c, const StartFluidSolver& start_solve
   auto setting = c.setting;
   setting.time_step *= kLonger;
   const auto start = std::chrono::steady_clock::now();
-  ParticleSimulation simulation(setting, std::move(state), 1, start_solver, stop);
+  const auto simulation = start_simulation(setting, std::move(state), 1, start_solver, stop);
   try {
-    while (simulation.state().time < time && seconds_since(start) < kLongest) simulation.step(time);
+    while (simulation->state().time < time && seconds_since(start) < kLongest)
+      simulation->step(time);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kNotConverged) throw;
   }
-  state = saved_state(simulation);
+  state = simulation->state_to_save();
   state.grid_time = state.time;
   state.grid_step = state.steps;
 }

@@ -120,7 +120,7 @@ void sum_members(const Particles& p, const RigidBodyRequest& request, RigidBody&
     add_point_mass(body.inertia, masses[m], offset);
     const double own = p.masses[k] > 0 && !p.inertias.empty()
                            ? p.inertias[k] * (masses[m] / p.masses[k])
-                           : homogeneous_inertia(p.dimension, masses[m], p.radii[k]);
+                           : p.shape(k).inertia(masses[m]);
     for (const std::size_t i : {0U, 4U, 8U}) body.inertia[i] += own;
     turning = turning + masses[m] * cross(offset, image.velocity - body.velocity) +
               own * turn_of(p.angular_velocities, k, p.dimension);
@@ -342,7 +342,7 @@ void constrain(BodyStep& step, const Vector& displacement, const Vector& turn, i
   if (dimension == 3)
     step.angular_momentum = step.angular_momentum + step.momentum_of_turn * change;
   else
-    step.angular_momentum[2] = step.momentum_of_turn[8] * turn[2] + step.momentum_lag[2];
+    step.angular_momentum[2] = step.momentum_of_turn[8] * turn[2] + step.momentum_excess[2];
   step.displacement = displacement;
   step.turn = turn;
 }
@@ -359,7 +359,7 @@ Vector displacement_at(const Vector& displacement, const Vector& turn, const Vec
 void move_body(RigidBody& body, const BodyStep& step, double h, int dimension) {
   assert(h > 0);
   body.centre = body.centre + step.displacement;
-  body.velocity = (1 / h) * step.displacement + step.velocity_lag;
+  body.velocity = (1 / h) * step.displacement + step.velocity_excess;
   body.angular_momentum = step.angular_momentum;
   if (dimension == 3)
     body.orientation = turned(body.orientation, step.turn);

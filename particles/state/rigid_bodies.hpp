@@ -158,10 +158,10 @@ struct BodyStep {
   Vector turn{};              ///< h w [rad]
   Vector angular_momentum{};  ///< at the end of the step [M L^2/T]
   /// Velocity of the centre at the end of the step minus displacement/h [L/T]; 0 without rebounds.
-  Vector velocity_lag{};
+  Vector velocity_excess{};
   /// For discs: angular momentum at the end of the step minus I turn/h [M L^2/T]; 0 without
   /// rebounds.
-  Vector momentum_lag{};
+  Vector momentum_excess{};
   double mobility = 0;  ///< h/m [T/M]
   /// h J^-1 with J = I + h impulse_time BodyLoad::stiffness [T/(M L^2)]; discs use only the last
   /// entry.

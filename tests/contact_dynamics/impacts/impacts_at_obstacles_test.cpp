@@ -113,7 +113,7 @@ TEST(ImpactAtAnObstacle, OnAPlaneThatTurnsIsThatOfItsSurface) {
     while (rebounds.empty()) {
       ASSERT_LT(simulation.state().time, 1);
       simulation.step(1);
-      rebounds = simulation.rebounds();
+      rebounds.assign(simulation.rebounds().begin(), simulation.rebounds().end());
     }
     const double t = rebounds[0].time, angle = kOmega * t;
     const Vector normal{-std::sin(angle), std::cos(angle), 0}, place{10, 3 - kSpeed * t, 0};

@@ -220,7 +220,7 @@ TEST(RepeatedImpactsOfDiscs, ThatComeBackWithoutAFlightDoNotDependOnRoundingErro
       Simulation simulation(scene.setting, scene.state, 1);
       simulation.step(1);
       const auto& rebounds = simulation.rebounds();
-      if (frame == 0) one = rebounds;
+      if (frame == 0) one.assign(rebounds.begin(), rebounds.end());
       ASSERT_EQ(rebounds.size(), one.size()) << k;
       for (std::size_t i = 0; i < one.size(); ++i)
         EXPECT_NEAR(rebounds[i].approach_velocity, one[i].approach_velocity, 1e-8) << k << " " << i;

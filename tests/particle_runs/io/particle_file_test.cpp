@@ -128,8 +128,9 @@ TEST_F(FluidParticleFile, IsRefusedWithTheLine) {
 }
 
 TEST_F(FluidParticleFile, OfEllipsesIsRefusedByItsColumn) {
-  const std::vector<std::array<double, 2>> axes = {{0.5, 0.25}, {0.25, 0.25}};
-  const auto text = write_particles(discs_in_fluid(), FluidForces{{}, {}, axes});
+  auto particles = discs_in_fluid();
+  particles.shapes = {Shape::ellipse(0.5, 0.25), Shape::disc(0.25)};
+  const auto text = write_particles(particles, FluidForces{{}, {}});
   EXPECT_THAT(bad_input([&] { read(text, 2, true); }), IsAt("particles.csv:2", "semi_axis_1"));
 }
 
