@@ -186,6 +186,9 @@ Column<Row> column(const Declaration& declaration, Read /*read*/) {
   Column<Row> made;
   static_cast<Declaration&>(made) = declaration;
   if constexpr (std::is_convertible_v<Value, std::string_view>) {
+    // A text must live as long as the row.
+    static_assert(std::is_reference_v<std::invoke_result_t<Read, const Row&>> ||
+                  std::is_same_v<Value, std::string_view>);
     made.kind = ValueKind::kText;
     made.text = [](const Row& row) -> std::string_view { return Read{}(row); };
   } else {

@@ -18,7 +18,8 @@ constexpr Presence over_time_if(const Condition& condition) {
 
 template <auto kMember>
 Column<StepRow> of_step(const Declaration& declaration) {
-  return column<StepRow>(declaration, [](const StepRow& row) { return row.report.*kMember; });
+  return column<StepRow>(
+      declaration, [](const StepRow& row) -> const auto& { return row.report.*kMember; });
 }
 /// A member of FluidStepReport. `condition` says when steps.csv has it.
 template <auto kMember>
