@@ -1,5 +1,5 @@
 // Many particles: N discs or spheres fall into a box. CPU time [s], iterations, residual (in mean
-// radii) and memory for each STRETCH of time.
+// radii) and memory for each STRETCH of time; in the end the stages of the contact solver.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <map>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -30,6 +31,15 @@ double cpu_seconds() {
   timespec t{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+/// Adds the iterations in a text such as "sweeps:60+proximal_steps:12".
+void add_stages(const std::string& text, std::map<std::string, double>& stages) {
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, '+');) {
+    const auto colon = word.find(':');
+    stages[word.substr(0, colon)] += std::stod(word.substr(colon + 1));
+  }
 }
 
 }  // namespace
@@ -93,6 +103,7 @@ int main(int argc, char** argv) {
   const double until = std::stod(o["--until"]), stretch = std::stod(o["--print"]);
   Simulation simulation(setting, std::move(particles), std::stoi(o["--threads"]));
   double shown = 0, all = 0, worst_overlap = 0;
+  std::map<std::string, double> stages;  // iterations of the methods of the contact solver
   int steps = 0, iterations = 0, unconverged = 0, all_unconverged = 0, all_steps = 0;
   double spent = 0, residual = 0, longest = 0, contact_iterations = 0;
   fmt::print(
@@ -108,6 +119,7 @@ int main(int argc, char** argv) {
     ++steps;
     ++all_steps;
     iterations += report.iterations;
+    add_stages(report.solver_stages, stages);
     contact_iterations += static_cast<double>(report.contacts) * report.iterations;
     residual = std::max(residual, report.residual);
     unconverged += report.converged ? 0 : 1;
@@ -125,6 +137,9 @@ int main(int argc, char** argv) {
       steps = iterations = unconverged = 0;
     }
   }
+  fmt::print("iterations of all steps and sets:");
+  for (const auto& [stage, taken] : stages) fmt::print(" {} {:.0f}", stage, taken);
+  fmt::print("\n");
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   fmt::print(

@@ -18,6 +18,7 @@
 #include "viscontact/contact_dynamics/projection/step_projection.hpp"
 #include "viscontact/membranes/membrane_shape.hpp"
 #include "viscontact/particles/contact/film_tension.hpp"
+#include "viscontact/particles/contact/shaped_contacts.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 #include "viscontact/particles/state/particles.hpp"
 #include "viscontact/particles/state/rigid_bodies.hpp"
@@ -43,8 +44,8 @@ double checked_length(const Particles& p, const std::vector<double>& displacemen
   return norm(w);
 }
 
-std::array<std::int32_t, 3> key_of(const Pair& pair) {
-  return {pair.first, pair.second, pair.image};
+std::array<std::int32_t, 4> key_of(const Pair& pair) {
+  return {pair.first, pair.second, pair.image, pair.place};
 }
 
 /// Calls `change` for each number of `memory` that is an impulse, with the number of `other` at the
@@ -62,11 +63,14 @@ Simulation::Simulation(Setting setting, State state, int threads)
       state_(std::move(state)),
       pouring_(setting_.sources, state_),
       mean_radius_(mean_radius(state_.particles)),
+      has_other_shapes_(state_.particles.has_other_shapes()),
       first_time_(state_.time),
       pool_(std::make_unique<ThreadPool>(threads)),
       obstacles_(obstacles_of(setting_)),
       grid_(setting_.time_step, setting_.scheme == Scheme::kLeapfrog, jump_times(setting_)) {
   assert(!setting_.fluid);
+  assert(!has_other_shapes_ || (state_.particles.dimension == 2 && state_.particles.turn() &&
+                                !setting_.laws.restitution.is_on()));
   assert(state_.particles.dimension == 2 || state_.particles.dimension == 3);
   assert(threads >= 1);
   assert(state_.particles.positions.size() ==
@@ -160,8 +164,9 @@ std::size_t Simulation::remember(const ProjectionResult& projected, double h) {
   std::size_t glued = 0;
   for (std::size_t f = 0; f < projected.pairs.size(); ++f) {
     auto& pair = *projected.pairs[f];
-    setting_.laws.remember(pair, state_.memories, radii_of(pair),
-                           projected.residuals.impulse_errors[f], h);
+    const auto radii =
+        projected.radii.empty() ? radii_of(pair, state_.particles, obstacles_) : projected.radii[f];
+    setting_.laws.remember(pair, state_.memories, radii, projected.residuals.impulse_errors[f], h);
     if (pair.gamma < 0) ++glued;
   }
   return glued;
@@ -236,10 +241,14 @@ ProjectionResult Simulation::project(double h, double next) {
   }
   bool is_constrained = has_constraints() || pulled_across();
   bool can_have_springs = true;                      // films, across their pairs
-  int discarded = 0;                                 // iterations
+  SolverResult discarded;                            // iterations and stages
   std::vector<double> no_turns, no_turn_mobilities;  // of particles that do not turn
   for (;;) {
     rebuild_wall_list(state_, planes, margin, *pool_);
+    if (has_other_shapes_) {
+      list_present_contacts(state_.pairs, state_.particles, planes);
+      list_present_contacts(state_.walls, state_.particles, planes);
+    }
     find_impacts<D>(h, next);
     StepProjection<D> projection(state_, h, planes_before, planes, displacements_, mobilities_,
                                  *pool_, loaded_);
@@ -274,7 +283,8 @@ ProjectionResult Simulation::project(double h, double next) {
         has_constraints() ||
         (can_have_springs && (is_constrained || pull_across(projected.pairs, projected.impulses)));
     if (is_constrained != was_constrained) {
-      discarded += projected.iterations;
+      discarded.iterations += projected.iterations;
+      discarded.stages += projected.stages;
       undo_impacts();
       move_freely<D>(h, next);
       continue;
@@ -289,7 +299,8 @@ ProjectionResult Simulation::project(double h, double next) {
     gone += gone_planes();
     if (gone <= margin && neighbour_list_is_valid(state_, displacements_, *pool_)) {
       projected.lacks_springs = !can_have_springs;
-      projected.iterations += discarded;
+      projected.iterations += discarded.iterations;
+      projected.stages += discarded.stages;
       return projected;
     }
     // The impulses moved particles further than the lists of pairs allow for, so that pairs may be
@@ -504,6 +515,7 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
     impacts<D>()->add_lags(state_.particles);
     if (!body_steps_.empty()) place_members(state_.particles);
     report.iterations += impacts<D>()->iterations();
+    stages_ += impacts<D>()->stages();
     if (!impacts<D>()->converged()) {
       report.converged = false;
       report.excess = std::numeric_limits<double>::infinity();
@@ -523,6 +535,7 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
   report.buckling = std::max(report.buckling, projected.buckling);
   report.has_given_loads = report.has_given_loads || projected.has_given_loads;
   report.iterations += projected.iterations;
+  stages_ += projected.stages;
   report_residuals(projected.residuals, mean_radius_, report);
 }
 
@@ -572,6 +585,7 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
     if (projected.residuals.converged) take_impulses(projected);
     const double middle = state_.time + h / 2;
     report.iterations += projected.iterations;
+    stages_ += projected.stages;
     scale_impulses(0.5);
     advance<D>(h / 2, middle, halvings + 1, report);
     advance<D>(h / 2, next, halvings + 1, report);
@@ -623,6 +637,7 @@ StepReport Simulation::step(double end) {
   if (!interval) return {.time = state_.time, .parts = 1};
   const auto& p = state_.particles;
   StepReport report{.time = interval->end};
+  stages_ = {};
   rebounds_.clear();
   link_impulses_.assign(setting_.links.force_count(p.dimension), 0.0);
   link_time_ = 0;
@@ -660,6 +675,7 @@ StepReport Simulation::step(double end) {
   wrap_into_cell(state_);
   StepGrid::count(state_, *interval);
   pour();
+  report.solver_stages = text_of(stages_);
   return report;
 }
 

@@ -28,10 +28,10 @@ enum class ConstraintStart {
 };
 
 /// Improves problem.impulses [M L/T] until the residual of each block is allowed, or until about
-/// `max_iterations` iterations are done, and returns the iterate with the smallest residual. With
-/// Coulomb's law, Gauss-Seidel sweeps are made as long as they reduce the residual fast. Proximal
-/// steps follow and, if these are many, paths of smoothed problems. A convex problem is solved by
-/// interior points and proximal steps. If it is_rough, interior points stop early, and the residual
+/// `max_iterations` iterations are done, and returns the iterate with the smallest residual. The
+/// tables of CoulombLadder and ConvexLadder say which method runs when; SolverResult::stages lists
+/// those that ran, whose iterations add up to SolverResult::iterations. In a convex problem that
+/// is_rough, interior points stop early, and the residual
 /// may be several times the allowed one. Loads of FrictionBound::kGiven are replaced by those of a
 /// first solution, unless problem.keeps_loads. One thread computes all, so that results do not
 /// depend on their number.

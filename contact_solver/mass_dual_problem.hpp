@@ -210,8 +210,8 @@ class FreeSetFactor {
 
 /// Improves the guess problem.z until all residuals are at most 1, or about `max_iterations` are
 /// done: by projected conjugate gradients (mprgp.hpp), preconditioned by sweeps of symmetric
-/// Gauss-Seidel or, after many iterations, a FreeSetFactor if it is cheap, and by Newton's method
-/// (active_set_newton.hpp), first on chains and elsewhere after many iterations. Of redundant
+/// Gauss-Seidel or a FreeSetFactor, and by Newton's method (active_set_newton.hpp). The table of
+/// DualLadder says when. SolverResult::stages lists what ran. Of redundant
 /// contacts only sums of impulses are determined. `factor` may come from an earlier call for the
 /// same step with fewer contacts, and may be replaced. SolverResult::residual is > 1 without a
 /// solution.

@@ -11,6 +11,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/constraint_rows/link_rows.hpp"
+#include "viscontact/constraint_rows/selection.hpp"
 #include "viscontact/constraint_rows/solver_names.hpp"
 #include "viscontact/immersed/closed_contacts.hpp"
 #include "viscontact/particles/contact/shaped_contacts.hpp"
@@ -340,8 +341,8 @@ Mobility remembered(const Mobility& mobility) {
 void solve_listed(StepContacts& step, const Mobility& mobility,
                   const ContactConditions& conditions) {
   ContactProblem problem(conditions, mobility);
-  std::vector<std::size_t> chosen;
-  std::vector<char> is_chosen(step.contacts.size(), 0);
+  Selection selection(step.contacts.size());
+  const auto& chosen = selection.members();
   for (auto& contact : step.contacts) contact.w = 0;
   step.is_solved = true;
   for (;;) {
@@ -350,14 +351,14 @@ void solve_listed(StepContacts& step, const Mobility& mobility,
       const auto& contact = step.contacts[c];
       const double after =
           gap_after(contact, problem.velocities().data(), conditions.h, conditions.layout);
-      const bool takes_part = after < 0 || contact.lowest != 0 || contact.impulse != 0;
-      if (is_chosen[c] != 0 || !takes_part) continue;
-      is_chosen[c] = 1;
+      const bool takes_part = after < 0 || Selection::is_bound(contact.lowest, contact.impulse);
+      if (selection.is_decided(c) || !takes_part) continue;
       if (!moves(contact, mobility, conditions)) {
+        selection.leave_out(c);
         step.contacts[c].w = kImmovable;
         continue;
       }
-      chosen.push_back(c);
+      selection.join(c);
       problem.add(contact);
     }
     const bool has_joined = chosen.size() > before;

@@ -119,6 +119,7 @@ class Impact {
   const ContactConditions& conditions_;
   std::vector<Part> parts_;
   int iterations_ = 0;  // of all problems
+  StagesRun stages_;    // of the same
 };
 
 bool Impact::find_hits() {
@@ -210,6 +211,7 @@ bool Impact::take_load() {
   conditions.free_velocities = still;
   solve_listed(load, mobility_, conditions);
   iterations_ += load.iterations;
+  stages_ += load.stages;
   for (std::size_t i = 0; i < numbers.size(); ++i)
     parts_[numbers[i]].load = load.contacts[i].impulse;
   return load.is_solved;
@@ -305,6 +307,7 @@ void Impact::move(FluidImpact& impact) {
   conditions.free_velocities = impact.moved;
   solve_listed(gaps, mobility_, conditions);
   iterations_ += gaps.iterations;
+  stages_ += gaps.stages;
   impact.is_solved = impact.is_solved && gaps.is_solved;
   impact.moved = std::move(gaps.velocities);
 }
@@ -336,6 +339,7 @@ std::optional<FluidImpact> Impact::solve() {
   solve_listed(compressed, mobility_, conditions);
   correct_impulses(compressed, 0, mobility_, conditions);
   iterations_ += compressed.iterations;
+  stages_ += compressed.stages;
   const bool knows_loads = take_load();
   if (!share_impulses(compressed.contacts)) return std::nullopt;
   auto restored = problem();
@@ -350,6 +354,7 @@ std::optional<FluidImpact> Impact::solve() {
   solve_listed(restored, mobility_, conditions);
   correct_impulses(restored, 0, mobility_, conditions);
   iterations_ += restored.iterations;
+  stages_ += restored.stages;
   restrain(compressed, restored);
   FluidImpact impact;
   impact.is_solved = compressed.is_solved && knows_loads && restored.is_solved;
@@ -361,6 +366,7 @@ std::optional<FluidImpact> Impact::solve() {
   book(impact);
   move(impact);
   impact.iterations = iterations_;
+  impact.stages = stages_;
   return impact;
 }
 

@@ -67,6 +67,7 @@ struct FluidImpact {
   std::vector<double> moved;      ///< displacements in the step divided by its length [L/T, 1/T]
   std::vector<Rebound> rebounds;  ///< one for each contact whose solids rebound
   int iterations = 0;             ///< of all problems solved
+  StagesRun stages;               ///< of the same
   bool is_solved = true;          ///< true: all problems reached the tolerances
 };
 

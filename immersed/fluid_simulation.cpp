@@ -286,6 +286,7 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
   std::vector<double> settled;             // of follow_turns()
   // A contact with an impulse sets theta = 1 for its particles, which changes the equation of
   // motion. The step is then solved again.
+  StagesRun stages;
   for (int iterations = 0;;) {
     if (constrained_solver_ != nullptr) {
       constrained.emplace(setting_.links, state_.particles, times_of_links(equation, h, next),
@@ -321,6 +322,8 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
       if (constrained)
         hold_with_contacts(equation, *constrained, h, next, motion, further_row_forces);
       iterations += motion.contact.iterations + (motion.impact ? motion.impact->iterations : 0);
+      stages += motion.contact.stages;
+      if (motion.impact) stages += motion.impact->stages;
       if (!constrained || motion.impact || turns == kMostTurns) break;
       loaded = forces;
       auto of_rows = constrained_solver_->row_forces();
@@ -332,6 +335,7 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
         break;
     }
     motion.contact.iterations = iterations;
+    motion.contact.stages = stages;
     if (!equation.put_in_contact(motion.impact ? motion.impact->contacts : motion.contact.contacts))
       break;
   }
@@ -457,6 +461,7 @@ StepReport FluidSimulation::step(double end) {
   begin_flow(interval->h);
   auto motion = solve(interval->h, interval->end, state_.steps == 0 || interval->reaches_end);
   report.iterations = motion.contact.iterations;
+  report.solver_stages = text_of(motion.contact.stages);
   report.buckling = motion.buckling;
   report.fluid = motion.fluid;
   report.parts = 1;

@@ -335,6 +335,7 @@ StepContacts MembraneSimulation::Implementation::solve_contacts_of(
            "room?";
   });
   report.iterations = contacts.iterations;
+  report.solver_stages = text_of(contacts.stages);
   report.converged = contacts.is_solved;
   report_residuals(residuals, radius, report);
   impulse_errors_ = residuals.impulse_errors;

@@ -154,6 +154,7 @@ void Impacts<D>::apply_impacts(const std::vector<Hit>& hits, double time) {
     const auto is_solved = [&](ConstraintStart start, int most_iterations) {
       const auto result = solve_constraints(of, most_iterations, start).result;
       iterations_ += result.iterations;
+      stages_ += result.stages;
       return result.residual * kExact <= kSolved;
     };
     if (hits.size() > 1 && is_solved(ConstraintStart::kLeastImpulses, 200)) return;

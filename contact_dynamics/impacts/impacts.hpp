@@ -80,6 +80,7 @@ class Impacts {
   const std::vector<GivenParticleLoad>& on_given() const { return on_given_; }
   const std::vector<ImpactImpulse>& impulses() const { return impulses_; }
   int iterations() const { return iterations_; }
+  const StagesRun& stages() const { return stages_; }
   /// True if the residuals of velocities of all impacts are at most 1e-8 of the fastest approach in
   /// the impact.
   bool converged() const { return converged_; }
@@ -245,6 +246,7 @@ class Impacts {
   std::vector<ImpactImpulse> impulses_;
   std::vector<GivenParticleLoad> on_given_;
   int iterations_ = 0;
+  StagesRun stages_;
   bool converged_ = true;
   struct Before {
     std::size_t number;

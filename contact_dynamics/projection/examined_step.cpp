@@ -94,7 +94,7 @@ void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyo
     // A violation below kPart times the largest one counts as an error of least_violations(), whose
     // errors are about 1e-6 times the largest violation.
     constexpr double kPart = 1e-3;
-    const std::size_t contacts = chosen_.size();
+    const std::size_t contacts = selection_.members().size();
     for (std::size_t b = 0; b < contacts; ++b)
       result.contact_contradicts |= violations[b] > kPart * largest;
     for (std::size_t l = 0; l < links.size(); ++l)
@@ -137,7 +137,7 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
   result.contact_contradicts = result.turns_too_far = false;
   result.residuals.impulse_errors.resize(system_.contacts.size());
   const auto factors = is_final ? understated() : std::vector<Understated>{};
-  for (std::size_t c = 0; is_final && c < chosen_.size(); ++c) {
+  for (std::size_t c = 0; is_final && c < selection_.members().size(); ++c) {
     const auto& here = system_.contacts[c];
     const auto scale = scales.of(here);
     const double gap = system_.gap(here);
@@ -153,10 +153,8 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
     result.residuals.impulse_errors[c] =
         error.estimate >= 0 ? error.estimate
                             : factors[c].by_masses * factors[c].by_chains * residual / scale.w;
-    result.residuals.take_gap(gap - here.tolerated, pair(chosen_[c]));
-    if ((here.impulse != 0 || here.lowest < 0) &&
-        turns_too_far(state_.particles, here, displacements_))
-      ++result.unresolved;
+    result.residuals.take_gap(gap - here.tolerated, pair(selection_.members()[c]));
+    if ((here.impulse != 0 || here.lowest < 0) && turns_too_far(here)) ++result.unresolved;
   }
   if (constraints_ && is_final) examine_links(settings, mean_radius, result);
   std::vector<std::size_t> closed;

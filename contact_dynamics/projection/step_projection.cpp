@@ -44,7 +44,7 @@ StepProjection<D>::StepProjection(State& state, double h,
       mobilities_(mobilities),
       pool_(pool),
       loaded_(loaded),
-      is_chosen_(pair_count(), 0),
+      selection_(pair_count()),
       system_(displacements, mobilities, state.particles) {
   assert(h > 0 && planes_before.size() == planes.size());
   assert(displacements.size() == mobilities.size() * static_cast<std::size_t>(D));
@@ -69,7 +69,18 @@ void StepProjection<D>::add_constraints(const ConstraintStep& step) {
   links_ = step.links;
   step_ = &step;
   constraints_.emplace(step, state_.particles, displacements_, mobilities_);
+  system_.follow_turns(step.turns);
+  if (D == 2 && state_.particles.has_other_shapes()) shaped_.resize(pair_count());
   constraints_->join_linked(system_);
+}
+
+template <int D>
+const ShapedContact* StepProjection<D>::shaped(std::size_t k) {
+  if (shaped_.empty() || is_round(state_.particles, pair(k))) return nullptr;
+  auto& surfaces = shaped_[k];
+  if (surfaces == nullptr)
+    surfaces = std::make_unique<ShapedContact>(state_.particles, pair(k), planes_);
+  return surfaces.get();
 }
 
 template <int D>
@@ -110,7 +121,7 @@ bool StepProjection<D>::gap_would_close(std::size_t k, double margin) {
   if (!can_bear(k)) return false;
   if (pair(k).first >= 0 && cannot_close<D>(p, pair(k), displacements_, margin)) return false;
   const auto here = contact_at_start(k);
-  return gap_after(with_gap_to_close(here, k), displacements_) < margin &&
+  return system_.gap_along_normal(with_gap_to_close(here, k)) < margin &&
          paths_meet(p, here, displacements_);
 }
 
@@ -119,7 +130,8 @@ std::vector<std::size_t> StepProjection<D>::closed_by_free_motion() {
   const auto in_block = [&](std::size_t begin, std::size_t end) {
     ConcatenatedBlocks<std::size_t> numbers;
     for (std::size_t k = begin; k < end; ++k)
-      if (((pair(k).gamma < 0 || pair(k).impulse != 0) && can_bear(k)) || gap_would_close(k, 0))
+      if ((Selection::is_bound(pair(k).gamma, pair(k).impulse) && can_bear(k)) ||
+          gap_would_close(k, 0))
         numbers.values.push_back(k);
     return numbers;
   };
@@ -129,8 +141,8 @@ std::vector<std::size_t> StepProjection<D>::closed_by_free_motion() {
 template <int D>
 bool StepProjection<D>::has_film(std::size_t k) {
   assert(step_ != nullptr);
-  return step_->laws.lowest_gamma(pair(k), state_.memories.of(pair(k).memory),
-                                  radii_of(pair(k), state_.particles, step_->obstacles)) < 0;
+  return step_->laws.lowest_gamma(pair(k), state_.memories.of(pair(k).memory), radii_of_pair(k)) <
+         0;
 }
 
 template <int D>
@@ -147,10 +159,11 @@ void StepProjection<D>::choose(const std::vector<std::size_t>& pairs) {
   // With constraints one thread solves each island by itself. The order of the contacts of an
   // island must therefore not depend on other islands.
   for (const auto k : constraints_ ? pairs : interleaved(pairs)) {
-    assert(is_chosen_[k] == 0);
-    is_chosen_[k] = 1;
-    if (constraints_ && constraints_->is_held_apart(pair(k))) continue;
-    chosen_.push_back(k);
+    if (constraints_ && constraints_->is_held_apart(pair(k))) {
+      selection_.leave_out(k);
+      continue;
+    }
+    selection_.join(k);
     system_.add(contact(k));
     if (constraints_)
       constraints_->add(system_.contacts.back(), pair(k), state_.memories.of(pair(k).memory));
@@ -158,13 +171,18 @@ void StepProjection<D>::choose(const std::vector<std::size_t>& pairs) {
 }
 
 template <int D>
-int StepProjection<D>::solve_contacts(bool is_rough, double length, int iterations,
-                                      int max_iterations) {
-  if (constraints_)
-    return constraints_->solve(system_, is_rough, length / 2, max_iterations).iterations;
-  iterations += system_.solve(is_rough, max_iterations - iterations, pool_).iterations;
+void StepProjection<D>::solve_contacts(bool is_rough, double length, int max_iterations,
+                                       ProjectionResult& result) {
+  if (constraints_) {
+    const auto solved = constraints_->solve(system_, is_rough, length / 2, max_iterations);
+    result.iterations = solved.iterations;  // of all solutions
+    result.stages += solved.stages;
+    return;
+  }
+  const auto solved = system_.solve(is_rough, max_iterations - result.iterations, pool_);
+  result.iterations += solved.iterations;
+  result.stages += solved.stages;
   if (!is_rough) refine();
-  return iterations;
 }
 
 template <int D>
@@ -218,7 +236,7 @@ std::vector<std::size_t> StepProjection<D>::with_connected_pairs(
     return takes_part(particle) ? farthest[index_of(system_.island(system_.body_of(particle)))] : 0;
   };
   const auto may_close = [&](std::size_t k) {
-    return is_chosen_[k] == 0 && can_bear(k) &&
+    return !selection_.is_decided(k) && can_bear(k) &&
            system_.gap(contact(k)) <=
                std::max(farthest_of(pair(k).first), farthest_of(pair(k).second));
   };
@@ -235,15 +253,15 @@ void StepProjection<D>::leave_touching(std::vector<std::size_t>& pairs,
   // whether the pair is chosen.
   auto scales = residual_scales();
   std::erase_if(pairs, [&](std::size_t k) {
-    if (pair(k).gamma < 0 || pair(k).impulse != 0 || has_film(k)) return false;
+    if (Selection::is_bound(pair(k).gamma, pair(k).impulse) || has_film(k)) return false;
     const auto here = contact(k);
-    return -gap_after(here, displacements_) <= scales.of(here).allowed_gap(settings, mean_radius);
+    return -system_.gap_along_normal(here) <= scales.of(here).allowed_gap(settings, mean_radius);
   });
 }
 
 template <int D>
 ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double mean_radius) {
-  assert(chosen_.empty() && mean_radius > 0);
+  assert(selection_.members().empty() && mean_radius > 0);
   ProjectionResult result;
   // An overlap up to half of the tolerance is left as it is. The other half of the tolerance is for
   // the error that this step adds.
@@ -261,7 +279,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   if (constraints_ && !constraints_->links().empty()) {
     allow(settings.tolerance / 2 * mean_radius, settings.impulse_tolerance,
           fraction_of_slips(settings));
-    result.iterations = solve_contacts(false, 0, 0, settings.max_iterations);
+    solve_contacts(false, 0, settings.max_iterations, result);
     find_tangents();
   }
   auto closed = closed_by_free_motion();
@@ -287,7 +305,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     // A rough solution with friction or links leaves half of the iterations to the accurate one.
     const int most =
         is_rough && constraints_ ? settings.max_iterations / 2 : settings.max_iterations;
-    result.iterations = solve_contacts(is_rough, length, result.iterations, most);
+    solve_contacts(is_rough, length, most, result);
     const bool is_last = result.iterations >= settings.max_iterations;
     auto more = examine(settings, mean_radius, !is_rough || is_last, result);
     if (result.residuals.converged) break;
@@ -318,8 +336,9 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     if (more.empty() && near.empty()) is_rough = false;
   }
   auto scales = residual_scales();
-  for (std::size_t c = 0; c < chosen_.size(); ++c) {
-    result.pairs.push_back(&pair(chosen_[c]));
+  for (std::size_t c = 0; c < selection_.members().size(); ++c) {
+    result.pairs.push_back(&pair(selection_.members()[c]));
+    if (!shaped_.empty()) result.radii.push_back(radii_of_pair(selection_.members()[c]));
     // A pair with an impulse is chosen in the next step, too, where the convex relaxation may push
     // its particles apart. An impulse that is no larger than its allowed error must not do so.
     const auto& here = system_.contacts[c];
@@ -330,7 +349,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
       take_given(c, {}, result);
       continue;
     }
-    auto memory = state_.memories.of(pair(chosen_[c]).memory);
+    auto memory = state_.memories.of(pair(selection_.members()[c]).memory);
     constraints_->remember(c, memory);
     if (is_error) {
       memory[Remembered::kSolidLoad] = 0;
@@ -350,28 +369,22 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
 template <int D>
 void StepProjection<D>::take_given(std::size_t c, const PairMemory& memory,
                                    ProjectionResult& result) {
-  assert(c < chosen_.size());
+  assert(c < selection_.members().size());
   const auto& here = system_.contacts[c];
-  const auto& p = state_.particles;
   const auto is_given = [&](std::int32_t k) { return k >= 0 && !(mobilities_[index_of(k)] > 0); };
   Vector normal{};
   std::ranges::copy(here.normal, normal.begin());
   const Vector along = result.impulses.back() * normal + memory.friction();
   const Vector on_second = along + memory.across();
   // The arms end at one point, in the ratio of the radii, as those of tangents_of().
-  const double r = p.radii[index_of(here.second)];
-  if (is_given(here.second)) {
-    const double arm =
-        here.first < 0
-            ? r
-            : r * (1 + (here.gap - here.tolerated) / (r + p.radii[index_of(here.first)]));
-    result.on_given.push_back({here.second, on_second, cross(-arm * normal, along)});
-  }
-  if (is_given(here.first)) {
-    const double own = p.radii[index_of(here.first)];
-    const double arm = own * (1 + (here.gap - here.tolerated) / (own + r));
-    result.on_given.push_back({here.first, -1.0 * on_second, cross(arm * normal, -1.0 * along)});
-  }
+  const auto [centres, radii] = circles_of(here, state_.particles);
+  const double share = here.first < 0 ? 1 : 1 + (here.gap - here.tolerated) / (radii[1] + radii[0]);
+  if (is_given(here.second))
+    result.on_given.push_back(
+        {here.second, on_second, cross(centres[1] - radii[1] * share * normal, along)});
+  if (is_given(here.first))
+    result.on_given.push_back({here.first, -1.0 * on_second,
+                               cross(centres[0] + radii[0] * share * normal, -1.0 * along)});
 }
 
 template class StepProjection<2>;

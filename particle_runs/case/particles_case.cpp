@@ -197,6 +197,14 @@ void output_keys(case_file::Keys& keys, ParticlesCase& c) {
     keys.require(std::ranges::find(kAskedTables, name) != kAskedTables.end(), "tables",
                  "has '{}'; the tables are {}", name, fmt::join(kAskedTables, ", "));
   }
+  keys.optional(
+      "step_columns", case_file::texts(c.step_columns),
+      {"further columns of `steps.csv`: `\"solver_stages\"`, the methods of the contact "
+       "solver that ran ([file-formats.md](file-formats.md#the-folder-of-many-particles))",
+       "none", "a list of names"});
+  for (const auto& name : c.step_columns)
+    keys.require(std::ranges::find(kStepColumns, name) != kStepColumns.end(), "step_columns",
+                 "has '{}'; the columns are {}", name, fmt::join(kStepColumns, ", "));
 }
 
 constexpr int kInPlane = 2;  // with it pieces_of_turn() reads one number

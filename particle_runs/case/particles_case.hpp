@@ -28,10 +28,12 @@ struct ParticlesCase {
   std::filesystem::path particles_file;  ///< the CSV file; empty if there is none
   double end_time = 0;                   ///< time at which the run ends [T], 1e-100 to 1e100
   double frame_interval = 0;             ///< time between outputs (frames) [T], 1e-100 to 1e100
-  double average_from = 0;            ///< time at which means over time begin [T], >= 0, < end_time
-  bool average_from_given = false;    ///< true: the case has the key average_from
-  std::vector<std::string> tables;    ///< names of tables that the case asks for, of kAskedTables
-                                      ///< (particle_runs/io/contact_file.hpp)
+  double average_from = 0;          ///< time at which means over time begin [T], >= 0, < end_time
+  bool average_from_given = false;  ///< true: the case has the key average_from
+  std::vector<std::string> tables;  ///< names of tables that the case asks for, of kAskedTables
+                                    ///< (particle_runs/io/contact_file.hpp)
+  std::vector<std::string>
+      step_columns;                   ///< names of further columns of steps.csv, of kStepColumns
   std::vector<std::string> warnings;  ///< what the user should know of the case, in sentences
   /// rho_f [M/L^3] of a fluid without inertia, for the Reynolds number only; 0: not known.
   double fluid_density = 0;
@@ -40,6 +42,10 @@ struct ParticlesCase {
   /// Without a value if the case has no such section.
   std::optional<case_file::SweepRequest> sweep;
 };
+
+/// The columns that steps.csv has on request: the stages of the contact solver with their
+/// iterations, StepReport::solver_stages.
+inline constexpr auto kStepColumns = std::to_array<std::string_view>({"solver_stages"});
 
 /// Reads and checks a case file. Throws Error(kBadInput), with the file, the line, the key, its
 /// value and what is allowed, if the file cannot be read, is not TOML or has a wrong key. It also

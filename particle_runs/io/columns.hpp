@@ -32,10 +32,12 @@ struct RunFacts {
   bool has_bodies = false;
   bool has_semi_axes = false;    ///< whether a particle is an ellipse or a plate
   bool has_given_loads = false;  ///< whether a particle has a given motion, without a fluid
+  /// Whether the case asks for the column `solver_stages`.
+  bool has_solver_stages = false;
 };
 
 /// A run of spheres in which all else is true, too.
-inline constexpr RunFacts kAllFacts{3, true, true, true, true, true, true, true, true, true};
+inline constexpr RunFacts kAllFacts{3, true, true, true, true, true, true, true, true, true, true};
 
 /// When a file has a column; `words` are those of docs/file-formats.md.
 struct Condition {

@@ -9,6 +9,9 @@ namespace {
 constexpr Condition kWithInertia{[](const RunFacts& run) { return run.has_inertia; },
                                  "in a fluid with a density"};
 
+constexpr Condition kWithSolverStages{[](const RunFacts& run) { return run.has_solver_stages; },
+                                      "with `step_columns`"};
+
 constexpr Presence over_time_if(const Condition& condition) {
   return {.at_end = kNever, .over_time = condition, .frames = kNever};
 }
@@ -81,16 +84,23 @@ const std::vector<Column<StepRow>>& step_columns() {
       column<StepRow>({"given_force_y", "M L/T², of discs M/T²", "the same along y, such as a lift",
                        over_time_if(kWithInertia)},
                       [](const StepRow& row) { return row.report.fluid.given_force[1]; }),
+      of_step<&StepReport::solver_stages>(
+          {"solver_stages", "",
+           "the [stages of the contact solver](#stages-of-the-contact-solver) that ran; empty if "
+           "there was nothing to solve",
+           over_time_if(kWithSolverStages)}),
   };
   return columns;
 }
 
 namespace {
 
-CsvTable<StepRow> steps_table(const std::optional<Fluid>& fluid) {
+CsvTable<StepRow> steps_table(const std::optional<Fluid>& fluid,
+                              std::span<const std::string> further) {
   RunFacts run;
   run.is_in_fluid = fluid.has_value();
   run.has_inertia = fluid && fluid->has_inertia();
+  run.has_solver_stages = !further.empty();
   return {columns_in(Output::kOverTime, step_columns(), run), run.dimension};
 }
 
@@ -114,12 +124,14 @@ const std::vector<Column<ProbeRow>>& probe_columns() {
 
 }  // namespace
 
-std::string steps_header(const std::optional<Fluid>& fluid) { return steps_table(fluid).header(); }
+std::string steps_header(const std::optional<Fluid>& fluid, std::span<const std::string> further) {
+  return steps_table(fluid, further).header();
+}
 
-std::string step_row(std::int64_t step, const StepReport& report,
-                     const std::optional<Fluid>& fluid) {
+std::string step_row(std::int64_t step, const StepReport& report, const std::optional<Fluid>& fluid,
+                     std::span<const std::string> further) {
   std::string text;
-  steps_table(fluid).add(text, {report, step});
+  steps_table(fluid, further).add(text, {report, step});
   return text;
 }
 

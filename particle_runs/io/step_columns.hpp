@@ -20,11 +20,13 @@ struct StepRow {
 
 const std::vector<Column<StepRow>>& step_columns();
 
-/// The line with the names of the columns of steps.csv.
-std::string steps_header(const std::optional<Fluid>& fluid);
+/// The line with the names of the columns of steps.csv. `further` are those that a case asks for
+/// (ParticlesCase::step_columns).
+std::string steps_header(const std::optional<Fluid>& fluid,
+                         std::span<const std::string> further = {});
 /// The row of steps.csv of the step with the number `step`, from 1.
-std::string step_row(std::int64_t step, const StepReport& report,
-                     const std::optional<Fluid>& fluid);
+std::string step_row(std::int64_t step, const StepReport& report, const std::optional<Fluid>& fluid,
+                     std::span<const std::string> further = {});
 
 /// The line with the names of the columns of probes.csv.
 std::string probes_header();

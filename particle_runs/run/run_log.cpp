@@ -58,7 +58,7 @@ RunLog::RunLog(const ParticlesCase& c, fs::path folder, const results::Provenanc
     add_file(list_of(kind), TextKind::kXml, std::string(kPvdHead), kPvdFoot);
   };
   add_list(kFrameFile);
-  add_file("steps.csv", TextKind::kHashComment, steps_header(c.setting.fluid));
+  add_file("steps.csv", TextKind::kHashComment, steps_header(c.setting.fluid, c.step_columns));
   if (c.setting.laws.restitution.is_on())
     add_file("rebounds.csv", TextKind::kHashComment, rebounds_header());
   if (!c.setting.links.empty()) add_list(kLinksFile);
@@ -111,7 +111,8 @@ void RunLog::add_step(const StepReport& report, const State& state,
   record_.totals.regime.add(case_, state, report.glued > 0);
   const auto steps = record_.totals.steps;
   if (steps <= kMostRows || steps % kOneIn == 0 || !report.converged) {
-    files_.at("steps.csv").append(step_row(state.steps, report, case_.setting.fluid));
+    files_.at("steps.csv")
+        .append(step_row(state.steps, report, case_.setting.fluid, case_.step_columns));
     if (!report.fluid.probes.empty())
       files_.at("probes.csv").append(probe_rows(report.fluid, case_.setting.fluid->probes));
   }

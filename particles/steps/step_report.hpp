@@ -68,6 +68,9 @@ struct StepReport {
   /// each set of connected particles is solved by itself, and those of the set that needs most are
   /// counted.
   int iterations = 0;
+  /// The methods of the contact solver that ran and their iterations, summed over all sets and
+  /// parts, such as "sweeps:60+proximal_steps:12"; empty if there was nothing to solve.
+  std::string solver_stages{};
   /// Largest residual |min(d, w (p - gamma))| of a contact, divided by the mean radius [1].
   double residual = 0;
   /// Largest error of an impulse, divided by the impulse at work in the contact or link [1]: the

@@ -56,5 +56,15 @@ TEST_P(Column, ThatHasFallenCarriesItsWeights) {
   }
 }
 
+/// In a chain of ten contacts that close at once Newton's method comes first.
+TEST_P(Column, IsSolvedByNewtonsMethod) {
+  auto setting = on_the_floor(0.02);
+  setting.laws.film.gamma_min = 0;
+  Simulation simulation(setting, column(GetParam(), 10, 0), 1);
+  const auto report = simulation.step(1);
+  EXPECT_TRUE(report.converged);
+  EXPECT_TRUE(report.solver_stages.starts_with("newton:")) << report.solver_stages;
+}
+
 }  // namespace
 }  // namespace viscontact::particles

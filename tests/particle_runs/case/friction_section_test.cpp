@@ -135,5 +135,13 @@ TEST_F(FrictionSection, TablesThatACaseCannotHaveAreRefused) {
               IsAt("case.toml:9", "output.tables"));
 }
 
+TEST_F(FrictionSection, ColumnsThatStepsDoNotHaveAreRefused) {
+  EXPECT_THAT(read("", "", "").step_columns, ElementsAre());
+  EXPECT_THAT(read("", "[output]\nstep_columns = [\"solver_stages\"]", "").step_columns,
+              ElementsAre("solver_stages"));
+  EXPECT_THAT(refused("", "[output]\nstep_columns = [\"residual\"]", ""),
+              IsAt("case.toml:9", "output.step_columns"));
+}
+
 }  // namespace
 }  // namespace viscontact::particles

@@ -215,7 +215,7 @@ centre = )" +
 TEST_F(ShippedFluidCase, ContactOfShearedDiscs) {
   last_of(cut("viscosity_contact", 0.1, 1));
   EXPECT_GT(last("steps.csv", kApparentViscosity), 1.6);
-  EXPECT_FALSE(column("contacts.csv", "normal_force").empty());
+  EXPECT_THAT(content(out() / "contacts.csv"), ::testing::HasSubstr(",normal_force"));
 }
 
 }  // namespace

@@ -17,7 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::StartsWith;
 
 /// A pendulum of two discs on a hinge strikes a disc on a rough floor, to which a spring ties
 /// another; an arm between two further discs changes its length.

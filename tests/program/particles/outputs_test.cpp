@@ -103,6 +103,30 @@ TEST_F(ParticlesCommand, FramesMoreOftenThanStepsAreFramesOfEachStep) {
   EXPECT_FALSE(fs::exists(out() / "particles_00021.vtp"));
 }
 
+/// Discs without friction: steps without contact run no stage, all others gradients or Newton's
+/// method.
+TEST_F(ParticlesCommand, WritesTheStagesOfTheSolverOnRequest) {
+  expect_done(run(
+      put_case(replaced(kCase, "every = 0.5", "every = 0.5\nstep_columns = [\"solver_stages\"]")),
+      out()));
+  std::istringstream rows(read_file(out() / "steps.csv"));
+  int solved = 0, empty = 0;
+  for (std::string row; std::getline(rows, row);) {
+    if (row.starts_with('#')) continue;
+    const auto last = row.substr(row.rfind(',') + 1);
+    if (row.starts_with("step,")) {
+      EXPECT_EQ(last, "solver_stages");
+    } else if (last.empty()) {
+      ++empty;
+    } else {
+      ++solved;
+      EXPECT_TRUE(last.starts_with("gradients:") || last.starts_with("newton:")) << row;
+    }
+  }
+  EXPECT_EQ(solved + empty, 200);
+  EXPECT_GT(solved, 0);
+}
+
 TEST_F(ParticlesCommand, PrintsItsRecordAsJson) {
   const auto result = run(put_case(kCase), out(), {"--json"});
   expect_done(result);
