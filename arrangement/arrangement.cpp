@@ -19,6 +19,32 @@
 namespace viscontact::particles {
 namespace {
 
+/// Free choices of random arrangements. Other values change the arrangements of seeds.
+struct ArrangementTuning {
+  // Least share of the region for centres in the domain; below it, random places would be found too
+  // slowly.
+  static constexpr double kLeastFraction = 1e-6;
+  // Rounds over the planes in which a point is moved into the region.
+  static constexpr int kProjections = 20;
+  // Slightly beyond a plane, so that rounding errors do not leave the point behind it.
+  static constexpr double kBeyond = 1 + 1e-6;
+  // Slightly inside a disc: 1e-12 of the radius exceeds the rounding errors.
+  static constexpr double kInside = 1 - 1e-12;
+  // Aim of a push over the distance that two particles must have, because pushes approach their aim
+  // without reaching it.
+  static constexpr double kFurther = 1 + 1e-3;
+  // Largest random move along an axis: half of the gap in the densest lattice, of which about half
+  // of the moves are kept, and at least 0.01 of the least distance, so that a dense arrangement can
+  // move too.
+  static constexpr double kOfLatticeGap = 0.5, kOfDistance = 0.01;
+  // 500 moves of each particle, on average, are taken as enough to forget the first places. To
+  // bound the time, more than 40 000 particles make 20 million moves in all, but at least 20 each.
+  static constexpr std::size_t kMoves = 20000000, kMostMoves = 500, kFewestMoves = 20;
+  // Random beginnings, tries for a free place of each particle, and rounds of pushes. Larger
+  // numbers find more of the dense arrangements.
+  static constexpr int kBeginnings = 10, kTries = 1000, kRounds = 2000;
+};
+
 /// The region for the centre of a particle: a disc or a box, on the free side of all planes.
 class Places {
  public:
@@ -67,11 +93,9 @@ class Places {
       size *= to_[d] - from_[d];
     }
     if (planes_.empty() || size == 0) return false;
-    // Below this fraction, random places would be found too slowly.
-    constexpr double kLeastFraction = 1e-6;
     Domain whole = DiscDomain{centre_, radius_};
     if (!round_) whole = BoxDomain{from_, to_, {}};
-    return measure(whole, planes_) < kLeastFraction * size;
+    return measure(whole, planes_) < ArrangementTuning::kLeastFraction * size;
   }
   /// Period along axis `d` [L]; 0 if there is none.
   double period(std::size_t d) const { return periods_[d]; }
@@ -113,13 +137,10 @@ class Places {
   /// planes, a point near that one, which may be outside the region in a corner.
   Vector nearest(Vector x) const {
     x = nearest_in_domain(x);
-    constexpr int kRounds = 20;
-    for (int round = 0; round < kRounds && !contain(x); ++round) {
+    for (int round = 0; round < ArrangementTuning::kProjections && !contain(x); ++round) {
       for (const auto& plane : planes_) {
         const double height = dot(plane.normal, x - plane.point);
-        // Slightly beyond the plane, so that rounding errors do not leave the point behind it.
-        constexpr double kBeyond = 1 + 1e-6;
-        if (height < 0) x = x - kBeyond * height * plane.normal;
+        if (height < 0) x = x - ArrangementTuning::kBeyond * height * plane.normal;
       }
       x = nearest_in_domain(x);
     }
@@ -135,9 +156,7 @@ class Places {
     }
     if (is_in_domain(x)) return x;
     const double dx = x[0] - centre_[0], dy = x[1] - centre_[1];
-    // 1e-12 of the radius exceeds the rounding errors, so that contain() is true of the result.
-    constexpr double kInside = 1 - 1e-12;
-    const double factor = radius_ * kInside / std::sqrt(dx * dx + dy * dy);
+    const double factor = radius_ * ArrangementTuning::kInside / std::sqrt(dx * dx + dy * dy);
     return {centre_[0] + factor * dx, centre_[1] + factor * dy};
   }
 
@@ -320,9 +339,7 @@ class PlacedParticles {
 /// Moves particles that are too close apart, in up to `rounds` rounds over all of them. Returns
 /// true as soon as none is too close after a round.
 bool push_apart(PlacedParticles& placed, int rounds) {
-  // The aim of a push is 1.001 times the distance that two particles must have, because pushes
-  // approach their aim without reaching it. Another factor changes the arrangements of seeds.
-  constexpr double kFurther = 1 + 1e-3;
+  constexpr double kFurther = ArrangementTuning::kFurther;
   const auto is_free = [&](std::size_t k) { return placed.is_free(placed.centres()[k], k); };
   for (int round = 0; round < rounds; ++round) {
     bool all_free = true;
@@ -353,15 +370,12 @@ bool push_apart(PlacedParticles& placed, int rounds) {
 }
 
 /// Moves particles at random and keeps the moves that leave all gaps large enough. `size` is the
-/// area or volume of the domain [L^2, L^3]. The numbers of moves and the lengths of steps below
-/// decide the arrangements of seeds.
+/// area or volume of the domain [L^2, L^3].
 void shuffle(PlacedParticles& placed, double size, SplitMix64& random) {
   const auto count = placed.count();
   const auto dimension = placed.dimension();
   // If the same number of particles formed the densest lattice (triangular or face-centred cubic)
-  // in the domain, the distance of neighbours would be `lattice`. About half of the moves are kept
-  // if the largest move along an axis is half of the gap in this lattice. It is at least 0.01 of
-  // the least distance, so that a dense arrangement can move too.
+  // in the domain, the distance of neighbours would be `lattice`.
   const double n = static_cast<double>(count);
   const double lattice = edge_of(
       dimension == 2 ? 2 * size / (std::sqrt(3.0) * n) : std::sqrt(2.0) * size / n, dimension);
@@ -369,11 +383,11 @@ void shuffle(PlacedParticles& placed, double size, SplitMix64& random) {
   for (std::size_t d = 0; d < dimension; ++d)
     span = std::min(span, 0.5 * placed.widest_places().length(d));
   const double step =
-      std::min(span, std::max(0.5 * (lattice - placed.distance()), 0.01 * placed.distance()));
-  // 500 moves of each particle, on average, are taken as enough to forget the first places. To
-  // bound the time, more than 40 000 particles make 20 million moves in all, but at least 20 each.
-  constexpr std::size_t kMoves = 20000000, kMost = 500, kLeast = 20;
-  const std::size_t moves = count * std::clamp(kMoves / count, kLeast, kMost);
+      std::min(span, std::max(ArrangementTuning::kOfLatticeGap * (lattice - placed.distance()),
+                              ArrangementTuning::kOfDistance * placed.distance()));
+  const std::size_t moves =
+      count * std::clamp(ArrangementTuning::kMoves / count, ArrangementTuning::kFewestMoves,
+                         ArrangementTuning::kMostMoves);
   for (std::size_t move = 0; move < moves; ++move) {
     const std::size_t k = random.below(count);
     Vector x = placed.centres()[k];
@@ -439,16 +453,15 @@ std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
     fixed.push_back({present.position(k), present.radii[k]});
   SplitMix64 random(asked.seed);
   // push_apart() can fail although an arrangement exists. All particles then get new random places.
-  // Larger numbers find more of the dense arrangements, but change those that seeds give.
-  constexpr int kBeginnings = 10, kTries = 1000, kRounds = 2000;
-  for (int beginning = 0; beginning < kBeginnings; ++beginning) {
+  for (int beginning = 0; beginning < ArrangementTuning::kBeginnings; ++beginning) {
     PlacedParticles placed(places, falling, gap, fixed);
     for (std::size_t k = 0; k < radii.size(); ++k) {
       Vector x = placed.places(k).random(random);
-      for (int i = 1; i < kTries && !placed.is_free(x, k); ++i) x = placed.places(k).random(random);
+      for (int i = 1; i < ArrangementTuning::kTries && !placed.is_free(x, k); ++i)
+        x = placed.places(k).random(random);
       placed.add(x);
     }
-    if (!push_apart(placed, kRounds)) continue;
+    if (!push_apart(placed, ArrangementTuning::kRounds)) continue;
     shuffle(placed, size, random);
     const auto axes = static_cast<std::size_t>(dimension);
     std::vector<double> positions(axes * radii.size());
@@ -457,7 +470,8 @@ std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
         positions[axes * order[i] + d] = placed.centres()[i][d];
     return positions;
   }
-  refuse(fmt::format("{} random beginnings did not lead to an arrangement", kBeginnings));
+  refuse(fmt::format("{} random beginnings did not lead to an arrangement",
+                     ArrangementTuning::kBeginnings));
   return {};
 }
 

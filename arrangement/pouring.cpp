@@ -67,6 +67,7 @@ void add(const DrawnParticle& particle, const Vector& place, const Vector& veloc
     p.velocities.push_back(velocity[d]);
   }
   p.radii.push_back(particle.radius);
+  add_missing_shapes(p);
   p.masses.push_back(particle.mass);
   add_missing_ids(p);
   if (turns) add_rotation(p);

@@ -41,6 +41,27 @@ lubrication::FitDiagnostics diagnose(const lubrication::MotionTable& table,
                                      const FittedSystem& system, const lubrication::Fit& fit,
                                      lubrication::FittedShape shape);
 
+/// Free choices of the diagnostics of a fit; lubrication/fit.hpp repeats the first two.
+struct DiagnosticsTuning {
+  // The chi-squared quantile beyond which the basis, and not the data, counts as the cause.
+  static constexpr double kQuantile = 0.99;
+  // |residual| of an outlier over the scale of all residuals. Of Gaussian residuals only one in two
+  // million is so large.
+  static constexpr double kOutlier = 5;
+  // 1 - leverage below which a row counts as the only one that determines a coefficient. Rounding
+  // errors of a leverage are smaller.
+  static constexpr double kRoundOff = 100 * std::numeric_limits<double>::epsilon();
+  // Standard errors by which a coefficient may differ from theory. Random errors exceed two in only
+  // one fit of twenty.
+  static constexpr double kStandardErrors = 2;
+  // Relative residual of a left-out row with a warning, which is for gaps that are too few or terms
+  // that do not suit. A sound fit must not get it: the default basis (1/q, 1, q, q^2, q^3) on forty
+  // gaps misses a left-out row by 0.05.
+  static constexpr double kFar = 0.1;
+  // Failed rows that the warning names; their number is in it, too.
+  static constexpr std::size_t kNamed = 5;
+};
+
 /// The gap L [L] at which the sphere touches a second wall; infinity without one.
 double largest_gap_of(const lubrication::MotionTable& table) {
   const auto wall = lubrication::second_wall(table.geometry, table.container, table.radius);
@@ -58,18 +79,18 @@ double gap_of_row(const lubrication::MotionTable& table, Eigen::Index row) {
   return table.rows[static_cast<std::size_t>(row)].gap;
 }
 
-/// The 99 % quantile of the chi-squared distribution; lubrication/fit.hpp repeats the number. The
-/// type is double, because it compiles faster than long double.
+/// Of the chi-squared distribution. The type is double, because it compiles faster than long
+/// double.
 double chi_squared_quantile(double degrees_of_freedom) {
   assert(degrees_of_freedom > 0);
   using DoublePolicy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
   const boost::math::chi_squared_distribution<double, DoublePolicy> chi_squared(degrees_of_freedom);
-  return boost::math::quantile(chi_squared, 0.99);
+  return boost::math::quantile(chi_squared, DiagnosticsTuning::kQuantile);
 }
 
-/// True for an outlier: |residual| > 5 times the scale of all residuals; lubrication/fit.hpp
-/// repeats the number. Of Gaussian residuals only one in two million is so large.
-bool is_far(double scaled_residual) { return std::abs(scaled_residual) > 5; }
+bool is_far(double scaled_residual) {
+  return std::abs(scaled_residual) > DiagnosticsTuning::kOutlier;
+}
 
 /// True for an outlier of a fit with a robust loss. Plain least squares has no outliers.
 bool is_outlier(const FittedSystem& system, lubrication::Loss loss, Eigen::Index row) {
@@ -147,13 +168,11 @@ void leave_one_out(const lubrication::MotionTable& table, const FittedSystem& sy
   if (d.degrees_of_freedom == 0) return;
   const Eigen::VectorXd leverage = leverages(system.weighted_matrix);
   const auto is_end = end_rows(table);
-  // Rounding errors of a leverage are smaller.
-  const double round_off = 100 * std::numeric_limits<double>::epsilon();
   double squares = 0;
   std::optional<lubrication::LeftOutRow> inner, end;
   for (Eigen::Index i = 0; i < leverage.size(); ++i) {
     // Leverage 1: the other rows do not determine the coefficients, so no member is set.
-    if (1 - leverage(i) < round_off) return;
+    if (1 - leverage(i) < DiagnosticsTuning::kRoundOff) return;
     const double predicted = std::abs(system.relative_residual(i) / (1 - leverage(i)));
     squares += predicted * predicted;
     take_largest(is_end[static_cast<std::size_t>(i)] ? end : inner,
@@ -219,11 +238,10 @@ void warn_of_shape(const lubrication::Fit& fit, lubrication::FittedShape shape,
 }
 
 std::string names_of_failed_rows(const lubrication::MotionTable& table) {
-  constexpr std::size_t kNamed = 5;
   std::vector<std::string> names;
   for (const auto& [name, reason] : table.failed_rows)
-    if (names.size() < kNamed) names.push_back(name);
-  if (table.failed_rows.size() > kNamed) names.emplace_back("...");
+    if (names.size() < DiagnosticsTuning::kNamed) names.push_back(name);
+  if (table.failed_rows.size() > DiagnosticsTuning::kNamed) names.emplace_back("...");
   return fmt::format("{}", fmt::join(names, "; "));
 }
 
@@ -249,10 +267,9 @@ void warn_of_coefficients(const lubrication::Fit& fit, const FittedSystem& syste
       continue;
     const double theory = -*fit.leading_coefficient * fit.reference_velocity;
     const double departure = term.coefficient - theory;
-    // Random errors exceed two standard errors in only one fit of twenty. A difference below the
-    // relative error of the forces themselves gets no warning either.
-    const double error =
-        std::max(2 * term.standard_error, d.largest_error_estimate * std::abs(theory));
+    // A difference below the relative error of the forces themselves gets no warning either.
+    const double error = std::max(DiagnosticsTuning::kStandardErrors * term.standard_error,
+                                  d.largest_error_estimate * std::abs(theory));
     if (d.degrees_of_freedom > 0 && std::abs(departure) > error)
       warnings.push_back(fmt::format(
           "the coefficient of 1/q is {:.6g}, theory's is {:.6g}: {:+.2g} relative, {:.1f} standard "
@@ -285,10 +302,7 @@ lubrication::FitDiagnostics diagnose(const lubrication::MotionTable& table,
                     d.failed_rows, d.failed_rows + d.rows, names_of_failed_rows(table)));
   warn_of_shape(fit, shape, d.warnings);
   warn_of_coefficients(fit, system, d, d.warnings);
-  // The warning is for gaps that are too few or terms that do not suit. A sound fit must not get
-  // it: the default basis (1/q, 1, q, q^2, q^3) on forty gaps misses a left-out row by 0.05.
-  constexpr double kFar = 0.1;
-  if (d.left_out_inner && d.left_out_inner->relative_residual > kFar)
+  if (d.left_out_inner && d.left_out_inner->relative_residual > DiagnosticsTuning::kFar)
     d.warnings.push_back(
         fmt::format("fitted without the row at gap {:.4g}, the formula misses that row by {:.2g} "
                     "relative: between the rows around it the error can reach a fraction of that; "

@@ -16,6 +16,23 @@
 namespace viscontact::fitting {
 namespace {
 
+/// Free choices of the linear fit.
+struct LeastSquaresTuning {
+  // Each step of the refinement gains about 16 - log10(condition number) digits. Even at the
+  // condition number 1e12 four steps gain all 16 digits of a double. More steps only cost time.
+  static constexpr int kRefinements = 4;
+  // The problem is linear. Without damping the first step of Ceres therefore reaches the solution,
+  // and the next steps only reduce its rounding errors. The extreme values turn off the damping and
+  // the tests that could stop the iteration earlier.
+  static constexpr double kTrustRegion = 1e32, kDamping = 1e-32;
+  static constexpr double kTolerance = 1e-16, kGradientTolerance = 1e-300;
+  // Rounding errors can make the predicted gain of a later step negative. Ceres rejects such a step
+  // and keeps the solution. The limit 20, larger than the number of steps, makes it no failure.
+  static constexpr int kSteps = 4, kMostInvalidSteps = 20;
+  // Turns off Ceres' own test of the rank, which condition_number_of() replaces.
+  static constexpr double kReciprocalCondition = 1e-32;
+};
+
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// The residuals A x - b as one block of Ceres, whose Jacobian is A. Both references must outlive
@@ -56,9 +73,6 @@ Eigen::VectorXd binary_scale(const Eigen::MatrixXd& matrix) {
 void refine(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_side,
             Eigen::VectorXd& solution) {
   using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
-  // Each step gains about 16 - log10(condition number) digits. Even at the condition number 1e12
-  // four steps gain all 16 digits of a double. More steps only cost time.
-  constexpr int kSteps = 4;
   const Eigen::Index columns = matrix.cols();
   const auto long_matrix = matrix.cast<long double>();
   const LongVector b = right_hand_side.cast<long double>();
@@ -66,7 +80,7 @@ void refine(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_sid
   const auto upper = qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
   LongVector x = solution.cast<long double>();
   LongVector residual = b - long_matrix * x;
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < LeastSquaresTuning::kRefinements; ++step) {
     const Eigen::VectorXd f = (b - residual - long_matrix * x).cast<double>();
     const Eigen::VectorXd g = (-(long_matrix.transpose() * residual)).cast<double>();
     const Eigen::VectorXd h = upper.transpose().solve(g);
@@ -101,8 +115,7 @@ double condition_number_of(const Eigen::MatrixXd& matrix) {
 RowMajorMatrix unit_covariance(ceres::Problem& problem, const Eigen::VectorXd& x) {
   ceres::Covariance::Options options;
   options.algorithm_type = ceres::DENSE_SVD;
-  // 1e-32 turns off Ceres' own test of the rank, which condition_number_of() replaces.
-  options.min_reciprocal_condition_number = 1e-32;
+  options.min_reciprocal_condition_number = LeastSquaresTuning::kReciprocalCondition;
   ceres::Covariance covariance(options);
   RowMajorMatrix unit(x.size(), x.size());
   const std::vector<std::pair<const double*, const double*>> blocks = {{x.data(), x.data()}};
@@ -137,20 +150,15 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
-  // The problem is linear. Without damping the first step therefore reaches the solution, and the
-  // next steps only reduce its rounding errors. The extreme values turn off the damping, the
-  // scaling, and the tests that could stop the iteration earlier.
-  options.initial_trust_region_radius = 1e32;
-  options.max_trust_region_radius = 1e32;
-  options.min_lm_diagonal = 1e-32;
-  options.jacobi_scaling = false;
-  // Rounding errors can make the predicted gain of a later step negative. Ceres rejects such a step
-  // and keeps the solution. The limit 20, larger than the number of steps, makes it no failure.
-  options.max_num_iterations = 4;
-  options.max_num_consecutive_invalid_steps = 20;
-  options.function_tolerance = 1e-16;
-  options.parameter_tolerance = 1e-16;
-  options.gradient_tolerance = 1e-300;
+  options.initial_trust_region_radius = LeastSquaresTuning::kTrustRegion;
+  options.max_trust_region_radius = LeastSquaresTuning::kTrustRegion;
+  options.min_lm_diagonal = LeastSquaresTuning::kDamping;
+  options.jacobi_scaling = false;  // the columns are scaled already
+  options.max_num_iterations = LeastSquaresTuning::kSteps;
+  options.max_num_consecutive_invalid_steps = LeastSquaresTuning::kMostInvalidSteps;
+  options.function_tolerance = LeastSquaresTuning::kTolerance;
+  options.parameter_tolerance = LeastSquaresTuning::kTolerance;
+  options.gradient_tolerance = LeastSquaresTuning::kGradientTolerance;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable() || !x.allFinite())

@@ -17,15 +17,31 @@
 namespace viscontact::fitting {
 namespace {
 
-/// The loss as a function of the square of residual/scale. The constants, which lubrication/fit.hpp
-/// repeats, make the standard errors on Gaussian residuals nearly those of least squares (95 %
-/// efficiency).
+/// Free choices of the robust fit.
+struct RobustFitTuning {
+  // Where each loss leaves the square, in scales. lubrication/fit.hpp repeats both numbers. The
+  // standard errors on Gaussian residuals are nearly those of least squares (95 % efficiency).
+  static constexpr double kHuber = 1.345, kCauchy = 2.385;
+  // In the first 20 steps the scale follows the residuals. Then it is kept, because the sum of the
+  // losses falls in every step, so that the iteration converges, only if the scale is constant.
+  static constexpr int kStepsWithScale = 20;
+  // The limit only ends an iteration that does not converge; robust_least_squares.hpp repeats it.
+  static constexpr int kMostSteps = 1000;
+  // The iteration ends when no residual changes by more than this fraction of the scale. Any value
+  // that is far below the scatter of the residuals (1) and far above rounding errors works.
+  static constexpr double kSettled = 1e-9;
+  // The least scale over the largest right-hand side, so that rounding errors of an exact fit are
+  // no outliers.
+  static constexpr double kRoundOff = 1e-14;
+};
+
+/// The loss as a function of the square of residual/scale.
 std::unique_ptr<ceres::LossFunction> make_loss(lubrication::Loss loss) {
   switch (loss) {
     case lubrication::Loss::kHuber:
-      return std::make_unique<ceres::HuberLoss>(1.345);
+      return std::make_unique<ceres::HuberLoss>(RobustFitTuning::kHuber);
     case lubrication::Loss::kCauchy:
-      return std::make_unique<ceres::CauchyLoss>(2.385);
+      return std::make_unique<ceres::CauchyLoss>(RobustFitTuning::kCauchy);
     case lubrication::Loss::kSquared:
       break;
   }
@@ -49,20 +65,11 @@ double scale_of(const Eigen::VectorXd& residual, Eigen::Index columns) {
 /// longer change. Sets all members of `solution` but the covariance of the M-estimate.
 void iterate(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_side,
              const ceres::LossFunction& loss, const StopToken& stop, RobustSolution& solution) {
-  // In the first 20 steps the scale follows the residuals. Then it is kept, because the sum of the
-  // losses falls in every step, so that the iteration converges, only if the scale is constant.
-  constexpr int kStepsWithScale = 20;
-  // The limit only ends an iteration that does not converge; robust_least_squares.hpp repeats it.
-  constexpr int kMostSteps = 1000;
-  // The iteration ends when no residual changes by more than this fraction of the scale. Any value
-  // that is far below the scatter of the residuals (1) and far above rounding errors works.
-  constexpr double kSettled = 1e-9;
-  // The scale is at least this number, so that rounding errors of an exact fit are no outliers.
-  const double round_off = 1e-14 * right_hand_side.cwiseAbs().maxCoeff();
+  const double round_off = RobustFitTuning::kRoundOff * right_hand_side.cwiseAbs().maxCoeff();
   Eigen::VectorXd residual = matrix * solution.least_squares.coefficients - right_hand_side;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < RobustFitTuning::kMostSteps; ++step) {
     stop.throw_if_stop_requested();
-    if (step < kStepsWithScale)
+    if (step < RobustFitTuning::kStepsWithScale)
       solution.scale = std::max(round_off, scale_of(residual, matrix.cols()));
     for (Eigen::Index i = 0; i < residual.size(); ++i) {
       std::array<double, 3> rho{};
@@ -77,7 +84,9 @@ void iterate(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_si
     const Eigen::VectorXd next = matrix * solution.least_squares.coefficients - right_hand_side;
     const double moved = (next - residual).cwiseAbs().maxCoeff();
     residual = next;
-    if (step >= kStepsWithScale && moved <= std::max(round_off, kSettled * solution.scale)) return;
+    if (step >= RobustFitTuning::kStepsWithScale &&
+        moved <= std::max(round_off, RobustFitTuning::kSettled * solution.scale))
+      return;
   }
   throw Error(ErrorKind::kNotConverged, "the robust fit does not converge; try another loss");
 }

@@ -23,6 +23,17 @@ using lubrication::MotionRow;
 // number are then computed again.
 constexpr int kDragMethod = 3, kMotionMethod = 2;
 
+/// Times of rows, measured on two cores of 2.1 GHz with one row on each, at gaps of 0.01 and 0.3
+/// radii.
+struct RowTimeTuning {
+  // Seconds of a row in which a sphere approaches, slides and rolls, or spins, if the coarsest
+  // meshes suffice.
+  static constexpr double kAlong = 1.3, kAcross = 2.5, kAround = 0.6;
+  // The coarsest meshes suffice for a relative accuracy of kKnee and more; for smaller values the
+  // time grows as the power -kPower of the accuracy.
+  static constexpr double kKnee = 1e-5, kPower = 0.45;
+};
+
 /// Everything that the numbers of the tables of a group depend on. With another text all tables
 /// that users have count as out of date and are computed again.
 std::string inputs_of(const Tabulation& tabulation, MotionGroup group) {
@@ -39,16 +50,12 @@ std::string inputs_of(const Tabulation& tabulation, MotionGroup group) {
   return text;
 }
 
-/// The time of one row on one core [s], from measurements on two cores of 2.1 GHz with one row on
-/// each, at gaps of 0.01 and 0.3 radii. For a relative accuracy of kKnee and more the coarsest
-/// meshes suffice; for smaller values the time grows as the power -kPower of the accuracy.
+/// The time of one row on one core [s].
 double typical_seconds(const Tabulation& tabulation, MotionGroup group) {
-  // swimmer/tabulation/resistance_table_plan.cpp has both numbers, too.
-  constexpr double kKnee = 1e-5, kPower = 0.45;
-  const double coarse = group == MotionGroup::kAlong    ? 1.3
-                        : group == MotionGroup::kAcross ? 2.5
-                                                        : 0.6;
-  return coarse * std::pow(std::max(1.0, kKnee / tabulation.relative_accuracy), kPower) *
+  const double coarse = group == MotionGroup::kAlong    ? RowTimeTuning::kAlong
+                        : group == MotionGroup::kAcross ? RowTimeTuning::kAcross
+                                                        : RowTimeTuning::kAround;
+  return coarse * time_factor(tabulation.relative_accuracy) *
          find_geometry(tabulation.geometry).relative_cost;
 }
 
@@ -91,6 +98,10 @@ MotionRow with_velocity(MotionRow row, double velocity) {
 }
 
 }  // namespace
+
+double time_factor(double relative_accuracy) {
+  return std::pow(std::max(1.0, RowTimeTuning::kKnee / relative_accuracy), RowTimeTuning::kPower);
+}
 
 std::vector<MotionKind> asked_motions(const Tabulation& tabulation, MotionGroup group) {
   auto asked = motions_of(group);

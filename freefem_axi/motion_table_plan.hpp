@@ -11,6 +11,10 @@
 
 namespace viscontact::freefem_axi {
 
+/// Time of a row of this relative accuracy over that of a row for which the coarsest meshes
+/// suffice; infinite for 0.
+double time_factor(double relative_accuracy);
+
 /// The groups with at least one of tabulation.motions, in the order of MotionGroup.
 std::vector<MotionGroup> motion_groups(const Tabulation& tabulation);
 

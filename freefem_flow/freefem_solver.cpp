@@ -85,6 +85,7 @@ void ScaledSolver::place(const particles::FluidParticles& bodies) {
   scaled.dimension = bodies.particles->dimension;
   scaled.positions = places_in_units(bodies.particles->positions, scaled.dimension, units_);
   scaled.radii = in_units(bodies.particles->radii, units_);
+  scaled.shapes = in_units(bodies.particles->shapes, units_);
   scaled.ids = bodies.particles->ids;
   // Lengths in `bodies` stay in the unit of the case, because the mesh asks only which particles
   // are of one body.
@@ -277,8 +278,10 @@ SolverLimits solver_limits(const StopToken& stop) {
 
 std::unique_ptr<particles::FluidSolver> start_fluid_solver(const particles::Fluid& fluid,
                                                            const particles::Domain& domain,
-                                                           std::span<const double> radii,
+                                                           std::span<const particles::Shape> shapes,
                                                            int dimension, const StopToken& stop) {
+  std::vector<double> radii;
+  for (const auto& shape : shapes) radii.push_back(shape.bounding_radius());
   if (!fluid.membranes.empty()) {
     refuse_small_membranes(fluid, domain);
     std::vector<double> sizes;
@@ -301,7 +304,7 @@ std::unique_ptr<particles::FluidSolver> start_fluid_solver(const particles::Flui
     if (is_freefem) refuse_short_edges(boundary, extent_of(own_domain), units);
     return boundary;
   };
-  auto process = std::make_unique<FlowProcess>(own_fluid, own_domain, in_units(radii, units),
+  auto process = std::make_unique<FlowProcess>(own_fluid, own_domain, in_units(shapes, units),
                                                dimension, solver_command(fluid, dimension),
                                                make_boundary, solver_limits(stop));
   if (!is_freefem) return process;

@@ -22,8 +22,8 @@ SolverCommand solver_command(const particles::Fluid& fluid, int dimension);
 /// number from 1 to 10 million.
 SolverLimits solver_limits(const StopToken& stop = {});
 
-/// Starts the solver of `fluid` in `domain` and waits until it is ready. `radii` [L], > 0, has one
-/// number for each particle; `dimension` is 2 (the plane) or 1 (the axis of a cylinder). The result
+/// Starts the solver of `fluid` in `domain` and waits until it is ready. `shapes` are those
+/// of all particles; `dimension` is 2 (the plane) or 1 (the axis of a cylinder). The result
 /// is never null; its arguments and results are in the units of the case. With membranes the solver
 /// is FreeFEM with membranes.edp (membranes/membrane_process.hpp). Throws Error(kExternalProgram)
 /// if the solver cannot be run or is not ready in time or its script is not found; Error(kBadInput)
@@ -33,7 +33,7 @@ SolverLimits solver_limits(const StopToken& stop = {});
 /// if the fluid has inertia and no temporary folder can be made.
 std::unique_ptr<particles::FluidSolver> start_fluid_solver(const particles::Fluid& fluid,
                                                            const particles::Domain& domain,
-                                                           std::span<const double> radii,
+                                                           std::span<const particles::Shape> shapes,
                                                            int dimension,
                                                            const StopToken& stop = {});
 

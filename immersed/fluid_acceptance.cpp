@@ -107,8 +107,7 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
       if (contact.w > 0) ++report.contacts;
       if (contact.w > 0 && counts) {
         pair.impulse = motion.impact ? motion.impact->absorbed[c] : share * contact.impulse;
-        setting_.laws.remember(pair, state_.memories,
-                               radii_in_fluid(*setting_.fluid, pair, p, obstacles_),
+        setting_.laws.remember(pair, state_.memories, motion.contact.circles[c].radii,
                                share * motion.impulse_errors[c], h);
       }
       pair.impulse = counts ? share * contact.impulse : 0;

@@ -14,8 +14,8 @@
 #include "viscontact/constraint_rows/selection.hpp"
 #include "viscontact/constraint_rows/solver_names.hpp"
 #include "viscontact/immersed/closed_contacts.hpp"
+#include "viscontact/particles/contact/shaped_contacts.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
-#include "viscontact/particles/setting/outline.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -42,25 +42,14 @@ void keep_memory(std::vector<Pair>& pairs, std::vector<Pair> before) {
   pairs = std::move(merged);
 }
 
-/// Nothing if the pair is none of two plates.
-std::optional<SpineContacts> contacts_of_two_plates(const Fluid& fluid, const Particles& p,
-                                                    const Pair& pair) {
-  if (pair.first < 0) return {};
-  const auto i = index_of(pair.first), j = index_of(pair.second);
-  if (!fluid.is_plate(i) || !fluid.is_plate(j)) return {};
-  return SpineContacts(outline_of(fluid, p, p.angles, i),
-                       outline_of(fluid, p, p.angles, j, shift_of(p.cell, pair.image)));
-}
-
-/// The pairs `before` of the step before, with the places of the present contacts of plates. If two
-/// contacts became one, this one gets the memory of the contact with the smaller gamma.
-std::vector<Pair> at_present_places(const std::vector<Pair>& before, const State& state,
-                                    const Fluid& fluid) {
-  if (fluid.plates.empty()) return before;
+/// The pairs `before` of the step before, with the numbers of the present contacts. If two contacts
+/// became one, this one gets the memory of the contact with the smaller gamma.
+std::vector<Pair> at_present_places(const std::vector<Pair>& before, const Particles& p,
+                                    std::span<const PlanePosition> obstacles) {
+  if (!p.has_other_shapes()) return before;
   std::vector<Pair> pairs;
   for (auto pair : before) {
-    if (const auto contacts = contacts_of_two_plates(fluid, state.particles, pair))
-      pair.place = contacts->contact_of(pair.place);
+    if (!is_round(p, pair)) pair.place = ShapedContacts(p, pair, obstacles).contact_of(pair.place);
     const auto same = std::ranges::find(pairs, place_of_pair(pair), place_of_pair);
     if (same == pairs.end()) {
       pairs.push_back(pair);
@@ -71,10 +60,24 @@ std::vector<Pair> at_present_places(const std::vector<Pair>& before, const State
   return pairs;
 }
 
+/// Adds the pair to `pairs`, once for each of its contacts.
+void add_contacts_of(const Particles& p, Pair pair, std::span<const PlanePosition> obstacles,
+                     std::vector<Pair>& pairs) {
+  if (is_round(p, pair)) {
+    pairs.push_back(pair);
+    return;
+  }
+  const ShapedContacts contacts(p, pair, obstacles);
+  for (const int place : contacts.places()) {
+    pair.place = place;
+    pairs.push_back(pair);
+  }
+}
+
 /// Lists all pairs with a distance of their surfaces below `reach` [L] and those with gamma < 0. On
 /// an axis the side of a cylinder is left out.
-void list_pairs(StepContacts& step, const State& state, const Fluid& fluid,
-                std::span<const PlanePosition> obstacles, double reach, ThreadPool& pool) {
+void list_pairs(StepContacts& step, const State& state, std::span<const PlanePosition> obstacles,
+                double reach, ThreadPool& pool) {
   // Particles are found by circles around them that overlap, whose radii must be below half a
   // period, because only the nearest images of particles have a number (periods.hpp).
   constexpr double kShareOfPeriod = 0.499;
@@ -91,116 +94,82 @@ void list_pairs(StepContacts& step, const State& state, const Fluid& fluid,
     if (p.bodies.are_one(pair.first, pair.second)) continue;
     Pair made{pair.first, pair.second};
     made.image = pair.image;
-    const auto contacts = contacts_of_two_plates(fluid, p, made);
-    if (!contacts) {
-      step.pairs.push_back(made);
-      continue;
-    }
-    for (const int place : contacts->places()) {
-      made.place = place;
-      step.pairs.push_back(made);
-    }
+    add_contacts_of(p, made, obstacles, step.pairs);
   }
   for (std::size_t w = 0; w < obstacles.size(); ++w) {
     if (p.dimension == 1 && obstacles[w].normal[0] == 0) continue;
     for (std::size_t k = 0; k < p.count(); ++k) {
       if (!(gap(obstacles[w], p.position(k), p.radii[k]) < reach)) continue;
-      Pair pair{-1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k)};
-      step.walls.push_back(pair);
-      pair.place = 1;  // the other end of a plate
-      if (fluid.is_plate(k)) step.walls.push_back(pair);
+      add_contacts_of(p, {-1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k)},
+                      obstacles, step.walls);
     }
   }
-  keep_memory(step.pairs, at_present_places(state.pairs, state, fluid));
-  keep_memory(step.walls, state.walls);
+  keep_memory(step.pairs, at_present_places(state.pairs, p, obstacles));
+  keep_memory(step.walls, at_present_places(state.walls, p, obstacles));
 }
 
-bool has_plate(const Fluid& fluid, std::int32_t first, std::int32_t second) {
-  return fluid.is_plate(index_of(second)) || (first >= 0 && fluid.is_plate(index_of(first)));
+/// The contact of a pair, with the distance of the surfaces as its gap, where friction acts, and
+/// the circles of the surfaces.
+struct MadeContact {
+  Contact<2> contact;
+  FrictionPlace place{};
+  ContactCircles circles{};
+};
+
+/// Radius of the first surface for the laws of contacts.
+double radius_of_obstacle(const PlanePosition& obstacle) {
+  return obstacle.is_curved() ? -obstacle.radius : std::numeric_limits<double>::infinity();
 }
 
-double cross(const std::array<double, 2>& arm, const std::array<double, 2>& force) {
-  return arm[0] * force[1] - arm[1] * force[0];
-}
-
-double along(const std::array<double, 2>& arm, const std::array<double, 2>& normal) {
-  return arm[0] * normal[0] + arm[1] * normal[1];
-}
-
-/// The contact of a plate and a plate, a disc or an obstacle: that of two discs, whose centres are
-/// the nearest points of both spines; the spine of a disc is its centre. At an obstacle each end of
-/// the plate has a contact of its own, and two plates may have two contacts. Pair::place is the
-/// end, 0 or 1, or a place of SpineContacts, 0 to 3. The particles `start` decide what place
-/// belongs to what contact; the gap is that of `p`. Sets `place`, where friction acts.
-Contact<2> contact_of_plates(const Fluid& fluid, const Particles& start, const Particles& p,
-                             const Pair& pair, std::span<const PlanePosition> obstacles,
-                             FrictionPlace& place) {
-  const auto j = index_of(pair.second);
-  Contact<2> contact{std::max(pair.first, -1), pair.second, {}, 0, pair.gamma, pair.impulse};
-  const Vector shift = pair.first < 0 ? Vector{} : shift_of(p.cell, pair.image);
-  const auto second = outline_of(fluid, p, p.angles, j, shift);
-  if (pair.first < 0) {
-    const auto& obstacle = obstacles[pair.plane()];
-    const auto ends = second.spine();
-    const Vector end{ends[index_of(pair.place)][0], ends[index_of(pair.place)][1], 0};
-    const Vector normal = normal_at(obstacle, end);
-    contact.normal = {normal[0], normal[1]};
-    contact.gap = gap(obstacle, end, second.end_radius());
-    contact.obstacle = -1 - pair.first;
-    const std::array arm = {end[0] - second.centre[0], end[1] - second.centre[1]};
-    contact.levers[1] = cross(arm, contact.normal);
-    place.arms[1] = second.end_radius() - along(arm, contact.normal);
-    place.on_obstacle = end - (second.end_radius() + contact.gap) * normal;
-    return contact;
+MadeContact contact_of_shapes(const Particles& p, const Pair& pair,
+                              std::span<const PlanePosition> obstacles) {
+  const auto surfaces = ShapedContacts(p, pair, obstacles).at(p, pair, obstacles);
+  MadeContact made{{std::max(pair.first, -1), pair.second, surfaces.normal, surfaces.gap,
+                    pair.gamma, pair.impulse}};
+  made.contact.levers = surfaces.levers();
+  made.place.arms = surfaces.friction_arms();
+  made.circles.arms = {dot(surfaces.arms[0], surfaces.normal),
+                       dot(surfaces.arms[1], surfaces.normal)};
+  made.circles.radii = {surfaces.radii[0], surfaces.radii[1]};
+  if (pair.first >= 0) {
+    made.contact.image = pair.image;
+    return made;
   }
-  contact.image = pair.image;
-  const auto i = index_of(pair.first);
-  const auto first = outline_of(fluid, p, p.angles, i);
-  const SpineContacts places(outline_of(fluid, start, start.angles, i),
-                             outline_of(fluid, start, start.angles, j, shift));
-  const auto near = places.at(pair.place, first, second);
-  contact.normal = {near.second[0] - near.first[0], near.second[1] - near.first[1]};
-  const double distance = std::hypot(contact.normal[0], contact.normal[1]);
-  if (distance > 0)
-    for (auto& x : contact.normal) x /= distance;
-  else
-    contact.normal = {1, 0};
-  contact.gap = (near.cross ? 0 : distance) - first.end_radius() - second.end_radius();
-  const auto arm = [](const std::array<double, 2>& at, const Outline& of) {
-    return std::array{at[0] - of.centre[0], at[1] - of.centre[1]};
-  };
-  const auto of_first = arm(near.first, first), of_second = arm(near.second, second);
-  contact.levers = {-cross(of_first, contact.normal), cross(of_second, contact.normal)};
-  // Both arms of friction end at one point in the gap, so that friction keeps the angular momentum.
-  const double share = distance / (first.end_radius() + second.end_radius());
-  place.arms = {along(of_first, contact.normal) + share * first.end_radius(),
-                share * second.end_radius() - along(of_second, contact.normal)};
-  return contact;
+  made.contact.obstacle = -1 - pair.first;
+  made.place.on_obstacle = {surfaces.on_obstacle[0], surfaces.on_obstacle[1], 0};
+  const auto& obstacle = obstacles[pair.plane()];
+  made.circles.radii.first = radius_of_obstacle(obstacle);
+  // A surface that fits to a round wall has no finite effective radius.
+  constexpr double kMostOfWall = 0.999;
+  if (obstacle.is_curved())
+    made.circles.radii.second = std::min(surfaces.radii[1], kMostOfWall * obstacle.radius);
+  return made;
 }
 
-/// The contact of any pair, with the distance of the surfaces as its gap. A tangent takes the place
-/// of a round wall, where the particle comes with its velocity without contact. Sets `place`.
-Contact<2> contact_in_fluid(const Fluid& fluid, const Particles& p, const Pair& pair,
-                            std::span<const PlanePosition> obstacles,
-                            const ContactConditions& conditions, FrictionPlace& place) {
-  if (has_plate(fluid, pair.first, pair.second))
-    return contact_of_plates(fluid, p, p, pair, obstacles, place);
+/// A tangent takes the place of a round wall, where the particle comes with its velocity without
+/// contact.
+MadeContact contact_in_fluid(const Particles& p, const Pair& pair,
+                             std::span<const PlanePosition> obstacles,
+                             const ContactConditions& conditions) {
+  if (!is_round(p, pair)) return contact_of_shapes(p, pair, obstacles);
+  const auto k = index_of(pair.second);
+  const double first =
+      pair.first < 0 ? radius_of_obstacle(obstacles[pair.plane()]) : p.radii[index_of(pair.first)];
+  MadeContact made{{}, {}, {{first, p.radii[k]}}};
   if (p.dimension == 1) {
     const auto on_axis = contact_of<1>(p, pair, obstacles);
-    Contact<2> contact{on_axis.first, on_axis.second, {on_axis.normal[0], 0}};
-    contact.gap = on_axis.gap;
-    contact.lowest = on_axis.lowest;
-    contact.obstacle = on_axis.obstacle;
-    contact.impulse = on_axis.impulse;
-    return contact;
+    made.contact = {on_axis.first, on_axis.second, {on_axis.normal[0], 0}};
+    made.contact.gap = on_axis.gap;
+    made.contact.lowest = on_axis.lowest;
+    made.contact.obstacle = on_axis.obstacle;
+    made.contact.impulse = on_axis.impulse;
+    return made;
   }
-  const auto k = index_of(pair.second);
   if (pair.first >= 0) {
-    const auto contact = contact_of<2>(p, pair, obstacles);
-    const double first = p.radii[index_of(pair.first)];
-    const double share = 1 + contact.gap / (first + p.radii[k]);
-    place.arms = {share * first, share * p.radii[k]};
-    return contact;
+    made.contact = contact_of<2>(p, pair, obstacles);
+    const double share = 1 + made.contact.gap / (first + p.radii[k]);
+    made.place.arms = {share * first, share * p.radii[k]};
+    return made;
   }
   auto obstacle = obstacles[pair.plane()];
   if (obstacle.is_curved()) {
@@ -208,11 +177,12 @@ Contact<2> contact_in_fluid(const Fluid& fluid, const Particles& p, const Pair& 
     const Vector moved{conditions.h * velocity[0], conditions.h * velocity[1], 0};
     obstacle = tangent_at(obstacle, p.position(k) + moved);
   }
-  const auto contact = contact_of<2>(p, pair, obstacle);
-  place.arms = {0, p.radii[k]};
-  place.on_obstacle =
-      p.position(k) - (p.radii[k] + contact.gap) * Vector{contact.normal[0], contact.normal[1], 0};
-  return contact;
+  made.contact = contact_of<2>(p, pair, obstacle);
+  made.place.arms = {0, p.radii[k]};
+  const auto& normal = made.contact.normal;
+  made.place.on_obstacle =
+      p.position(k) - (p.radii[k] + made.contact.gap) * Vector{normal[0], normal[1], 0};
+  return made;
 }
 
 void make_contacts(StepContacts& step, const Particles& p, const Fluid& fluid,
@@ -220,10 +190,11 @@ void make_contacts(StepContacts& step, const Particles& p, const Fluid& fluid,
                    const FrictionOfStep* friction) {
   for (const auto* list : {&step.pairs, &step.walls})
     for (const auto& pair : *list) {
-      FrictionPlace place;
-      auto contact = contact_in_fluid(fluid, p, pair, obstacles, conditions, place);
+      auto [contact, place, circles] = contact_in_fluid(p, pair, obstacles, conditions);
+      step.circles.push_back(circles);
       if (friction != nullptr) {
-        auto one = friction_of_contact(*friction, p, pair, contact, place, conditions);
+        auto one =
+            friction_of_contact(*friction, p, pair, contact, place, circles.radii, conditions);
         one.contact = step.contacts.size();
         if (std::isfinite(one.capacity)) step.frictions.push_back(one);
       }
@@ -255,10 +226,10 @@ Particles moved(const Particles& p, std::span<const double> velocities, double h
   return result;
 }
 
-/// Corrects the gaps of contacts of plates, which turn by finite angles in the step, by the
-/// difference between the true gap after the step and the linearised one. Returns false, and
-/// changes nothing, if this difference is at most a quarter of the tolerance for each contact that
-/// may act.
+/// Corrects the gaps of contacts of particles that are not round, which turn by finite angles in
+/// the step, by the difference between the true gap after the step and the linearised one. Returns
+/// false, and changes nothing, if this difference is at most a quarter of the tolerance for each
+/// contact that may act.
 bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
                    std::span<const PlanePosition> obstacles, const ContactConditions& conditions) {
   const double h = conditions.h;
@@ -269,12 +240,12 @@ bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
     const auto& contact = step.contacts[c];
     const auto n = step.pairs.size();
     const auto& pair = c < n ? step.pairs[c] : step.walls[c - n];
-    if (!has_plate(fluid, pair.first, pair.second)) continue;
+    if (is_round(p, pair)) continue;
     // make_contacts() sets a gap within half of the tolerance to 0; the gap after the step is
     // changed by as much.
+    const ShapedContacts contacts(p, pair, obstacles);
     const auto gap_at = [&](const Particles& at) {
-      FrictionPlace place;
-      return contact_of_plates(fluid, p, at, pair, obstacles, place).gap - fluid.threshold_gap;
+      return contacts.at(at, pair, obstacles).gap - fluid.threshold_gap;
     };
     double gap = gap_at(after);
     const double before = gap_at(p);
@@ -288,40 +259,31 @@ bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
   return true;
 }
 
-/// Throws Error(kNotConverged) if two plates are closer after the step than the tolerance allows,
-/// at a place that was no contact at its beginning.
-void check_plates_apart(const StepContacts& step, const Particles& p, const Fluid& fluid,
-                        const ContactConditions& conditions) {
-  if (fluid.plates.empty()) return;
+/// Throws Error(kNotConverged) if two particles with sides are closer after the step than the
+/// tolerance allows, at a place that was no contact at its beginning.
+void check_sides_apart(const StepContacts& step, const Particles& p, const Fluid& fluid,
+                       const ContactConditions& conditions) {
+  if (!p.has_other_shapes()) return;
   const auto after = moved(p, step.velocities, conditions.h, conditions.layout);
   const double allowed = 2 * conditions.solver.tolerance * conditions.mean_radius;
   const auto gap_at = [&](const Particles& at, const Pair& pair) {
-    return gap(
-        outline_of(fluid, at, at.angles, index_of(pair.first)),
-        outline_of(fluid, at, at.angles, index_of(pair.second), shift_of(at.cell, pair.image)));
+    return gap(at.placed_shape(index_of(pair.first)),
+               at.placed_shape(index_of(pair.second), shift_of(at.cell, pair.image)));
   };
   for (const auto& pair : step.pairs) {
-    if (!fluid.is_plate(index_of(pair.first)) || !fluid.is_plate(index_of(pair.second))) continue;
+    const auto i = index_of(pair.first), j = index_of(pair.second);
+    if (p.shape(i).sides() == 0 || p.shape(j).sides() == 0) continue;
     const double least = std::min(fluid.threshold_gap, gap_at(p, pair)) - allowed;
     if (const double left = gap_at(after, pair); left < least)
       throw Error(ErrorKind::kNotConverged,
-                  "the plates {} and {} would have a gap of {:.3g} after the step, less than "
+                  "the {}s {} and {} would have a gap of {:.3g} after the step, less than "
                   "fluid.threshold_gap, {:.3g}, at a place that is no contact when the step "
                   "begins; a shorter time step helps",
-                  p.id(index_of(pair.first)), p.id(index_of(pair.second)), left,
-                  fluid.threshold_gap);
+                  p.shape(i).name(), p.id(i), p.id(j), left, fluid.threshold_gap);
   }
 }
 
 }  // namespace
-
-PairRadii radii_in_fluid(const Fluid& fluid, const Pair& pair, const Particles& particles,
-                         std::span<const Plane> obstacles) {
-  auto radii = radii_of(pair, particles, obstacles);
-  radii.second = fluid.end_radius(index_of(pair.second), radii.second);
-  if (pair.first >= 0) radii.first = fluid.end_radius(index_of(pair.first), radii.first);
-  return radii;
-}
 
 std::vector<Contact<2>> contacts_of_stops(const Links& links, const Particles& particles) {
   std::vector<Contact<2>> contacts;
@@ -422,10 +384,10 @@ double reach_of(const State& state, const Fluid& fluid, std::span<const double> 
   const auto& cell = state.particles.cell;
   const double of_images =
       norm(velocity_of_image(cell, Periods{1, 0})) + norm(velocity_of_image(cell, Periods{0, 1}));
-  double of_turns = 0;  // of the ends of plates [L/T]
-  for (std::size_t k = 0; k < fluid.plates.size(); ++k)
-    if (fluid.is_plate(k))
-      of_turns = std::max(of_turns, state.particles.radii[k] * std::abs(velocities[3 * k + 2]));
+  const auto& p = state.particles;
+  double of_turns = 0;  // of the surfaces of particles that are not round [L/T]
+  for (std::size_t k = 0; k < p.shapes.size(); ++k)
+    if (!p.is_round(k)) of_turns = std::max(of_turns, p.radii[k] * std::abs(velocities[3 * k + 2]));
   return fluid.threshold_gap +
          conditions.h * (2 * (fastest(velocities, conditions.layout) + of_turns) + of_images);
 }
@@ -459,17 +421,17 @@ StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links&
   for (;;) {
     StepContacts step;
     step.iterations = iterations;
-    step.stages = stages;
-    list_pairs(step, state, fluid, obstacles, reach, pool);
+      step.stages = stages;
+      list_pairs(step, state, obstacles, reach, pool);
     std::erase_if(step.pairs, is_left_out);
     std::erase_if(step.walls, is_left_out);
     make_contacts(step, p, fluid, obstacles, conditions, friction);
     step.contacts.insert(step.contacts.end(), stops.begin(), stops.end());
     solve(step);
-    // Each correction multiplies the error by about the angle [rad] by which plates turn in the
+    // Each correction multiplies the error by about the angle [rad] by which particles turn in the
     // step, so that few corrections are needed.
     constexpr int kMostCorrections = 20;
-    for (int n = 0; n < kMostCorrections && !fluid.plates.empty(); ++n) {
+    for (int n = 0; n < kMostCorrections && p.has_other_shapes(); ++n) {
       if (!correct_turns(step, p, fluid, obstacles, conditions)) break;
       solve(step);
       if (n + 1 == kMostCorrections) step.is_solved = false;
@@ -477,7 +439,7 @@ StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links&
     step.reach = reach;
     const double needed = reach_of(state, fluid, step.velocities, conditions);
     if (needed <= reach) {
-      check_plates_apart(step, p, fluid, conditions);
+      check_sides_apart(step, p, fluid, conditions);
       return step;
     }
     iterations = step.iterations;

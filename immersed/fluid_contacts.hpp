@@ -260,12 +260,21 @@ struct ContactFrictionInFluid {
 
 struct FrictionOfStep;
 
+/// The circles that touch both surfaces of a contact at the beginning of the step and have their
+/// radii of curvature (SurfaceContact).
+struct ContactCircles {
+  PairRadii radii{};  ///< [L]
+  /// Their centres from those of the particles, along the normal [L]; 0 for discs and obstacles.
+  std::array<double, 2> arms{};
+};
+
 struct StepContacts {
   std::vector<Pair> pairs,  ///< of particles that may touch in this step, with their memory
       walls;                ///< of a particle and an obstacle
   /// The contacts of all `pairs`, then of all `walls`, then of the stops of hinges, which have no
   /// film. Contacts that take no part have the impulse 0 and w = 0 or kImmovable.
   std::vector<Contact<2>> contacts;
+  std::vector<ContactCircles> circles;  ///< of `pairs`, then of `walls`
   /// Of the contacts with a finite capacity, in the order of `contacts`; empty without friction.
   std::vector<ContactFrictionInFluid> frictions;
   /// Velocities of all particles by a unit force of each contact [T/M, T/(M L)]; may be empty in a
@@ -296,11 +305,6 @@ void solve_listed(StepContacts& step, const Mobility& mobility,
 double reach_of(const State& state, const Fluid& fluid, std::span<const double> velocities,
                 const ContactConditions& conditions);
 
-/// The radii [L] of both surfaces of a pair at its contact: radii_of() with the round ends of
-/// plates. `obstacles` are obstacles_of(setting).
-PairRadii radii_in_fluid(const Fluid& fluid, const Pair& pair, const Particles& particles,
-                         std::span<const Plane> obstacles);
-
 /// The stops of hinges (bounds of their angles) as contacts. The gap [L] of a stop is the angle
 /// that is left before it, times the radius of the particle that the hinge holds.
 std::vector<Contact<2>> contacts_of_stops(const Links& links, const Particles& particles);
@@ -314,11 +318,11 @@ void add_torques_of_stops(const Links& links, const Particles& particles,
 
 /// Lists the pairs that may come to contact in the step, until no other gap can close, and finds
 /// the impulses of their contacts. `state` is that before the step, `obstacles` are at their places
-/// at its end. The finite rotation of plates is taken into account up to a quarter of the tolerance
-/// of gaps. `friction` may be null.
+/// at its end. The finite rotation of particles that are not round is taken into account up to a
+/// quarter of the tolerance of gaps. `friction` may be null.
 ///
-/// Throws Error(kNotConverged) if two plates turn so far that they overlap at a place that was no
-/// contact of theirs.
+/// Throws Error(kNotConverged) if two particles with sides turn so far that they overlap at a place
+/// that was no contact of theirs.
 StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links& links,
                             std::span<const PlanePosition> obstacles,
                             const std::function<bool(const Pair&)>& is_left_out,
@@ -343,10 +347,10 @@ struct FrictionPlace {
 /// The friction of a contact before the problem is solved, without ContactFrictionInFluid::contact,
 /// w and slides. `contact` must have the distance D of the surfaces as its gap, and the particles
 /// are at their places at the beginning of the step. The first guess of the impulse is the friction
-/// in the memory of the pair.
+/// in the memory of the pair. `radii` are those of ContactCircles.
 ContactFrictionInFluid friction_of_contact(const FrictionOfStep& step, const Particles& particles,
                                            const Pair& pair, const Contact<2>& contact,
-                                           const FrictionPlace& place,
+                                           const FrictionPlace& place, const PairRadii& radii,
                                            const ContactConditions& conditions);
 
 /// Finds the impulses of contacts as solve_listed() does, but with friction. If Coulomb's law is

@@ -329,16 +329,15 @@ class FrictionSolver {
 
 ContactFrictionInFluid friction_of_contact(const FrictionOfStep& step, const Particles& particles,
                                            const Pair& pair, const Contact<2>& contact,
-                                           const FrictionPlace& place,
+                                           const FrictionPlace& place, const PairRadii& radii,
                                            const ContactConditions& conditions) {
   assert(step.end > step.begin);
   const auto& setting = step.setting;
   ContactFrictionInFluid friction{.tangent = {-contact.normal[1], contact.normal[0]}};
   friction.levers = {pair.first < 0 ? 0 : -place.arms[0], -place.arms[1]};
-  const double lowest =
-      setting.laws.lowest_gamma(pair, step.memories.of(pair.memory),
-                                radii_in_fluid(*setting.fluid, pair, particles, step.obstacles));
-  friction.capacity = (pair.gamma - lowest) / conditions.share_of_impulse;
+  const double lowest = setting.laws.lowest_gamma(pair, step.memories.of(pair.memory), radii);
+  // Where the surface of a particle that rolls is curved more, gamma_min is nearer to 0.
+  friction.capacity = std::max(0.0, pair.gamma - lowest) / conditions.share_of_impulse;
   const Vector before = step.memories.of(pair.memory).friction();
   const auto along = [&](const Vector& x) {
     return friction.tangent[0] * x[0] + friction.tangent[1] * x[1];

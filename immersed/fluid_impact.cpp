@@ -8,12 +8,13 @@
 
 #include "viscontact/immersed/closed_contacts.hpp"
 #include "viscontact/immersed/fluid_motion.hpp"
+#include "viscontact/particles/contact/shaped_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {
 
 /// The rate [L/T] at which a gap grows while the particles rest.
-double drift_of(const Contact<2>& contact, const ImpactStep& step, double h) {
+double drift_of(const Contact<2>& contact, const Pair& pair, const ImpactStep& step, double h) {
   const auto& p = step.state.particles;
   if (contact.is_stop()) return 0;
   if (contact.first >= 0) {
@@ -23,7 +24,12 @@ double drift_of(const Contact<2>& contact, const ImpactStep& step, double h) {
   }
   const auto& obstacle = step.obstacles[index_of(contact.obstacle)];
   const auto k = index_of(contact.second);
-  const auto gap_at = [&](double t) { return gap(obstacle.at(t), p.position(k), p.radii[k]); };
+  const auto gap_at = [&](double t) {
+    if (is_round(p, pair)) return gap(obstacle.at(t), p.position(k), p.radii[k]);
+    const auto place = obstacle.at(t);
+    const auto shape = p.placed_shape(k);
+    return WallContacts(place, shape).at(pair.place, place, shape).gap;
+  };
   return (gap_at(step.end) - gap_at(step.state.time)) / h;
 }
 
@@ -93,9 +99,7 @@ class Impact {
   double lowest_gamma(std::size_t c) const {
     if (ordinary_.contacts[c].is_stop()) return 0;
     const auto& of = pair(c);
-    return laws_.lowest_gamma(
-        of, step_.state.memories.of(of.memory),
-        radii_in_fluid(*step_.setting.fluid, of, step_.state.particles, step_.obstacles));
+    return laws_.lowest_gamma(of, step_.state.memories.of(of.memory), ordinary_.circles[c].radii);
   }
   double rate(std::size_t c, std::span<const double> velocities) const {
     return opening(ordinary_.contacts[c], velocities.data(), conditions_.layout) + parts_[c].drift;
@@ -138,7 +142,7 @@ bool Impact::find_hits() {
   for (std::size_t c = 0; c < parts_.size(); ++c) {
     auto& part = parts_[c];
     const auto& contact = ordinary_.contacts[c];
-    part.drift = drift_of(contact, step_, h);
+    part.drift = drift_of(contact, pair(c), step_, h);
     part.start = std::max(0.0, contact.gap - h * part.drift);
     part.is_closed = part.start <= touching || contact.lowest < 0;
     if (approaches(c)) approaching.push_back(c);

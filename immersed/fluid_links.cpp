@@ -10,6 +10,7 @@
 #include "viscontact/immersed/fluid_motion.hpp"
 #include "viscontact/immersed/fluid_simulation.hpp"
 #include "viscontact/immersed/step_equation.hpp"
+#include "viscontact/particles/contact/shaped_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -120,10 +121,7 @@ std::vector<Contact<2>> FluidSimulation::contacts_before(double h) const {
   const auto places = positions_of(obstacles_, state_.time);
   for (const auto* list : {&state_.pairs, &state_.walls})
     for (const auto& pair : *list) {
-      const auto is_plate = [&](std::int32_t k) {
-        return k >= 0 && setting_.fluid->is_plate(index_of(k));
-      };
-      if (pair.impulse == 0 || is_plate(pair.first) || is_plate(pair.second)) continue;
+      if (pair.impulse == 0 || !is_round(state_.particles, pair)) continue;
       contacts.push_back(contact_of<2>(state_.particles, pair, places));
       contacts.back().impulse *= h / impulse_time_of(h);
     }
@@ -146,26 +144,17 @@ bool FluidSimulation::follow_turns(const StepEquation& equation, ConstrainedMoti
   return changed || rows.size() > before;
 }
 
-double FluidSimulation::turn_of_films(std::span<const Contact<2>> contacts,
+double FluidSimulation::turn_of_films(const StepContacts& step,
                                       const StepEquation& equation) const {
-  const auto& fluid = *setting_.fluid;
-  const bool is_split = fluid.coupling == Coupling::kSplitting;
-  if (layout_.components != 3 || (fluid.plates.empty() && !is_split)) return 0;
+  const bool is_split = setting_.fluid->coupling == Coupling::kSplitting;
   const auto& p = state_.particles;
+  if (layout_.components != 3 || (!p.has_other_shapes() && !is_split)) return 0;
   auto mobility = equation.largest_mobility();
   if (is_split) {
     const auto inertia = equation.inertia_of_projection();
     for (std::size_t i = 0; i < mobility.size(); ++i)
       mobility[i] = mobility[i] > 0 && inertia[i] > 0 ? 1 / inertia[i] : 0;
   }
-  // The arm of a plate's end across the normal. Along a side, where the nearest points slide on the
-  // plate, it is 0 up to rounding.
-  const auto arm_of = [&](std::size_t i, const Contact<2>& contact) {
-    if (!fluid.is_plate(i)) return 0.0;
-    return (fluid.semi_axes[i][0] - fluid.semi_axes[i][1]) *
-           std::abs(std::cos(p.angles[i]) * contact.normal[0] +
-                    std::sin(p.angles[i]) * contact.normal[1]);
-  };
   struct Film {
     std::int32_t first, second;
     double of_arms;  // part of z that is due to arms that turn [1]
@@ -174,31 +163,34 @@ double FluidSimulation::turn_of_films(std::span<const Contact<2>> contacts,
   // The sum of the rates of all films at each particle, with its own mobility. The largest sum of
   // two particles of one film bounds the rate of a whole chain (Anderson & Morley 1985).
   std::vector<double> rates(p.count());
-  for (const auto& contact : contacts) {
-    if (contact.is_stop() || !(contact.impulse < 0)) continue;
+  for (std::size_t c = 0; c < step.circles.size(); ++c) {
+    const auto& contact = step.contacts[c];
+    if (!(contact.impulse < 0)) continue;
+    const auto& [radii, arms] = step.circles[c];
     double length = contact.gap;
-    bool has_plate = false, has_side = false;
+    bool has_arm = false, has_side = false;
     Film film{contact.first, contact.second, 0};
-    for (const auto k : {contact.first, contact.second}) {
+    for (const std::size_t one : {0U, 1U}) {
+      const auto k = one == 0 ? contact.first : contact.second;
       if (k < 0) continue;
       const auto i = index_of(k);
-      length += fluid.end_radius(i, p.radii[i]);
-      if (!fluid.is_plate(i)) continue;
+      length += one == 0 ? radii.first : radii.second;
+      // Along a side, where the nearest points slide on it, the arm is 0 up to rounding.
       constexpr double kRounding = 1e-9;
-      const double arm = arm_of(i, contact);
-      has_plate = true;
-      has_side = has_side || !(arm > kRounding * fluid.semi_axes[i][0]);
+      const double arm = std::abs(arms[one]);
+      has_arm = has_arm || arm > kRounding * p.radii[i];
+      has_side = has_side || (p.shape(i).sides() > 0 && !(arm > kRounding * p.radii[i]));
       film.of_arms = std::max(film.of_arms, -contact.impulse * arm * mobility[layout_.at(k, 2)]);
     }
-    if (has_side || (!has_plate && !is_split)) continue;
+    if (has_side || (!has_arm && !is_split)) continue;
     films.push_back(film);
     // The direction of a film at a wall does not turn.
     if (contact.first < 0 || !(length > 0)) continue;
-    for (const auto k : {contact.first, contact.second}) {
-      const double arm = arm_of(index_of(k), contact);
+    for (const std::size_t one : {0U, 1U}) {
+      const auto k = one == 0 ? contact.first : contact.second;
       rates[index_of(k)] -= contact.impulse / length *
                             (std::max(mobility[layout_.at(k, 0)], mobility[layout_.at(k, 1)]) +
-                             arm * arm * mobility[layout_.at(k, 2)]);
+                             arms[one] * arms[one] * mobility[layout_.at(k, 2)]);
     }
   }
   double largest = 0;

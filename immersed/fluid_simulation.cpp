@@ -2,8 +2,6 @@
 // velocities with them.
 #include "viscontact/immersed/fluid_simulation.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cassert>
 #include <chrono>
@@ -19,7 +17,6 @@
 #include "viscontact/immersed/step_equation.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
-#include "viscontact/particles/setting/outline.hpp"
 #include "viscontact/particles/steps/step_times.hpp"
 
 namespace viscontact::particles {
@@ -183,7 +180,7 @@ ContactConditions FluidSimulation::contact_conditions(std::span<const double> fr
     double heaviest = 0;
     const auto& p = state_.particles;
     for (std::size_t k = 0; k < p.count(); ++k)
-      heaviest = std::max(heaviest, p.masses[k] + fluid.density * fluid.size_of(2, k, p.radii[k]));
+      heaviest = std::max(heaviest, p.masses[k] + fluid.density * fluid.size_of(p.shape(k), k));
     for (const auto& body : p.bodies.bodies) heaviest = std::max(heaviest, body.mass);
     conditions.least_w = std::max(kShare, kErrors * error_of_answers(fluid)) /
                          (fluid.viscosity + heaviest / impulse_time_of(h));
@@ -222,12 +219,11 @@ std::optional<FluidImpact> FluidSimulation::solve_contacts_of(const StepEquation
     return velocities;
   };
   const auto& fluid = *setting_.fluid;
-  const auto is_ellipse = [&](std::int32_t k) { return k >= 0 && fluid.is_ellipse(index_of(k)); };
-  // Three kinds of pairs have no contact: those of which no particle can be moved, those with an
-  // ellipse (check_ellipses()), and the two ends of an arm, which prescribes their distance.
+  // Two kinds of pairs have no contact: those of which no particle can be moved, and the two ends
+  // of an arm, which prescribes their distance.
   const auto is_left_out = [&](const Pair& pair) {
-    return (!is_movable(pair.first) && !is_movable(pair.second)) || is_ellipse(pair.first) ||
-           is_ellipse(pair.second) || std::ranges::any_of(setting_.links.arms, [&](const Arm& arm) {
+    return (!is_movable(pair.first) && !is_movable(pair.second)) ||
+           std::ranges::any_of(setting_.links.arms, [&](const Arm& arm) {
              return std::minmax(arm.first, arm.second) == std::minmax(pair.first, pair.second);
            });
   };
@@ -344,7 +340,7 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
       break;
   }
   motion.buckling = std::max(constrained ? constrained->pushing() : 0,
-                             turn_of_films(motion.contact.contacts, equation) / 2);
+                             turn_of_films(motion.contact, equation) / 2);
   const auto& loads = motion.impact ? motion.impact->loads : motion.contact.loads;
   motion.after = motion.impact ? motion.impact->velocities : motion.contact.velocities;
   if (largest_magnitude(loads) > 0 && !is_split) {
@@ -458,46 +454,9 @@ void FluidSimulation::estimate(const StepEquation& equation, std::span<const dou
     hold_at_end(equation, *constrained, moved, motion.reported);
 }
 
-void FluidSimulation::check_ellipses() const {
-  const auto& fluid = *setting_.fluid;
-  if (fluid.semi_axes.empty()) return;
-  const auto& p = state_.particles;
-  const double least = fluid.threshold_gap - setting_.solver.tolerance * mean_radius_;
-  const auto is_driven = [&](std::size_t k) {
-    return setting_.given_motions.contains(static_cast<std::int32_t>(k));
-  };
-  const auto check = [&](std::size_t k, double gap, const std::string& other) {
-    if (gap < least)
-      throw Error(ErrorKind::kNotConverged,
-                  "particle {}, an ellipse, has a gap of {:.3g} to {} at time {}, less than "
-                  "fluid.threshold_gap, {:.3g}; contacts of ellipses are not computed, and the run "
-                  "must end before",
-                  p.id(k), gap, other, state_.time, fluid.threshold_gap);
-  };
-  const auto places = positions_of(obstacles_, state_.time);
-  for (std::size_t k = 0; k < p.count(); ++k) {
-    if (!fluid.is_ellipse(k)) continue;
-    const auto outline = outline_of(fluid, p, p.angles, k);
-    for (const auto& place : places)
-      if (!is_driven(k) && gap(place, p.position(k), p.radii[k]) < least)
-        check(k, gap(place, outline), "a wall or plane");
-    for (std::size_t j = 0; j < p.count(); ++j)
-      for (std::int32_t image = -kLargestImage; image <= kLargestImage; ++image) {
-        const auto shift = shift_of(p.cell, image);
-        const auto apart = p.position(j) + shift - p.position(k);
-        if (j == k || (image != 0 && norm(shift) == 0) || (is_driven(k) && is_driven(j)) ||
-            norm(apart) - p.radii[k] - p.radii[j] >= least)
-          continue;
-        check(k, gap(outline, outline_of(fluid, p, p.angles, j, shift)),
-              fmt::format("particle {}", p.id(j)));
-      }
-  }
-}
-
 StepReport FluidSimulation::step(double end) {
   const auto interval = StepGrid(setting_.time_step).next(state_, end);
   if (!interval) return {.time = state_.time, .parts = 1};
-  check_ellipses();
   StepReport report{.time = interval->end};
   begin_flow(interval->h);
   auto motion = solve(interval->h, interval->end, state_.steps == 0 || interval->reaches_end);

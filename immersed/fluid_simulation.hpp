@@ -64,8 +64,8 @@ class FluidSimulation : public FlowSimulation {
   /// - if an overlap of more than the mean radius is left;
   /// - if the length or place of a link is off by more than the mean radius, or links contradict
   ///   each other;
-  /// - if an ellipse comes as near to a wall, plane or particle as the threshold gap, or two plates
-  ///   touch at a place that was no contact at the beginning of the step;
+  /// - if two particles with sides touch at a place that was no contact at the beginning of the
+  ///   step;
   /// - if a particle moves too far for the precision of a double.
   /// After an error the state is that before the step. With a smaller residual that is not allowed
   /// StepReport::converged is false.
@@ -88,7 +88,7 @@ class FluidSimulation : public FlowSimulation {
   }
 
   /// The flow is that of the next step, whose problem is solved without moving anything. Throws also
-  /// Error(kNotConverged) if links or plates make step() throw it.
+  /// Error(kNotConverged) if links or particles with sides make step() throw it.
   FlowField flow_at_present() override;
 
   std::vector<double> fluid_forces() const override { return quantities_.fluid_forces; }
@@ -115,9 +115,6 @@ class FluidSimulation : public FlowSimulation {
   std::optional<FluidImpact> solve_contacts_of(const StepEquation& equation,
                                                std::span<const double> free, double h, double next,
                                                StepContacts& contacts);
-  /// Throws Error(kNotConverged) if an ellipse comes too near, because contacts of ellipses are not
-  /// computed. Ellipses with a given motion may be near to walls, planes and driven particles.
-  void check_ellipses() const;
   /// Replaces Motion::quantities by those extrapolated from two meshes under the same `forces`,
   /// which include those of contacts, and sets errors and, except with Coupling::kSplitting,
   /// Motion::reported.
@@ -158,7 +155,7 @@ class FluidSimulation : public FlowSimulation {
   /// returns the largest error of a length or place [L] that is left.
   double hold_turned(const ConstrainedMotion& constrained, double h,
                      std::vector<double>& velocities, std::vector<double>& row_forces) const;
-  /// The contacts of the step before, except those of plates, at their present places and with the
+  /// The contacts of the step before, of round particles only, at their present places and with the
   /// impulses of the same forces in a step of length h.
   std::vector<Contact<2>> contacts_before(double h) const;
   /// Adds the geometric rows for the forces of links and contacts, and finds their stiffnesses
@@ -168,10 +165,10 @@ class FluidSimulation : public FlowSimulation {
                     std::vector<double> loaded, std::span<const Contact<2>> contacts,
                     std::span<const double> row_forces, std::vector<double>& settled);
   /// The largest z, physics.md (6.15), of films that pull along their direction at the beginning of
-  /// the step: those of the ends of plates, and with Coupling::kSplitting those of discs. z >= 0
-  /// [1] bounds the length of the step times the rate at which what the film pulls turns. A film
-  /// along the side of a plate turns with the plate and has none.
-  double turn_of_films(std::span<const Contact<2>> contacts, const StepEquation& equation) const;
+  /// the step: those of particles that are not round, and with Coupling::kSplitting those of discs.
+  /// z >= 0 [1] bounds the length of the step times the rate at which what the film pulls turns. A
+  /// film along a side turns with the side and has none.
+  double turn_of_films(const StepContacts& step, const StepEquation& equation) const;
   /// Makes bodies rigid, and hinges and arms hold, at the end of a step with contacts: contacts
   /// change the angles by which bodies and links turn, and with these the forces of the rows, with
   /// which the contacts are solved again. Ends as soon as there is an impact.

@@ -170,11 +170,11 @@ inline void FluidSolver::keep_flow(bool /*at_rest*/, std::span<const double> /*m
 inline std::string FluidSolver::saved_flow() { return {}; }
 inline void FluidSolver::load_flow(const std::string& /*flow*/) {}
 
-/// Starts a solver of the fluid in `domain` around particles with `radii` [L], > 0, and waits until
+/// Starts a solver of the fluid in `domain` around particles of the `shapes`, and waits until
 /// it is ready. `dimension` is 2 for discs in the plane, 1 for spheres on the axis of a cylinder.
 /// If `stop` requests a stop, the solver throws Error(kInterrupted).
 using StartFluidSolver = std::function<std::unique_ptr<FluidSolver>(
-    const Fluid& fluid, const Domain& domain, std::span<const double> radii, int dimension,
+    const Fluid& fluid, const Domain& domain, std::span<const Shape> shapes, int dimension,
     const StopToken& stop)>;
 
 /// Extrapolated from two meshes, with estimates of errors.

@@ -18,16 +18,14 @@ namespace {
 
 /// Mass [M] or moment of inertia [M L^2] of each component. The mass of a rigid body is divided
 /// among its members, and evenly what its moment of inertia exceeds that of these masses.
-std::vector<double> masses_of(const Particles& p, const Fluid& fluid, const MotionLayout& layout) {
+std::vector<double> masses_of(const Particles& p, const MotionLayout& layout) {
   std::vector<double> masses(p.count() * layout.components);
   for (std::size_t k = 0; k < p.count(); ++k) {
     for (std::size_t d = 0; d < layout.directions(); ++d)
       masses[k * layout.components + d] = p.masses[k];
-    // A disc or ellipse whose moment of inertia is not given is homogeneous.
+    // A particle whose moment of inertia is not given is homogeneous.
     if (layout.components == 3)
-      masses[k * 3 + 2] = p.inertias.empty()
-                              ? fluid.homogeneous_inertia_of(k, p.masses[k], p.radii[k])
-                              : p.inertias[k];
+      masses[k * 3 + 2] = p.inertias.empty() ? p.shape(k).inertia(p.masses[k]) : p.inertias[k];
   }
   for (const auto& body : p.bodies.bodies) {
     const auto shares = member_masses(body, p);
@@ -52,8 +50,7 @@ std::vector<double> mean_forces(const Setting& setting, const Particles& p,
   for (std::size_t k = 0; k < p.count(); ++k) {
     // Mass of the fluid that the particle displaces, whose weight is the buoyancy. In Stokes flow
     // the density is 0.
-    const double displaced =
-        setting.fluid->density * setting.fluid->size_of(p.dimension, k, p.radii[k]);
+    const double displaced = setting.fluid->density * setting.fluid->size_of(p.shape(k), k);
     for (std::size_t d = 0; d < layout.directions(); ++d)
       forces[k * layout.components + d] =
           (masses[k * layout.components] - displaced) * setting.gravity[d];
@@ -122,7 +119,7 @@ StepEquation::StepEquation(const Setting& setting, const State& state, double h,
       state_(state),
       h_(h),
       layout_{motion_components(state.particles.dimension)},
-      masses_(masses_of(state.particles, *setting.fluid, layout_)),
+      masses_(masses_of(state.particles, layout_)),
       next_(next),
       window_(window(setting, state, h, next)),
       forces_(mean_forces(setting, state.particles, masses_, layout_, window_.from_of_forces,

@@ -11,6 +11,18 @@
 namespace viscontact::particles {
 namespace {
 
+/// Free choices of restore_lengths_and_area() and of measure().
+struct MembraneCurveTuning {
+  // The limit only ends a search that fails.
+  static constexpr int kMostRounds = 50;
+  // Bounds of the relative errors of lengths and area. kExact is near rounding errors. Newton's
+  // method is quadratic: one more step after kNearlyExact also leaves only rounding errors.
+  static constexpr double kExact = 1e-13, kNearlyExact = 1e3 * kExact;
+  // Way of the beads over the perimeter in a difference for the rate of the inclination. Its
+  // truncation and rounding errors are then below 1e-9 of the rate.
+  static constexpr double kOfPerimeter = 1e-6;
+};
+
 /// The energy density e = c^2 q^(-5/2) (squared curvature times |dx/ds|) at one bead [1/L], where c
 /// = x' y'' - y' x'' and q = x'^2 + y'^2, and its derivatives with respect to (x', y', x'', y'').
 /// Primes are derivatives with respect to the parameter s [1].
@@ -181,15 +193,13 @@ bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, doub
   assert(perimeter > 0);
   const int n = curve.beads();
   const double speed = perimeter / kTwoPi;
-  constexpr int kMostRounds = 50;
-  constexpr double kExact = 1e-13;  // near rounding errors
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < MembraneCurveTuning::kMostRounds; ++round) {
     // Residuals and rows are divided by powers of `speed`, so that all entries are near 1.
     Eigen::VectorXd missing(n + 1);
     missing.head(n) = Eigen::VectorXd::Constant(n, 1) - curve.speeds(positions) / speed;
     missing(n) = (area - curve.area(positions)) / (speed * speed);
     if (!missing.allFinite()) return false;
-    if (missing.lpNorm<Eigen::Infinity>() < kExact) return true;
+    if (missing.lpNorm<Eigen::Infinity>() < MembraneCurveTuning::kExact) return true;
     Eigen::MatrixXd rows(n + 1, 2 * n);
     rows.topRows(n) = curve.speed_rows(positions);
     rows.row(n) = curve.area_row(positions).transpose() / speed;
@@ -197,8 +207,7 @@ bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, doub
     const Eigen::VectorXd change = rows.transpose() * products.ldlt().solve(missing);
     if (!change.allFinite()) return false;
     positions += speed * change;
-    // Newton's method is quadratic, so that its next residual would be a rounding error.
-    if (missing.lpNorm<Eigen::Infinity>() < 1e3 * kExact) return true;
+    if (missing.lpNorm<Eigen::Infinity>() < MembraneCurveTuning::kNearlyExact) return true;
   }
   return false;
 }
@@ -272,10 +281,9 @@ MembraneMeasures measure(const MeasuredLine& line, const Eigen::VectorXd& positi
   for (Eigen::Index i = 0; i < n; ++i)
     measures.membrane_speed += std::hypot(relative(i), relative(n + i)) / static_cast<double>(n);
   if (measures.membrane_speed == 0) return measures;
-  // The rate of the inclination is a central difference over a time in which the beads move by this
-  // fraction of the perimeter. Its truncation and rounding errors are then below 1e-9 of the rate.
-  constexpr double kOfPerimeter = 1e-6;
-  const double time = kOfPerimeter * measures.perimeter / measures.membrane_speed;
+  // The rate of the inclination is a central difference.
+  const double time =
+      MembraneCurveTuning::kOfPerimeter * measures.perimeter / measures.membrane_speed;
   const double turn = line.moments(positions + time * velocities).inclination() -
                       line.moments(positions - time * velocities).inclination();
   const double rate = std::remainder(turn, std::numbers::pi) / (2 * time);

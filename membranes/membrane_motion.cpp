@@ -10,6 +10,21 @@
 #include "viscontact/particles/state/particles.hpp"
 
 namespace viscontact::particles {
+namespace {
+
+/// Free choices of Newton's method for a step.
+struct MembraneStepTuning {
+  // The limit only ends a search that fails.
+  static constexpr int kMostRounds = 30;
+  // Newton's method is quadratic: after a change of the positions by less than kExact times their
+  // size, the next one would be a rounding error. In stiff membranes rounding errors are larger.
+  // Therefore a change below kRounding and above half of the one before also ends the method.
+  static constexpr double kExact = 1e-9, kRounding = 1e-6;
+  // Halvings of the first of the shorter steps that are solved after a failure.
+  static constexpr int kHalvings = 12;
+};
+
+}  // namespace
 
 Membranes::Membranes(std::span<const Membrane> membranes) : membranes_(membranes), first_{0} {
   for (const auto& membrane : membranes) {
@@ -179,14 +194,8 @@ bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const Fluid
     wanted.segment(first_[m], first_[m + 1] - first_[m]).setConstant(speed);
     size = std::max(size, speed);
   }
-  constexpr int kMostRounds = 30;
-  // Newton's method is quadratic: after a change of the positions by less than kExact times
-  // their size, the next one would be a rounding error. In stiff membranes rounding errors are
-  // larger. Therefore a change below kRounding and above half of the one before also ends the
-  // method.
-  constexpr double kExact = 1e-9, kRounding = 1e-6;
   double last = std::numeric_limits<double>::infinity();
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < MembraneStepTuning::kMostRounds; ++round) {
     const Eigen::MatrixXd areas = area_columns(positions);
     const Eigen::VectorXd lengths = areas.colwise().norm();
     motion.forces = bending_forces(positions) - speed_rows(positions).transpose() * motion.tension;
@@ -207,7 +216,9 @@ bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const Fluid
     motion.tension += unit * change.segment(2 * n, n);
     motion.pressure += unit * change.tail(count).cwiseQuotient(lengths);
     const double changed = change.head(2 * n).lpNorm<Eigen::Infinity>() / size;
-    if (changed < kExact || (changed < kRounding && changed > last / 2)) return true;
+    if (changed < MembraneStepTuning::kExact ||
+        (changed < MembraneStepTuning::kRounding && changed > last / 2))
+      return true;
     last = changed;
   }
   return false;
@@ -230,11 +241,11 @@ MembraneMotion Membranes::step(const Eigen::VectorXd& from, double time, const F
   bool is_solved = solve_step(from, time, loaded, positions, motion);
   if (!is_solved) {
     // Newton's method may fail if a stiff membrane is far from its equilibrium. Then steps of the
-    // lengths time/2^12, time/2^11, ..., time are solved, each with the solution of the shorter one
-    // as its first guess.
+    // lengths time/2^kHalvings, ..., time/2, time are solved, each with the solution of the shorter
+    // one as its first guess.
     begin();
     is_solved = true;
-    for (int halvings = 12; halvings >= 0 && is_solved; --halvings)
+    for (int halvings = MembraneStepTuning::kHalvings; halvings >= 0 && is_solved; --halvings)
       is_solved = solve_step(from, std::ldexp(time, -halvings), loaded, positions, motion);
   }
   motion.forces =

@@ -1,8 +1,6 @@
 // Measures, initial shapes and checks of membranes.
 #include "viscontact/membranes/membrane_shape.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -10,7 +8,6 @@
 #include <numbers>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/common/text/number.hpp"
 #include "viscontact/membranes/membrane_curve.hpp"
 #include "viscontact/membranes/membrane_motion.hpp"
 #include "viscontact/membranes/necklace.hpp"
@@ -25,16 +22,34 @@ const std::vector<Membrane>& membranes_of(const Setting& setting) {
 
 namespace {
 
+/// Free choices of shapes.
+struct MembraneShapeTuning {
+  // Coordinates over the size of a membrane from which on it is moved to the origin, as in
+  // distant_corner().
+  static constexpr double kDistant = 100;
+  // Relative difference of perimeter, area and distances in a restart file from those of the case,
+  // far above the errors with which a run keeps these numbers, and far below a change of the case.
+  static constexpr double kKept = 1e-6;
+  // Points of an ellipse for integrals along it. The midpoint rule converges exponentially; for an
+  // ellipse of axes 1:20 this number leaves errors near rounding errors.
+  static constexpr int kPoints = 4096;
+  // Largest semi-axis of an ellipse over the radius of a disc of its area.
+  static constexpr double kLongest = 1e3;
+  // Halvings of the interval of that ratio, and of that of a curvature; enough to reach rounding
+  // errors.
+  static constexpr int kHalvingsOfEllipse = 100, kHalvings = 200;
+};
+
 /// Moves the first bead to 0 along each axis on which coordinates are so much larger than the
 /// membrane that their rounding errors would change its lengths and its area. Returns how far, [L].
 std::array<double, 2> move_to_origin(Eigen::VectorXd& positions) {
-  constexpr double kDistant = 100;  // as in distant_corner()
   const auto n = positions.size() / 2;
   std::array<double, 2> from{};
   for (Eigen::Index d = 0; d < 2; ++d) {
     auto along = positions.segment(d * n, n);
     const double first = along(0);
-    if (!(std::abs(first) > kDistant * (along.maxCoeff() - along.minCoeff()))) continue;
+    if (!(std::abs(first) > MembraneShapeTuning::kDistant * (along.maxCoeff() - along.minCoeff())))
+      continue;
     along.array() -= first;
     from[static_cast<std::size_t>(d)] = first;
   }
@@ -73,16 +88,15 @@ bool keeps_distances(const Membrane& membrane, const Particles& particles, doubl
 }  // namespace
 
 void check_shapes(std::span<const Membrane> membranes, const Particles& particles) {
-  // Far above the relative errors [1] with which a run keeps these numbers, and far below a change
-  // of the case.
-  constexpr double kKept = 1e-6;
   for (std::size_t m = 0; m < membranes.size(); ++m) {
     const auto& asked = membranes[m];
     const auto found = measure(asked, particles);
-    const bool has_area =
-        !asked.keeps_area || std::abs(found.area - asked.area) <= kKept * asked.area;
-    if (has_area && std::abs(found.perimeter - asked.perimeter) <= kKept * asked.perimeter &&
-        keeps_distances(asked, particles, kKept))
+    const bool has_area = !asked.keeps_area || std::abs(found.area - asked.area) <=
+                                                   MembraneShapeTuning::kKept * asked.area;
+    if (has_area &&
+        std::abs(found.perimeter - asked.perimeter) <=
+            MembraneShapeTuning::kKept * asked.perimeter &&
+        keeps_distances(asked, particles, MembraneShapeTuning::kKept))
       continue;
     throw Error(
         ErrorKind::kBadInput,
@@ -103,27 +117,9 @@ void join_neighbours(std::span<const Membrane> membranes, Particles& particles) 
                                                           membrane.bead(k + 1)};
 }
 
-std::string membrane_rows(const Setting& setting, const State& state,
-                          std::span<const double> /*force_errors*/) {
-  std::string text;
-  const auto& membranes = membranes_of(setting);
-  for (std::size_t m = 0; m < membranes.size(); ++m) {
-    const auto measures = measure(membranes[m], state.particles);
-    text += fmt::format("{},{}", format_number(state.time), m);
-    for (const double value :
-         {measures.x, measures.y, measures.inclination, measures.area, measures.perimeter,
-          measures.membrane_speed, measures.tank_treading_frequency})
-      text += "," + format_number(value);
-    text += '\n';
-  }
-  return text;
-}
-
 namespace {
 
-/// Number of points of an ellipse for integrals along it. The midpoint rule converges
-/// exponentially; for an ellipse of axes 1:20 this number leaves errors near rounding errors.
-constexpr int kPoints = 4096;
+constexpr int kPoints = MembraneShapeTuning::kPoints;
 
 /// Entry i: length of an ellipse of semi-axes a and b from the angle 0 to 2 pi i/kPoints [L].
 std::vector<double> lengths_along(double a, double b) {
@@ -165,8 +161,8 @@ std::optional<std::vector<double>> ellipse_of(const Membrane& membrane, const Ve
   // The semi-axes a and b have a b = area/pi = mean^2, and the perimeter grows with a/mean, which
   // is found by bisection.
   const double mean = std::sqrt(membrane.area / std::numbers::pi);
-  double low = 1, high = 1e3;      // bounds of a/mean
-  for (int i = 0; i < 100; ++i) {  // enough halvings to reach rounding errors
+  double low = 1, high = MembraneShapeTuning::kLongest;  // bounds of a/mean
+  for (int i = 0; i < MembraneShapeTuning::kHalvingsOfEllipse; ++i) {
     const double middle = std::sqrt(low * high);
     (lengths_along(mean * middle, mean / middle).back() < membrane.perimeter ? low : high) = middle;
   }
@@ -248,8 +244,7 @@ double largest_area(std::span<const double> lengths) {
     if (side != longest) others += std::asin(std::min(1.0, *side / *longest));
   const bool is_inside = others >= std::numbers::pi / 2;
   double low = 0, high = 2 / *longest;
-  constexpr int kHalvings = 200;  // enough to reach rounding errors
-  for (int n = 0; n < kHalvings; ++n) {
+  for (int n = 0; n < MembraneShapeTuning::kHalvings; ++n) {
     const double curvature = (low + high) / 2;
     double sum = 0;
     for (auto side = lengths.begin(); side != lengths.end(); ++side)

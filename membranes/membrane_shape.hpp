@@ -46,15 +46,6 @@ void check_shapes(std::span<const Membrane> membranes, const Particles& particle
 /// two beads next to it, or {-1, -1} if it is no bead; empty if there are no membranes.
 void join_neighbours(std::span<const Membrane> membranes, Particles& particles);
 
-/// The rows of membranes.csv, one for each membrane: the time [T], the number of the membrane from
-/// 0, and the MembraneMeasures. `force_errors` is there because functions of the same type write
-/// other tables of links (TimeTable).
-std::string membrane_rows(const Setting& setting, const State& state,
-                          std::span<const double> force_errors);
-/// The names of the columns of membranes.csv after time and id.
-inline constexpr const char* kMembraneColumns =
-    "x,y,inclination,area,perimeter,membrane_speed,tank_treading_frequency";
-
 /// Centres of the beads of a membrane that begins as an ellipse about `centre` [L] whose long axis
 /// has the direction `angle` [rad], two numbers for each bead [L]. The number of beads, perimeter
 /// and area are those of `membrane`; the area is at most perimeter^2/(4 pi). The beads are put at

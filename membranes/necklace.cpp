@@ -12,6 +12,16 @@
 namespace viscontact::particles {
 namespace {
 
+/// Free choices of restore_necklace().
+struct NecklaceTuning {
+  // The limit only ends a search that fails.
+  static constexpr int kMostRounds = 50;
+  // Bounds of the errors of distances and area, divided by the mean distance and its square. kExact
+  // is near rounding errors. Newton's method is quadratic: one more step after kNearlyExact also
+  // leaves only rounding errors.
+  static constexpr double kExact = 1e-13, kNearlyExact = 1e-10;
+};
+
 /// Position of bead k, which is counted around the polygon: -1 is the last bead.
 Eigen::Vector2d bead(const Eigen::VectorXd& necklace, Eigen::Index k) {
   assert(k >= -necklace.size() / 2);
@@ -111,18 +121,13 @@ bool restore_necklace(const Eigen::VectorXd& lengths, double area, Eigen::Vector
   assert(necklace.size() == 2 * lengths.size() && lengths.size() >= 3);
   const auto n = lengths.size();
   const double size = lengths.mean();
-  constexpr int kMostRounds = 50;
-  // Bounds of the errors of distances and area, divided by the mean distance and its square. kExact
-  // is near rounding errors. Newton's method is quadratic: one more step after kNearlyExact also
-  // leaves only rounding errors.
-  constexpr double kExact = 1e-13, kNearlyExact = 1e-10;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < NecklaceTuning::kMostRounds; ++round) {
     Eigen::VectorXd missing(n + 1);
     missing.head(n) = (lengths - distances_of(necklace)) / size;
     missing(n) = (area - area_of(necklace)) / (size * size);
     if (!missing.allFinite()) return false;
     const double largest = missing.lpNorm<Eigen::Infinity>();
-    if (largest < kExact) return true;
+    if (largest < NecklaceTuning::kExact) return true;
     Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(n + 1, 2 * n);
     for (Eigen::Index k = 0; k < n; ++k) {
       const auto next = (k + 1) % n;
@@ -137,7 +142,7 @@ bool restore_necklace(const Eigen::VectorXd& lengths, double area, Eigen::Vector
     const Eigen::VectorXd change = rows.transpose() * products.ldlt().solve(missing);
     if (!change.allFinite()) return false;
     necklace += size * change;
-    if (largest < kNearlyExact) return true;
+    if (largest < NecklaceTuning::kNearlyExact) return true;
   }
   return false;
 }

@@ -8,6 +8,9 @@
 
 #include "viscontact/freefem_flow/freefem_solver.hpp"
 #include "viscontact/particle_runs/case/particles_case.hpp"
+#include "viscontact/particle_runs/io/contact_columns.hpp"
+#include "viscontact/particle_runs/io/particle_columns.hpp"
+#include "viscontact/particle_runs/io/step_columns.hpp"
 #include "viscontact/particle_runs/run/particles_earlier_run.hpp"
 #include "viscontact/particle_runs/run/start_simulation.hpp"
 #include "viscontact/particles/steps/current_contacts.hpp"
@@ -167,61 +170,110 @@ std::int64_t run(PythonParticles& self, const std::optional<double>& until) {
   });
 }
 
-/// An array of the shape (contacts, `dimension`), whose rows are the vectors value(contact).
-template <class Value>
-py::array vectors(const std::vector<particles::CurrentContact>& contacts, int dimension,
-                  const Value& value) {
-  py::array_t<double> array(
-      {static_cast<py::ssize_t>(contacts.size()), static_cast<py::ssize_t>(dimension)});
-  double* to = array.mutable_data();
-  for (const auto& contact : contacts) {
-    const particles::Vector v = value(contact);
-    for (int d = 0; d < dimension; ++d) *to++ = v[static_cast<std::size_t>(d)];
-  }
+/// A new array of the values of a column: (rows,), or (rows, components) of a vector, also on an
+/// axis.
+template <class Number, class Row>
+py::array array_of(const particles::Column<Row>& column, const std::vector<Row>& rows,
+                   int dimension) {
+  const auto values = particles::values_of<Number>(column, rows, dimension, false);
+  std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(rows.size())};
+  if (column.is_vector(dimension))
+    shape.push_back(static_cast<py::ssize_t>(column.count(dimension)));
+  py::array_t<Number> array(shape);
+  std::ranges::copy(values, array.mutable_data());
   return array;
+}
+
+/// The object of the class Columns with these columns.
+template <class AnyColumn, class Row>
+py::object table_of(const std::vector<const AnyColumn*>& columns, const std::vector<Row>& rows,
+                    int dimension) {
+  py::dict table;
+  for (const AnyColumn* column : columns)
+    table[py::str(std::string(column->name))] =
+        column->is_whole() ? array_of<std::int32_t, Row>(*column, rows, dimension)
+                           : array_of<double, Row>(*column, rows, dimension);
+  return as_columns(table);
 }
 
 py::object contacts(const PythonParticles& self) {
   const auto& p = self.state().particles;
   const auto all = particles::contacts_of(self.case_file().setting, self.state());
-  using Contact = particles::CurrentContact;
-  py::dict columns;
-  const auto id_of = [&](std::int32_t number) {
-    return number < 0 ? number : p.id(index_of(number));
-  };
-  columns["first"] = column(all, [&](const Contact& c) { return id_of(c.first); });
-  columns["second"] = column(all, [&](const Contact& c) { return id_of(c.second); });
-  columns["gap"] = column(all, [](const Contact& c) { return c.gap; });
-  columns["gamma"] = column(all, [](const Contact& c) { return c.gamma; });
-  columns["normal_force"] = column(all, [](const Contact& c) { return c.normal_force; });
-  columns["normal"] = vectors(all, p.dimension, [](const Contact& c) { return c.normal; });
-  columns["tangential_force"] =
-      vectors(all, p.dimension, [](const Contact& c) { return c.tangential_force; });
-  columns["branch"] = vectors(all, p.dimension, [](const Contact& c) { return c.branch; });
-  columns["solid_force"] = column(all, [](const Contact& c) { return c.solid_force; });
-  return as_columns(columns);
+  std::vector<particles::ContactRow> rows;
+  for (const auto& contact : all) rows.push_back({p, contact, self.state().time});
+  particles::RunFacts run;
+  run.dimension = p.dimension;
+  return table_of(
+      particles::columns_in(particles::Output::kPython, particles::contact_columns(), run), rows,
+      p.dimension);
+}
+
+py::object final_particles(PythonParticles& self) {
+  self.check_idle();
+  auto& simulation = self.simulation();
+  const auto p = simulation.reported_particles();
+  auto run = particles::facts_of(p);
+  const auto& fluid = self.case_file().setting.fluid;
+  run.is_in_fluid = fluid.has_value();
+  particles::FluidForces forces;
+  std::vector<double> values, errors;
+  if (fluid) {
+    values = simulation.fluid_forces();
+    errors = simulation.force_errors().of_fluid;
+    forces = {values, errors, fluid->semi_axes};
+    run.has_semi_axes = !fluid->semi_axes.empty();
+  }
+  const auto& loads = simulation.state().given_loads;
+  run.has_given_loads = !fluid && !loads.empty();
+  return table_of(
+      particles::columns_in(particles::Output::kPython, particles::particle_columns(), run),
+      particles::rows_of(p, simulation.state().time, fluid ? &forces : nullptr, loads),
+      p.dimension);
+}
+
+/// What a column contains, for help().
+std::string help_of(const particles::ColumnForm& column) {
+  std::string text(column.meaning);
+  if (!column.unit.empty()) text += fmt::format("{}[{}]", text.empty() ? "" : " ", column.unit);
+  return text;
+}
+
+/// The entries of a table, in a line each.
+template <class AnyColumn>
+std::string help_of(const std::vector<AnyColumn>& columns) {
+  std::string text;
+  for (const auto* column :
+       particles::columns_in(particles::Output::kPython, columns, particles::kAllFacts))
+    text += fmt::format("{:<18} {}\n", column->name, help_of(*column));
+  return text;
+}
+
+/// The value of a column without components in a row.
+template <class Row>
+py::object value_of(const particles::Column<Row>& column, const Row& row) {
+  particles::Entries entries{};
+  column.read(row, entries);
+  if (column.kind == particles::ValueKind::kTruth) return py::bool_(entries[0] != 0);
+  if (column.is_whole()) return py::int_(static_cast<std::int64_t>(entries[0]));
+  return py::float_(entries[0]);
 }
 
 void add_step_report(py::module_& module) {
   using particles::StepReport;
-  py::class_<StepReport>(module, "StepReport", "What a step did; see Particles.step.")
-      .def_readonly("time", &StepReport::time, "at the end of the step [T]")
-      .def_readonly("contacts", &StepReport::contacts, "number of close pairs")
-      .def_readonly("glued", &StepReport::glued, "number of contacts with gamma < 0")
-      .def_readonly("iterations", &StepReport::iterations, "of the projection")
-      .def_readonly("converged", &StepReport::converged,
-                    "whether all residuals are within the tolerances of the case")
-      .def_readonly("residual", &StepReport::residual,
-                    "of gaps, friction and links, over the mean radius")
-      .def_readonly("impulse_residual", &StepReport::impulse_residual,
-                    "of the impulses, over those at work")
-      .def_readonly("largest_overlap", &StepReport::largest_overlap, "over the mean radius")
-      .def_readonly("parts", &StepReport::parts, "number of parts that the step was divided into")
-      .def("__repr__", [](const StepReport& report) {
-        return fmt::format("<viscontact.StepReport time {}, {} contacts, {} iterations, {}>",
-                           report.time, report.contacts, report.iterations,
-                           report.converged ? "converged" : "not converged");
-      });
+  py::class_<StepReport> reports(module, "StepReport", "What a step did; see Particles.step.");
+  for (const auto* column : particles::columns_in(particles::Output::kPython,
+                                                  particles::step_columns(), particles::kAllFacts))
+    reports.def_property_readonly(
+        std::string(column->name).c_str(),
+        [column](const StepReport& report) {
+          return value_of(*column, particles::StepRow{report});
+        },
+        help_of(*column).c_str());
+  reports.def("__repr__", [](const StepReport& report) {
+    return fmt::format("<viscontact.StepReport time {}, {} contacts, {} iterations, {}>",
+                       report.time, report.contacts, report.iterations,
+                       report.converged ? "converged" : "not converged");
+  });
 }
 
 }  // namespace
@@ -314,17 +366,17 @@ until      the time [T], at most end_time of the case; None: end_time)",
             return array;
           },
           "The velocities at the present time (N, D) [L/T], as in final_particles.csv: a copy.")
-      .def("contacts", &contacts, R"(The present contacts, an array for each column (C contacts):
-
-first, second      (C,) ids of both particles; at a wall or plane `first` is -1, -2, ...
-gap, gamma         (C,) [L], [M L/T]
-normal_force       (C,) mean of the last step [M L/T^2], > 0 where it pushes both apart
-normal             (C, D) unit vector from `first` to `second`
-tangential_force   (C, D) mean friction on `second` in the last step [M L/T^2]
-branch             (C, D) from the centre of `first`, or the nearest point of a wall, to that of
-                   `second` [L]
-solid_force        (C,) the part of normal_force that the solids bear, which bounds the friction;
-                   0 without [friction])")
+      .def("particles", &final_particles,
+           ("The particles, a copy of an array for each column of final_particles.csv, whose "
+            "vectors\nhave the shape (N, D). Those of a fluid, of given motions and of bodies are "
+            "there only with\nthem; NaN stands for what is not known:\n\n" +
+            help_of(particles::particle_columns()))
+               .c_str())
+      .def("contacts", &contacts,
+           ("The present contacts, an array for each column, whose vectors have the shape (C, D) "
+            "for C contacts:\n\n" +
+            help_of(particles::contact_columns()) + "\nForces are means of the last step.")
+               .c_str())
       .def_property_readonly(
           "time", [](const PythonParticles& self) { return self.state().time; }, "[T]")
       .def_property_readonly(

@@ -9,6 +9,16 @@
 #include "viscontact/common/error.hpp"
 
 namespace viscontact::reduced_model {
+namespace {
+
+/// Free choices of the times of steps and rows; motion.hpp repeats both.
+struct TimeGridTuning {
+  static constexpr double kMostSteps = 1e8;  // so many rows of a trajectory take 5 GB
+  // A shorter part of a step, and a shorter distance from a jump, is the rounding error of a time.
+  static constexpr double kRounding = 1e-6;
+};
+
+}  // namespace
 
 double Motion::restitution() const {
   const auto found = parameters.find(kRestitution.key);
@@ -28,13 +38,11 @@ void report_progress(const Motion& motion, double time) {
 }
 
 int step_count(double end, double step) {
-  constexpr double kMostSteps = 1e8;  // so many rows of a trajectory take 5 GB
-  // A last step below 1e-6 of a step is the rounding error of end / step.
-  const double steps = std::ceil(end / step - 1e-6);
-  if (!(steps <= kMostSteps))
+  const double steps = std::ceil(end / step - TimeGridTuning::kRounding);
+  if (!(steps <= TimeGridTuning::kMostSteps))
     throw Error(ErrorKind::kBadInput,
                 "the time step {} makes {:.3g} steps to time {}; at most {:.0e} are allowed", step,
-                steps, end, kMostSteps);
+                steps, end, TimeGridTuning::kMostSteps);
   return std::max(1, static_cast<int>(steps));
 }
 
@@ -44,11 +52,13 @@ std::vector<double> row_times(const Motion& motion, const ModelParameter& parame
   auto jumps = motion.external_force.jumps();
   std::erase_if(jumps,
                 [&](double t) { return t >= motion.end_time || are_one_time(t, motion.end_time); });
-  // A multiple of the spacing that is within 1e-6 of the spacing from a jump differs from it by
-  // rounding only. The multiple is left out, and the jump is kept.
+  // A multiple of the spacing that is so close to a jump differs from it by rounding only. The
+  // multiple is left out, and the jump is kept.
   const auto is_a_jump = [&](double t) {
     const auto next = std::ranges::lower_bound(jumps, t);
-    const auto close = [&](double jump) { return std::abs(t - jump) < 1e-6 * spacing; };
+    const auto close = [&](double jump) {
+      return std::abs(t - jump) < TimeGridTuning::kRounding * spacing;
+    };
     return (next != jumps.end() && close(*next)) ||
            (next != jumps.begin() && close(*std::prev(next)));
   };

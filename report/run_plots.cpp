@@ -22,6 +22,24 @@ namespace {
 // A value in place of y that interrupts a line.
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 
+/// Free choices of the plots, by eye.
+struct RunPlotTuning {
+  // Most parts of a trajectory, and about the parts of all trajectories.
+  static constexpr std::size_t kRuns = 400, kRunsOfAll = 3200;
+  // Points of an external force, about, for the whole time, and of a fit's curve; a picture shows
+  // no more.
+  static constexpr int kPointsOfForce = 2000, kPointsOfFit = 300;
+  // Top of the axis of the solids' force over the largest external force, because impacts are much
+  // larger.
+  static constexpr double kAboveLoad = 1.3;
+  // Margin of the axis of an external force over its range.
+  static constexpr double kMargin = 0.08;
+  // If the largest of the thinnest films is more than kManyDecades times the smallest, the axis is
+  // logarithmic, because a linear axis would show the largest only. If it is less than kClose times
+  // the smallest, the axis does not begin at 0, because the difference could not be seen.
+  static constexpr double kManyDecades = 30, kClose = 1.3;
+};
+
 using Value = double (*)(const reduced_model::TrajectoryRow&);
 
 /// The style of the line of a model, or, if `film` is true, of the film from its gamma. The place
@@ -74,11 +92,10 @@ std::string legend_of(std::string_view model) {
 std::vector<const reduced_model::TrajectoryRow*> thinned(
     const std::vector<reduced_model::TrajectoryRow>& rows, std::size_t trajectories, Value value) {
   assert(!rows.empty() && trajectories > 0);
-  // At most 400 parts of a trajectory and about 3200 of all trajectories.
-  constexpr std::size_t kRuns = 400, kRunsOfAll = 3200;
   std::vector<const reduced_model::TrajectoryRow*> kept;
-  const std::size_t run =
-      std::max<std::size_t>(1, rows.size() / std::min(kRuns, 1 + kRunsOfAll / trajectories));
+  const std::size_t run = std::max<std::size_t>(
+      1,
+      rows.size() / std::min(RunPlotTuning::kRuns, 1 + RunPlotTuning::kRunsOfAll / trajectories));
   const auto less = [&](const reduced_model::TrajectoryRow& a,
                         const reduced_model::TrajectoryRow& b) { return value(a) < value(b); };
   for (std::size_t i = 0; i < rows.size(); i += run) {
@@ -231,7 +248,7 @@ Plot plot_solid_force(const std::vector<reduced_model::Trajectory>& trajectories
       if (row.external_force) load = std::max(load, std::abs(*row.external_force));
   }
   panel.y.low = 0;
-  if (load > 0) panel.y.high = 1.3 * load;
+  if (load > 0) panel.y.high = RunPlotTuning::kAboveLoad * load;
   return {"solid_force", 440, {panel}};
 }
 
@@ -243,10 +260,9 @@ Plot plot_external_force(const reduced_model::ExternalForce& force, double end_t
   auto stops = force.jumps();
   std::erase_if(stops, [&](double t) { return t >= end_time; });
   stops.push_back(end_time);
-  constexpr int kPoints = 2000;  // about this number for the whole time; a picture shows no more
   double from = 0;
   for (const double to : stops) {
-    const int points = 2 + static_cast<int>(kPoints * (to - from) / end_time);
+    const int points = 2 + static_cast<int>(RunPlotTuning::kPointsOfForce * (to - from) / end_time);
     for (int i = 0; i <= points; ++i) {
       const double t = from + (to - from) * i / points;
       curve.points.emplace_back(t, force.value(i == points ? std::nextafter(to, from) : t));
@@ -258,7 +274,7 @@ Plot plot_external_force(const reduced_model::ExternalForce& force, double end_t
     low = std::min(low, f);
     high = std::max(high, f);
   }
-  const double margin = 0.08 * std::max(high - low, 1e-300);
+  const double margin = RunPlotTuning::kMargin * std::max(high - low, 1e-300);
   panel.y.low = low - margin;
   panel.y.high = high + margin;
   panel.curves.push_back(curve);
@@ -296,15 +312,12 @@ Plot plot_minimal_gaps(const reduced_model::Comparison& comparison,
   }
   if (all.empty()) return {};
   const auto [low, high] = std::ranges::minmax(all);
-  // If the largest value is more than kManyDecades times the smallest, the axis is logarithmic,
-  // because a linear axis would show the largest only. If it is less than kClose times the
-  // smallest, the axis does not begin at 0, because the difference could not be seen.
-  constexpr double kManyDecades = 30;
-  constexpr double kClose = 1.3;
   const double span = std::max(high - low, 0.05 * high);
-  panel.x.logarithmic = high / low > kManyDecades;
-  panel.x.low = panel.x.logarithmic ? low / 3 : high < kClose * low ? low - span : 0;
-  panel.x.high = panel.x.logarithmic ? high * 3 : high < kClose * low ? high + span : high * 1.15;
+  panel.x.logarithmic = high / low > RunPlotTuning::kManyDecades;
+  panel.x.low = panel.x.logarithmic ? low / 3 : high < RunPlotTuning::kClose * low ? low - span : 0;
+  panel.x.high = panel.x.logarithmic                  ? high * 3
+                 : high < RunPlotTuning::kClose * low ? high + span
+                                                      : high * 1.15;
   panel.y.low = bottom;
   panel.y.high = top;
   return {"thinnest_film", 180 + 34 * static_cast<int>(rows), {panel}};
@@ -327,7 +340,7 @@ Plot plot_fit(const lubrication::MotionTable& table, const lubrication::Fit& fit
     if (row.relative_error_estimate > 0)
       estimate.points.emplace_back(row.gap, row.relative_error_estimate);
   }
-  constexpr int kSamples = 300;  // points of the fit's curve
+  constexpr int kSamples = RunPlotTuning::kPointsOfFit;
   const auto [low, high] = fit.gap_interval;
   for (int i = 0; i <= kSamples; ++i) {
     const double gap = std::clamp(

@@ -21,6 +21,14 @@ namespace {
 enum RollingState : std::size_t { kLogGap, kMove, kTurn, kPosition, kAngle, kStates };
 using RollingStateVector = std::array<double, kStates>;
 
+/// Free choices of the tolerances, which keep them > 0 for a sphere at rest and at x = 0.
+struct RollingTuning {
+  // Least velocity in radii per duration of the motion.
+  static constexpr double kLeastMove = 1e-12;
+  // Share of the longest way at that velocity that is added to the position.
+  static constexpr double kOfPath = 1e-3;
+};
+
 /// What the solids of sphere and plane do at one time. The slip of the lowest point is u - V - r w.
 struct SolidState {
   bool touches = false;  ///< true: the gap is constant
@@ -220,17 +228,16 @@ void RollingEquation::jacobian(std::span<const double> y, std::span<double> j) c
 
 void RollingEquation::tolerance(std::span<const double> y, std::span<double> allowed) const {
   // The tolerances of the velocities are relative to the largest velocity that the forces can
-  // cause, so that a velocity that passes through 0 does not stop CVODE. The terms with 1e-12 and
-  // 1e-3 keep the tolerances > 0 for a sphere at rest and at x = 0.
+  // cause, so that a velocity that passes through 0 does not stop CVODE.
   const auto r = fluid_.at(std::min(gap_of(y), fluid_.largest_gap()));
   const double move = std::abs(y[kMove]) + radius_ * std::abs(y[kTurn]) +
                       std::abs(motion_.force) / r.slide +
                       std::abs(motion_.torque) * radius_ / r.roll;
-  const double scale = std::max(move, 1e-12 * radius_ / motion_.end_time);
+  const double scale = std::max(move, RollingTuning::kLeastMove * radius_ / motion_.end_time);
   allowed[kMove] = motion_.relative_tolerance * scale;
   allowed[kTurn] = allowed[kMove] / radius_;
-  allowed[kPosition] =
-      motion_.relative_tolerance * (std::abs(y[kPosition]) + scale * motion_.end_time * 1e-3);
+  allowed[kPosition] = motion_.relative_tolerance *
+                       (std::abs(y[kPosition]) + scale * motion_.end_time * RollingTuning::kOfPath);
   allowed[kAngle] = allowed[kPosition] / radius_;
 }
 

@@ -17,6 +17,38 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+/// Free choices of the search.
+struct OptimalStrokeTuning {
+  // Steps that scale a loop to a displacement, and its relative error then, near round-off. The
+  // displacement grows nearly like the square of the size of the loop, so that a few steps suffice;
+  // the limit only ends a search that fails.
+  static constexpr int kMostScalings = 50;
+  static constexpr double kDisplacementTolerance = 1e-13;
+  // Step of the differences of gradients over the size of a loop. The best one balances the
+  // relative rounding error of the gradients, 1e-14, with the error of the differences by third
+  // derivatives. It is about the cube root of the rounding error.
+  static constexpr double kDifference = 1e-5;
+  // Multiple of the Hessian for a constant metric that makes another one positive definite: its
+  // first value, and the factor by which it grows until it suffices.
+  static constexpr double kFirstShift = 1e-4, kShiftFactor = 4;
+  // Newton's method ends at this norm of the gradient. With exact gradients and a Hessian by
+  // differences, a step multiplies the error by 1e-4 or less, so that 1e-8 is reached with a step
+  // to spare. The relative error of the energy is about its square.
+  static constexpr double kTolerance = 1e-8;
+  // Limits that only end a search that fails.
+  static constexpr int kMostSteps = 200, kMostHalvings = 30;
+  // Relative rise of the energy in a step that counts as its rounding error near the end.
+  static constexpr double kEnergyRounding = 1e-13;
+  // Intervals of the parameter at whose ends a loop must be in the table, fifty times the points of
+  // the quadrature for 8 polynomials.
+  static constexpr int kPoints = 2000;
+  // Polynomials on the way to the wanted displacement; more are added at the end.
+  static constexpr Index kPolynomials = 8;
+  // The displacement begins at kFirstShare times the wanted one and grows by kFirstFactor, which is
+  // reduced when a search fails, but not below kSmallestFactor.
+  static constexpr double kFirstShare = 1. / 64, kFirstFactor = 2, kSmallestFactor = 1.02;
+};
+
 /// A loop of least energy at its displacement, with the multiplier of the displacement [M L/T^2]
 /// and the energy in a period of 1 [M L^2/T^2].
 struct Extremal {
@@ -65,14 +97,10 @@ PolynomialLoop moved(const PolynomialLoop& loop, const VectorXd& step, double sh
 
 std::optional<PolynomialLoop> LoopOptimizer::scaled_to(PolynomialLoop loop,
                                                        double displacement) const {
-  // The displacement grows nearly like the square of the size of the loop, so that a few steps
-  // suffice; kMostSteps only ends a search that fails.
-  constexpr int kMostSteps = 50;
-  constexpr double kTolerance = 1e-13;  // relative difference of the displacement, near round-off
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < OptimalStrokeTuning::kMostScalings; ++step) {
     if (!functional_.contains(loop)) return {};
     const double ratio = displacement / functional_.displacement(loop);
-    if (std::abs(ratio - 1) <= kTolerance) return loop;
+    if (std::abs(ratio - 1) <= OptimalStrokeTuning::kDisplacementTolerance) return loop;
     if (!(ratio > 0)) return {};
     loop.coefficients *= std::sqrt(ratio);
   }
@@ -81,10 +109,7 @@ std::optional<PolynomialLoop> LoopOptimizer::scaled_to(PolynomialLoop loop,
 
 std::optional<MatrixXd> LoopOptimizer::lagrangian_hessian(const PolynomialLoop& loop,
                                                           double multiplier) const {
-  // The best step balances the relative rounding error of the gradients, 1e-14, with the error of
-  // the differences by third derivatives. It is about the cube root of the rounding error.
-  constexpr double kRelativeStep = 1e-5;
-  const double step = kRelativeStep * loop.coefficients.norm();
+  const double step = OptimalStrokeTuning::kDifference * loop.coefficients.norm();
   MatrixXd hessian(loop.coefficients.size(), loop.coefficients.size());
   for (Index i = 0; i < hessian.cols(); ++i) {
     const VectorXd direction = VectorXd::Unit(hessian.cols(), i);
@@ -106,8 +131,7 @@ std::optional<VectorXd> LoopOptimizer::newton_step(const PolynomialLoop& loop, c
   const auto exact = lagrangian_hessian(loop, multiplier);
   if (!exact) return {};
   // On the plane of constant displacement the Hessian must be positive definite; otherwise Newton's
-  // method would go to a saddle point. A multiple of the Hessian for a constant metric is added to
-  // make it so; it grows from a small value until it suffices.
+  // method would go to a saddle point. A multiple of the Hessian for a constant metric makes it so.
   const Eigen::HouseholderQR<MatrixXd> qr(normal);
   const MatrixXd basis = whole_q(qr).rightCols(normal.size() - 1);
   MatrixXd hessian = *exact;
@@ -115,7 +139,9 @@ std::optional<VectorXd> LoopOptimizer::newton_step(const PolynomialLoop& loop, c
     const MatrixXd on_plane = basis.transpose() * hessian * basis;
     return Eigen::LLT<MatrixXd>(on_plane).info() == Eigen::Success;
   };
-  for (double shift = 1e-4; !is_positive(); shift *= 4) hessian = *exact + shift * scale_;
+  for (double shift = OptimalStrokeTuning::kFirstShift; !is_positive();
+       shift *= OptimalStrokeTuning::kShiftFactor)
+    hessian = *exact + shift * scale_;
   MatrixXd conditions = MatrixXd::Zero(normal.size() + 1, normal.size() + 1);
   conditions.topLeftCorner(normal.size(), normal.size()) = hessian;
   conditions.topRightCorner(normal.size(), 1) = -normal;
@@ -128,18 +154,14 @@ std::optional<VectorXd> LoopOptimizer::newton_step(const PolynomialLoop& loop, c
 
 std::optional<Extremal> LoopOptimizer::solve(const Extremal& start, double displacement,
                                              const StopToken& stop) const {
-  // With exact gradients and a Hessian by differences, a step multiplies the error by 1e-4 or less,
-  // so that 1e-8 is reached with a step to spare. The relative error of the energy is about its
-  // square.
-  constexpr double kTolerance = 1e-8;
-  constexpr int kMostSteps = 200, kMostHalvings = 30;  // these limits only end a search that fails
   auto loop = scaled_to(start.loop, displacement);
   double multiplier = start.multiplier;
-  for (int iteration = 0; loop && iteration < kMostSteps; ++iteration) {
+  for (int iteration = 0; loop && iteration < OptimalStrokeTuning::kMostSteps; ++iteration) {
     stop.throw_if_stop_requested();
     const auto sums = functional_(*loop);
     const VectorXd gradient = sums.energy_gradient - multiplier * sums.displacement_gradient;
-    if (std::sqrt(gradient.dot(factor_.solve(gradient)) / sums.energy_times_period) < kTolerance)
+    if (std::sqrt(gradient.dot(factor_.solve(gradient)) / sums.energy_times_period) <
+        OptimalStrokeTuning::kTolerance)
       return Extremal{*loop, multiplier, sums.energy_times_period};
     const auto step = newton_step(*loop, sums, multiplier);
     if (!step) return {};
@@ -149,10 +171,11 @@ std::optional<Extremal> LoopOptimizer::solve(const Extremal& start, double displ
     // scaled to the wanted displacement; then only the energy must fall.
     std::optional<PolynomialLoop> next;
     double share = 1;
-    for (int halvings = 0; !next && halvings < kMostHalvings; ++halvings, share /= 2) {
+    for (int halvings = 0; !next && halvings < OptimalStrokeTuning::kMostHalvings;
+         ++halvings, share /= 2) {
       next = scaled_to(moved(*loop, direction, share), displacement);
-      // The energy may rise by a relative 1e-13, its rounding error near the end.
-      if (next && functional_(*next).energy_times_period > sums.energy_times_period * (1 + 1e-13))
+      if (next && functional_(*next).energy_times_period >
+                      sums.energy_times_period * (1 + OptimalStrokeTuning::kEnergyRounding))
         next.reset();
     }
     loop = next;
@@ -160,12 +183,12 @@ std::optional<Extremal> LoopOptimizer::solve(const Extremal& start, double displ
   return {};
 }
 
-/// True if the table contains the loop at 2001 equidistant parameters, not only at the points of
+/// True if the table contains the loop at many equidistant parameters, not only at the points of
 /// the quadrature.
 bool is_contained(const Swimmer& swimmer, const PolynomialLoop& loop) {
-  constexpr int kPoints = 2000;  // fifty times the points of the quadrature for 8 polynomials
-  for (int i = 0; i <= kPoints; ++i) {
-    const auto basis = loop_basis(static_cast<double>(i) / kPoints, loop.coefficients.cols());
+  for (int i = 0; i <= OptimalStrokeTuning::kPoints; ++i) {
+    const auto basis =
+        loop_basis(static_cast<double>(i) / OptimalStrokeTuning::kPoints, loop.coefficients.cols());
     if (!swimmer.contains(loop.through + loop.coefficients * basis.values)) return false;
   }
   return true;
@@ -218,20 +241,17 @@ PolynomialLoop small_loop(const BestPlane& plane, const VectorXd& through, doubl
 /// way leaves the table.
 std::optional<Extremal> follow(const Swimmer& swimmer, const OptimalStrokeRequest& request,
                                double angle, const StopToken& stop) {
-  constexpr Index kPolynomials = 8;  // enough on the way; more are added at the end
-  // The displacement begins at kFirstShare times the wanted one and grows by a factor, which is
-  // reduced when a search fails, but not below kSmallestFactor.
-  constexpr double kFirstShare = 1. / 64, kSmallestFactor = 1.02;
+  constexpr Index kPolynomials = OptimalStrokeTuning::kPolynomials;
   const LoopOptimizer optimizer(swimmer, request.through, kPolynomials);
   const auto plane = best_plane(swimmer, request.through);
-  double share = kFirstShare;
+  double share = OptimalStrokeTuning::kFirstShare;
   const double first = share * request.displacement;
   const double sign = first > 0 ? 1 : -1;
   // The energy of a circle is 4 pi |displacement| / curl.
   auto now = optimizer.solve({small_loop(plane, request.through, first, angle, kPolynomials),
                               sign * 4 * std::numbers::pi / plane.curl, 0},
                              first, stop);
-  for (double factor = 2; now && share < 1;) {
+  for (double factor = OptimalStrokeTuning::kFirstFactor; now && share < 1;) {
     const double next = std::min(1.0, share * factor);
     Extremal start = *now;
     start.loop.coefficients *= std::sqrt(next / share);
@@ -241,7 +261,7 @@ std::optional<Extremal> follow(const Swimmer& swimmer, const OptimalStrokeReques
       share = next;
     } else {
       factor = std::sqrt(factor);
-      if (factor < kSmallestFactor) return {};
+      if (factor < OptimalStrokeTuning::kSmallestFactor) return {};
     }
   }
   return now;

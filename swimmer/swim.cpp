@@ -10,6 +10,20 @@
 namespace viscontact::swimmer {
 namespace {
 
+/// Free choices of the quadrature over time.
+struct SwimTuning {
+  // Points on a leg for its sums. The integrands are analytic, so that each doubling of the points
+  // squares the error. Legs of 1e-3 radii need 8 points, legs across the whole table 64.
+  static constexpr int kFewest = 8, kMost = 512;
+  // Relative change of energy and length at the last doubling. The change of the displacement over
+  // the path of the arms must be a tenth of it.
+  static constexpr double kTolerance = 1e-12;
+  // Points between two rows, exact to round-off if rows are at most 1/100 of a stroke apart.
+  static constexpr int kBetweenRows = 16;
+  // Relative rounding error of a number of rows.
+  static constexpr double kRounding = 1e-12;
+};
+
 /// Integrals over time on a leg or a part of it: displacement [L] and energy [M L^2/T^2].
 struct Integrals {
   double displacement = 0, energy = 0;
@@ -44,23 +58,20 @@ Integrals integrate(const Swimmer& swimmer, const StrokeLeg& leg, double from, d
 
 /// Integrates a leg with more and more points until the integrals no longer change.
 Integrals integrate_leg(const Swimmer& swimmer, const StrokeLeg& leg) {
-  // The integrands are analytic, so that each doubling of the points squares the error. Legs of
-  // 1e-3 radii need 8 points, legs across the whole table 64.
-  constexpr int kFewest = 8, kMost = 512;
-  constexpr double kTolerance = 1e-12;  // relative change of the integrals
-  auto before = integrate(swimmer, leg, leg.start, leg.end, gauss_rule(kFewest));
-  for (int count = 2 * kFewest; count <= kMost; count *= 2) {
+  auto before = integrate(swimmer, leg, leg.start, leg.end, gauss_rule(SwimTuning::kFewest));
+  for (int count = 2 * SwimTuning::kFewest; count <= SwimTuning::kMost; count *= 2) {
     const auto sum = integrate(swimmer, leg, leg.start, leg.end, gauss_rule(count));
-    if (std::abs(sum.displacement - before.displacement) <= kTolerance / 10 * sum.path &&
-        std::abs(sum.energy - before.energy) <= kTolerance * sum.energy &&
-        std::abs(sum.length - before.length) <= kTolerance * sum.length)
+    if (std::abs(sum.displacement - before.displacement) <=
+            SwimTuning::kTolerance / 10 * sum.path &&
+        std::abs(sum.energy - before.energy) <= SwimTuning::kTolerance * sum.energy &&
+        std::abs(sum.length - before.length) <= SwimTuning::kTolerance * sum.length)
       return sum;
     before = sum;
   }
   throw Error(ErrorKind::kNotConverged,
               "the displacement of the leg from time {:.6g} to {:.6g} does not converge with {} "
               "points of quadrature; divide the leg by more corners or rows",
-              leg.start, leg.end, kMost);
+              leg.start, leg.end, SwimTuning::kMost);
 }
 
 }  // namespace
@@ -77,9 +88,7 @@ SwimSums swim_sums(const Swimmer& swimmer, const Stroke& stroke) {
 
 std::vector<SwimRow> swim_rows(const Swimmer& swimmer, const Stroke& stroke, int intervals) {
   assert(intervals > 0 && stroke.period > 0);
-  // The quadrature with 16 points is exact to round-off between two rows that are at most 1/100 of
-  // a stroke apart.
-  const auto rule = gauss_rule(16);
+  const auto rule = gauss_rule(SwimTuning::kBetweenRows);
   std::vector<SwimRow> rows;
   double position = 0;
   const auto add_row = [&](const StrokeLeg& leg, double time) {
@@ -91,7 +100,7 @@ std::vector<SwimRow> swim_rows(const Swimmer& swimmer, const Stroke& stroke, int
   };
   for (const auto& leg : stroke.legs) {
     const double share = (leg.end - leg.start) / stroke.period * intervals;
-    const int parts = std::max(1, static_cast<int>(std::ceil(share * (1 - 1e-12))));
+    const int parts = std::max(1, static_cast<int>(std::ceil(share * (1 - SwimTuning::kRounding))));
     for (int i = 0; i < parts; ++i) {
       const double from = std::lerp(leg.start, leg.end, static_cast<double>(i) / parts);
       const double to = std::lerp(leg.start, leg.end, static_cast<double>(i + 1) / parts);

@@ -14,6 +14,16 @@ namespace {
 
 constexpr const char* kEraseLine = "\r\033[K";
 
+/// Free choices of progress reports.
+struct ProgressTuning {
+  // Time between two lines of a log, and between two changes of the line of a terminal.
+  static constexpr auto kBetweenLines = std::chrono::minutes(1);
+  static constexpr auto kBetweenChanges = std::chrono::milliseconds(100);
+  // Time [s] from which on there is an estimate of the time left. Above the other two the time is
+  // given in minutes or in hours, which are then easier to read.
+  static constexpr double kTooShort = 2, kInMinutes = 90, kInHours = 5400;
+};
+
 // Number of objects of QuietThread in this thread.
 thread_local int quiet_objects = 0;
 
@@ -36,31 +46,26 @@ void show_progress(const std::string& text) {
 }
 
 bool ProgressLines::is_due(Clock::time_point now) {
-  constexpr auto kBetween = std::chrono::minutes(1);
   const std::scoped_lock lock(mutex_);
   if (!last_) last_ = now;
-  if (now - *last_ < kBetween) return false;
+  if (now - *last_ < ProgressTuning::kBetweenLines) return false;
   last_ = now;
   return true;
 }
 
 bool ProgressTimer::is_due() {
-  constexpr auto kBetween = std::chrono::milliseconds(100);
   const auto now = std::chrono::steady_clock::now();
-  if (now - last_ < kBetween) return false;
+  if (now - last_ < ProgressTuning::kBetweenChanges) return false;
   last_ = now;
   return true;
 }
 
 std::string time_left(double seconds, double done) {
   assert(seconds >= 0);
-  // Limits [s]. Above the last two the time is given in minutes or in hours, which are then easier
-  // to read.
-  constexpr double kTooShort = 2, kInMinutes = 90, kInHours = 5400;
-  if (seconds < kTooShort || !(done > 0)) return "";
+  if (seconds < ProgressTuning::kTooShort || !(done > 0)) return "";
   const double left = seconds * std::max(0.0, 1 / done - 1);
-  if (left > kInHours) return fmt::format(", about {:.1f} h left", left / 3600);
-  if (left > kInMinutes) return fmt::format(", about {:.0f} min left", left / 60);
+  if (left > ProgressTuning::kInHours) return fmt::format(", about {:.1f} h left", left / 3600);
+  if (left > ProgressTuning::kInMinutes) return fmt::format(", about {:.0f} min left", left / 60);
   return fmt::format(", about {:.0f} s left", left);
 }
 

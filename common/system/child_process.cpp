@@ -20,13 +20,21 @@ namespace {
 
 constexpr std::string_view kWhiteSpace = " \t\r\n\v\f";
 
-// The longest delay until a stop is noticed [ms]; child_process.hpp promises this time.
-constexpr int kLongestWait = 100;
-
-constexpr std::size_t kBufferSize = 1 << 16;  // bytes; any size from some kB on works
+/// Free choices of the exchange with a child.
+struct ChildTuning {
+  // The longest delay until a stop is noticed [ms]; child_process.hpp promises this time.
+  static constexpr int kLongestWait = 100;
+  // Bytes of a buffer; any size from some kB on works.
+  static constexpr std::size_t kBufferSize = 1 << 16;
+  // Time between two checks for the end of a child [ms]; any short time works.
+  static constexpr int kPause = 10;
+  // Buffers that are read after the end, 4 MB; any number works that empties the sockets.
+  static constexpr int kLastBuffers = 64;
+};
 
 /// The bytes that have arrived, in `buffer`; does not wait. Closes the descriptor at its end.
-std::string_view receive_from(Descriptor& from, std::array<char, kBufferSize>& buffer) {
+std::string_view receive_from(Descriptor& from,
+                              std::array<char, ChildTuning::kBufferSize>& buffer) {
   const ssize_t count = ::recv(from.get(), buffer.data(), buffer.size(), MSG_DONTWAIT);
   if (count > 0) return {buffer.data(), static_cast<std::size_t>(count)};
   if (count == 0 || (errno != EAGAIN && errno != EINTR)) from.close();
@@ -92,7 +100,7 @@ void ChildProcess::send_some() {
 }
 
 void ChildProcess::receive() {
-  std::array<char, kBufferSize> buffer{};
+  std::array<char, ChildTuning::kBufferSize> buffer{};
   const auto text = receive_from(child_.from_child, buffer);
   // Removes what was read before, except for the last word, because put_word_back() may need it.
   const std::size_t done = std::min(word_start_, at_);
@@ -103,7 +111,7 @@ void ChildProcess::receive() {
 }
 
 void ChildProcess::receive_errors() {
-  std::array<char, kBufferSize> buffer{};
+  std::array<char, ChildTuning::kBufferSize> buffer{};
   last_lines_.add(LastLines::kErrors, receive_from(child_.errors_of_it, buffer));
 }
 
@@ -127,7 +135,7 @@ ChildProcess::Reading ChildProcess::more_or(Clock::time_point deadline, std::siz
   const auto now = Clock::now();
   if (now >= deadline) return {State::kTimedOut, {}};
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - now).count();
-  exchange(left < kLongestWait ? static_cast<int>(left) : kLongestWait);
+  exchange(left < ChildTuning::kLongestWait ? static_cast<int>(left) : ChildTuning::kLongestWait);
   return {};
 }
 
@@ -211,17 +219,16 @@ std::string ChildProcess::finish(std::chrono::milliseconds grace) {
     last_lines_.add(LastLines::kOutput, std::string_view(output_).substr(at_));
     at_ = word_start_ = output_.size();
   };
-  constexpr int kPause = 10;  // milliseconds between two checks; any short time works
   bool ended = has_ended();
   while (!ended && Clock::now() < deadline && !stop_.stop_requested()) {
     if (sent_ == to_send_.size()) child_.to_child.close();
-    collect(kPause);  // pauses, too, if the child has closed its streams
+    collect(ChildTuning::kPause);  // pauses, too, if the child has closed its streams
     ended = has_ended();
   }
   // What the child wrote before its end is in the sockets. Processes that the child has started may
   // write for ever; therefore the number of buffers that are read is limited.
-  constexpr int kLargest = 64;  // buffers, 4 MB; any number works that empties the sockets
-  for (int i = 0; i < kLargest && (child_.from_child.get() >= 0 || child_.errors_of_it.get() >= 0);
+  for (int i = 0; i < ChildTuning::kLastBuffers &&
+                  (child_.from_child.get() >= 0 || child_.errors_of_it.get() >= 0);
        ++i)
     collect(0);
   ::kill(-child_.id, SIGKILL);

@@ -20,6 +20,16 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Free choices of run_process().
+struct ProcessTuning {
+  // The longest delay until a stop is noticed [ms]; process.hpp promises this time.
+  static constexpr int kLongestWait = 100;
+  // Bytes that are read at once; any size works.
+  static constexpr std::size_t kBufferSize = 1 << 14;
+  // First and longest time between two checks for the end of the child [ms].
+  static constexpr int kFirstPause = 1, kLongestPause = 20;
+};
+
 /// Sends `input` to the child and returns its output. Returns when the child closes its output, a
 /// stop is requested, or `deadline` has passed.
 std::string converse(Descriptor& to_child, int from_child, std::string_view input,
@@ -29,9 +39,8 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
   for (;;) {
     std::array<pollfd, 2> files = {pollfd{from_child, POLLIN, 0},
                                    pollfd{to_child.get(), POLLOUT, 0}};
-    // The longest delay until a stop is noticed [ms]; process.hpp promises this time.
-    constexpr int kMilliseconds = 100;
-    const int ready = ::poll(files.data(), to_child.get() >= 0 ? 2 : 1, kMilliseconds);
+    const int ready =
+        ::poll(files.data(), to_child.get() >= 0 ? 2 : 1, ProcessTuning::kLongestWait);
     if (stop.stop_requested() || Clock::now() > deadline) return output;
     if (ready <= 0) continue;
     if (to_child.get() >= 0 && files[1].revents != 0) {
@@ -41,7 +50,7 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
       if (input.empty() || (count < 0 && errno != EAGAIN && errno != EINTR)) to_child.close();
     }
     if (files[0].revents != 0) {
-      std::array<char, 1 << 14> buffer{};  // bytes
+      std::array<char, ProcessTuning::kBufferSize> buffer{};
       const ssize_t count = ::read(from_child, buffer.data(), buffer.size());
       if (count > 0) output.append(buffer.data(), static_cast<std::size_t>(count));
       if (count == 0) return output;
@@ -59,9 +68,9 @@ struct ChildEnd {
 /// Kills the process group of the child if a stop is requested or `deadline` passes, because a
 /// child can close its output and continue to run.
 ChildEnd wait_for_end(pid_t child, Clock::time_point deadline, const StopToken& stop) {
-  constexpr int kFirstPause = 1, kLongestPause = 20;  // milliseconds
   ChildEnd end;
-  for (int pause = kFirstPause;; pause = std::min(2 * pause, kLongestPause)) {
+  for (int pause = ProcessTuning::kFirstPause;;
+       pause = std::min(2 * pause, ProcessTuning::kLongestPause)) {
     const bool to_kill = !end.stopped && !end.timed_out;
     if (to_kill && stop.stop_requested())
       end.stopped = true;

@@ -8,11 +8,17 @@
 
 namespace viscontact {
 
-std::string format_number(double value) {
+void append_number(std::string& text, double value) {
   assert(std::isfinite(value));
-  std::array<char, 32> buffer{};  // the longest text is -2.2250738585072014e-308
+  std::array<char, 32> buffer;  // the longest text is -2.2250738585072014e-308
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
+  text.append(buffer.data(), end);
+}
+
+std::string format_number(double value) {
+  std::string text;
+  append_number(text, value);
+  return text;
 }
 
 std::optional<double> parse_number(std::string_view text) {

@@ -10,6 +10,8 @@ namespace viscontact {
 /// The shortest decimal text that reads back to the same double, which must be finite. Hashes in
 /// files are computed from such texts.
 std::string format_number(double value);
+/// Appends the text of format_number().
+void append_number(std::string& text, double value);
 
 /// The double nearest to a decimal text, which blanks and tabs may surround and a "+" may begin.
 /// Nothing if the text is empty or not one finite number in the range of a double, such as "nan",

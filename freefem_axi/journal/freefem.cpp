@@ -12,15 +12,19 @@
 namespace viscontact::freefem_axi {
 namespace {
 
-// Each row is solved on a sequence of kLevels meshes (the error estimate needs three), each twice
-// as fine as the one before. The coarsest has kCoarsestCells cells across the gap; with fewer than
-// two the gap would be a single layer of triangles. At most kAttempts sequences with other numbers
-// of cells are solved until the accuracy is reached (extrapolation.idp). The first sequence reaches
-// an accuracy of 1e-5 for gaps of 1e-6 to 10 radii in about a second (bench/README.md). Other
-// numbers change the errors and times of all tables.
-constexpr int kCoarsestCells = 2;
-constexpr int kLevels = 3;
-constexpr int kAttempts = 3;
+/// Free choices of the meshes of a row (extrapolation.idp). Other numbers change the errors and
+/// times of all tables.
+struct MeshSequenceTuning {
+  // Cells across the gap on the coarsest mesh; with fewer than two the gap would be a single layer
+  // of triangles.
+  static constexpr int kCoarsestCells = 2;
+  // Meshes, each twice as fine as the one before; the error estimate needs three.
+  static constexpr int kLevels = 3;
+  // Sequences of meshes with other numbers of cells that are solved, at most, until the accuracy is
+  // reached. The first reaches 1e-5 for gaps of 1e-6 to 10 radii in about a second
+  // (bench/README.md).
+  static constexpr int kAttempts = 3;
+};
 
 /// The last lines of a program's output that are not blank, joined to one line.
 std::string last_lines(const std::string& output) {
@@ -59,10 +63,10 @@ ProcessResult run_freefem(const FreeFem& freefem, std::string_view script,
 }
 
 void append_mesh_arguments(std::vector<std::string>& arguments, double relative_accuracy) {
-  arguments.insert(
-      arguments.end(),
-      {"-accuracy", format_number(relative_accuracy), "-cells", std::to_string(kCoarsestCells),
-       "-levels", std::to_string(kLevels), "-attempts", std::to_string(kAttempts)});
+  arguments.insert(arguments.end(), {"-accuracy", format_number(relative_accuracy), "-cells",
+                                     std::to_string(MeshSequenceTuning::kCoarsestCells), "-levels",
+                                     std::to_string(MeshSequenceTuning::kLevels), "-attempts",
+                                     std::to_string(MeshSequenceTuning::kAttempts)});
 }
 
 std::string timed_out_in_words(std::chrono::seconds time_limit) {

@@ -1,5 +1,4 @@
-// The lengths of edges of the mesh, from distances to particles and walls. The constants are chosen
-// by the table of errors in bench/README.md; 24 is the default of fluid.edges_per_particle.
+// The lengths of edges of the mesh, from distances to particles and walls.
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
 
 #include <cassert>
@@ -12,25 +11,6 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Ratio of the longest edge in a narrow gap to the gap, with 24 edges on the smallest particle.
-/// With n edges the ratio is 24/n times as large, but at most kLargestOfGap.
-constexpr double kOfGapAt24Edges = 0.4;
-/// The largest such ratio. It allows two edges across the gap, because the fluid in a gap with one
-/// edge across it resists 7 % too much.
-constexpr double kLargestOfGap = 0.5;
-/// In gaps wider than kNarrow radii of the smallest particle, where the fluid resists less, edges
-/// may be longer: kFurtherAt24Edges times the excess of the gap over this width is added. The
-/// factor is for 24 edges on the smallest particle, and 24/n times as large for n edges.
-constexpr double kNarrow = 0.3, kFurtherAt24Edges = 0.35;
-/// Increase of the edge length per distance from the nearest particle, with 24 edges on the
-/// smallest particle; 24/n times as large for n edges, so that all edges shrink by one factor.
-constexpr double kGrowthAt24Edges = 0.1;
-/// In a fluid with inertia the error is largest near the particles, so that edges further away may
-/// be longer: the increase per distance is multiplied by kFasterWithInertia, but not beyond
-/// kFastestWithInertia, which equals kGrowthAt24Edges, so that meshes with 24 or fewer edges on the
-/// smallest particle are the same as without inertia.
-constexpr double kFasterWithInertia = 2, kFastestWithInertia = 0.1;
-
 }  // namespace
 
 double size_of(const particles::Domain& domain) {
@@ -42,13 +22,12 @@ double size_of(const particles::Domain& domain) {
 }
 
 void check_edge_length(double edge, double length) {
-  constexpr double kShortest = 1e-7;      // FreeFEM merges nearer points
-  if (edge > kShortest * length) return;  // false for NaN
+  if (edge > EdgeTuning::kShortest * length) return;  // false for NaN
   throw Error(ErrorKind::kNotConverged,
               "the mesh of the fluid needs an edge of {:.3g} of the length of a curve, but "
               "resolves no less than {:.0e} of it: particles, or a particle and a wall, overlap or "
               "have too narrow a gap; use a larger fluid.threshold_gap or a shorter time_step",
-              edge / length, kShortest);
+              edge / length, EdgeTuning::kShortest);
 }
 
 EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain& domain,
@@ -56,27 +35,25 @@ EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain&
     : domain_(domain) {
   assert(bodies.particles != nullptr && fluid.edges_per_particle > 0 && coarsening > 0);
   const auto& p = *bodies.particles;
-  const double ratio = 24.0 / fluid.edges_per_particle;
+  const double ratio = EdgeTuning::kUsualEdges / fluid.edges_per_particle;
   double smallest = kFar;
   for (std::size_t k = 0; k < p.count(); ++k) {
-    outlines_.push_back(particles::outline_of(fluid, p, bodies.angles, k));
-    smallest = std::min(smallest, fluid.is_ellipse(k) ? std::ranges::min(fluid.semi_axes[k])
-                                                      : fluid.end_radius(k, p.radii[k]));
+    outlines_.push_back(p.placed_shape(k, bodies.angles));
+    smallest = std::min(smallest, outlines_.back().shape.inner_radius());
   }
-  // So that the flow far from all particles is resolved.
-  constexpr double kEdgesOfAWall = 6;
-  cap_ = coarsening * size_of(domain) / kEdgesOfAWall;
+  cap_ = coarsening * size_of(domain) / EdgeTuning::kEdgesOfAWall;
   per_radius_ = coarsening * 2 * std::numbers::pi / fluid.edges_per_particle;
   longest_ =
       std::min(coarsening * 2 * std::numbers::pi * smallest / fluid.edges_per_particle, cap_);
-  growth_ = coarsening * kGrowthAt24Edges * ratio;
+  growth_ = coarsening * EdgeTuning::kGrowthAt24Edges * ratio;
   if (fluid.has_inertia())
-    growth_ = std::max(growth_, std::min(kFasterWithInertia * growth_, kFastestWithInertia));
-  of_gap_ = coarsening * std::min(kOfGapAt24Edges * ratio, kLargestOfGap);
+    growth_ = std::max(growth_, std::min(EdgeTuning::kFasterWithInertia * growth_,
+                                         EdgeTuning::kFastestWithInertia));
+  of_gap_ = coarsening * std::min(EdgeTuning::kOfGapAt24Edges * ratio, EdgeTuning::kLargestOfGap);
   // Spheres on an axis have short edges in wide gaps, too, because the fluid in the gaps carries
   // all of their load, and because a mesh of a few spheres is small.
-  further_ = p.dimension == 1 ? 0 : coarsening * kFurtherAt24Edges * ratio;
-  narrow_ = kNarrow * smallest;
+  further_ = p.dimension == 1 ? 0 : coarsening * EdgeTuning::kFurtherAt24Edges * ratio;
+  narrow_ = EdgeTuning::kNarrow * smallest;
   const auto periods = particles::periods_of(domain);
   const auto shifts = [](double period) { return period > 0 ? 1 : 0; };
   for (int i = -shifts(periods[0]); i <= shifts(periods[0]); ++i)
@@ -93,7 +70,7 @@ EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain&
     auto& neighbours = neighbours_.emplace_back();
     for (std::size_t i = 0; i < images_.size(); ++i) {
       const auto& other = images_[i];
-      const double gap = distance_to(other, outline.centre) - outline.radius;
+      const double gap = other.distance_to(outline.centre) - outline.shape.bounding_radius();
       // Discs of one rigid body may overlap; there is then no gap between them to resolve.
       const bool is_joined = gap < 0 && p.bodies.are_one(static_cast<std::int32_t>(k),
                                                          static_cast<std::int32_t>(i % p.count()));
@@ -118,7 +95,7 @@ double EdgeLengths::distance_to_wall(const Point& x) const {
 std::array<double, 2> EdgeLengths::distances_to_particles(const Point& x) const {
   double nearest = kFar, second = kFar;
   for (const auto& image : images_) {
-    const double distance = distance_to(image, x);
+    const double distance = image.distance_to(x);
     second = std::min(second, std::max(nearest, distance));
     nearest = std::min(nearest, distance);
   }
@@ -128,16 +105,17 @@ std::array<double, 2> EdgeLengths::distances_to_particles(const Point& x) const 
 double EdgeLengths::on_particle(std::size_t k, const Point& x) const {
   assert(k < neighbours_.size());
   double distance = distance_to_wall(x);
-  for (const auto& other : neighbours_[k]) distance = std::min(distance, distance_to(other, x));
+  for (const auto& other : neighbours_[k]) distance = std::min(distance, other.distance_to(x));
   return std::min(longest_, across(distance));
 }
 
 double EdgeLengths::on_outline(std::size_t k, double t) const {
   assert(k < outlines_.size());
   const auto& outline = outlines_[k];
-  const double length = on_particle(k, outline.at(t));
-  if (outline.is_circle()) return length;
-  return std::min(length, per_radius_ * outline.curvature_radius_at(t));
+  const auto at = outline.at(t);
+  const double length = on_particle(k, at.point);
+  if (outline.shape.is_round()) return length;
+  return std::min(length, per_radius_ * at.curvature_radius);
 }
 
 double EdgeLengths::on_wall(const Point& x) const {

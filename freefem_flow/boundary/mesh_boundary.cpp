@@ -12,13 +12,22 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
 #include "viscontact/freefem_flow/boundary/periodic_cells.hpp"
-#include "viscontact/particles/setting/outline.hpp"
+#include "viscontact/particles/setting/chords.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {
 
-// The least number of edges on a circle, which is the least that a case may ask for.
-constexpr std::size_t kLeastOnCircle = 6;
+/// Free choices of the boundary; EdgeTuning has those of its edges.
+struct BoundaryTuning {
+  // If the inside of a particle is meshed, too, a polygon in it, kOfRadius times as large as the
+  // outline and with edges of up to kLongest radii, makes this part of the mesh coarse: FreeFEM
+  // derives the size of triangles from the nearest edges, and a few triangles represent a rigid
+  // motion exactly. kOfRadius must be between 0.2 and 0.7, because curved_mesh.idp looks for both
+  // parts of a particle at these two fractions of its radius.
+  static constexpr double kOfRadius = 0.5, kLongest = 10;
+  // Relative error of an area, above the rounding errors of positions that move with their body.
+  static constexpr double kRounding = 1e-9;
+};
 
 /// Makes the boundary for one placement of the particles. of() may be called once only. The
 /// arguments must outlive the object.
@@ -33,8 +42,9 @@ class BoundaryMaker {
         lengths_(fluid, domain, bodies, coarsening) {}
 
   MeshBoundary of(const particles::DiscDomain& disc) {
-    const particles::Outline wall{{disc.centre[0], disc.centre[1]}, disc.radius};
-    add_outline(wall, 1, false, [&](double t) { return on_wall(wall.at(t)); });
+    const particles::PlacedShape wall{particles::Shape::disc(disc.radius),
+                                      {disc.centre[0], disc.centre[1]}};
+    add_outline(wall, 1, false, [&](double t) { return on_wall(wall.at(t).point); });
     add_particles();
     return std::move(boundary_);
   }
@@ -78,22 +88,17 @@ class BoundaryMaker {
 
   /// Adds a closed curve. The curve of a hole is clockwise, so that the fluid is on its left.
   template <class EdgeLength>
-  void add_outline(const particles::Outline& outline, int label, bool is_hole,
+  void add_outline(const particles::PlacedShape& outline, int label, bool is_hole,
                    const EdgeLength& edge_length) {
-    auto points = cut_outline(outline, kLeastOnCircle, edge_length);
+    auto points = cut_outline(outline, EdgeTuning::kLeastOnCircle, edge_length);
     if (is_hole) std::ranges::reverse(points);
     boundary_.add(points, label);
   }
 
-  /// Adds the surfaces of the particles. If the inside of a particle is meshed, too, a polygon in
-  /// it, kOfRadius times as large as the outline and with edges of up to kLongest radii, makes this
-  /// part of the mesh coarse: FreeFEM derives the size of triangles from the nearest edges, and a
-  /// few triangles represent a rigid motion exactly. kOfRadius must be between 0.2 and 0.7, because
-  /// curved_mesh.idp looks for both parts of a particle at these two fractions of its radius.
+  /// Adds the surfaces of the particles and, if their inside is meshed, too, a polygon in each.
   void add_particles() {
     if (!fitted_) return;
     for (std::size_t k = 0; k < lengths_.outlines().size(); ++k) {
-      constexpr double kOfRadius = 0.5, kLongest = 10;
       const auto& outline = lengths_.outlines()[k];
       if (k < fluid_.cut_areas.size() && fluid_.cut_areas[k] > 0) {
         add_arcs(k);
@@ -101,9 +106,10 @@ class BoundaryMaker {
       }
       if (!has_holes_) {
         auto inner = outline;
-        inner.radius *= kOfRadius;
-        for (auto& axis : inner.semi_axes) axis *= kOfRadius;
-        add_outline(inner, kInsideLabel, false, [&](double) { return kLongest * outline.radius; });
+        inner.shape = inner.shape.scaled(BoundaryTuning::kOfRadius);
+        add_outline(inner, kInsideLabel, false, [&](double) {
+          return BoundaryTuning::kLongest * outline.shape.bounding_radius();
+        });
       }
       add_outline(outline, kFirstParticleLabel + static_cast<int>(k), has_holes_,
                   [&](double t) { return lengths_.on_outline(k, t); });
@@ -115,15 +121,16 @@ class BoundaryMaker {
     const auto chords = chords_of(fluid_, bodies_, k);
     constexpr double kTurn = 2 * std::numbers::pi;
     const auto& circle = lengths_.outlines()[k];
+    const double radius = circle.shape.bounding_radius();
     for (std::size_t c = 0; c < chords.size(); ++c) {
       const auto &before = chords[c], &after = chords[(c + 1) % chords.size()];
       const double from = before.middle + before.half;
       const double to = after.middle - after.half + (c + 1 < chords.size() ? 0 : kTurn);
-      const auto at = [&](double s) { return from + s / circle.radius; };
+      const auto at = [&](double s) { return from + s / radius; };
       std::vector<Point> points;
-      for (const double s : cut_curve((to - from) * circle.radius, 1,
+      for (const double s : cut_curve((to - from) * radius, 1,
                                       [&](double t) { return lengths_.on_outline(k, at(t)); }))
-        points.push_back(circle.at(at(s)));
+        points.push_back(circle.at(at(s)).point);
       points.front() = before.to;
       points.back() = after.from;
       std::ranges::reverse(points);
@@ -187,15 +194,15 @@ class BoundaryMaker {
     double z = height;
     for (const auto k : order) {
       const auto& circle = outlines[k];
-      const double top = circle.centre[1] + circle.radius, bottom = top - 2 * circle.radius;
+      const double radius = circle.shape.bounding_radius();
+      const double top = circle.centre[1] + radius, bottom = top - 2 * radius;
       add_line({0, z}, {0, top}, kAxisLabel, fluid);
       const auto at = [&](double s) {
-        const double angle = s / circle.radius;
-        return Point{circle.radius * std::sin(angle),
-                     circle.centre[1] + circle.radius * std::cos(angle)};
+        const double angle = s / radius;
+        return Point{radius * std::sin(angle), circle.centre[1] + radius * std::cos(angle)};
       };
       std::vector<Point> points;
-      for (const double s : cut_curve(std::numbers::pi * circle.radius, kLeastOnCircle / 2,
+      for (const double s : cut_curve(std::numbers::pi * radius, EdgeTuning::kLeastOnCircle / 2,
                                       [&](double t) { return lengths_.on_particle(k, at(t)); }))
         points.push_back(at(s));
       points.front() = {0, top};
@@ -224,9 +231,8 @@ void check_unions(const particles::Fluid& fluid, const particles::Particles& par
   for (std::size_t k = 0; k < fluid.cut_areas.size(); ++k) {
     double area = 0;
     for (const auto& chord : chords_of(fluid, particles, k)) area += chord.area;
-    // Above the rounding errors of positions that move with their body.
-    constexpr double kRounding = 1e-9;
-    if (std::abs(area - fluid.cut_areas[k]) > kRounding * particles.radii[k] * particles.radii[k])
+    if (std::abs(area - fluid.cut_areas[k]) >
+        BoundaryTuning::kRounding * particles.radii[k] * particles.radii[k])
       throw Error(ErrorKind::kNotConverged,
                   "particle {} overlaps one of its body across a side of the period, where the "
                   "mesh does not join them; another origin of the period, or a plate in place of "

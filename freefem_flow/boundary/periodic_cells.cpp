@@ -64,9 +64,10 @@ double square_of_reach(const Polygon& polygon, const Point& from) {
 /// The cell of particle k, counter-clockwise. Walls bound it along directions that are not
 /// periodic.
 Polygon cell_of(std::size_t k, const particles::BoxDomain& box,
-                std::span<const particles::Outline> circles) {
+                std::span<const particles::PlacedShape> circles) {
   assert(k < circles.size());
   const auto& own = circles[k];
+  const double own_radius = own.shape.bounding_radius();
   std::array<double, 2> period{}, low{}, high{};
   for (std::size_t d = 0; d < 2; ++d) {
     period[d] = box.to[d] - box.from[d];
@@ -94,8 +95,8 @@ Polygon cell_of(std::size_t k, const particles::BoxDomain& box,
           if ((square < near) != is_near) continue;
           // The line on which both power distances are equal, with the centre c of particle k and
           // the vector d from it to the centre of particle j: d.(x - c) = (|d|^2 + r^2 - r_j^2)/2.
-          const double half =
-              (square + own.radius * own.radius - circles[j].radius * circles[j].radius) / 2;
+          const double radius = circles[j].shape.bounding_radius();
+          const double half = (square + own_radius * own_radius - radius * radius) / 2;
           if (half > 0 && half * half > reach * square) continue;
           clip(cell, d, half + d[0] * own.centre[0] + d[1] * own.centre[1],
                {static_cast<int>(j), 0, {sx, sy}});
@@ -108,7 +109,7 @@ Polygon cell_of(std::size_t k, const particles::BoxDomain& box,
 /// periods.
 class Corners {
  public:
-  Corners(const particles::BoxDomain& box, std::span<const particles::Outline> circles)
+  Corners(const particles::BoxDomain& box, std::span<const particles::PlacedShape> circles)
       : box_(box), circles_(circles) {}
 
   /// The place of the corner x. If an earlier corner, shifted by whole periods to be next to x, is
@@ -146,19 +147,19 @@ class Corners {
     double least = std::max(box_.to[0] - box_.from[0], box_.to[1] - box_.from[1]);
     for (const auto& circle : circles_) {
       const Point near = moved_near(x, circle.centre);
-      least = std::min(least, distance_to(circle, near));
+      least = std::min(least, circle.distance_to(near));
     }
     return least;
   }
   const particles::BoxDomain& box_;
-  std::span<const particles::Outline> circles_;
+  std::span<const particles::PlacedShape> circles_;
   std::vector<Joined> corners_;
 };
 
 }  // namespace
 
 std::vector<CellEdge> periodic_cells(const particles::BoxDomain& box,
-                                     std::span<const particles::Outline> circles) {
+                                     std::span<const particles::PlacedShape> circles) {
   assert(!circles.empty() && (box.periodic[0] || box.periodic[1]));
   std::vector<CellEdge> edges;
   Corners corners(box, circles);

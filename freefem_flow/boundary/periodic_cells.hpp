@@ -32,6 +32,6 @@ struct CellEdge {
 /// `box` is periodic along at least one axis. `circles` are the particles, or the circles around
 /// them, with centres in the box; they must not overlap.
 std::vector<CellEdge> periodic_cells(const particles::BoxDomain& box,
-                                     std::span<const particles::Outline> circles);
+                                     std::span<const particles::PlacedShape> circles);
 
 }  // namespace viscontact::freefem_flow

@@ -31,10 +31,24 @@ double distance_to_walls(const particles::Domain& domain, const Point& x) {
   return distance;
 }
 
+/// Free choices of the edges around membranes; EdgeTuning has those of all boundaries.
+struct MembraneEdgeTuning {
+  // Increase of the edge length per distance from a curve with 24 edges.
+  static constexpr double kGrowthAt24Edges = 0.25;
+  // Largest edge over the distance from a curve, which makes two edges across a gap. An edge as
+  // long as those of the curve over kOfOwnEdge is always allowed.
+  static constexpr double kOfGap = 0.5, kOfOwnEdge = 8;
+  // Least number of edges on a round wall, whose polygon is then nearly a circle.
+  static constexpr std::size_t kLeastOnWall = 24;
+  // Least width over the period of a strip without a membrane, in which a mesh can end;
+  // membrane_boundary.hpp repeats it.
+  static constexpr double kStrip = 1e-3;
+};
+
 class WantedEdges {
  public:
   WantedEdges(const particles::Domain& domain, const InnerCurves& curves)
-      : curves_(curves), cap_(size_of(domain) / kEdgesOfAWall) {
+      : curves_(curves), cap_(size_of(domain) / EdgeTuning::kEdgesOfAWall) {
     assert(curves.edges > 0 && curves.edges_of_disc > 0);
   }
 
@@ -44,7 +58,9 @@ class WantedEdges {
     double wanted = cap_;
     const auto shorten = [&](double edge, int edges, double distance) {
       wanted = std::min(
-          {wanted, edge + kGrowth * 24 / edges * distance, std::max(edge / 8, kOfGap * distance)});
+          {wanted,
+           edge + MembraneEdgeTuning::kGrowthAt24Edges * EdgeTuning::kUsualEdges / edges * distance,
+           std::max(edge / MembraneEdgeTuning::kOfOwnEdge, MembraneEdgeTuning::kOfGap * distance)});
     };
     for (const auto& nodes : curves_.membranes)
       for (Eigen::Index i = 0; i < nodes.rows(); i += 2)
@@ -52,12 +68,13 @@ class WantedEdges {
                 std::hypot(nodes(i, 0) - x[0], nodes(i, 1) - x[1]));
     for (std::size_t k = 0; k < curves_.discs.size(); ++k) {
       const auto& disc = curves_.discs[k];
-      const double edge = particles::kTwoPi * disc.radius / curves_.edges_of_disc;
+      const double edge = particles::kTwoPi * disc.shape.bounding_radius() / curves_.edges_of_disc;
       if (k == own)
         wanted = std::min(wanted, edge);
       else
         shorten(edge, curves_.edges_of_disc,
-                std::hypot(disc.centre[0] - x[0], disc.centre[1] - x[1]) - disc.radius);
+                std::hypot(disc.centre[0] - x[0], disc.centre[1] - x[1]) -
+                    disc.shape.bounding_radius());
     }
     return wanted;
   }
@@ -65,15 +82,14 @@ class WantedEdges {
   /// The same on the disc with the number `own`, but shorter near a wall.
   double on_disc(const particles::Domain& domain, std::size_t own, const Point& x) const {
     assert(own < curves_.discs.size());
-    const double edge = particles::kTwoPi * curves_.discs[own].radius / curves_.edges_of_disc;
-    return std::min(at(x, own), std::max(edge / 8, kOfGap * distance_to_walls(domain, x)));
+    const double edge =
+        particles::kTwoPi * curves_.discs[own].shape.bounding_radius() / curves_.edges_of_disc;
+    return std::min(at(x, own),
+                    std::max(edge / MembraneEdgeTuning::kOfOwnEdge,
+                             MembraneEdgeTuning::kOfGap * distance_to_walls(domain, x)));
   }
 
  private:
-  // kGrowth: increase of the edge length per distance from a curve with 24 edges. kEdgesOfAWall:
-  // least number of edges across the domain. kOfGap: largest edge over the distance from a curve;
-  // an eighth of the length of that curve's own edges is always allowed.
-  static constexpr double kGrowth = 0.25, kEdgesOfAWall = 6, kOfGap = 0.5;
   const InnerCurves& curves_;
   double cap_;  // the longest edge
 };
@@ -94,12 +110,14 @@ void check_places(const particles::Domain& domain, const InnerCurves& curves,
       const Point x = {node(0), node(1)};
       if (!(distance_to_walls(domain, x) > 0)) fail("a membrane leaves the domain", x);
       for (const auto& disc : curves.discs)
-        if (!(std::hypot(x[0] - disc.centre[0], x[1] - disc.centre[1]) > disc.radius))
+        if (!(std::hypot(x[0] - disc.centre[0], x[1] - disc.centre[1]) >
+              disc.shape.bounding_radius()))
           fail("a membrane meets a particle", x);
     }
   for (const auto& disc : curves.discs) {
     const Point x = {disc.centre[0], disc.centre[1]};
-    if (!(distance_to_walls(domain, x) > disc.radius)) fail("a particle leaves the domain", x);
+    if (!(distance_to_walls(domain, x) > disc.shape.bounding_radius()))
+      fail("a particle leaves the domain", x);
   }
 }
 
@@ -116,7 +134,8 @@ double shift_between_membranes(const particles::Domain& domain, const InnerCurve
   };
   for (const auto& own : curves.membranes)
     add(own.col(0).minCoeff(), own.col(0).maxCoeff() - own.col(0).minCoeff());
-  for (const auto& disc : curves.discs) add(disc.centre[0] - disc.radius, 2 * disc.radius);
+  for (const auto& disc : curves.discs)
+    add(disc.centre[0] - disc.shape.bounding_radius(), 2 * disc.shape.bounding_radius());
   std::ranges::sort(ranges);
   double end = ranges.front()[1], widest = 0, middle = 0;
   for (const auto& range : ranges) end = std::max(end, range[1]);
@@ -128,7 +147,7 @@ double shift_between_membranes(const particles::Domain& domain, const InnerCurve
     }
     end = std::max(end, to);
   }
-  if (!(widest > 1e-3 * period))
+  if (!(widest > MembraneEdgeTuning::kStrip * period))
     throw Error(ErrorKind::kNotConverged,
                 "no straight line across the periodic domain passes between the membranes and "
                 "particles, at which the mesh could end; use a longer domain");
@@ -140,10 +159,10 @@ MeshBoundary membrane_boundary(const particles::Domain& domain, const InnerCurve
   const auto wanted_at = [&](const Point& x) { return edges.at(x); };
   MeshBoundary boundary;
   if (const auto* disc = std::get_if<DiscDomain>(&domain)) {
-    // The polygon is then nearly a circle.
-    constexpr std::size_t kLeastOnWall = 24;
-    const particles::Outline wall{{disc->centre[0], disc->centre[1]}, disc->radius};
-    boundary.add(cut_outline(wall, kLeastOnWall, [&](double t) { return wanted_at(wall.at(t)); }),
+    const particles::PlacedShape wall{particles::Shape::disc(disc->radius),
+                                      {disc->centre[0], disc->centre[1]}};
+    boundary.add(cut_outline(wall, MembraneEdgeTuning::kLeastOnWall,
+                             [&](double t) { return wanted_at(wall.at(t).point); }),
                  1);
   } else {
     const auto& box = std::get<BoxDomain>(domain);
@@ -162,11 +181,9 @@ MeshBoundary membrane_boundary(const particles::Domain& domain, const InnerCurve
     boundary.add(left, box.periodic[0] ? kPeriodicLabel : 1);
   }
   for (std::size_t k = 0; k < curves.discs.size(); ++k) {
-    // The least number that a case may ask for.
-    constexpr std::size_t kLeastOnCircle = 6;
     const auto& disc = curves.discs[k];
-    auto points = cut_outline(disc, kLeastOnCircle,
-                              [&](double t) { return edges.on_disc(domain, k, disc.at(t)); });
+    auto points = cut_outline(disc, EdgeTuning::kLeastOnCircle,
+                              [&](double t) { return edges.on_disc(domain, k, disc.at(t).point); });
     std::ranges::reverse(points);  // clockwise, so that the fluid is on the left
     boundary.add(points, kFirstParticleLabel + static_cast<int>(k));
   }

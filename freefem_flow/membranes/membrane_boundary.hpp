@@ -8,7 +8,7 @@
 #include "viscontact/freefem_flow/boundary/mesh_boundary.hpp"
 #include "viscontact/freefem_flow/process/solver_units.hpp"
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/setting/outline.hpp"
+#include "viscontact/particles/shapes/distance.hpp"
 
 namespace viscontact::freefem_flow {
 
@@ -24,7 +24,7 @@ using NodesOfMembranes = std::vector<Eigen::MatrixXd>;
 /// The curves inside the domain.
 struct InnerCurves {
   NodesOfMembranes membranes{};
-  std::vector<particles::Outline> discs{};
+  std::vector<particles::PlacedShape> discs{};
   int edges = 24;          ///< on each membrane; half the rows of each of `membranes`
   int edges_of_disc = 24;  ///< least number of edges on each disc
 };

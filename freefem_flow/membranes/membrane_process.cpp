@@ -137,7 +137,7 @@ MembraneProcess::MembraneProcess(const particles::Fluid& fluid, const particles:
     for (const auto& membrane : membranes_)
       for (const auto bead : membrane.beads)
         components_.push_back(kComponents * index_of(bead) + d);
-  std::vector<double> radii_of_discs;
+  std::vector<particles::Shape> rigid_discs;
   // The opening has the lines of opening() for the discs and then, for each membrane, a line with
   // its numbers of beads and edges and its viscosity ratio, and the rows of the matrix `smoothing`.
   for (std::size_t k = 0; k < radii.size(); ++k) {
@@ -146,13 +146,13 @@ MembraneProcess::MembraneProcess(const particles::Fluid& fluid, const particles:
     };
     if (std::ranges::any_of(membranes_, has)) continue;
     discs_.push_back(k);
-    radii_of_discs.push_back(radii[k]);
+    rigid_discs.push_back(particles::Shape::disc(radii[k]));
     for (std::size_t d = 0; d < kComponents; ++d) components_.push_back(kComponents * k + d);
   }
   auto rigid = fluid;
   rigid.constraint = particles::RigidConstraint::kRigid;
   std::string text =
-      opening(rigid, domain_, radii_of_discs, 2) + fmt::format("membranes {}\n", membranes_.size());
+      opening(rigid, domain_, rigid_discs, 2) + fmt::format("membranes {}\n", membranes_.size());
   for (const auto& membrane : membranes_) {
     const auto& smoothing = nodes_.emplace_back(nodes_of(membrane.count(), edges_)).smoothing;
     text += fmt::format("{} {} {}\n", membrane.count(), edges_,
@@ -200,7 +200,7 @@ void MembraneProcess::place(const particles::FluidParticles& bodies) {
   }
   for (const auto k : discs_) {
     const auto at = bodies.particles->position(k);
-    curves.discs.push_back({.centre = {at[0], at[1]}, .radius = radii_[k]});
+    curves.discs.push_back({particles::Shape::disc(radii_[k]), {at[0], at[1]}});
   }
   check_places(domain_, curves, units_);
   shift_ = shift_between_membranes(domain_, curves);
@@ -214,7 +214,7 @@ void MembraneProcess::place(const particles::FluidParticles& bodies) {
   }
   for (auto& disc : curves.discs) {
     disc.centre[0] -= shift_;
-    const double from = disc.centre[0] - disc.radius;
+    const double from = disc.centre[0] - disc.shape.bounding_radius();
     disc.centre[0] -= cell.lengths[0] * particles::periods_beyond(cell, 0, from);
   }
   std::string text = "place\n";

@@ -80,17 +80,18 @@ class TemporaryFolder {
 }  // namespace
 
 FlowProcess::FlowProcess(const particles::Fluid& fluid, const particles::Domain& domain,
-                         std::span<const double> radii, int dimension, SolverCommand command,
-                         MeshBoundaryMaker make_boundary, const SolverLimits& limits)
+                         std::span<const particles::Shape> shapes, int dimension,
+                         SolverCommand command, MeshBoundaryMaker make_boundary,
+                         const SolverLimits& limits)
     : fluid_(fluid),
       domain_(domain),
       dimension_(dimension),
-      components_(radii.size() * particles::motion_components(dimension)),
+      components_(shapes.size() * particles::motion_components(dimension)),
       make_boundary_(std::move(make_boundary)),
       dissipation_alone_(dissipation_alone(fluid, domain)),
       command_(std::move(command)),
       limits_(limits),
-      opening_(opening(fluid, domain, radii, dimension)) {
+      opening_(opening(fluid, domain, shapes, dimension)) {
   assert(dimension == 1 || dimension == 2);
   // saved_flow() needs a temporary folder. If none can be made, the error comes now and not after
   // the first steps.

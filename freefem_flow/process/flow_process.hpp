@@ -50,13 +50,13 @@ struct SolverLimits {
 class FlowProcess : public particles::FluidSolver {
  public:
   /// Starts the solver and waits until it is ready. `dimension` is 2 for discs in the plane, 1 for
-  /// spheres on the axis of a cylinder. `radii` [L], > 0, are those of all particles. Throws
+  /// spheres on the axis of a cylinder. `shapes` are those of all particles. Throws
   /// Error(kBadInput) if `domain` does not fit the dimension or the velocities of the boundary,
   /// Error(kExternalProgram) if the solver cannot be run or is not ready in time,
   /// Error(kInterrupted) if a stop is requested, and Error(kWrongUsage) if the fluid has inertia
   /// and no temporary folder can be made.
   FlowProcess(const particles::Fluid& fluid, const particles::Domain& domain,
-              std::span<const double> radii, int dimension, SolverCommand command,
+              std::span<const particles::Shape> shapes, int dimension, SolverCommand command,
               MeshBoundaryMaker make_boundary, const SolverLimits& limits = {});
   ~FlowProcess() override;
 

@@ -110,10 +110,9 @@ void check_domain(const particles::Fluid& fluid, const particles::Domain& domain
 }  // namespace
 
 std::string opening(const particles::Fluid& fluid, const particles::Domain& domain,
-                    std::span<const double> radii, int dimension) {
+                    std::span<const particles::Shape> shapes, int dimension) {
   check_domain(fluid, domain, dimension);
-  assert(fluid.semi_axes.empty() || fluid.semi_axes.size() >= radii.size());
-  assert(fluid.cut_areas.empty() || fluid.cut_areas.size() >= radii.size());
+  assert(fluid.cut_areas.empty() || fluid.cut_areas.size() >= shapes.size());
   const bool penalty = fluid.constraint == particles::RigidConstraint::kPenalty;
   std::string text = fmt::format(
       "viscontact-fluid {}\ndimension {}\nviscosity {}\nconstraint {}\nmesh {}\nedges {}\n",
@@ -131,21 +130,25 @@ std::string opening(const particles::Fluid& fluid, const particles::Domain& doma
   // If there are walls, their velocities contain the gradient.
   const bool mean_gradient = flow != nullptr && labels.empty();
   text += "gradient" + words_of(mean_gradient ? flow->gradient : std::array<double, 4>{}) + '\n';
-  const bool are_outlines = !fluid.plates.empty() || !fluid.cut_areas.empty();
-  const char* const shapes = are_outlines              ? "outlines"
-                             : fluid.semi_axes.empty() ? "particles"
-                                                       : "ellipses";
-  text += fmt::format("{} {}\n", shapes, radii.size());
-  for (std::size_t k = 0; k < radii.size(); ++k) {
-    const bool is_disc = fluid.semi_axes.empty();
-    if (is_disc && !are_outlines)
-      text += format_number(radii[k]);
+  const bool are_round = std::ranges::all_of(shapes, &particles::Shape::is_round);
+  const bool are_outlines =
+      !fluid.cut_areas.empty() ||
+      std::ranges::any_of(shapes, [](const auto& shape) { return shape.sides() > 0; });
+  text += fmt::format("{} {}\n",
+                      are_outlines ? "outlines"
+                      : are_round  ? "particles"
+                                   : "ellipses",
+                      shapes.size());
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    const auto& shape = shapes[k];
+    if (are_round && !are_outlines)
+      text += format_number(shape.bounding_radius());
     else
-      text += words_of(is_disc ? std::array{radii[k], radii[k]} : fluid.semi_axes[k]);
+      text += words_of(shape.semi_axes());
     if (are_outlines && !fluid.cut_areas.empty() && fluid.cut_areas[k] > 0)
       text += " cut" + words_of(std::array{fluid.cut_areas[k]});
     else if (are_outlines)
-      text += fluid.is_plate(k) ? " plate" : " ellipse";
+      text += fmt::format(" {}", shape.sides() > 0 ? shape.name() : "ellipse");
     text += '\n';
   }
   if (fluid.has_inertia())

@@ -10,13 +10,13 @@
 
 namespace viscontact::freefem_flow {
 
-/// The text of the opening, with numbers that read back to the same double. `radii` [L], > 0, are
-/// those of all particles; `dimension` is 2 in the plane, 1 on the axis of a cylinder. Throws
+/// The text of the opening, with numbers that read back to the same double. `shapes` are those of
+/// all particles; `dimension` is 2 in the plane, 1 on the axis of a cylinder. Throws
 /// Error(kBadInput) if there is no domain, if the domain is a cylinder in the plane or not a
 /// cylinder on the axis, or if `fluid` gives velocities of single sides for a domain that is not a
 /// box.
 std::string opening(const particles::Fluid& fluid, const particles::Domain& domain,
-                    std::span<const double> radii, int dimension);
+                    std::span<const particles::Shape> shapes, int dimension);
 
 /// The request with the pressure gradient that drives a Stokes flow; empty if there is none, and in
 /// a fluid with inertia, whose requests `place` have it.

@@ -17,11 +17,17 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// How long a solver that has failed may take to write its last lines and to end.
-constexpr auto kGraceOfFailed = 1000ms;
-
-// How long a solver may take to end after the request `end`, docs/fluid-solver.md.
-constexpr auto kGraceAtEnd = 2000ms;
+/// Free choices of the dialogue.
+struct DialogueTuning {
+  // How long a solver that has failed may take to write its last lines and to end.
+  static constexpr auto kGraceOfFailed = 1000ms;
+  // How long a solver may take to end after the request `end`, docs/fluid-solver.md.
+  static constexpr auto kGraceAtEnd = 2000ms;
+  // Lines that are skipped before an awaited word; docs/fluid-solver.md promises this number.
+  static constexpr int kMostLines = 1000;
+  // Bytes of each of the last lines in a message.
+  static constexpr std::size_t kLongestLine = 200;
+};
 
 /// As a user would type it.
 std::string command_in_words(const std::vector<std::string>& arguments) {
@@ -70,7 +76,7 @@ SolverDialogue::SolverDialogue(const SolverCommand& command, std::chrono::millis
 SolverDialogue::~SolverDialogue() {
   if (!process_) return;
   process_->send("end\n");
-  process_->finish(kGraceAtEnd);
+  process_->finish(DialogueTuning::kGraceAtEnd);
 }
 
 void SolverDialogue::ask(std::string_view name, std::string_view text) {
@@ -79,7 +85,7 @@ void SolverDialogue::ask(std::string_view name, std::string_view text) {
                 "the fluid solver ({}) has ended after an earlier error", name_);
   // A solver may write before the first request; expect("ready") skips these lines.
   if (requests_ > 0 && process_->has_unread_output())
-    fail("it wrote more than the answer", kGraceOfFailed);
+    fail("it wrote more than the answer", DialogueTuning::kGraceOfFailed);
   request_ = name;
   ++requests_;
   asked_at_ = ChildProcess::Clock::now();
@@ -108,8 +114,7 @@ std::string_view SolverDialogue::next_word() {
 
 void SolverDialogue::expect(std::string_view word, bool skip_lines) {
   awaited_ = in_quotes(word);
-  constexpr int kMostLines = 1000;  // docs/fluid-solver.md promises this number
-  for (int i = 0; i < kMostLines; ++i) {
+  for (int i = 0; i < DialogueTuning::kMostLines; ++i) {
     if (next_word() == word) return;
     if (!skip_lines) refuse(in_quotes(word));
     process_->put_word_back();
@@ -117,8 +122,9 @@ void SolverDialogue::expect(std::string_view word, bool skip_lines) {
     process_->keep(line.text);
     if (line.state != ChildProcess::State::kRead) fail_without_answer(line.state);
   }
-  fail(fmt::format("it wrote {} other lines and not {}", kMostLines, in_quotes(word)),
-       kGraceOfFailed);
+  fail(fmt::format("it wrote {} other lines and not {}", DialogueTuning::kMostLines,
+                   in_quotes(word)),
+       DialogueTuning::kGraceOfFailed);
 }
 
 std::string SolverDialogue::word() { return std::string(next_word()); }
@@ -158,7 +164,8 @@ void SolverDialogue::refuse(std::string_view needed) {
   process_->put_word_back();
   const std::string word(process_->read_word(ChildProcess::Clock::now()).text);
   process_->put_word_back();  // so that the message shows the whole line
-  fail(fmt::format("it answered {} in place of {}", in_quotes(word), needed), kGraceOfFailed);
+  fail(fmt::format("it answered {} in place of {}", in_quotes(word), needed),
+       DialogueTuning::kGraceOfFailed);
 }
 
 void SolverDialogue::fail_as_solver_says() {
@@ -166,7 +173,7 @@ void SolverDialogue::fail_as_solver_says() {
   const auto start = line.text.find_first_not_of(" \t\r");
   fail(fmt::format("it says: {}", start == std::string_view::npos ? "an error without a text"
                                                                   : line.text.substr(start)),
-       kGraceOfFailed);
+       DialogueTuning::kGraceOfFailed);
 }
 
 void SolverDialogue::fail_without_answer(ChildProcess::State state) {
@@ -184,7 +191,7 @@ void SolverDialogue::fail_without_answer(ChildProcess::State state) {
                        ChildProcess::kLongestText),
            0ms);
     default:
-      fail("it closed its output before the answer was complete", kGraceOfFailed);
+      fail("it closed its output before the answer was complete", DialogueTuning::kGraceOfFailed);
   }
 }
 
@@ -197,8 +204,8 @@ void SolverDialogue::fail(const std::string& reason, std::chrono::milliseconds g
   const std::string asked = asked_in_words();
   const std::string end = process_->finish(grace);
   std::vector<std::string> lines;
-  constexpr std::size_t kLongestLine = 200;  // bytes
-  for (const auto& line : process_->last_lines()) lines.push_back(shortened(line, kLongestLine));
+  for (const auto& line : process_->last_lines())
+    lines.push_back(shortened(line, DialogueTuning::kLongestLine));
   process_.reset();
   throw Error(ErrorKind::kExternalProgram, "the fluid solver ({}) failed at {}: {}; it {}; {}",
               name_, asked, reason, end,

@@ -35,8 +35,6 @@ SolverUnits solver_units(const particles::Fluid& fluid, const particles::Domain&
 particles::Fluid in_units(particles::Fluid fluid, const SolverUnits& units) {
   fluid.viscosity /= units.viscosity;
   fluid.threshold_gap /= units.length;
-  for (auto& axes : fluid.semi_axes)
-    for (auto& axis : axes) axis /= units.length;
   for (auto& area : fluid.cut_areas) area /= units.length * units.length;
   fluid.density /= units.viscosity / (units.length * units.length);
   for (auto& membrane : fluid.membranes) {
@@ -77,6 +75,13 @@ particles::Domain in_units(particles::Domain domain, const SolverUnits& units) {
 std::vector<double> in_units(std::span<const double> lengths, const SolverUnits& units) {
   std::vector<double> scaled(lengths.begin(), lengths.end());
   for (auto& length : scaled) length /= units.length;
+  return scaled;
+}
+
+std::vector<particles::Shape> in_units(std::span<const particles::Shape> shapes,
+                                       const SolverUnits& units) {
+  std::vector<particles::Shape> scaled;
+  for (const auto& shape : shapes) scaled.push_back(shape.scaled(1 / units.length));
   return scaled;
 }
 

@@ -35,6 +35,8 @@ SolverUnits solver_units(const particles::Fluid& fluid, const particles::Domain&
 particles::Fluid in_units(particles::Fluid fluid, const SolverUnits& units);
 particles::Domain in_units(particles::Domain domain, const SolverUnits& units);
 std::vector<double> in_units(std::span<const double> lengths, const SolverUnits& units);
+std::vector<particles::Shape> in_units(std::span<const particles::Shape> shapes,
+                                       const SolverUnits& units);
 
 /// `places` has `dimension` numbers for each particle: x and y, or z on the axis of a cylinder.
 std::vector<double> places_in_units(std::span<const double> places, int dimension,

@@ -10,7 +10,7 @@
 #include "viscontact/particle_runs/case/particles_sections.hpp"
 #include "viscontact/particles/domain/periods.hpp"
 #include "viscontact/particles/links/links.hpp"
-#include "viscontact/particles/setting/outline.hpp"
+#include "viscontact/particles/shapes/shape_contacts.hpp"
 #include "viscontact/particles/state/rigid_bodies.hpp"
 
 namespace viscontact::particles {
@@ -153,9 +153,8 @@ Hinge read_hinge(const case_file::TomlSection& section, const ParticlesCase& c,
   const bool is_body = table.body >= 0;
   const auto holder = std::ranges::find_if(table.held, [&](std::int32_t k) {
     const auto& at = table.at;
-    if (c.setting.fluid && c.setting.fluid->is_plate(index_of(k)))
-      return distance_to(outline_of(*c.setting.fluid, p, p.angles, index_of(k)), {at[0], at[1]}) <=
-             0;
+    if (!p.is_round(index_of(k)))
+      return p.placed_shape(index_of(k)).distance_to({at[0], at[1]}) <= 0;
     return norm(at - p.position(index_of(k))) <= p.radii[index_of(k)];
   });
   section.require(holder != table.held.end(), "at",

@@ -9,7 +9,8 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/particle_runs/case/particles_sections.hpp"
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/setting/outline.hpp"
+#include "viscontact/particles/setting/chords.hpp"
+#include "viscontact/particles/shapes/shape_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -44,8 +45,8 @@ bool is_driven(const ParticlesCase& c, std::int32_t body) {
 }
 
 bool may_overlap(const ParticlesCase& c, std::size_t k, std::size_t other) {
-  const auto& fluid = *c.setting.fluid;
-  return fluid.constraint == RigidConstraint::kRigid && fluid.is_disc(k) && fluid.is_disc(other);
+  return c.setting.fluid->constraint == RigidConstraint::kRigid && c.particles.is_round(k) &&
+         c.particles.is_round(other);
 }
 
 /// Throws Error(kBadInput) if the mesh cannot follow disc k of a body where disc `other` of the
@@ -113,8 +114,7 @@ void check_bodies(const case_file::TomlSection& root, const ParticlesCase& c,
         const auto other = index_of(body.members[n]);
         const Vector apart = p.position(other) - p.position(k);
         const Vector shift = nearest_image(cell_of(c.setting.domain), apart) - apart;
-        const double gap = particles::gap(outline_of(*c.setting.fluid, p, p.angles, k),
-                                          outline_of(*c.setting.fluid, p, p.angles, other, shift));
+        const double gap = particles::gap(p.placed_shape(k), p.placed_shape(other, shift));
         if (gap < 0 && norm(shift) > 0)
           throw_bad_input(names.at(k),
                           "{} and {} of one body overlap across a side of the period, where the "
@@ -188,27 +188,20 @@ void check_masses(const case_file::TomlSection& root, const ParticlesCase& c,
           names(k));
 }
 
-void check_ellipses(const case_file::TomlSection& root, const ParticlesCase& c,
-                    const ParticleNames& names) {
+/// A program of the user's own knows discs only.
+void check_solver(const case_file::TomlSection& root, const ParticlesCase& c,
+                  const ParticleNames& names) {
   const auto& fluid = *c.setting.fluid;
-  root.section("fluid").require(fluid.solver.empty() || fluid.cut_areas.empty(), "solver",
-                                "is a program of the user's own, which knows discs only; it must "
-                                "be left out, because discs of a body overlap");
-  for (std::size_t k = 0; k < fluid.semi_axes.size(); ++k) {
-    root.section("fluid").require(fluid.solver.empty() || !fluid.is_plate(k), "solver",
-                                  "is a program of the user's own, which knows discs only; it must "
-                                  "be left out, because {} is a plate",
-                                  names(k));
-    if (!fluid.is_ellipse(k)) continue;
-    if (!c.particles.bodies.empty() || !c.setting.links.empty())
-      throw_bad_input(
-          names.at(k),
-          "{} is an ellipse; the particles of a case with bodies or links must be discs", names(k));
-    root.section("fluid").require(fluid.solver.empty(), "solver",
-                                  "is a program of the user's own, which knows discs only; it must "
-                                  "be left out, because {} is an ellipse",
-                                  names(k));
-  }
+  if (fluid.solver.empty()) return;
+  const auto section = root.section("fluid");
+  section.require(fluid.cut_areas.empty(), "solver",
+                  "is a program of the user's own, which knows discs only; it must be left out, "
+                  "because discs of a body overlap");
+  for (std::size_t k = 0; k < c.particles.count(); ++k)
+    section.require(c.particles.is_round(k), "solver",
+                    "is a program of the user's own, which knows discs only; it must be left out, "
+                    "because {} has the shape '{}'",
+                    names(k), c.particles.shape(k).name());
 }
 
 /// Throws Error(kBadInput) if a particle in a fluid with inertia has no mass, a velocity at the
@@ -236,7 +229,7 @@ void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c,
                       "velocity; the velocity must be left out, or fluid.start be \"rest\"",
                       names(k));
     if (fluid.constraint == RigidConstraint::kRigid || p.inertias.empty()) continue;
-    const double uniform = fluid.homogeneous_inertia_of(k, p.masses[k], p.radii[k]);
+    const double uniform = p.shape(k).inertia(p.masses[k]);
     if (std::abs(p.inertias[k] - uniform) > kRounding * uniform)
       throw_bad_input(
           names.at(k),
@@ -251,8 +244,7 @@ void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c,
     double uniform = 0;
     for (std::size_t m = 0; m < masses.size(); ++m) {
       const auto k = index_of(body.members[m]);
-      uniform += masses[m] * dot(body.offsets[m], body.offsets[m]) +
-                 fluid.homogeneous_inertia_of(k, masses[m], p.radii[k]);
+      uniform += masses[m] * dot(body.offsets[m], body.offsets[m]) + p.shape(k).inertia(masses[m]);
     }
     root.sections("body")[b].require(
         std::abs(body.inertia[8] - uniform) <= kRounding * uniform, "moment_of_inertia",
@@ -380,8 +372,7 @@ void set_default_threshold_gap(ParticlesCase& c) {
   assert(c.setting.fluid && c.particles.count() > 0);
   constexpr double kOfRadius = 0.05;  // a change alters results of cases without the key
   double smallest = std::ranges::min(c.particles.radii);
-  for (const auto& axes : c.setting.fluid->semi_axes)
-    smallest = std::min(smallest, std::ranges::min(axes));
+  for (const auto& shape : c.particles.shapes) smallest = std::min(smallest, shape.inner_radius());
   const double longest = kOfRadius * smallest;
   double threshold = longest;
   for (const double period : periods_of(c.setting.domain))
@@ -410,7 +401,7 @@ void check_fluid_start(const case_file::TomlSection& root, const ParticlesCase& 
   check_penalty(root, c);
   check_bodies(root, c, names);
   check_masses(root, c, names);
-  check_ellipses(root, c, names);
+  check_solver(root, c, names);
   check_inertia(root, c, names);
   check_side_of_cylinder(c, names);
   const double limit = std::max(c.setting.fluid->threshold_gap,

@@ -176,9 +176,10 @@ void check_given_beads(const case_file::TomlSection& section, const ParticlesCas
                     p.masses[index_of(*bead)]);
     section.require(!c.setting.given_motions.contains(*bead), "particles",
                     "contains particle {}, whose motion is given; beads must be free", id);
-    section.require(!in_fluid || c.setting.fluid->is_disc(index_of(*bead)), "particles",
-                    "contains particle {}, which is an ellipse or a plate; beads must be discs",
-                    id);
+    section.require(!in_fluid || p.is_round(index_of(*bead)), "particles",
+                    "contains particle {}, which is no disc but of the shape '{}'; beads must be "
+                    "discs",
+                    id, p.shape(index_of(*bead)).name());
   }
 }
 
@@ -256,14 +257,14 @@ void check_others(const case_file::TomlSection& first, const ParticlesCase& c) {
     for (const auto bead : membrane.beads) is_bead[index_of(bead)] = 1;
   for (std::size_t k = 0; k < p.count(); ++k) {
     if (is_bead[k] != 0) continue;
-    const auto refuse = [&](const char* what) {
+    const auto refuse = [&](std::string_view what) {
       throw_bad_input(at,
                       "section [[membrane]] stands beside particle {}, which {}; beside membranes "
                       "particles must be discs without mass and torque",
                       p.id(k), what);
     };
     if (p.masses[k] > 0) refuse("has a mass");
-    if (!c.setting.fluid->is_disc(k)) refuse("is an ellipse or a plate");
+    if (!p.is_round(k)) refuse(fmt::format("has the shape '{}'", p.shape(k).name()));
     if (c.setting.torques.contains(static_cast<std::int32_t>(k))) refuse("has a torque");
   }
   for (const auto& membrane : c.setting.fluid->membranes) {

@@ -8,6 +8,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/particle_runs/case/particles_sections.hpp"
 #include "viscontact/particle_runs/io/particle_file.hpp"
+#include "viscontact/particles/shapes/shape_rule.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -17,19 +18,35 @@ constexpr Allowed kMassWithoutFluid = {
     "from 1e-100 to 1e100 (0 is allowed only in a case with [fluid], or with a given motion)"};
 constexpr std::array kKeysOfRotation = {"torque", "angle", "angular_velocity", "moment_of_inertia"};
 
+/// The rules of shapes with a key, in the order in which the keys are read: first those that stand
+/// in place of the radius.
+std::vector<const ShapeRule*> shape_rules_of_keys() {
+  std::vector<const ShapeRule*> rules;
+  for (const bool needs_radius : {false, true})
+    for (const auto* rule : kShapeRules)
+      if (!rule->key.name.empty() && rule->key.needs_radius == needs_radius) rules.push_back(rule);
+  return rules;
+}
+
 /// Throws Error(kBadInput) for keys of a table [[particle]] that are not allowed in this dimension
 /// (1, 2 or 3), with or without a fluid, or beside each other.
 void check_keys(const case_file::TomlSection& section, int dimension, bool in_fluid) {
-  section.require(
-      !section.has("semi_axes") || (in_fluid && dimension == 2), "semi_axes",
-      "belongs to an ellipse in a fluid in the plane; this particle must have a radius");
-  section.require(!section.has("semi_axes") || !section.has("radius"), "radius",
-                  "must be left out, because semi_axes makes this particle an ellipse");
-  section.require(
-      !section.has("length") || (in_fluid && dimension == 2), "length",
-      "belongs to a plate with round ends in a fluid in the plane; this particle has none");
-  section.require(!section.has("length") || !section.has("semi_axes"), "length",
-                  "must be left out, because semi_axes makes this particle an ellipse");
+  const ShapeKey* given = nullptr;  // the first key of a shape that the table has
+  for (const auto* rule : shape_rules_of_keys()) {
+    const auto& key = rule->key;
+    if (!section.has(key.name)) continue;
+    section.require(in_fluid && dimension == 2, key.name,
+                    "makes this particle a shape, '{}', which is possible in a fluid in the plane; "
+                    "this particle must have a radius alone",
+                    rule->name);
+    section.require(given == nullptr, key.name,
+                    "must be left out, because {} gives this particle its shape",
+                    given == nullptr ? "" : given->name);
+    section.require(key.needs_radius || !section.has("radius"), "radius",
+                    "must be left out, because {} gives this particle its shape, '{}'", key.name,
+                    rule->name);
+    given = &key;
+  }
   for (const auto* key : kKeysOfRotation)
     section.require(dimension != 1 || !section.has(key), key,
                     "must be left out, because a sphere on the axis does not turn");
@@ -51,24 +68,17 @@ void given_motion_keys(case_file::Keys& keys, GivenMotion& motion, int dimension
 struct ParticleTable {
   // At time 0: [L], [L/T], [1/T].
   Vector centre{}, velocity{}, angular_velocity{};
-  // [L], [M], [rad]. The radius of an ellipse or plate is its larger semi-axis.
+  // [L], [M], [rad]. The radius is that of discs and spheres, or of round parts of other shapes.
   double radius = 0, mass = 0, angle = 0;
   std::optional<double> moment_of_inertia;
-  std::array<double, 2> semi_axes{};  // [L], of an ellipse or plate; zeros: a disc or sphere
-  std::optional<double> length;       // [L], of a plate with round ends
-  /// Area of the disc, ellipse or plate [L^2], or volume of the sphere [L^3].
-  double size(int dimension) const {
-    if (length) return size_of_plate(semi_axes);
-    return semi_axes[0] > 0 ? size_of_ellipse(semi_axes) : size_of_particle(dimension, radius);
+  std::optional<Shape> shape;  // one that is not given by the radius alone
+  Shape shape_in(int dimension) const {
+    if (shape) return *shape;
+    return dimension == 2 ? Shape::disc(radius) : Shape::sphere(radius);
   }
   /// Moment of inertia about the centre [M L^2]: the one that is given, or else that of a
-  /// homogeneous particle.
-  double inertia_in_plane() const {
-    if (moment_of_inertia) return *moment_of_inertia;
-    if (length) return homogeneous_inertia_of_plate(mass, semi_axes);
-    return semi_axes[0] > 0 ? homogeneous_inertia_of_ellipse(mass, semi_axes)
-                            : homogeneous_inertia(2, mass, radius);
-  }
+  /// homogeneous particle in the plane.
+  double inertia_in_plane() const { return moment_of_inertia.value_or(shape_in(2).inertia(mass)); }
   PiecewiseConstant force, torque;  // [M L/T^2], [M L^2/T^2]; empty if they are not given
   bool is_fixed = false;
   std::optional<GivenMotion> given;  // how it is driven; a fixed particle has velocities 0
@@ -94,7 +104,7 @@ void read_mass(case_file::Keys& keys, ParticleTable& p, int dimension, bool in_f
                "is 0; a particle without a fluid must have a mass");
   keys.require(!has_density || !keys.has("mass"), "mass",
                "must be left out, because density gives the mass of this particle");
-  if (has_density) p.mass = density * p.size(dimension);
+  if (has_density) p.mass = density * p.shape_in(dimension).measure();
   if (has_density && keys.reads()) return;
   keys.required_if(!may_be_0, "mass",
                    case_file::number(p.mass, may_be_0 ? kModeratelyPositiveOr0 : kMassWithoutFluid),
@@ -102,18 +112,44 @@ void read_mass(case_file::Keys& keys, ParticleTable& p, int dimension, bool in_f
                     "from 1e-100 to 1e100, in a fluid or with a given motion also 0"});
 }
 
-void read_semi_axes(const case_file::TomlSection& section, std::string_view key,
-                    std::array<double, 2>& axes) {
+/// The numbers of the key of a shape [L], of which a single one is the first.
+void read_shape_key(const case_file::TomlSection& section, std::string_view key, const ShapeKey& of,
+                    Vector2& place) {
+  if (!of.is_pair) {
+    place[0] = section.number(key, kModeratelyPositive);
+    return;
+  }
   const auto numbers = section.numbers(key, kModeratelyPositive);
-  section.require(numbers.size() == axes.size(), key,
-                  "contains {} numbers; it must contain the 2 semi-axes of an ellipse",
-                  numbers.size());
-  std::ranges::copy(numbers, axes.begin());
-  constexpr double kMostSlender = 100;  // meshes were tested up to this ratio
-  const double ratio = std::ranges::max(axes) / std::ranges::min(axes);
-  section.require(ratio <= kMostSlender, key,
-                  "has a larger semi-axis {:.6g} times the smaller one; at most {} is possible",
-                  ratio, kMostSlender);
+  section.require(numbers.size() == place.size(), key,
+                  "contains {} numbers; it must contain 2 lengths", numbers.size());
+  std::ranges::copy(numbers, place.begin());
+}
+
+/// Reads the keys of shapes that stand beside the radius, or of those in its place. Returns whether
+/// one is there.
+bool read_shape_keys(case_file::Keys& keys, bool beside_radius, ParticleTable& p) {
+  bool any = false;
+  for (std::size_t kind = 0; kind < kShapeRules.size(); ++kind) {
+    const auto& key = kShapeRules[kind]->key;
+    if (key.name.empty() || key.needs_radius != beside_radius) continue;
+    Vector2 numbers{};
+    const auto kind_of_value =
+        key.is_pair ? case_file::custom("two lengths `[a, b]`", read_shape_key, key, numbers)
+                    : case_file::number(numbers[0], kModeratelyPositive);
+    if (!keys.optional(key.name, kind_of_value, {key.meaning, key.otherwise})) continue;
+    any = true;
+    if (!keys.reads()) continue;
+    const Vector2 axes = key.semi_axes(numbers, p.radius);
+    const double ratio =
+        key.is_pair ? std::ranges::max(axes) / std::ranges::min(axes) : axes[0] / axes[1];
+    keys.require(
+        ratio >= key.least_ratio && ratio <= key.most_ratio, key.name,
+        "gives the shape '{}' the half sizes {:.6g} and {:.6g} with the ratio {:.6g}; this "
+        "ratio must be from {} to {}",
+        kShapeRules[kind]->name, axes[0], axes[1], ratio, key.least_ratio, key.most_ratio);
+    p.shape = Shape(static_cast<ShapeKind>(kind), axes);
+  }
+  return any;
 }
 
 void particle_keys(case_file::Keys& keys, ParticleTable& p, const ParticlesCase& c) {
@@ -141,29 +177,11 @@ void particle_keys(case_file::Keys& keys, ParticleTable& p, const ParticlesCase&
   keys.optional("angular_velocity", turn(p.angular_velocity, dimension),
                 {"at time 0, in 2D counter-clockwise", "0"});
   keys.required("centre", vector(p.centre, dimension), {"at time 0"});
-  const bool is_ellipse = keys.optional(
-      "semi_axes", case_file::custom("two lengths `[a, b]`", read_semi_axes, p.semi_axes),
-      {"[in a fluid](#particles-in-a-fluid) in the plane, in place of `radius`: an ellipse, whose "
-       "first semi-axis points along `angle`",
-       "from `radius`"});
-  if (is_ellipse) p.radius = std::ranges::max(p.semi_axes);
+  const bool has_shape = read_shape_keys(keys, false, p);
   keys.required_if(
-      !is_ellipse, "radius", case_file::number(p.radius, kModeratelyPositive),
+      !has_shape, "radius", case_file::number(p.radius, kModeratelyPositive),
       {"radius of the disc or sphere, or of the ends of a plate", "required without `semi_axes`"});
-  keys.optional("length", case_file::number(p.length, kModeratelyPositive),
-                {"[in a fluid](#particles-in-a-fluid) in the plane: the particle is a plate of "
-                 "this length along `angle`, with round ends of the `radius`",
-                 "none"});
-  if (p.length) {
-    // Meshes were tested up to the first ratio. Plates below the second one are nearly discs.
-    constexpr double kMostSlender = 100, kLeast = 1.01;
-    const double ratio = *p.length / (2 * p.radius);
-    keys.require(ratio >= kLeast && ratio <= kMostSlender, "length",
-                 "is {}; it must be from {} to {} times the thickness of the plate, {}", *p.length,
-                 kLeast, kMostSlender, 2 * p.radius);
-    p.semi_axes = {*p.length / 2, p.radius};
-    p.radius = *p.length / 2;
-  }
+  read_shape_keys(keys, true, p);
   read_mass(keys, p, dimension, in_fluid);
   keys.optional("angle", case_file::number(p.angle, kModerate), {"at time 0, in 2D only"});
   keys.optional("moment_of_inertia",
@@ -198,11 +216,6 @@ Vector at_start(const PiecewiseConstant& function) {
   return function.pieces.empty() ? Vector{} : function.pieces.front().value;
 }
 
-/// Appends the semi-axes of discs to `axes` until it has `end` entries.
-void add_discs(std::vector<std::array<double, 2>>& axes, const Particles& p, std::size_t end) {
-  for (auto k = axes.size(); k < end; ++k) axes.push_back({p.radii[k], p.radii[k]});
-}
-
 void read_particle(const case_file::TomlSection& section, ParticlesCase& c) {
   auto& p = c.particles;
   const bool in_fluid = c.setting.fluid.has_value();
@@ -221,18 +234,11 @@ void read_particle(const case_file::TomlSection& section, ParticlesCase& c) {
     p.positions.push_back(table.centre[d]);
     p.velocities.push_back(table.velocity[d]);
   }
-  p.radii.push_back(table.radius);
+  if (table.shape && p.shapes.empty()) p.shapes = shapes_of(p);
+  const Shape shape = table.shape_in(p.dimension);
+  p.radii.push_back(shape.bounding_radius());
   p.masses.push_back(table.mass);
-  if (table.semi_axes[0] > 0) {
-    auto& axes = c.setting.fluid->semi_axes;
-    add_discs(axes, p, p.count() - 1);
-    axes.push_back(table.semi_axes);
-  }
-  if (table.length) {
-    auto& plates = c.setting.fluid->plates;
-    plates.resize(p.count());
-    plates.back() = 1;
-  }
+  if (!p.shapes.empty() || table.shape) p.shapes.push_back(shape);
   if (in_fluid && p.dimension == 2) {
     p.angles.push_back(table.angle);
     p.angular_velocities.push_back(table.angular_velocity[2]);
@@ -290,10 +296,7 @@ ParticleLines read_particles_of_case(const case_file::TomlSection& root, Particl
   if (root.has("arrangement")) read_arrangement(root.section("arrangement"), c);
   read_membranes(root, c, lines);
   read_sources(root, c);
-  if (c.setting.fluid && !c.setting.fluid->semi_axes.empty())
-    add_discs(c.setting.fluid->semi_axes, c.particles, c.particles.count());
-  if (c.setting.fluid && !c.setting.fluid->plates.empty())
-    c.setting.fluid->plates.resize(c.particles.count());
+  add_missing_shapes(c.particles);
   if (!c.setting.fluid && (c.setting.laws.friction || c.particles.turn()))
     add_rotation(c.particles);
   if (c.particles.count() > 0 || !c.setting.sources.empty()) return lines;

@@ -10,7 +10,7 @@
 #include "viscontact/particle_runs/case/particles_sections.hpp"
 #include "viscontact/particle_runs/io/contact_file.hpp"
 #include "viscontact/particles/domain/bounded_region.hpp"
-#include "viscontact/particles/setting/outline.hpp"
+#include "viscontact/particles/setting/chords.hpp"
 
 namespace viscontact::particles {
 namespace {

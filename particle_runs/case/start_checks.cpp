@@ -7,7 +7,7 @@
 #include "viscontact/particle_runs/case/particles_sections.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
-#include "viscontact/particles/setting/outline.hpp"
+#include "viscontact/particles/shapes/shape_contacts.hpp"
 
 namespace viscontact::particles {
 
@@ -50,10 +50,7 @@ std::vector<StartGap> gaps_at_start(const ParticlesCase& c, double limit) {
   assert(limit >= 0);
   const auto& p = c.particles;
   const auto cell = cell_of(c.setting.domain);
-  const bool has_ellipses = c.setting.fluid && !c.setting.fluid->semi_axes.empty();
-  const auto outline = [&](std::size_t k, const Vector& shift = {}) {
-    return outline_of(*c.setting.fluid, p, p.angles, k, shift);
-  };
+  const bool has_shapes = p.has_other_shapes();
   std::vector<double> extents = p.radii;
   for (auto& extent : extents) extent += limit / 2;
   ThreadPool pool(1);
@@ -66,8 +63,8 @@ std::vector<StartGap> gaps_at_start(const ParticlesCase& c, double limit) {
     const auto i = index_of(first), j = index_of(second);
     const auto shift = shift_of(cell, image);
     gaps.push_back({first, second,
-                    has_ellipses
-                        ? gap(outline(i), outline(j, shift))
+                    has_shapes
+                        ? gap(p.placed_shape(i), p.placed_shape(j, shift))
                         : norm(p.position(j) + shift - p.position(i)) - p.radii[i] - p.radii[j]});
   }
   const auto obstacles = obstacles_of(c.setting);
@@ -75,10 +72,10 @@ std::vector<StartGap> gaps_at_start(const ParticlesCase& c, double limit) {
   for (std::size_t w = on_axis ? 1 : 0; w < obstacles.size(); ++w) {
     const auto place = obstacles[w].at(0);
     for (std::size_t k = 0; k < p.count(); ++k)
-      // The circle around an ellipse or plate contains it: the gap of the circle is not larger.
+      // The circle around a particle contains it: the gap of the circle is not larger.
       if (const double least = gap(place, p.position(k), p.radii[k]); least < limit)
         gaps.push_back({-1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k),
-                        has_ellipses ? gap(place, outline(k)) : least});
+                        has_shapes ? gap(place, p.placed_shape(k)) : least});
   }
   return gaps;
 }

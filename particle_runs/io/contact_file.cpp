@@ -9,7 +9,7 @@
 #include <iterator>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/common/text/number.hpp"
+#include "viscontact/particle_runs/io/contact_columns.hpp"
 #include "viscontact/particle_runs/io/particle_file.hpp"
 #include "viscontact/particles/domain/bounded_region.hpp"
 #include "viscontact/particles/domain/domain.hpp"
@@ -17,50 +17,23 @@
 namespace viscontact::particles {
 namespace {
 
-/// One letter for each axis; for particles on an axis only z.
-std::string_view axes_of(int dimension) {
-  return dimension == 1 ? "z"
-                        : std::string_view("xyz").substr(0, static_cast<std::size_t>(dimension));
+RunFacts facts_of(int dimension, bool has_friction) {
+  RunFacts run;
+  run.dimension = dimension;
+  run.has_friction = has_friction;
+  return run;
 }
 
-/// Each name is a comma, `begin` and an axis, as in ",force_x,force_y".
-std::string components(std::string_view begin, int dimension) {
-  std::string text;
-  for (const char axis : axes_of(dimension)) text += fmt::format(",{}{}", begin, axis);
-  return text;
-}
-
-void add(std::string& text, const Vector& x, int dimension) {
-  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
-    (text += ',') += format_number(x[d]);
-}
-
-/// The columns of write_contacts() that follow those of gamma.
-std::string force_columns(int dimension, bool has_friction) {
-  auto text = ",normal_force" + (dimension == 1 ? "" : components("tangential_force_", dimension));
-  for (const auto& field : kMemoryFields)
-    if (field.is_shown) (text += ',') += field.name;
-  return text + (has_friction ? ",solid_force" : "");
-}
-
-/// Adds the fields of force_columns() and a line break.
-void add_forces(std::string& text, const CurrentContact& contact, int dimension,
-                bool has_friction) {
-  (text += ',') += format_number(contact.normal_force);
-  if (dimension > 1) add(text, contact.tangential_force, dimension);
-  for (const double number : contact.shown) (text += ',') += format_number(number);
-  if (has_friction) (text += ',') += format_number(contact.solid_force);
-  text += '\n';
+CsvTable<ContactRow> contact_table(Output output, int dimension, bool has_friction) {
+  return {columns_in(output, contact_columns(), facts_of(dimension, has_friction)), dimension};
 }
 
 std::string contact_rows(const Setting& setting, const State& state, std::span<const double>) {
+  const auto table = contact_table(Output::kOverTime, state.particles.dimension,
+                                   setting.laws.friction.has_value());
   std::string text;
-  for (const auto& contact : contacts_of(setting, state)) {
-    const auto [i, j] = ids_of(state.particles, contact);
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{}", format_number(state.time), i, j,
-                   format_number(contact.gap), format_number(contact.gamma));
-    add_forces(text, contact, state.particles.dimension, setting.laws.friction.has_value());
-  }
+  for (const auto& contact : contacts_of(setting, state))
+    table.add(text, {state.particles, contact, state.time});
   return text;
 }
 
@@ -83,23 +56,59 @@ void for_forces(const Setting& setting, const State& state, const Visit& visit) 
     visit(impact.first, (1 / state.earlier_step) * impact.impulse, impact.branch);
 }
 
+struct WallRow {
+  double time;
+  int wall;
+  Vector force, point, velocity;
+};
+
+const std::vector<Column<WallRow>>& wall_columns() {
+  static const std::vector<Column<WallRow>> columns = {
+      column<&WallRow::time>({"time", "T"}),
+      column<&WallRow::wall>({"wall", "", "number of the obstacle: -1, -2, ..."}),
+      column<&WallRow::force>(
+          {"force", "M L/T²",
+           "mean force of all contacts on the obstacle in the last step, with the "
+           "impulses of its impacts (`restitution`) over the length of the step"}),
+      column<&WallRow::point>({"point", "L", "a point of the obstacle, of a circle the centre"}),
+      column<&WallRow::velocity>({"velocity", "L/T", "that of this point"}),
+  };
+  return columns;
+}
+
 std::string wall_rows(const Setting& setting, const State& state, std::span<const double>) {
   const auto forces = wall_forces(setting, state);
   const auto obstacles = obstacles_of(setting, state.planes);
   const auto walls = obstacles.size() - setting.planes.size();
+  const auto table = table_over_time(wall_columns(), state.particles.dimension);
   std::string text;
   for (std::size_t k = 0; k < forces.size(); ++k) {
-    text += fmt::format("{},{}", format_number(state.time), -1 - static_cast<int>(k));
-    add(text, forces[k], state.particles.dimension);
     const Vector point = obstacles[k].at(state.time).point;
-    add(text, point, state.particles.dimension);
     Vector velocity = obstacles[k].surface_velocity(point, state.time);
     if (obstacles[k].load)
       velocity = velocity + state.planes[k - walls].velocity * obstacles[k].start.normal;
-    add(text, velocity, state.particles.dimension);
-    text += '\n';
+    table.add(text, {state.time, -1 - static_cast<int>(k), forces[k], point, velocity});
   }
   return text;
+}
+
+struct PlaneRow {
+  double time;
+  int wall;
+  double displacement, velocity, load, contact_force;
+};
+
+const std::vector<Column<PlaneRow>>& plane_columns() {
+  static const std::vector<Column<PlaneRow>> columns = {
+      column<&PlaneRow::time>({"time", "T"}),
+      column<&PlaneRow::wall>({"wall", "", "number of the plane, as in `walls.csv`"}),
+      column<&PlaneRow::displacement>({"displacement", "L", "along the normal, since time 0"}),
+      column<&PlaneRow::velocity>({"velocity", "L/T", "along the normal"}),
+      column<&PlaneRow::load>({"load", "M L/T²", "mean over the last step"}),
+      column<&PlaneRow::contact_force>(
+          {"contact_force", "M L/T²", "sum of the normal forces of its contacts, a mean likewise"}),
+  };
+  return columns;
 }
 
 std::string plane_rows(const Setting& setting, const State& state, std::span<const double>) {
@@ -112,6 +121,7 @@ std::string plane_rows(const Setting& setting, const State& state, std::span<con
     assert(k < pushes.size());
     pushes[k] += dot(force, obstacles[k].start.normal);
   });
+  const auto table = table_over_time(plane_columns(), state.particles.dimension);
   std::string text;
   for (std::size_t k = walls; k < obstacles.size(); ++k) {
     if (!obstacles[k].load) continue;
@@ -121,19 +131,61 @@ std::string plane_rows(const Setting& setting, const State& state, std::span<con
     const double load = state.earlier_step > 0
                             ? force.mean(state.time - state.earlier_step, state.time)[0]
                             : force.value(state.time)[0];
-    text += fmt::format("{},{}", format_number(state.time), -1 - static_cast<int>(k));
-    for (const double number : {motion.displacement, motion.velocity, load, pushes[k]})
-      (text += ',') += format_number(number);
-    text += '\n';
+    table.add(text, {state.time, -1 - static_cast<int>(k), motion.displacement, motion.velocity,
+                     load, pushes[k]});
   }
   return text;
 }
 
+struct StressRow {
+  double time;
+  Tensor stress;
+};
+
+const std::vector<Column<StressRow>>& stress_columns() {
+  static const std::vector<Column<StressRow>> columns = {
+      column<&StressRow::time>({"time", "T"}),
+      column<&StressRow::stress>(
+          {"stress", "M/(L T²), of discs without a fluid M/T²",
+           "mean stress of the contacts in the last step, including its impacts, "
+           "[(5.19)](physics.md#5-many-particles-particles)"}),
+  };
+  return columns;
+}
+
 std::string stress_row(const Setting& setting, const State& state, std::span<const double>) {
-  auto text = format_number(state.time);
-  for (const double component : contact_stress(setting, state))
-    (text += ',') += format_number(component);
-  return text + "\n";
+  std::string text;
+  table_over_time(stress_columns(), state.particles.dimension)
+      .add(text, {state.time, contact_stress(setting, state)});
+  return text;
+}
+
+/// The ids are those of both particles.
+struct ReboundRow {
+  const Rebound& rebound;
+  std::pair<std::int32_t, std::int32_t> ids;
+};
+
+const std::vector<Column<ReboundRow>>& rebound_columns() {
+  static const std::vector<Column<ReboundRow>> columns = {
+      column<ReboundRow>({"time", "T", "of the impact"},
+                         [](const ReboundRow& row) { return row.rebound.time; }),
+      column<ReboundRow>({"first", "", "`i` of contacts"},
+                         [](const ReboundRow& row) { return row.ids.first; }),
+      column<ReboundRow>({"second", "", "`j` of contacts"},
+                         [](const ReboundRow& row) { return row.ids.second; }),
+      column<ReboundRow>(
+          {"approach_velocity", "L/T",
+           "rate of the gap before the impact, < 0; in a fluid 0 if the contact does "
+           "not close itself, but the impact of another contact presses on it"},
+          [](const ReboundRow& row) { return row.rebound.approach_velocity; }),
+      column<ReboundRow>({"solid_impulse", "M L/T",
+                          "the impulse s that the solids took in the first phase of the impact"},
+                         [](const ReboundRow& row) { return row.rebound.solid_impulse; }),
+      column<ReboundRow>({"velocity", "L/T", "rate of the gap after the impact, >= 0"},
+                         [](const ReboundRow& row) { return row.rebound.velocity; }),
+  };
+  return columns;
 }
 
 /// True if motion.csv has columns for the loads of particles whose motion is given.
@@ -179,54 +231,51 @@ std::vector<double> contact_stress(const Setting& setting, const State& state) {
 
 std::string write_contacts(const Particles& particles, std::span<const CurrentContact> contacts,
                            bool has_friction) {
-  auto text = fmt::format("# rows: {}\ni,j,gap,gamma,gamma_error{}\n", contacts.size(),
-                          force_columns(particles.dimension, has_friction));
-  for (const auto& contact : contacts) {
-    const auto [i, j] = ids_of(particles, contact);
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{}", i, j, format_number(contact.gap),
-                   format_number(contact.gamma), format_number(contact.gamma_error));
-    add_forces(text, contact, particles.dimension, has_friction);
-  }
+  const auto table = contact_table(Output::kAtEnd, particles.dimension, has_friction);
+  auto text = fmt::format("# rows: {}\n{}", contacts.size(), table.header());
+  for (const auto& contact : contacts) table.add(text, {particles, contact});
   return text;
 }
 
+std::string rebounds_header() { return table_over_time(rebound_columns(), 2).header(); }
+
 std::string rebound_rows(const Particles& particles, std::span<const Rebound> rebounds) {
+  const auto table = table_over_time(rebound_columns(), particles.dimension);
   std::string text;
   for (const auto& rebound : rebounds) {
     CurrentContact contact{};
     contact.first = rebound.first;
     contact.second = rebound.second;
-    const auto [first, second] = ids_of(particles, contact);
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{}\n", format_number(rebound.time),
-                   first, second, format_number(rebound.approach_velocity),
-                   format_number(rebound.solid_impulse), format_number(rebound.velocity));
+    table.add(text, {rebound, ids_of(particles, contact)});
   }
   return text;
+}
+
+std::vector<ColumnTable> contact_file_tables() {
+  return {contact_column_table(), column_table("`walls.csv`", wall_columns()),
+          column_table("`stress.csv`", stress_columns()),
+          column_table("`planes.csv`", plane_columns()),
+          column_table("`rebounds.csv`", rebound_columns())};
 }
 
 std::vector<TimeTable> asked_tables(const Setting& setting, const Particles& particles,
                                     std::span<const std::string> names) {
   const int dimension = particles.dimension;
   const bool turn = particles.turn() || setting.fluid;  // all discs in a fluid turn
-  std::string stress;
-  for (const char i : axes_of(dimension))
-    for (const char j : axes_of(dimension)) stress += fmt::format(",stress_{}{}", i, j);
   const std::array tables = {
       TimeTable{"motion.csv", motion_header(dimension, turn, has_loads(setting)),
                 motion_table_rows},
       TimeTable{
           "contacts.csv",
-          "time,i,j,gap,gamma" + force_columns(dimension, setting.laws.friction.has_value()) + "\n",
+          contact_table(Output::kOverTime, dimension, setting.laws.friction.has_value()).header(),
           contact_rows},
-      TimeTable{"walls.csv",
-                "time,wall" + components("force_", dimension) + components("point_", dimension) +
-                    components("velocity_", dimension) + "\n",
-                wall_rows},
-      TimeTable{"stress.csv", "time" + stress + "\n", stress_row}};
+      TimeTable{"walls.csv", table_over_time(wall_columns(), dimension).header(), wall_rows},
+      TimeTable{"stress.csv", table_over_time(stress_columns(), dimension).header(), stress_row}};
   std::vector<TimeTable> asked;
   if (std::ranges::any_of(setting.planes,
                           [](const Plane& plane) { return plane.load.has_value(); }))
-    asked.push_back({kPlanesFile, kPlanesHeader, plane_rows});
+    asked.push_back(
+        {kPlanesFile, table_over_time(plane_columns(), dimension).header(), plane_rows});
   for (std::size_t k = 0; k < tables.size(); ++k)
     if ((setting.fluid && k < 2) || std::ranges::find(names, kAskedTables[k]) != names.end())
       asked.push_back(tables[k]);

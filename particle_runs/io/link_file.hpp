@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "viscontact/membranes/membrane_shape.hpp"
+#include "viscontact/particle_runs/io/columns.hpp"
 #include "viscontact/particles/setting/setting.hpp"
 
 namespace viscontact::particles {
@@ -22,29 +23,12 @@ struct TimeTable {
                       std::span<const double> force_errors);
 };
 
-/// The tables of a run. A table is left out if the case has nothing for it:
-///
-/// - bodies.csv: time,id,x,y,angle,vx,vy,angular_velocity; in space
-///   time,id,x,y,z,vx,vy,vz,orientation_w,..._x,..._y,..._z,angular_velocity_x,..._y,..._z
-/// - hinges.csv: time,id,force_x,force_y,torque,angle,angular_velocity; in space
-///   time,id,force_x,force_y,force_z
-/// - springs.csv: time,id,length,force
-/// - arms.csv: time,id,length,force,power
-/// - membranes.csv: time,id, and then the members of MembraneMeasures
-///   (membranes/membrane_shape.hpp)
-///
-/// In a fluid springs.csv and arms.csv end with the column force_error_estimate, and hinges.csv has
-/// force_error_estimate,torque_error_estimate before angle: estimates of the errors that the mesh
-/// of the fluid causes, in the units of force and torque, and empty where they are not known.
-///
-/// Units are: time [T], positions and lengths [L], angles [rad], velocities [L/T], angular
-/// velocities [1/T], forces [M L/T^2], torques [M L^2/T^2], powers [M L^2/T^3], the last three per
-/// length for discs in a fluid. Ids are numbers from 0 in the order of the case. The force of a
-/// hinge is that on its body, its torque that of its torsion spring and its stops on this body.
-/// Forces of springs and arms are > 0 where they push the ends apart. Forces and powers are means
-/// over the step that ended at `time`, and 0 before the first step. The power of an arm is > 0
-/// where the arm does work on the particles.
+/// bodies.csv, hinges.csv, springs.csv, arms.csv and membranes.csv of a run, without those for which
+/// the case has nothing.
 std::vector<TimeTable> time_tables(const Setting& setting, const Particles& particles);
+
+/// The tables of docs/file-formats.md with their columns.
+std::vector<ColumnTable> link_column_tables();
 
 /// Content of a VTK XML PolyData file (VTK's file formats, "XML file formats"; inline binary) with
 /// a vertex at the place of each hinge, and a line between the centres of two particles for each

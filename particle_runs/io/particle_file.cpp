@@ -17,6 +17,7 @@
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/immersed/fluid_solver.hpp"
+#include "viscontact/particle_runs/io/particle_columns.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -38,58 +39,16 @@ const Names kOnAxis = {"z", "radius", "mass", "vz", "x", "y", "vx", "vy", "id", 
 // clang-format on
 constexpr std::size_t kAngularVelocityX = 11;
 
-// The further columns in a fluid. Those with forces of an earlier run are accepted, but not used.
-constexpr std::array<std::string_view, 7> kOfDiscsInFluid = {"angle",
-                                                             "angular_velocity",
-                                                             "fluid_force_x",
-                                                             "fluid_force_y",
-                                                             "fluid_torque",
-                                                             "fluid_force_error_estimate",
-                                                             "fluid_torque_error_estimate"};
-constexpr std::array<std::string_view, 2> kOnAxisInFluid = {"fluid_force_z",
-                                                            "fluid_force_error_estimate"};
-
-// Further columns without a fluid, where particles may turn.
-constexpr std::array<std::string_view, 2> kOfDiscsThatTurn = {"angle", "angular_velocity"};
-constexpr std::array<std::string_view, 3> kOfSpheresThatTurn = {
-    "angular_velocity_x", "angular_velocity_y", "angular_velocity_z"};
-
-std::span<const std::string_view> turning_columns(int dimension) {
-  if (dimension == 1) return {};
-  if (dimension == 2) return kOfDiscsThatTurn;
-  return kOfSpheresThatTurn;
-}
-
-/// There are none in three dimensions, where there is no fluid.
-std::span<const std::string_view> fluid_columns(int dimension) {
-  if (dimension == 1) return kOnAxisInFluid;
-  if (dimension == 2) return kOfDiscsInFluid;
-  return {};
-}
-
-/// The columns of the loads of particles whose motion is given, without a fluid.
-std::vector<std::string> load_columns(int dimension, bool turn) {
-  const std::string_view axes = dimension == 3 ? "xyz" : "xy";
+/// The columns that final_particles.csv of a run of this kind may have.
+std::vector<std::string> columns_of_runs(int dimension, bool in_fluid) {
+  RunFacts run = kAllFacts;
+  run.dimension = dimension;
+  run.is_in_fluid = in_fluid;
+  run.has_given_loads = !in_fluid;
   std::vector<std::string> names;
-  for (const char axis : axes) names.push_back(fmt::format("contact_force_{}", axis));
-  if (turn && dimension == 2) names.emplace_back("contact_torque");
-  if (turn && dimension == 3)
-    for (const char axis : axes) names.push_back(fmt::format("contact_torque_{}", axis));
+  for (const auto* one : columns_in(Output::kAtEnd, particle_columns(), run))
+    std::ranges::copy(one->names(dimension), std::back_inserter(names));
   return names;
-}
-
-/// Adds the fields of load_columns() for particle `k`, which are empty if `loads` does not have it.
-void add_load(std::string& text, std::span<const GivenParticleLoad> loads, std::size_t k,
-              int dimension, bool turn) {
-  assert(std::ranges::is_sorted(loads, {}, &GivenParticleLoad::particle));
-  const auto particle = static_cast<std::int32_t>(k);
-  const auto load = std::ranges::lower_bound(loads, particle, {}, &GivenParticleLoad::particle);
-  const bool has_load = load != loads.end() && load->particle == particle;
-  const auto add = [&](double number) { (text += ',') += has_load ? format_number(number) : ""; };
-  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
-    add(has_load ? load->force[d] : 0);
-  if (!turn) return;
-  for (std::size_t d = dimension == 3 ? 0 : 2; d < 3; ++d) add(has_load ? load->torque[d] : 0);
 }
 
 enum class Sign { kAny, kNotNegative, kPositive };
@@ -120,7 +79,10 @@ void check_header(const std::string& text, const std::string& file, const Names&
                   int dimension, bool in_fluid) {
   // The columns of kDiscs up to `id` are those that each file may have, whatever its dimension.
   const std::span known(kDiscs.begin(), kId + 1);
-  const auto of_fluid = in_fluid ? fluid_columns(dimension) : turning_columns(dimension);
+  auto others = columns_of_runs(dimension, in_fluid);
+  std::erase_if(others, [&](const std::string& name) {
+    return std::ranges::find(known, name) != known.end();
+  });
   const auto header = csv_header(text);
   std::vector<std::string> velocities;
   for (const auto& name : header.names) {
@@ -130,17 +92,15 @@ void check_header(const std::string& text, const std::string& file, const Names&
           "has a column '{}' of ellipses or plates; the particles of a file must be discs or "
           "spheres, and each ellipse or plate a table [[particle]] with semi_axes or length",
           name);
-    const bool is_load =
-        !in_fluid && (name.starts_with("contact_force_") || name.starts_with("contact_torque"));
-    if (!is_load && std::ranges::find(known, name) == known.end() &&
-        std::ranges::find(of_fluid, name) == of_fluid.end())
+    if (std::ranges::find(known, name) == known.end() &&
+        std::ranges::find(others, name) == others.end())
       throw_bad_input(
           {file, header.line, name},
           "has a column '{}', which is not known{}; the known columns are id, x, y, z, vx, vy, vz, "
           "radius, mass{}{}",
           shortened(name),
           name.empty() ? " (pandas writes its index so; to_csv(..., index=False) does not)" : "",
-          of_fluid.empty() ? "" : ", ", fmt::join(of_fluid, ", "));
+          others.empty() ? "" : ", ", fmt::join(others, ", "));
     if (name.starts_with('v')) velocities.push_back(name);
   }
   const auto d = static_cast<std::size_t>(dimension);
@@ -238,87 +198,45 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension, bo
 
 std::string write_particles(const Particles& particles, const std::optional<FluidForces>& forces,
                             std::span<const GivenParticleLoad> loads) {
-  const auto d = static_cast<std::size_t>(particles.dimension);
   assert(!forces || forces->values.empty() ||
          forces->values.size() == particles.count() * motion_components(particles.dimension));
   assert(!forces || forces->errors.empty() ||
          forces->errors.size() == particles.count() * motion_components(particles.dimension));
-  assert(!forces || forces->semi_axes.empty() || forces->semi_axes.size() == particles.count());
-  std::string text = fmt::format("# rows: {}\n", particles.count());
-  text += d == 1   ? "id,z,vz,radius,mass"
-          : d == 2 ? "id,x,y,vx,vy,radius,mass"
-                   : "id,x,y,z,vx,vy,vz,radius,mass";
-  if (forces)
-    for (const auto name : fluid_columns(particles.dimension)) (text += ',') += name;
-  else if (particles.turn())
-    for (const auto name : turning_columns(particles.dimension)) (text += ',') += name;
-  if (forces && !forces->semi_axes.empty()) text += ",semi_axis_1,semi_axis_2";
-  if (!loads.empty())
-    for (const auto& name : load_columns(particles.dimension, particles.turn()))
-      (text += ',') += name;
-  text += '\n';
-  for (std::size_t k = 0; k < particles.count(); ++k) {
-    fmt::format_to(std::back_inserter(text), "{}", particles.id(k));
-    const auto add = [&](double value) { (text += ',') += format_number(value); };
-    for (std::size_t i = k * d; i < k * d + d; ++i) add(particles.positions[i]);
-    for (std::size_t i = k * d; i < k * d + d; ++i) add(particles.velocities[i]);
-    add(particles.radii[k]);
-    add(particles.masses[k]);
-    if (forces) {
-      if (d == 2) add(particles.angles[k]);
-      if (d == 2) add(particles.angular_velocities[k]);
-      const auto components = motion_components(particles.dimension);
-      const auto add_or_empty = [&](std::span<const double> values, std::size_t i) {
-        if (values.empty())
-          text += ',';
-        else
-          add(values[k * components + i]);
-      };
-      for (std::size_t i = 0; i < components; ++i) add_or_empty(forces->values, i);
-      add_or_empty(forces->errors, 0);
-      if (components == 3) add_or_empty(forces->errors, 2);
-      if (!forces->semi_axes.empty())
-        for (const double axis : forces->semi_axes[k]) add(axis);
-    } else if (particles.turn()) {
-      if (d == 2) add(particles.angles[k]);
-      const std::size_t turns = d == 3 ? 3 : 1;
-      for (std::size_t i = 0; i < turns; ++i) add(particles.angular_velocities[k * turns + i]);
-    }
-    if (!loads.empty()) add_load(text, loads, k, particles.dimension, particles.turn());
-    text += '\n';
-  }
+  auto run = facts_of(particles);
+  run.is_in_fluid = forces.has_value();
+  run.do_turn = run.do_turn || run.is_in_fluid;
+  run.has_given_loads = !loads.empty();
+  const CsvTable<ParticleRow> table(columns_in(Output::kAtEnd, particle_columns(), run),
+                                    particles.dimension);
+  auto text = fmt::format("# rows: {}\n{}", particles.count(), table.header());
+  for (const auto& row : rows_of(particles, 0, forces ? &*forces : nullptr, loads))
+    table.add(text, row);
   return text;
 }
 
+namespace {
+
+CsvTable<ParticleRow> motion_table(int dimension, bool turn, bool has_loads) {
+  RunFacts run;
+  run.dimension = dimension;
+  run.do_turn = turn;
+  run.has_given_loads = has_loads;
+  return {columns_in(Output::kOverTime, particle_columns(), run, kFirstOfMotion), dimension};
+}
+
+}  // namespace
+
 std::string motion_header(int dimension, bool turn, bool has_loads) {
-  std::string header =
-      dimension == 1 ? "time,id,z,vz"
-      : dimension == 2
-          ? (turn ? "time,id,x,y,angle,vx,vy,angular_velocity" : "time,id,x,y,vx,vy")
-          : fmt::format("time,id,x,y,z,vx,vy,vz{}",
-                        turn ? ",angular_velocity_x,angular_velocity_y,angular_velocity_z" : "");
-  if (has_loads)
-    for (const auto& name : load_columns(dimension, turn)) (header += ',') += name;
-  return header + "\n";
+  return motion_table(dimension, turn, has_loads).header();
 }
 
 std::string motion_rows(double time, const Particles& particles,
                         const std::vector<GivenParticleLoad>* loads) {
-  const auto d = static_cast<std::size_t>(particles.dimension);
-  const bool is_disc = d == 2 && particles.turn(), is_sphere = d == 3 && particles.turn();
+  const auto table = motion_table(particles.dimension, particles.turn(), loads != nullptr);
   std::string text;
-  for (std::size_t k = 0; k < particles.count(); ++k) {
-    fmt::format_to(std::back_inserter(text), "{},{}", format_number(time), particles.id(k));
-    const auto add = [&](double value) { (text += ',') += format_number(value); };
-    for (std::size_t i = k * d; i < k * d + d; ++i) add(particles.positions[i]);
-    if (is_disc) add(particles.angles[k]);
-    for (std::size_t i = k * d; i < k * d + d; ++i) add(particles.velocities[i]);
-    if (is_disc) add(particles.angular_velocities[k]);
-    for (std::size_t i = 3 * k; is_sphere && i < 3 * k + 3; ++i)
-      add(particles.angular_velocities[i]);
-    if (loads != nullptr) add_load(text, *loads, k, particles.dimension, particles.turn());
-    text += '\n';
-  }
+  const std::span<const GivenParticleLoad> of_given =
+      loads == nullptr ? std::span<const GivenParticleLoad>() : *loads;
+  for (const auto& row : rows_of(particles, time, nullptr, of_given)) table.add(text, row);
   return text;
 }
 

@@ -20,7 +20,8 @@ struct ParticleFile {
 /// Reads a file. `dimension` is 1 (spheres on an axis), 2 (discs) or 3 (spheres). The columns are
 /// x,y[,z],radius,mass and, if they exist, vx,vy[,vz] and id. Without columns of velocities the
 /// particles are at rest; without the column id, or with ids 0, 1, ..., Particles::ids is empty.
-/// The file final_particles.csv of a run can be read, too, unless the run has ellipses or plates.
+/// The file final_particles.csv of a run can be read, too, unless the run has other shapes than
+/// discs and spheres.
 ///
 /// On an axis (dimension 1) the columns are z,radius,mass and, if they exist, vz and id. In a fluid
 /// (`in_fluid`) discs have an angle and an angular velocity, which are 0 if their columns are
@@ -45,34 +46,17 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension,
 struct FluidForces {
   std::span<const double> values;
   std::span<const double> errors;
-  /// Fluid::semi_axes of all particles [L]; empty if all particles are discs or spheres.
-  std::span<const std::array<double, 2>> semi_axes{};
 };
 
-/// CSV text: a line "# rows: N" with the number of particles, the names of the columns, and a row
-/// for each particle. The columns are id,x,y[,z],vx,vy[,vz],radius,mass, or id,z,vz,radius,mass on
-/// an axis. Numbers are read back to the same bits.
-///
-/// With `forces`, which particles in a fluid have, discs also have the columns
-/// angle,angular_velocity,fluid_force_x,fluid_force_y,fluid_torque,fluid_force_error_estimate,
-/// fluid_torque_error_estimate and, with FluidForces::semi_axes, semi_axis_1,semi_axis_2; spheres
-/// on an axis have fluid_force_z,fluid_force_error_estimate. Without `forces`, particles that turn
-/// have the columns angle,angular_velocity (discs) or
-/// angular_velocity_x,angular_velocity_y,angular_velocity_z.
-///
-/// With `loads`, the force and the torque of all contacts and links on the particles whose motion
-/// is given without a fluid, follow contact_force_x,contact_force_y[,contact_force_z] and, if the
-/// particles turn, contact_torque of discs or contact_torque_x,contact_torque_y,contact_torque_z.
-/// They are empty for other particles.
+/// final_particles.csv: a line "# rows: N" with the number of particles, the names of the columns
+/// (particle_columns()), and a row for each particle. Numbers are read back to the same bits.
+/// Particles in a fluid have `forces`. `loads` are those of the particles whose motion is given
+/// without a fluid, in the order of the particles.
 std::string write_particles(const Particles& particles,
                             const std::optional<FluidForces>& forces = {},
                             std::span<const GivenParticleLoad> loads = {});
 
-/// The line with the names of the columns of motion.csv: for discs time,id,x,y,vx,vy, or
-/// time,id,x,y,angle,vx,vy,angular_velocity if they turn; for spheres in space
-/// time,id,x,y,z,vx,vy,vz and, if they turn,
-/// angular_velocity_x,angular_velocity_y,angular_velocity_z; for spheres on an axis time,id,z,vz.
-/// With `has_loads` the columns of the loads of write_particles() follow.
+/// The line with the names of the columns of motion.csv (particle_columns()).
 std::string motion_header(int dimension, bool turn, bool has_loads = false);
 /// The rows of motion.csv of all particles at `time` [T]. `loads` is null unless the table has
 /// their columns.

@@ -50,11 +50,8 @@ struct Playback {
   std::vector<float> radii;  ///< of each particle [L], > 0
   /// The mass of each particle [M], >= 0, of discs in a fluid per length [M/L]; empty: not known.
   std::vector<float> masses{};
-  /// The semi-axes in the plane [L], the first along the angle; empty: no ellipses.
-  std::vector<std::array<double, 2>> semi_axes{};
-  /// For each particle 1 if it is a plate with round ends, else 0; empty: no particle is a plate.
-  std::vector<char> plates{};
-  std::vector<Frame> frames;  ///< in the order of their times, from the start on
+  std::vector<Shape> shapes{};  ///< of each particle; empty: all are discs or spheres
+  std::vector<Frame> frames;    ///< in the order of their times, from the start on
   bool is_in_fluid = false;
   /// The id of each particle, >= 0; empty: particle k has the id k.
   std::vector<std::int32_t> ids{};

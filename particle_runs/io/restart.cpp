@@ -309,12 +309,13 @@ bool is_consistent(const State& state) {
 /// True if the numbers of the particles, the image and the place of the contact are in their
 /// ranges, gamma is finite and <= 0, the impulse is finite, and gamma_error is >= 0.
 bool is_consistent(const Pair& pair, bool at_obstacle, std::size_t particles) {
+  constexpr std::int32_t kMostPlaces = 64;  // more than shapes have
   const bool first_in_range =
       at_obstacle ? pair.first < 0 : pair.first >= 0 && pair.first < pair.second;
   return first_in_range && pair.second >= 0 && index_of(pair.second) < particles &&
          pair.gamma <= 0 && std::isfinite(pair.gamma) && std::isfinite(pair.impulse) &&
          pair.gamma_error >= 0 && pair.image >= -kLargestImage && pair.image <= kLargestImage &&
-         pair.place >= 0 && pair.place <= (at_obstacle ? 1 : 3);
+         pair.place >= 0 && pair.place < kMostPlaces;
 }
 
 }  // namespace

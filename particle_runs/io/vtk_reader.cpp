@@ -1,4 +1,6 @@
 // Reads the layout of vtk.cpp, not VTK's formats in general.
+#include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +12,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/common/vtk/vtk_xml.hpp"
+#include "viscontact/particle_runs/io/contact_columns.hpp"
 #include "viscontact/particle_runs/io/vtk.hpp"
 #include "viscontact/particles/domain/periods.hpp"
 
@@ -17,88 +20,60 @@ namespace viscontact::particles {
 
 namespace {
 
-/// The array `name` of the contacts, or zeros if the frame has no such array. Throws
-/// Error(kBadInput) if the array does not have `count` numbers.
+/// Sets the members of `contacts` that the column has in a frame. Throws Error(kBadInput) if it
+/// does not have a number for each, or if a number is not allowed.
 template <class Number>
-std::vector<Number> numbers_or_zeros(const VtkReader& reader, const char* name, std::size_t count) {
-  auto numbers = reader.has_array("CellData", name) ? reader.array<Number>("CellData", name)
-                                                    : std::vector<Number>(count);
-  if (numbers.size() != count) reader.refuse();
-  return numbers;
-}
-
-/// For each of `count` contacts, the numbers that contact laws remember and files show
-/// (pair_memory.hpp). Throws Error(kBadInput) as numbers_or_zeros() does.
-std::vector<ShownMemory> read_memories(const VtkReader& reader, std::size_t count) {
-  std::vector<ShownMemory> memories(count);
-  std::size_t place = 0;
-  for (const auto& field : kMemoryFields) {
-    if (!field.is_shown) continue;
-    const auto values = reader.array<double>("CellData", field.name);
-    if (values.size() != count) reader.refuse();
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::span numbers(memories[i]);
-      numbers[place] = values[i];
-    }
-    ++place;
+void read_column(const VtkReader& reader, const ContactColumn& column, int dimension,
+                 std::vector<CurrentContact>& contacts) {
+  const auto count = column.count_in_frames(dimension);
+  const auto values = reader.array<Number>("CellData", column.name);
+  if (values.size() != count * contacts.size()) reader.refuse();
+  std::array<double, 9> entries{};
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(k * count), count, entries.begin());
+    if (!column.set(contacts[k], std::span(entries).first(count))) reader.refuse();
   }
-  return memories;
 }
 
 /// The contacts of a frame, first those of two particles and then those with obstacles. Throws
 /// Error(kBadInput) if arrays have other lengths, or if a number of a particle, image or kind of
 /// friction does not exist.
-std::vector<CurrentContact> read_contacts(const VtkReader& reader, std::int64_t particles) {
-  const auto gaps = reader.array<double>("CellData", "gap");
-  const auto gammas = reader.array<double>("CellData", "gamma");
+std::vector<CurrentContact> read_contacts(const VtkReader& reader, int dimension,
+                                          std::int64_t particles) {
   const auto partners = reader.array<std::int32_t>("CellData", "j");
-  const auto images = numbers_or_zeros<std::int32_t>(reader, "image", gaps.size());
-  const auto frictions = numbers_or_zeros<std::int32_t>(reader, "friction", gaps.size());
-  const auto normal_forces = reader.array<double>("CellData", "normal_force");
-  const auto tangential_forces =
-      numbers_or_zeros<double>(reader, "tangential_force", 3 * gaps.size());
-  const auto solid_forces = numbers_or_zeros<double>(reader, "solid_force", gaps.size());
-  const auto memories = read_memories(reader, gaps.size());
   // Entries are indices of points, which are the numbers of particles and not their ids. A contact
   // with an obstacle is a vertex with one entry, a contact of two particles a line with two.
   const auto vertices = reader.array<std::int64_t>("Verts", "connectivity");
   const auto lines = reader.array<std::int64_t>("Lines", "connectivity");
   const auto walls = vertices.size(), pairs = lines.size() / 2;
-  if (gaps.size() != walls + pairs || gammas.size() != gaps.size() ||
-      partners.size() != gaps.size() || normal_forces.size() != gaps.size() ||
-      lines.size() % 2 != 0)
-    reader.refuse();
+  if (partners.size() != walls + pairs || lines.size() % 2 != 0) reader.refuse();
   const auto particle = [&](std::int64_t place) {
     if (place < 0 || place >= particles) reader.refuse();
     return static_cast<std::int32_t>(place);
   };
-  const auto image = [&](std::int32_t number) {
-    if (number < -kLargestImage || number > kLargestImage) reader.refuse();
-    return number;
-  };
-  const auto friction = [&](std::int32_t number) {
-    if (number < 0 || number > static_cast<std::int32_t>(ContactFriction::kSlides)) reader.refuse();
-    return static_cast<ContactFriction>(number);
-  };
-  std::vector<CurrentContact> contacts;
-  const auto add = [&](std::size_t i, std::int32_t first, std::int64_t second) {
-    contacts.push_back({.first = first,
-                        .second = particle(second),
-                        .gap = gaps[i],
-                        .gamma = gammas[i],
-                        .image = first < 0 ? 0 : image(images[i]),
-                        .friction = friction(frictions[i]),
-                        .normal_force = normal_forces[i],
-                        .tangential_force = {tangential_forces[3 * i], tangential_forces[3 * i + 1],
-                                             tangential_forces[3 * i + 2]},
-                        .solid_force = solid_forces[i],
-                        .shown = memories[i]});
-  };
-  for (std::size_t i = 0; i < pairs; ++i) add(walls + i, particle(lines[2 * i]), lines[2 * i + 1]);
+  std::vector<CurrentContact> contacts(walls + pairs);
+  for (const auto& column : contact_columns()) {
+    const auto& condition = column.presence.frames;
+    if (column.set == nullptr || !condition.holds(kAllFacts)) continue;
+    if (!condition.holds({}) && !reader.has_array("CellData", column.name)) continue;
+    if (column.is_whole())
+      read_column<std::int32_t>(reader, column, dimension, contacts);
+    else
+      read_column<double>(reader, column, dimension, contacts);
+  }
   for (std::size_t i = 0; i < walls; ++i) {
     if (partners[i] >= 0) reader.refuse();
-    add(i, partners[i], vertices[i]);
+    contacts[i].first = partners[i];
+    contacts[i].second = particle(vertices[i]);
+    contacts[i].image = 0;
   }
+  for (std::size_t i = 0; i < pairs; ++i) {
+    auto& contact = contacts[walls + i];
+    contact.first = particle(lines[2 * i]);
+    contact.second = particle(lines[2 * i + 1]);
+    if (contact.image < -kLargestImage || contact.image > kLargestImage) reader.refuse();
+  }
+  std::ranges::rotate(contacts, contacts.begin() + static_cast<std::ptrdiff_t>(walls));
   return contacts;
 }
 
@@ -137,7 +112,7 @@ VtpContent read_vtp(const std::filesystem::path& path, int dimension) {
     content.orientations = reader.array<double>("PointData", "orientation");
     if (content.orientations.size() != points.size() / 3 * 4) reader.refuse();
   }
-  content.contacts = read_contacts(reader, std::ssize(points) / 3);
+  content.contacts = read_contacts(reader, dimension, std::ssize(points) / 3);
   return content;
 }
 

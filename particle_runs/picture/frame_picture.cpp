@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/particles/setting/outline.hpp"
+#include "viscontact/particles/shapes/shape_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -102,11 +102,11 @@ std::string circle(const PanelSettings& panel, const Vector& at, double radius) 
 /// Particle k, a disc, ellipse or plate, with the centre `at` [L]; empty if it is not seen.
 std::string disc(const PanelSettings& panel, const Frame& frame, std::size_t k, const Vector& at) {
   const auto& playback = panel.scene.playback;
-  if (playback.semi_axes.empty()) return circle(panel, at, playback.radii[k]);
+  if (playback.shapes.empty()) return circle(panel, at, playback.radii[k]);
   const double x = panel.view.x(at), y = panel.view.y(at), scale = panel.view.scale;
   if (!is_seen(panel, x, y, scale * playback.radii[k])) return "";
-  const auto [a, b] = playback.semi_axes[k];
-  if (!playback.plates.empty() && playback.plates[k] != 0)
+  const auto [a, b] = playback.shapes[k].semi_axes();
+  if (playback.shapes[k].sides() > 0)
     return fmt::format(
         "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" rx=\"{:.2f}\" "
         "transform=\"translate({:.2f} {:.2f}) rotate({:.2f})\"/>\n",
@@ -125,10 +125,9 @@ std::string angle_marks(const PanelSettings& panel, const Frame& frame) {
   if (frame.angles.size() != panel.scene.playback.radii.size()) return "";
   std::string text;
   for_each_image(panel, frame, [&](std::size_t k, const Vector& centre) {
-    if (const auto& plates = panel.scene.playback.plates; !plates.empty() && plates[k] != 0)
-      return;  // the outline of a plate shows its direction
-    const auto& axes = panel.scene.playback.semi_axes;
-    const double r = axes.empty() ? panel.scene.playback.radii[k] : axes[k][0];
+    const auto& shapes = panel.scene.playback.shapes;
+    if (!shapes.empty() && shapes[k].sides() > 0) return;  // the sides show the direction
+    const double r = shapes.empty() ? panel.scene.playback.radii[k] : shapes[k].semi_axes()[0];
     const double angle = frame.angles[k];
     if (kStyle.mark_radius * r * panel.view.scale >= kSmallest)
       text += circle(
@@ -355,32 +354,20 @@ struct ContactLine {
   std::string path;
 };
 
-/// Moves the ends of the line between two particles [L], of which at least one is a plate, from
-/// their centres to the nearest points of their spines (outline.hpp).
-void move_to_spines(const Playback& playback, const Frame& frame, std::size_t first,
-                    std::size_t second, Vector& from, Vector& to) {
-  assert(playback.semi_axes.size() == playback.radii.size());
-  const auto outline = [&](std::size_t k, const Vector& centre) {
-    const auto [a, b] = playback.semi_axes[k];
-    return Outline{{centre[0], centre[1]},
-                   playback.radii[k],
-                   {a, b},
-                   frame.angles[k],
-                   playback.plates[k] != 0};
-  };
-  const auto near = nearest_on_spines(outline(first, from), outline(second, to));
-  from = {near.first[0], near.first[1], 0};
-  to = {near.second[0], near.second[1], 0};
+/// Particle k with its centre at `centre` [L].
+PlacedShape placed(const Playback& playback, const Frame& frame, std::size_t k,
+                   const Vector& centre) {
+  return PlacedShape::at_angle(playback.shapes[k], {centre[0], centre[1]}, frame.angles[k]);
 }
 
-/// The line between the centres (with plates, the spines), or to the nearest point of an obstacle.
+/// The line between the centres, or the nearest points of the cores, or to the nearest point of an
+/// obstacle.
 ContactLine line_of(const PanelSettings& d, const Frame& frame, const CurrentContact& contact) {
   const auto second = static_cast<std::size_t>(contact.second);
   Vector to = position(d.scene.playback, frame, second);
   const auto half_thickness = [&](std::size_t k) -> double {
     const auto& playback = d.scene.playback;
-    const bool is_plate = !playback.plates.empty() && playback.plates[k] != 0;
-    return is_plate ? playback.semi_axes[k][1] : playback.radii[k];
+    return playback.shapes.empty() ? playback.radii[k] : playback.shapes[k].inner_radius();
   };
   double radius = half_thickness(second);
   Vector from{};
@@ -393,10 +380,15 @@ ContactLine line_of(const PanelSettings& d, const Frame& frame, const CurrentCon
     const auto first = static_cast<std::size_t>(contact.first);
     from = position(d.scene.playback, frame, first);
     radius = std::min(radius, half_thickness(first));
-    if (const auto& playback = d.scene.playback; !playback.plates.empty()) {
-      to = to + shift;
-      move_to_spines(playback, frame, first, second, from, to);
-      to = to - shift;
+    if (const auto& playback = d.scene.playback; !playback.shapes.empty()) {
+      const auto one = placed(playback, frame, first, from),
+                 other = placed(playback, frame, second, to + shift);
+      if (!core_of(one).corners.empty() && !core_of(other).corners.empty()) {
+        const ShapeContacts contacts(one, other);
+        const auto arms = contacts.at(contacts.places().front(), one, other).arms;
+        from = from + Vector{arms[0][0], arms[0][1], 0};
+        to = to + Vector{arms[1][0], arms[1][1], 0};
+      }
     }
   }
   ContactLine line;

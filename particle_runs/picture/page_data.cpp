@@ -134,6 +134,11 @@ Contacts contacts_of(const Scene& scene, const PageData& data) {
   return contacts;
 }
 
+/// True if a particle has a shape with sides.
+bool has_sides(const Playback& playback) {
+  return std::ranges::any_of(playback.shapes, [](const Shape& shape) { return shape.sides() > 0; });
+}
+
 /// How many numbers tell how far a particle has turned: 1 (an angle), 4 (a quaternion), or 0 if the
 /// frames do not have such numbers for all particles.
 std::size_t numbers_of_turn(const Playback& playback) {
@@ -170,8 +175,8 @@ Contacts choose_content(PageData& data, const Scene& scene, std::size_t other_by
   // The bytes of a particle for its radius, mass, id, body, first frame, semi-axes and plate.
   const auto of_particle = four(true) + four(!playback.masses.empty()) +
                            four(!playback.ids.empty()) + four(!playback.bodies.empty()) +
-                           four(are_added) + 2 * four(!playback.semi_axes.empty()) +
-                           (playback.plates.empty() ? 0 : 1);
+                           four(are_added) + 2 * four(!playback.shapes.empty()) +
+                           (has_sides(playback) ? 1 : 0);
   // The largest numbers of characters that a hinge, and the two numbers of a spring or arm, take.
   constexpr std::size_t kHinge = 80, kEnds = 16;
   const auto& links = playback.links;
@@ -285,13 +290,15 @@ PageData page_data(const Scene& scene, const Blocks& others) {
   auto contacts = choose_content(data, scene, other_bytes);
   Bytes radii, masses, semi_axes, plates, ids, bodies, times, positions, turns, planes;
   const auto turn_numbers = numbers_of_turn(playback);
+  const bool are_plates = has_sides(playback);
   const auto dimension = static_cast<std::size_t>(playback.dimension);
   for (std::size_t k = 0; k < playback.radii.size(); k += data.every_particle) {
     append(radii, playback.radii[k]);
     if (!playback.masses.empty()) append(masses, playback.masses[k]);
-    if (!playback.semi_axes.empty())
-      for (const double axis : playback.semi_axes[k]) append(semi_axes, static_cast<float>(axis));
-    if (!playback.plates.empty()) append(plates, playback.plates[k]);
+    if (!playback.shapes.empty())
+      for (const double axis : playback.shapes[k].semi_axes())
+        append(semi_axes, static_cast<float>(axis));
+    if (are_plates) append(plates, static_cast<char>(playback.shapes[k].sides() > 0 ? 1 : 0));
     if (!playback.ids.empty()) append(ids, playback.ids[k]);
     if (!playback.bodies.empty()) append(bodies, playback.bodies[k]);
   }

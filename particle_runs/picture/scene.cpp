@@ -137,21 +137,13 @@ std::vector<char> points_in_bodies(const report::Grid& grid, const Playback& pla
       const double x = centre[0] + shift[0], y = centre[1] + shift[1], r = playback.radii[k];
       const auto [left, right] = range(x - r, x + r, window.left, grid.step_x(), grid.columns);
       const auto [bottom, top] = range(y - r, y + r, window.bottom, grid.step_y(), grid.rows);
-      const bool is_ellipse = !playback.semi_axes.empty();
-      const auto [a, b] = is_ellipse ? playback.semi_axes[k] : std::array{r, r};
-      const double c = is_ellipse ? std::cos(frame.angles[k]) : 1;
-      const double s = is_ellipse ? std::sin(frame.angles[k]) : 0;
-      const bool is_plate = !playback.plates.empty() && playback.plates[k] != 0;
-      const auto is_inside = [&](double dx, double dy) {
-        if (is_plate)
-          return std::hypot(std::max(0.0, std::abs(c * dx + s * dy) - (a - b)), c * dy - s * dx) <=
-                 b;
-        return std::hypot((c * dx + s * dy) / a, (c * dy - s * dx) / b) <= 1;
-      };
+      std::optional<PlacedShape> shape;
+      if (!playback.shapes.empty())
+        shape = PlacedShape::at_angle(playback.shapes[k], {x, y}, frame.angles[k]);
       for (auto row = bottom; row < top; ++row)
         for (auto column = left; column < right; ++column)
-          if (is_ellipse ? is_inside(grid.x(column) - x, grid.y(row) - y)
-                         : std::hypot(grid.x(column) - x, grid.y(row) - y) <= r)
+          if (shape ? shape->distance_to({grid.x(column), grid.y(row)}) <= 0
+                    : std::hypot(grid.x(column) - x, grid.y(row) - y) <= r)
             is_body[row * grid.columns + column] = 1;
     }
   return is_body;

@@ -1,5 +1,6 @@
 // Copies the arrays of all frames of a run into one HDF5 file, particles.h5 (write_hdf5() in
 // particles_pages.hpp), with the names and units of docs/file-formats.md, "HDF5".
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string_view>
@@ -11,10 +12,11 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/system/module.hpp"
 #include "viscontact/common/vtk/vtk_xml.hpp"
+#include "viscontact/particle_runs/io/contact_columns.hpp"
+#include "viscontact/particle_runs/io/particle_columns.hpp"
 #include "viscontact/particle_runs/io/vtk.hpp"
 #include "viscontact/particle_runs/run/module/hdf5_module.hpp"
 #include "viscontact/particle_runs/run/particles_pages.hpp"
-#include "viscontact/particles/state/pair_memory.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -117,14 +119,18 @@ class Table {
   std::int64_t end_ = 0;
 };
 
-std::vector<Array> arrays_of_contacts() {
-  std::vector<Array> arrays = {{"CellData", "gap", "gap", 1},
-                               {"CellData", "gamma", "gamma", 1},
-                               {"CellData", "normal_force", "normal_force", 1},
-                               {"CellData", "tangential_force", "tangential_force", 3}};
-  for (const auto& field : kMemoryFields)
-    if (field.is_shown) arrays.push_back({"CellData", field.name, std::string(field.name), 1});
-  arrays.push_back({"CellData", "solid_force", "solid_force", 1});
+/// The arrays of `columns` in a section of the frames: first those of decimal numbers, then those of
+/// whole numbers.
+template <class AnyColumn>
+std::array<std::vector<Array>, 2> arrays_of(const std::vector<AnyColumn>& columns,
+                                            std::string_view section, int dimension) {
+  std::array<std::vector<Array>, 2> arrays;
+  RunFacts run = kAllFacts;
+  run.dimension = dimension;
+  for (const auto* column : columns_in(Output::kFrames, columns, run))
+    arrays[column->is_whole() ? 1 : 0].push_back({section, column->name,
+                                                  std::string(column->name_in_hdf5()),
+                                                  column->count_in_frames(dimension)});
   return arrays;
 }
 
@@ -135,23 +141,12 @@ void copy_frames(const ParticlesCase& c, const fs::path& folder, Hdf5File& file)
   if (frames.empty()) throw_bad_input({(folder / "particles.pvd").string()}, "has no frame");
   const auto last_text = read_file(folder / frames.back().second);
   const VtkReader last(last_text, (folder / frames.back().second).string(), "frame");
-  const bool is_flat = c.particles.dimension < 3;  // then the angular velocity is one number
   Rows<double> times(file, "time", 1);
-  Table particles(file, "particles/",
-                  {{"Points", "Points", "position", 3},
-                   {"PointData", "velocity", "velocity", 3},
-                   {"PointData", "radius", "radius", 1},
-                   {"PointData", "mass", "mass", 1},
-                   {"PointData", "angle", "angle", 1},
-                   {"PointData", "orientation", "orientation", 4},
-                   {"PointData", "angular_velocity", "angular_velocity", is_flat ? 1U : 3U}},
-                  {{"PointData", "id", "id", 1}, {"PointData", "body", "body", 1}}, last);
-  Table contacts(file, "contacts/", arrays_of_contacts(),
-                 {{"CellData", "i", "first", 1},
-                  {"CellData", "j", "second", 1},
-                  {"CellData", "image", "image", 1},
-                  {"CellData", "friction", "friction", 1}},
-                 last);
+  auto of_points = arrays_of(particle_columns(), "PointData", c.particles.dimension);
+  of_points[0].insert(of_points[0].begin(), {"Points", "Points", "position", 3});
+  Table particles(file, "particles/", of_points[0], of_points[1], last);
+  const auto of_contacts = arrays_of(contact_columns(), "CellData", c.particles.dimension);
+  Table contacts(file, "contacts/", of_contacts[0], of_contacts[1], last);
   for (const auto& [time, name] : frames) {
     const auto text = read_file(folder / name);
     const VtkReader frame(text, (folder / name).string(), "frame");

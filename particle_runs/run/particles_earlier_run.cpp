@@ -109,10 +109,12 @@ void check_same_particles(const State& state, const ParticlesCase& c, const fs::
   for (const auto& impact : state.impacts) check_first(impact.first);
 }
 
-/// The restart file does not store the ids, nor those of particles that sources have added.
-void take_over_ids(State& state, const ParticlesCase& c) {
+/// The restart file stores no ids and shapes, nor those of particles that sources have added.
+void take_over_ids_and_shapes(State& state, const ParticlesCase& c) {
   state.particles.ids = c.particles.ids;
   add_missing_ids(state.particles);
+  state.particles.shapes = c.particles.shapes;
+  add_missing_shapes(state.particles);
 }
 
 /// The restart file stores the motion of bodies only. Throws Error(kBadInput) if it has another
@@ -160,7 +162,7 @@ State first_state(const ParticlesCase& c, const std::string& restart) {
   }
   state = read_restart(restart);
   check_same_particles(state, c, restart);
-  take_over_ids(state, c);
+  take_over_ids_and_shapes(state, c);
   take_over_bodies(state, c, restart);
   if (c.particles.turn() && !state.particles.turn()) {
     // In the earlier run particles did not turn, so that its restart file has no angles.
@@ -203,7 +205,7 @@ std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c, const fs::pat
     }
     EarlierRun run{read_restart(restart), read_record(head, restart)};
     check_same_particles(run.state, c, restart);
-    take_over_ids(run.state, c);
+    take_over_ids_and_shapes(run.state, c);
     take_over_bodies(run.state, c, restart);
     log.check(run.record);
     return run;

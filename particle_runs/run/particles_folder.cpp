@@ -13,7 +13,6 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/json.hpp"
-#include "viscontact/common/text/number.hpp"
 #include "viscontact/particles/steps/current_contacts.hpp"
 #include "viscontact/results/foreign_files.hpp"
 
@@ -96,47 +95,6 @@ void StepTotals::add_means(const std::vector<double>& values, double duration) {
   contact_time += duration;
   for (std::size_t k = 0; k < values.size(); ++k)
     contact_means[k] += (values[k] - contact_means[k]) * (duration / contact_time);
-}
-
-std::string steps_header(const std::optional<Fluid>& fluid,
-                         std::span<const std::string> step_columns) {
-  std::string header =
-      "step,time,contacts,glued,iterations,residual,largest_overlap,converged,impulse_residual,"
-      "parts,unresolved";
-  if (fluid) header += ",dissipation,apparent_viscosity,fluid_seconds";
-  if (fluid && fluid->has_inertia())
-    header += ",kinetic_energy_fluid,reynolds_number,courant_number,given_force_x,given_force_y";
-  for (const auto& column : step_columns) header += "," + column;
-  return header + "\n";
-}
-
-std::string probe_rows(const FluidStepReport& report, std::span<const Probe> probes) {
-  assert(report.probes.size() >= probes.size());
-  std::string rows;
-  for (std::size_t k = 0; k < probes.size(); ++k)
-    rows += fmt::format("{},{},{},{}\n", format_number(report.flow_time), probes[k].name,
-                        format_number(report.probes[k][0]), format_number(report.probes[k][1]));
-  return rows;
-}
-
-std::string step_row(std::int64_t step, const StepReport& report, const std::optional<Fluid>& fluid,
-                     std::span<const std::string> step_columns) {
-  auto row =
-      fmt::format("{},{},{},{},{},{},{},{},{},{},{}", step, format_number(report.time),
-                  report.contacts, report.glued, report.iterations, format_number(report.residual),
-                  format_number(report.largest_overlap), report.converged ? 1 : 0,
-                  format_number(report.impulse_residual), report.parts, report.unresolved);
-  const auto& of_fluid = report.fluid;
-  if (fluid)
-    row += fmt::format(",{},{},{:.3g}", format_number(of_fluid.dissipation),
-                       format_number(of_fluid.apparent_viscosity), of_fluid.seconds);
-  if (fluid && fluid->has_inertia())
-    row +=
-        fmt::format(",{},{},{},{},{}", format_number(of_fluid.kinetic_energy),
-                    format_number(of_fluid.reynolds_number), format_number(of_fluid.courant_number),
-                    format_number(of_fluid.given_force[0]), format_number(of_fluid.given_force[1]));
-  for (std::size_t k = 0; k < step_columns.size(); ++k) row += "," + report.solver_stages;
-  return row + "\n";
 }
 
 std::string record_comment(const RunRecord& record, std::int64_t step) {

@@ -134,23 +134,6 @@ struct RunRecord {
   std::map<std::string, FileEnd> files;  ///< for the name of each growing file where it ends
 };
 
-/// The line with the names of the columns of steps.csv: step, time [T], contacts, glued (numbers of
-/// contacts, glued: gamma < 0), iterations, residual and largest_overlap [mean radii], converged (0
-/// or 1), impulse_residual [1], parts and unresolved (numbers). A run in a fluid also has
-/// dissipation [M L^2/T^3], in two dimensions [M L/T^3], apparent_viscosity [1] and fluid_seconds
-/// [s]; with inertia of the fluid also kinetic_energy_fluid [M L^2/T^2], reynolds_number and
-/// courant_number [1], and given_force_x and given_force_y [M L/T^2], energy and forces in two
-/// dimensions per length. `step_columns` are ParticlesCase::step_columns, which come last.
-std::string steps_header(const std::optional<Fluid>& fluid,
-                         std::span<const std::string> step_columns);
-inline constexpr std::string_view kProbesHeader = "time,name,flow,pressure\n";
-/// The rows of probes.csv of a step, one for each probe: the time of the flow [T], the name of the
-/// probe, the flow [L^2/T] and the pressure [M/(L T^2)].
-std::string probe_rows(const FluidStepReport& report, std::span<const Probe> probes);
-/// The row of steps.csv of the step with the number `step`, from 1, in the order of steps_header().
-std::string step_row(std::int64_t step, const StepReport& report, const std::optional<Fluid>& fluid,
-                     std::span<const std::string> step_columns);
-
 /// The comment line of restart.bin that contains the record after the step with the number `step`.
 std::string record_comment(const RunRecord& record, std::int64_t step);
 /// Reads the line of record_comment() from `head`, the first lines of the file `restart`. Throws

@@ -60,8 +60,7 @@ Playback without_frames(const ParticlesCase& c) {
   if (std::ranges::any_of(c.particles.masses, [](double mass) { return mass > 0; }))
     playback.masses.assign(c.particles.masses.begin(), c.particles.masses.end());
   playback.is_in_fluid = c.setting.fluid.has_value();
-  if (c.setting.fluid) playback.semi_axes = c.setting.fluid->semi_axes;
-  if (c.setting.fluid) playback.plates = c.setting.fluid->plates;
+  playback.shapes = c.particles.shapes;
   playback.ids = c.particles.ids;
   playback.cell = cell_of(c.setting);
   for (std::size_t d = 0; d < 3; ++d) playback.cell.from[d] -= playback.origin[d];

@@ -164,7 +164,7 @@ class Run {
     if (flow_ == nullptr) return write_particles(reported, {}, simulation_.state().given_loads);
     const auto forces = flow_->fluid_forces();
     const auto errors = flow_->force_errors().of_fluid;
-    return write_particles(reported, FluidForces{forces, errors, case_.setting.fluid->semi_axes});
+    return write_particles(reported, FluidForces{forces, errors});
   }
 
   /// Adds the computing time of this call [s] and takes the larger memory [MiB].
@@ -225,12 +225,13 @@ void warn_of_jam(const StepTotals& record) {
 void warn_of_buckling(const ParticlesCase& c, const StepTotals& record) {
   if (record.buckling == 0) return;
   // Where a vibration has grown, the forces of its films say nothing about the step that is stable.
-  const bool may_grow = c.setting.fluid && (!c.setting.fluid->plates.empty() ||
+  const bool may_grow = c.setting.fluid && (c.particles.has_other_shapes() ||
                                             c.setting.fluid->coupling == Coupling::kSplitting);
   if (c.setting.fluid)
     terminal::warn(
         "particles: warning: in {} of {} steps a link pushes so hard that what it pushes buckles "
-        "within the step, and rounding errors decide how, or a film of a plate (with coupling = "
+        "within the step, and rounding errors decide how, or a film of a particle that is no disc "
+        "(with coupling = "
         "\"splitting\" any film) pulls so hard that what it pulls may vibrate across it with a "
         "growing amplitude (run.json: buckling_steps); a time_step of {:.2g} resolves it",
         record.buckling, record.steps,

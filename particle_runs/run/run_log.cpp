@@ -9,6 +9,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/particle_runs/io/contact_file.hpp"
+#include "viscontact/particle_runs/io/step_columns.hpp"
 #include "viscontact/particle_runs/io/vtk.hpp"
 #include "viscontact/particles/steps/current_contacts.hpp"
 
@@ -59,11 +60,11 @@ RunLog::RunLog(const ParticlesCase& c, fs::path folder, const results::Provenanc
   add_list(kFrameFile);
   add_file("steps.csv", TextKind::kHashComment, steps_header(c.setting.fluid, c.step_columns));
   if (c.setting.laws.restitution.is_on())
-    add_file("rebounds.csv", TextKind::kHashComment, kReboundsHeader);
+    add_file("rebounds.csv", TextKind::kHashComment, rebounds_header());
   if (!c.setting.links.empty()) add_list(kLinksFile);
   if (c.setting.fluid) add_list(kFlowFile);
   if (c.setting.fluid && !c.setting.fluid->probes.empty())
-    add_file("probes.csv", TextKind::kHashComment, std::string(kProbesHeader));
+    add_file("probes.csv", TextKind::kHashComment, probes_header());
   for (const auto& tables :
        {time_tables(c.setting, c.particles), asked_tables(c.setting, c.particles, c.tables)})
     for (const auto& table : tables) {

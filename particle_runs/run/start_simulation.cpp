@@ -16,7 +16,7 @@ std::unique_ptr<ParticleSimulation> start_simulation(const Setting& setting, Sta
   assert(threads >= 1);
   if (!setting.fluid) return std::make_unique<Simulation>(setting, std::move(state), threads);
   const auto& p = state.particles;
-  auto solver = start_solver(*setting.fluid, setting.domain, p.radii, p.dimension, stop);
+  auto solver = start_solver(*setting.fluid, setting.domain, shapes_of(p), p.dimension, stop);
   if (!setting.fluid->membranes.empty())
     return std::make_unique<MembraneSimulation>(setting, std::move(state), std::move(solver));
   return std::make_unique<FluidSimulation>(setting, std::move(state), std::move(solver));

@@ -80,7 +80,7 @@ std::optional<Cell> cell_at(const ParticlesCase& c, double time, double largest_
 }
 
 /// A property of the particles: an array of the points of a frame, and its columns in the file.
-struct Column {
+struct XyzColumn {
   const char* array;  ///< in a frame
   const char* name;   ///< in the file
   std::size_t count;  ///< of a particle
@@ -93,12 +93,12 @@ class XyzText {
   /// The columns are those that `last` has, because OVITO reads the names of the first frame only,
   /// and a source may add particles with more properties later.
   XyzText(const ParticlesCase& c, const VtkReader& last) : case_(c) {
-    for (const Column& column : std::to_array<Column>({{"velocity", "velo", 3, false},
-                                                       {"radius", "radius", 1, false},
-                                                       {"mass", "mass", 1, false},
-                                                       {"id", "id", 1, true},
-                                                       {"body", "body", 1, true},
-                                                       {"angle", "angle", 1, false}}))
+    for (const XyzColumn& column : std::to_array<XyzColumn>({{"velocity", "velo", 3, false},
+                                                             {"radius", "radius", 1, false},
+                                                             {"mass", "mass", 1, false},
+                                                             {"id", "id", 1, true},
+                                                             {"body", "body", 1, true},
+                                                             {"angle", "angle", 1, false}}))
       if (last.has_array("PointData", column.array)) columns_.push_back(column);
     is_turned_ = last.has_array("PointData", "orientation") || last.has_array("PointData", "angle");
   }
@@ -152,7 +152,7 @@ class XyzText {
   }
 
   /// The numbers of a column for each of `count` particles, 0 if the frame does not have them.
-  static std::vector<double> numbers(const VtkReader& frame, const Column& column,
+  static std::vector<double> numbers(const VtkReader& frame, const XyzColumn& column,
                                      std::size_t count, const char* section = "PointData") {
     std::vector<double> values(count * column.count);
     if (!frame.has_array(section, column.array)) return values;
@@ -215,7 +215,7 @@ class XyzText {
   }
 
   const ParticlesCase& case_;
-  std::vector<Column> columns_;
+  std::vector<XyzColumn> columns_;
   bool is_turned_ = false;
 };
 

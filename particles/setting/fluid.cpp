@@ -1,12 +1,9 @@
-// Quantities of the fluid that depend on time, and sizes and moments of inertia of particles in it.
+// Quantities of the fluid that depend on time.
 #include "viscontact/particles/setting/fluid.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <numbers>
-
-#include "viscontact/particles/state/particles.hpp"
 
 namespace viscontact::particles {
 
@@ -38,20 +35,6 @@ bool Fluid::are_of_one_membrane(std::int32_t first, std::int32_t second) const {
   return std::ranges::any_of(membranes, [&](const Membrane& membrane) {
     return membrane.has(first) && membrane.has(second);
   });
-}
-
-double Fluid::size_of(int dimension, std::size_t k, double radius) const {
-  assert(dimension == 1 || dimension == 2);
-  assert(cut_areas.empty() || k < cut_areas.size());
-  if (is_plate(k)) return size_of_plate(semi_axes[k]);
-  if (is_ellipse(k)) return size_of_ellipse(semi_axes[k]);
-  return size_of_particle(dimension, radius) - (cut_areas.empty() ? 0 : cut_areas[k]);
-}
-
-double Fluid::homogeneous_inertia_of(std::size_t k, double mass, double radius) const {
-  if (is_plate(k)) return homogeneous_inertia_of_plate(mass, semi_axes[k]);
-  return is_ellipse(k) ? homogeneous_inertia_of_ellipse(mass, semi_axes[k])
-                       : homogeneous_inertia(2, mass, radius);
 }
 
 }  // namespace viscontact::particles

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "viscontact/particles/links/membrane.hpp"
+#include "viscontact/particles/shapes/shape.hpp"
 #include "viscontact/particles/values/piecewise_constant.hpp"
 
 namespace viscontact::particles {
@@ -122,14 +124,8 @@ struct Fluid {
   std::variant<LinearFlow, SideVelocities> boundary;
   /// Command of a flow solver of the user's own, with its arguments; empty: FreeFEM is used.
   std::vector<std::string> solver;
-  /// The two semi-axes of each particle in the plane [L], > 0. The first one points along the angle
-  /// of the particle. Those of a plate are half of its length and the radius of its round ends.
-  /// Empty: all particles are discs or spheres.
-  std::vector<std::array<double, 2>> semi_axes{};
-  /// For each particle 1 if it is a plate with round ends, or 0. Empty: none is.
-  std::vector<char> plates{};
   /// For each disc the part of its area [L^2] beyond the chords at which it overlaps other discs of
-  /// its rigid body (cut_areas_of(), outline.hpp). Empty: no discs of bodies overlap.
+  /// its rigid body (cut_areas_of(), chords.hpp). Empty: no discs of bodies overlap.
   std::vector<double> cut_areas{};
 
   std::vector<Membrane> membranes{};
@@ -141,23 +137,12 @@ struct Fluid {
   /// True if both particles are beads of one membrane. They make no contact with each other.
   bool are_of_one_membrane(std::int32_t first, std::int32_t second) const;
   bool has_inertia() const { return density > 0; }
-  bool is_plate(std::size_t k) const { return !plates.empty() && plates[k] != 0; }
-  /// True if particle k is neither a disc nor a plate.
-  bool is_ellipse(std::size_t k) const {
-    return !semi_axes.empty() && semi_axes[k][0] != semi_axes[k][1] && !is_plate(k);
+  /// Area of particle k of the shape `shape` [L^2], without its cut area, or volume of a sphere
+  /// [L^3].
+  double size_of(const Shape& shape, std::size_t k) const {
+    assert(cut_areas.empty() || k < cut_areas.size());
+    return shape.measure() - (cut_areas.empty() ? 0 : cut_areas[k]);
   }
-  /// True if particle k is a disc or a sphere.
-  bool is_disc(std::size_t k) const { return !is_plate(k) && !is_ellipse(k); }
-  /// The radius [L] of the round ends of a plate, otherwise `radius` [L].
-  double end_radius(std::size_t k, double radius) const {
-    return is_plate(k) ? semi_axes[k][1] : radius;
-  }
-  /// Area [L^2] of particle k without its cut area, if `dimension` is 2, or volume [L^3] of a
-  /// sphere on the axis, if it is 1. `radius` [L] is used for discs and spheres only.
-  double size_of(int dimension, std::size_t k, double radius) const;
-  /// Moment of inertia [M L^2] of particle k in the plane, if its mass [M] is evenly distributed.
-  /// `radius` [L] is used for discs only.
-  double homogeneous_inertia_of(std::size_t k, double mass, double radius) const;
 };
 
 }  // namespace viscontact::particles

@@ -1,10 +1,32 @@
-// Rotations by unit quaternions.
+// Shapes at their places, and rotations by unit quaternions.
 #include "viscontact/particles/state/particles.hpp"
 
 #include <cassert>
 #include <cmath>
 
 namespace viscontact::particles {
+
+PlacedShape Particles::placed_shape(std::size_t k, std::span<const double> at_angles,
+                                    const Vector& shift) const {
+  assert(k < count() && dimension < 3);
+  const Vector x = position(k) + shift;
+  const Vector2 centre = dimension == 1 ? Vector2{0, x[0]} : Vector2{x[0], x[1]};
+  if (is_round(k)) return {shape(k), centre};
+  assert(k < at_angles.size());
+  return PlacedShape::at_angle(shapes[k], centre, at_angles[k]);
+}
+
+std::vector<Shape> shapes_of(const Particles& particles) {
+  std::vector<Shape> shapes;
+  for (std::size_t k = 0; k < particles.count(); ++k) shapes.push_back(particles.shape(k));
+  return shapes;
+}
+
+void add_missing_shapes(Particles& particles) {
+  if (particles.shapes.empty()) return;
+  for (auto k = particles.shapes.size(); k < particles.count(); ++k)
+    particles.shapes.push_back(Shape::disc(particles.radii[k]));
+}
 
 Quaternion turned(const Quaternion& from, const Vector& turn) {
   const double angle = norm(turn);
@@ -54,8 +76,7 @@ void add_rotation(Particles& particles) {
   else
     particles.angles.resize(count, 0.0);
   for (std::size_t k = particles.inertias.size(); k < count; ++k)
-    particles.inertias.push_back(
-        homogeneous_inertia(particles.dimension, particles.masses[k], particles.radii[k]));
+    particles.inertias.push_back(particles.shape(k).inertia(particles.masses[k]));
 }
 
 }  // namespace viscontact::particles

@@ -1,4 +1,4 @@
-// Particles of a simulation, rigid discs or spheres, and their rotation.
+// Particles of a simulation, their shapes and their rotation.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "viscontact/particles/domain/periods.hpp"
+#include "viscontact/particles/shapes/distance.hpp"
 #include "viscontact/particles/state/rigid_bodies.hpp"
 #include "viscontact/particles/values/vector.hpp"
 
@@ -24,7 +25,8 @@ struct Particles {
   int dimension = 2;
   std::vector<double> positions;   ///< centres [L]
   std::vector<double> velocities;  ///< of the centres [L/T]
-  std::vector<double> radii;       ///< [L], > 0
+  /// Radii of discs and spheres, bounding radii of other shapes [L], > 0.
+  std::vector<double> radii;
   std::vector<double>
       masses;  ///< [M], of discs in a fluid [M/L]; > 0; in a fluid or if the motion is given >= 0
   /// Id of each particle, its name in the user's files, >= 0; no two are equal. Empty: particle k
@@ -40,6 +42,9 @@ struct Particles {
   std::vector<double> angular_velocities{};
   /// Moments of inertia, one for each particle: [M L^2], of discs in a fluid [M L].
   std::vector<double> inertias{};
+  /// Shape of each particle in the plane, from the case; the restart file does not store them. Empty:
+  /// all particles are discs or spheres.
+  std::vector<Shape> shapes{};
   /// The cell says how images of particles are shifted. A simulation takes it from its setting; the
   /// restart file does not store it.
   PeriodicCell cell{};
@@ -68,6 +73,25 @@ struct Particles {
   }
   /// Centre of particle k [L].
   Vector position(std::size_t k) const { return point_of(positions.data(), k, dimension); }
+  Shape shape(std::size_t k) const {
+    assert(shapes.empty() || k < shapes.size());
+    if (!shapes.empty()) return shapes[k];
+    return dimension == 2 ? Shape::disc(radii[k]) : Shape::sphere(radii[k]);
+  }
+  /// True if the outline of particle k is a circle, so that a turn does not change it.
+  bool is_round(std::size_t k) const { return shapes.empty() || shapes[k].is_round(); }
+  /// True if the outline of a particle is no circle.
+  bool has_other_shapes() const {
+    return std::ranges::any_of(shapes, [](const Shape& shape) { return !shape.is_round(); });
+  }
+  /// The shape of particle k at its place, which `shift` [L] is added to, or of a sphere on the axis
+  /// with its centre at (0, z). Particles that are not round must have angles.
+  PlacedShape placed_shape(std::size_t k, const Vector& shift = {}) const {
+    return placed_shape(k, angles, shift);
+  }
+  /// The same with other angles of all particles [rad].
+  PlacedShape placed_shape(std::size_t k, std::span<const double> at_angles,
+                           const Vector& shift = {}) const;
   /// Velocity of particle k [L/T].
   Vector velocity(std::size_t k) const { return point_of(velocities.data(), k, dimension); }
 };
@@ -106,34 +130,10 @@ inline double homogeneous_inertia(int dimension, double mass, double radius) {
   return (dimension == 3 ? 0.4 : 0.5) * mass * radius * radius;
 }
 
-inline double size_of_ellipse(const std::array<double, 2>& semi_axes) {
-  return size_of_particle(2, 1) * semi_axes[0] * semi_axes[1];
-}
+std::vector<Shape> shapes_of(const Particles& particles);
 
-/// Moment of inertia of a homogeneous ellipse about its centre, m (a^2 + b^2)/4 [M L^2].
-inline double homogeneous_inertia_of_ellipse(double mass, const std::array<double, 2>& semi_axes) {
-  return mass / 4 * (semi_axes[0] * semi_axes[0] + semi_axes[1] * semi_axes[1]);
-}
-
-/// Area [L^2] of a plate of the length 2 semi_axes[0] with round ends of the radius semi_axes[1]
-/// [L].
-inline double size_of_plate(const std::array<double, 2>& semi_axes) {
-  assert(semi_axes[0] >= semi_axes[1]);
-  const auto [a, b] = semi_axes;
-  return size_of_particle(2, b) + 4 * (a - b) * b;
-}
-
-/// Moment of inertia of a homogeneous plate about its centre [M L^2]. It is the sum of those of a
-/// rectangle with the half sides l = a - b and b, and of two half discs, whose centroids are 4 b/(3
-/// pi) beyond the ends of the rectangle.
-inline double homogeneous_inertia_of_plate(double mass, const std::array<double, 2>& semi_axes) {
-  assert(semi_axes[0] >= semi_axes[1] && semi_axes[1] > 0);
-  const auto [a, b] = semi_axes;
-  const double l = a - b, discs = size_of_particle(2, b), rectangle = 4 * l * b;
-  const double of_rectangle = (l * l + b * b) / 3;
-  const double of_discs = b * b / 2 + l * l + 2 * l * (4 * b * b * b / 3) / discs;
-  return mass / (discs + rectangle) * (rectangle * of_rectangle + discs * of_discs);
-}
+/// Extends Particles::shapes, if it is not empty, to all particles: the others are discs.
+void add_missing_shapes(Particles& particles);
 
 /// Extends the arrays of rotation to all discs or spheres, so that all can turn. Existing entries
 /// stay. The new entries say that a particle does not turn, has not turned since the start, and has

@@ -120,7 +120,7 @@ void sum_members(const Particles& p, const RigidBodyRequest& request, RigidBody&
     add_point_mass(body.inertia, masses[m], offset);
     const double own = p.masses[k] > 0 && !p.inertias.empty()
                            ? p.inertias[k] * (masses[m] / p.masses[k])
-                           : homogeneous_inertia(p.dimension, masses[m], p.radii[k]);
+                           : p.shape(k).inertia(masses[m]);
     for (const std::size_t i : {0U, 4U, 8U}) body.inertia[i] += own;
     turning = turning + masses[m] * cross(offset, image.velocity - body.velocity) +
               own * turn_of(p.angular_velocities, k, p.dimension);

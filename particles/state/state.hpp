@@ -32,9 +32,8 @@ struct Pair {
   std::int32_t image = 0;
   /// Row in State::memories; kNone if laws remember nothing besides gamma.
   std::int32_t memory = PairMemories::kNone;
-  /// Plates with round ends may have two contacts. At an obstacle it is the end, 0 or 1, of the
-  /// plate; between two plates it is a place of SpineContacts (outline.hpp), 0 to 3; otherwise it
-  /// is 0.
+  /// Number of the contact, if the two may have several (ShapeContacts, WallContacts); 0 for discs
+  /// and spheres.
   std::int32_t place = 0;
   std::size_t plane() const { return static_cast<std::size_t>(-1 - first); }
   bool operator==(const Pair&) const = default;

@@ -2,13 +2,12 @@
 #include "viscontact/particles/steps/current_contacts.hpp"
 
 #include <algorithm>
-#include <cassert>
 
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/contact/contact.hpp"
+#include "viscontact/particles/contact/shaped_contacts.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
-#include "viscontact/particles/setting/outline.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -31,46 +30,35 @@ Place place_of(const Particles& p, const Pair& pair, std::span<const PlanePositi
   return place;
 }
 
-/// The place of a pair in a fluid with ellipses or plates. Two plates make contact as circles about
-/// the nearest points of their spines. At an obstacle Pair::place is the end of the spine that
-/// makes contact.
-Place place_of_outlines(const Fluid& fluid, const Particles& p, const Pair& pair,
-                        std::span<const PlanePosition> places) {
-  const auto outline = [&](std::int32_t k, const Vector& shift = {}) {
-    return outline_of(fluid, p, p.angles, index_of(k), shift);
-  };
-  const auto vector = [](const std::array<double, 2>& x) { return Vector{x[0], x[1], 0}; };
-  if (pair.first < 0) {
-    const auto second = outline(pair.second);
-    const auto& obstacle = places[pair.plane()];
-    if (!second.is_plate) {
-      Place place{gap(obstacle, second), normal_at(obstacle, vector(second.centre))};
-      place.branch = (place.gap + second.radius) * place.normal;
-      return place;
-    }
-    assert(pair.place == 0 || pair.place == 1);
-    const Vector end = vector(second.spine()[index_of(pair.place)]);
-    Place place{gap(obstacle, end, second.end_radius()), normal_at(obstacle, end)};
-    place.branch = vector(second.centre) - end + (place.gap + second.end_radius()) * place.normal;
-    return place;
-  }
-  const auto first = outline(pair.first),
-             second = outline(pair.second, shift_of(p.cell, pair.image));
-  const auto near = SpineContacts(first, second).at(pair.place, first, second);
-  const Vector apart = vector(near.second) - vector(near.first);
-  const double distance = norm(apart);
-  return {
-      pair.place == 0 ? gap(first, second) : distance - first.end_radius() - second.end_radius(),
-      distance > 0 ? (1 / distance) * apart : Vector{1, 0, 0},
-      vector(second.centre) - vector(first.centre)};
+/// The same for particles of any shape in the plane.
+Place place_of_shapes(const Particles& p, const Pair& pair, std::span<const PlanePosition> places) {
+  const auto vector = [](const Vector2& x) { return Vector{x[0], x[1], 0}; };
+  const auto contact = ShapedContacts(p, pair, places).at(p, pair, places);
+  Vector branch = p.position(index_of(pair.second));
+  if (pair.first < 0)
+    branch = branch - vector(contact.on_obstacle);
+  else
+    branch = branch + shift_of(p.cell, pair.image) - p.position(index_of(pair.first));
+  return {contact.gap, vector(contact.normal), branch};
 }
 
-Place place_of(const Setting& setting, const Particles& p, const Pair& pair,
-               std::span<const PlanePosition> places) {
-  if (setting.fluid && !setting.fluid->semi_axes.empty())
-    return place_of_outlines(*setting.fluid, p, pair, places);
+Place place_of(const Particles& p, const Pair& pair, std::span<const PlanePosition> places) {
+  if (!p.shapes.empty()) return place_of_shapes(p, pair, places);
   if (p.dimension == 1) return place_of<1>(p, pair, places);
   return p.dimension == 2 ? place_of<2>(p, pair, places) : place_of<3>(p, pair, places);
+}
+
+/// The gap of a particle and an obstacle.
+double gap_of(const Particles& p, std::size_t k, const PlanePosition& place) {
+  return p.is_round(k) ? gap(place, p.position(k), p.radii[k]) : gap(place, p.placed_shape(k));
+}
+
+/// The gap of two particles, of which the second may be a periodic image.
+double gap_of(const Particles& p, const ClosePair& pair) {
+  const auto i = index_of(pair.first), j = index_of(pair.second);
+  if (!p.is_round(i) || !p.is_round(j))
+    return gap(p.placed_shape(i), p.placed_shape(j, shift_of(p.cell, pair.image)));
+  return place_of(p, {pair.first, pair.second, 0, 0, 0, pair.image}, {}).gap;
 }
 
 /// The pairs of a particle and a particle or periodic image whose circles overlap. The time grows
@@ -122,20 +110,14 @@ double largest_overlap(const Setting& setting, const State& state) {
                          ? close_pairs_in_period(p.cell, p.positions, p.radii, pool)
                          : close_pairs(p.dimension, p.positions, p.radii, pool);
   for (const auto& pair : close)
-    if (!p.are_joined(pair.first, pair.second))
-      smallest = std::min(
-          smallest, place_of(setting, p, {pair.first, pair.second, 0, 0, 0, pair.image}, {}).gap);
+    if (!p.are_joined(pair.first, pair.second)) smallest = std::min(smallest, gap_of(p, pair));
   const auto places = positions_of(obstacles_of(setting, state.planes), state.time);
   for (std::size_t w = 0; w < places.size(); ++w)
     for (std::size_t k = 0; k < p.count(); ++k)
       // The circle with the radius of a particle contains the particle, so that the gap of the
       // circle is at most that of the particle.
       if (gap(places[w], p.position(k), p.radii[k]) < smallest)
-        for (const std::int32_t end : {0, 1}) {
-          Pair pair{-1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k)};
-          pair.place = end;
-          smallest = std::min(smallest, place_of(setting, p, pair, places).gap);
-        }
+        smallest = std::min(smallest, gap_of(p, k, places[w]));
   return (0 - smallest) / mean_radius(p);  // the subtraction returns 0 instead of -0
 }
 
@@ -155,7 +137,7 @@ std::vector<CurrentContact> contacts_of(const Setting& setting, const State& sta
                           (setting.fluid ? setting.fluid->threshold_gap : 0);
   for (const auto* pairs : {&state.pairs, &state.walls})
     for (const auto& pair : *pairs) {
-      const auto [gap, normal, branch] = place_of(setting, p, pair, places);
+      const auto [gap, normal, branch] = place_of(p, pair, places);
       const auto& memory = state.memories.of(pair.memory);
       const bool has_force = pair.impulse != 0 || norm(memory.friction()) > 0;
       if (!(pair.gamma < 0 || gap <= touching || has_force)) continue;

@@ -17,9 +17,14 @@
 namespace viscontact::reduced_model {
 namespace {
 
-/// Number of samples in a period of the fastest sinusoid, in the search for changes of sign. Two
-/// changes between two neighbouring samples are missed; more samples take longer.
-constexpr int kSamplesPerPeriod = 32;
+/// Free choices of the search for changes of sign.
+struct SignChangeTuning {
+  // In a period of the fastest sinusoid. Two changes between two neighbouring samples are missed;
+  // more samples take longer.
+  static constexpr int kSamplesPerPeriod = 32;
+  // Each sample takes about 50 ns.
+  static constexpr double kMostSamples = 1e6;
+};
 
 double sine(const ExternalForce::Sinusoid& s, double time) {
   return s.amplitude * std::sin(s.angular_frequency * time + s.phase);
@@ -213,12 +218,12 @@ std::vector<double> ExternalForce::sign_changes(double end) const {
     if (sign != 0 && last_sign != 0 && sign != last_sign) changes.push_back(time);
     if (sign != 0) last_sign = sign;
   };
-  constexpr double kMostSamples = 1e6;  // each sample takes about 50 ns
-  if (fastest * end / (2 * std::numbers::pi) * kSamplesPerPeriod > kMostSamples)
+  if (fastest * end / (2 * std::numbers::pi) * SignChangeTuning::kSamplesPerPeriod >
+      SignChangeTuning::kMostSamples)
     throw Error(ErrorKind::kNotConverged,
                 "the external force has an angular frequency of {}, which makes more periods until "
                 "time {} than can be followed; at most {:.0e} are allowed",
-                fastest, end, kMostSamples / kSamplesPerPeriod);
+                fastest, end, SignChangeTuning::kMostSamples / SignChangeTuning::kSamplesPerPeriod);
   for (std::size_t i = 0; i < pieces_.size() && pieces_[i].from < end; ++i) {
     const double from = pieces_[i].from;
     const double to = i + 1 < pieces_.size() ? std::min(end, pieces_[i + 1].from) : end;
@@ -236,8 +241,9 @@ std::vector<double> ExternalForce::sign_changes(double end) const {
       for (const double tau : polynomial::turning_points(coefficients, to - from))
         stops.push_back(from + tau);
     } else {
-      const int samples = kSamplesPerPeriod + static_cast<int>(kSamplesPerPeriod * (to - from) *
-                                                               fastest / (2 * std::numbers::pi));
+      const int samples = SignChangeTuning::kSamplesPerPeriod +
+                          static_cast<int>(SignChangeTuning::kSamplesPerPeriod * (to - from) *
+                                           fastest / (2 * std::numbers::pi));
       for (int n = 1; n < samples; ++n) stops.push_back(from + (to - from) * n / samples);
     }
     stops.push_back(to);

@@ -36,6 +36,20 @@ int print_no_errors([[maybe_unused]] SUNContext context, [[maybe_unused]] void* 
 // A positive return value tells CVODE to try again with a smaller step.
 constexpr int kTryAgain = 1;
 
+/// Free choices of the integration.
+struct CvodeTuning {
+  // By default CVODE keeps a Jacobian for up to 51 steps. When the stiffness falls by several
+  // powers of ten within a few steps, as in a film that opens, an old Jacobian makes Newton's
+  // corrections vanish, and a wrong state is accepted as a solution. A new Jacobian at each step
+  // costs almost nothing here.
+  static constexpr int kStepsOfAJacobian = 1;
+  // Without this limit, CVODE would make tiny steps for ever if the solution diverges.
+  static constexpr long kMostSteps = 1'000'000;
+  // CVODE has got no further since an Error of the system if the time that it reached exceeds the
+  // time of the Error by at most this fraction, far above the rounding error of a time.
+  static constexpr double kNoWay = 1e-9;
+};
+
 }  // namespace
 
 // The objects of SUNDIALS, each after the objects that it depends on, and the functions that CVODE
@@ -89,12 +103,10 @@ Cvode::Cvode(StiffSystem system, std::span<const double> state)
   check(CVodeSetMaxHnilWarns(s.memory, -1), "CVodeSetMaxHnilWarns");
   check(CVodeSetLinearSolver(s.memory, s.solver.get(), s.matrix.get()), "CVodeSetLinearSolver");
   check(CVodeSetJacFn(s.memory, Sundials::jacobian), "CVodeSetJacFn");
-  // By default CVODE keeps a Jacobian for up to 51 steps. When the stiffness falls by several
-  // powers of ten within a few steps, as in a film that opens, an old Jacobian makes Newton's
-  // corrections vanish, and a wrong state is accepted as a solution. A new Jacobian at each step
-  // costs almost nothing here.
-  check(CVodeSetLSetupFrequency(s.memory, 1), "CVodeSetLSetupFrequency");
-  check(CVodeSetJacEvalFrequency(s.memory, 1), "CVodeSetJacEvalFrequency");
+  check(CVodeSetLSetupFrequency(s.memory, CvodeTuning::kStepsOfAJacobian),
+        "CVodeSetLSetupFrequency");
+  check(CVodeSetJacEvalFrequency(s.memory, CvodeTuning::kStepsOfAJacobian),
+        "CVodeSetJacEvalFrequency");
 }
 
 Cvode::~Cvode() = default;
@@ -126,18 +138,15 @@ void Cvode::restart(double time, double stop_time, double first_step) {
 void Cvode::step() {
   const double before = time_;
   int code = CVode(sundials_->memory, stop_time_, sundials_->state.get(), &time_, CV_ONE_STEP);
-  // Without this limit, CVODE would make tiny steps for ever if the solution diverges.
-  constexpr long kMostSteps = 1'000'000;
-  if (code >= 0 && (!(time_ > before) || ++steps_since_restart_ > kMostSteps))
+  if (code >= 0 && (!(time_ > before) || ++steps_since_restart_ > CvodeTuning::kMostSteps))
     code = CV_TOO_MUCH_WORK;
   if (code < 0 && system_error_) {
     // CVODE reports its own last failure only. The Error that the system threw is the cause if
-    // CVODE has got no further since: the time that it reached may exceed the time of the Error by
-    // at most the fraction kNoWay, far above the rounding error of a time.
-    constexpr double kNoWay = 1e-9;
+    // CVODE has got no further since.
     double reached = 0;
     check(CVodeGetCurrentTime(sundials_->memory, &reached), "CVodeGetCurrentTime");
-    if (reached <= system_error_time_ * (1 + kNoWay)) std::rethrow_exception(system_error_);
+    if (reached <= system_error_time_ * (1 + CvodeTuning::kNoWay))
+      std::rethrow_exception(system_error_);
   }
   check(code, "CVode");
 }

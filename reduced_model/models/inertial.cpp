@@ -13,6 +13,7 @@
 #include "viscontact/common/root_finding.hpp"
 #include "viscontact/reduced_model/external_force/polynomial.hpp"
 #include "viscontact/reduced_model/integration/cvode.hpp"
+#include "viscontact/reduced_model/models/contact/rebound.hpp"
 #include "viscontact/reduced_model/models/inertial_equation.hpp"
 
 namespace viscontact::reduced_model {
@@ -86,7 +87,7 @@ class InertialRun {
             continue;
           }
           cvode_.set_state(std::array{equation_.state_of(film)});
-          restart(InertialEquation::kTimeResolution * now_);
+          restart(InertialTuning::kTimeResolution * now_);
         }
       }
       if (ended_) break;
@@ -111,11 +112,8 @@ class InertialRun {
     const double restitution = motion_.restitution();
     double after = -restitution * before;
     const double pull = motion_.external_force.value(now_);
-    // A flight that is shorter than this part of end_time counts as rest. viscous_contact_exact.cpp
-    // has the same constant.
-    constexpr double kShortestFlight = 1e-6;
-    rests_ =
-        !(after > 0) || (pull < 0 && 2 * m * after < -pull * kShortestFlight * motion_.end_time);
+    rests_ = !(after > 0) || (pull < 0 && 2 * m * after < -pull * BounceTuning::kShortestOfMotion *
+                                                              motion_.end_time);
     if (rests_) after = 0;
     equation_.add_impulse(m * (after - velocity_at_solids()));
     solid_impulse_ += m * (after - before);
@@ -226,9 +224,7 @@ class InertialRun {
   /// Until the time `end` in the last step of CVODE, at which the state is `now`. If the velocity
   /// changes its sign, there is a row at the time of the change.
   void add_rows_of_step(double end, const InertialInstant& now) {
-    // If the step has more rows than this, the expansion of s in powers of the time takes less time
-    // than at() for each row.
-    constexpr std::ptrdiff_t kManyRows = 8;
+    constexpr auto kManyRows = InertialTuning::kManyRows;
     const bool many = times_.end() - next_row_ > kManyRows && *(next_row_ + kManyRows) < end;
     const std::vector<double> expansion = many ? cvode_.expansion() : std::vector<double>();
     const auto instant = [&](double t) {

@@ -47,21 +47,15 @@ StiffSystem InertialEquation::system(const double& step_begin) const {
     const double q = gap_of(y[0]);
     jacobian[0] = -force_.resistance(q) / motion_.mass - slope(t, q);
   };
-  // s is a logarithm, so that its absolute error is the relative error of the gap. A step may only
-  // have the fraction kShare of the tolerance of the user, because the errors of earlier steps add
-  // to its error. In free flight the film damps errors so slowly that they do not decay before the
-  // motion ends. Moreover, a landing, in which ln q changes fast, multiplies errors. Therefore, a
-  // step in free flight may only have the fraction kFlightShare of the error of other steps.
-  // simulate_inertial() states kShare and the product of both.
+  // s is a logarithm, so that its absolute error is the relative error of the gap.
   system.tolerance = [this](double t, std::span<const double> y, std::span<double> allowed) {
-    constexpr double kShare = 0.1, kFlightShare = 3e-4;
-    // If the motion lasts more than this many damping times, errors decay before it ends.
-    constexpr double kManyDampings = 10;
-    constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
     const double q = gap_of(y[0]);
     const double damping = force_.resistance(q) / motion_.mass + slope(t, q);
-    const double share = damping * motion_.end_time > kManyDampings ? 1 : kFlightShare;
-    allowed[0] = share * (kShare * relative_tolerance_) + kRounding * std::abs(y[0]);
+    const double share = damping * motion_.end_time > InertialTuning::kManyDampings
+                             ? 1
+                             : InertialTuning::kFlightShare;
+    allowed[0] = share * (InertialTuning::kShare * relative_tolerance_) +
+                 InertialTuning::kRounding * std::abs(y[0]);
   };
   return system;
 }
@@ -75,11 +69,8 @@ InertialInstant InertialEquation::instant(double t, double gap, double force_tim
   const double momentum_error = (kEpsilon * (std::abs(momentum(t)) + std::abs(absorbed)) +
                                  relative_tolerance_ * resistance * q) /
                                 m;
-  // If m times the velocity is more than kMuchInertia times R q, and the velocity from the momentum
-  // has at least three exact digits, this velocity is more exact than that from the balance below.
-  constexpr double kMuchInertia = 1e-2;
-  if (m * std::abs(by_momentum) > kMuchInertia * resistance * q &&
-      std::abs(by_momentum) > 1e3 * momentum_error)
+  if (m * std::abs(by_momentum) > InertialTuning::kMuchInertia * resistance * q &&
+      std::abs(by_momentum) > InertialTuning::kExactMomentum * momentum_error)
     return {q, by_momentum, momentum_error, resistance};
   // With little inertia the velocity follows from the balance of drag and force. The rest of an
   // earlier velocity is missing in this balance, but not in the velocity from the momentum.
@@ -92,13 +83,13 @@ InertialInstant InertialEquation::instant(double t, double gap, double force_tim
   const double neglected =
       std::abs(correction) * std::min(1.0, std::abs(correction) / std::abs(balance));
   if (neglected < momentum_error &&
-      std::abs(balance + correction - by_momentum) < 4 * momentum_error)
+      std::abs(balance + correction - by_momentum) < InertialTuning::kAgreement * momentum_error)
     return {q, balance + correction, neglected, resistance};
   return {q, by_momentum, momentum_error, resistance};
 }
 
 double InertialEquation::first_step(double t, double gap) const {
-  const double step = kTimeResolution * t;
+  const double step = InertialTuning::kTimeResolution * t;
   return motion_.mass < step * force_.resistance(gap) ? step : 0;
 }
 
@@ -108,9 +99,10 @@ double InertialEquation::balanced_state(double t, double gap) const {
 }
 
 bool InertialEquation::lands_at_once(double t, const InertialInstant& now, double& film) const {
-  if (!(-now.velocity * kTimeResolution * t > now.gap)) return false;
+  if (!(-now.velocity * InertialTuning::kTimeResolution * t > now.gap)) return false;
   film = force_.gap_of_impulse(momentum(t));
-  return film < now.gap && motion_.mass < kTimeResolution * t * force_.resistance(film);
+  return film < now.gap &&
+         motion_.mass < InertialTuning::kTimeResolution * t * force_.resistance(film);
 }
 
 }  // namespace viscontact::reduced_model

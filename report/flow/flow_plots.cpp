@@ -25,6 +25,53 @@
 namespace viscontact::report {
 namespace {
 
+/// Free choices of the pictures, by eye.
+struct FlowPlotTuning {
+  // Width of a plot, its largest height, and its height if heights are stretched [pixels].
+  static constexpr double kPlotWidth = 640, kTallestPlot = 640, kStretchedPlot = 360;
+  // Margins of the drawing around the plot [pixels].
+  static constexpr double kLeft = 110, kAbove = 66, kBelow = 106;
+  // Margin at the right with the scale of colours and its numbers, and without [pixels].
+  static constexpr double kColourBar = 165, kNoColourBar = 30;
+  // Height of two entries of the legend [pixels].
+  static constexpr double kLegendRow = 20;
+  // Size of a cell of one colour [pixels]. gnuplot's time is proportional to the number of cells.
+  static constexpr double kCell = 1.5;
+
+  // Distance from the sphere's centre in the view of the surroundings, half the size of a fluid
+  // that is shown as a whole, and the margin around it, in radii.
+  static constexpr double kReach = 3.2, kWhole = 6, kMarginOfWhole = 0.15;
+  // Half the width of the view of a gap, in units of sqrt(2 gap radius). At one such unit from the
+  // axis, the film over a plane is twice as thick as on the axis, at 2.5 units 7 times.
+  static constexpr double kGapReach = 2.5;
+  // Largest half width of the view of a gap over the radius.
+  static constexpr double kOfSphere = 0.9;
+  // Margin above and below the gap over its height.
+  static constexpr double kMarginOfGap = 0.08;
+  // Least height over width of a view with equal scales.
+  static constexpr double kFlattest = 0.4;
+  // Stretching of heights from which on the title says it.
+  static constexpr double kVisible = 1.05;
+
+  // Straight pieces of a side on an outline, and intervals of the sphere's outline.
+  static constexpr int kPiecesOfOutline = 6, kSamples = 200;
+  // Straight pieces of a side of the coarsest mesh. A side of the finest mesh is at most a quarter
+  // as long and has a quarter of the pieces.
+  static constexpr int kPiecesOfMesh = 8;
+  // If more sides of the finest mesh are in the view of a gap, the view is made narrower.
+  static constexpr std::size_t kMostSides = 3500;
+  // About this number of streamlines on each side of the axis.
+  static constexpr int kLines = 14;
+  // Length of the arrow on the sphere over the height of the visible part.
+  static constexpr double kArrow = 0.4;
+  // Columns of arrows in the fluid.
+  static constexpr std::size_t kColumns = 24;
+  // Length of the longest of these arrows, and of the shortest that is drawn, in cells.
+  static constexpr double kLongestArrow = 0.9, kShortestArrow = 0.1;
+  // Length of an arrow's head over that of the arrow, and half the angle of the head [rad].
+  static constexpr double kHead = 0.35, kAngle = 0.45;
+};
+
 struct PlotView {
   Window window;
   double plot_width = 0, plot_height = 0;  // [pixels]
@@ -32,14 +79,10 @@ struct PlotView {
   double stretch() const { return plot_height / window.height() / (plot_width / window.width()); }
 };
 
-// Width of a plot, its largest height, and its height if heights are stretched [pixels].
-constexpr double kPlotWidth = 640;
-constexpr double kTallestPlot = 640;
-constexpr double kStretchedPlot = 360;
-
-/// A view with equal scales on both axes, as large as the limits above allow.
+/// A view with equal scales on both axes, as large as the limits of a plot allow.
 PlotView unstretched(const Window& window) {
-  const double scale = std::min(kPlotWidth / window.width(), kTallestPlot / window.height());
+  const double scale = std::min(FlowPlotTuning::kPlotWidth / window.width(),
+                                FlowPlotTuning::kTallestPlot / window.height());
   return {window, window.width() * scale, window.height() * scale};
 }
 
@@ -88,15 +131,15 @@ void add_side(std::vector<Polyline>& lines, const QuadraticMesh& mesh, const Win
   lines.push_back(std::move(line));
 }
 
-/// The whole fluid if it extends at most 6 radii from the axis and is at most 12 radii high, else
-/// the part within 3.2 radii of the sphere's centre.
+/// The whole fluid if it extends at most kWhole radii from the axis and is at most twice as high,
+/// else the part within kReach radii of the sphere's centre.
 PlotView surroundings(const QuadraticMesh& mesh, double radius, double gap) {
-  constexpr double kReach = 3.2, kWhole = 6, kMargin = 0.15;  // in radii
   const Window fluid{0, std::ranges::max(mesh.x), std::min(0.0, std::ranges::min(mesh.y)),
                      std::max(0.0, std::ranges::max(mesh.y))};
-  const double margin = kMargin * radius, centre = gap + radius;
-  const bool whole = fluid.right <= kWhole * radius && fluid.height() <= 2 * kWhole * radius;
-  const double reach = kReach * radius;
+  const double margin = FlowPlotTuning::kMarginOfWhole * radius, centre = gap + radius;
+  const bool whole = fluid.right <= FlowPlotTuning::kWhole * radius &&
+                     fluid.height() <= 2 * FlowPlotTuning::kWhole * radius;
+  const double reach = FlowPlotTuning::kReach * radius;
   return whole ? unstretched({-fluid.right - margin, fluid.right + margin, fluid.bottom - margin,
                               fluid.top + margin})
                : unstretched({-std::min(reach, fluid.right + margin),
@@ -105,30 +148,25 @@ PlotView surroundings(const QuadraticMesh& mesh, double radius, double gap) {
                               std::min(centre + reach, fluid.top + margin)});
 }
 
-/// Half the width of the view of a gap, in units of sqrt(2 gap radius). At one such unit from the
-/// axis, the film over a plane is twice as thick as on the axis, at 2.5 units 7 times.
-constexpr double kGapReach = 2.5;
-
 /// A view of the gap on both sides of the axis. Its half width is `reach` times the unit of
-/// kGapReach, but at most 0.9 radii, and at least half of its height. Heights are stretched if the
-/// gap would be too flat at equal scales.
-PlotView gap_view(const QuadraticMesh& mesh, double radius, double gap, double reach = kGapReach) {
+/// kGapReach, but at most kOfSphere radii, and at least half of its height. Heights are stretched
+/// if the gap would be too flat at equal scales.
+PlotView gap_view(const QuadraticMesh& mesh, double radius, double gap,
+                  double reach = FlowPlotTuning::kGapReach) {
   assert(radius > 0 && gap > 0);
-  constexpr double kOfSphere = 0.9;  // largest half width of the view over the radius
-  constexpr double kMargin = 0.08;   // above and below the gap, over the height of the gap
-  constexpr double kFlattest = 0.4;  // least height over width of a view with equal scales
-  const double half = std::min(reach * std::sqrt(2 * gap * radius), kOfSphere * radius);
+  const double half =
+      std::min(reach * std::sqrt(2 * gap * radius), FlowPlotTuning::kOfSphere * radius);
   const double top = sphere_bottom(radius, gap, half);
   double bottom = 0;
   for (std::size_t i = 0; i < mesh.x.size(); ++i)
     if (mesh.x[i] < half && mesh.y[i] > -top) bottom = std::min(bottom, mesh.y[i]);
-  const double margin = kMargin * (top - bottom);
+  const double margin = FlowPlotTuning::kMarginOfGap * (top - bottom);
   Window window{-half, half, bottom - margin, top + margin};
   const double widest = std::max(half, window.height() / 2);
   window.left = -widest;
   window.right = widest;
-  if (window.height() > kFlattest * window.width()) return unstretched(window);
-  return {window, kPlotWidth, kStretchedPlot};
+  if (window.height() > FlowPlotTuning::kFlattest * window.width()) return unstretched(window);
+  return {window, FlowPlotTuning::kPlotWidth, FlowPlotTuning::kStretchedPlot};
 }
 
 /// The lines and their mirror images at rho < 0 as one curve, in which a NaN separates two lines.
@@ -160,19 +198,18 @@ std::vector<Curve> outlines(const freefem_axi::RowPicture& picture, const PlotVi
                             double radius) {
   const double gap = picture.gap;
   const auto& window = view.window;
-  constexpr int kPieces = 6, kSamples = 200;
   std::vector<Polyline> walls, shear_free;
   for (const auto& edge : picture.boundary) {
     if (edge.kind == freefem_axi::BoundaryKind::kWall ||
         edge.kind == freefem_axi::BoundaryKind::kShearFree)
       add_side(edge.kind == freefem_axi::BoundaryKind::kShearFree ? shear_free : walls,
-               picture.flow, window, edge.nodes, kPieces);
+               picture.flow, window, edge.nodes, FlowPlotTuning::kPiecesOfOutline);
   }
   Curve sphere{
       "", "filledcurves closed fillcolor rgb '#8c8c8c' fillstyle solid border rgb '#000000'", {}};
   const double half = window.right < radius ? std::asin(window.right / radius) : std::numbers::pi;
-  for (int i = 0; i <= kSamples; ++i) {
-    const double angle = half * (2.0 * i / kSamples - 1);
+  for (int i = 0; i <= FlowPlotTuning::kSamples; ++i) {
+    const double angle = half * (2.0 * i / FlowPlotTuning::kSamples - 1);
     sphere.points.emplace_back(radius * std::sin(angle), gap + radius * (1 - std::cos(angle)));
   }
   if (half < std::numbers::pi) {
@@ -190,18 +227,13 @@ std::vector<Curve> outlines(const freefem_axi::RowPicture& picture, const PlotVi
   return curves;
 }
 
-// Margins of the drawing around the plot [pixels].
-constexpr double kLeft = 110, kAbove = 66, kBelow = 106;
-constexpr double kColourBar = 165;  // at the right, with the numbers of the colours
-constexpr double kNoColourBar = 30;
-
 /// gnuplot's command for an arrow on the visible part of the sphere, upwards for a velocity > 0.
 std::string velocity_arrow(const freefem_axi::RowPicture& row, double radius,
                            const Window& window) {
-  constexpr double kLength = 0.4;  // over the height of the visible part
   const double top = std::min(row.gap + 2 * radius, window.top);
   const double middle = (row.gap + top) / 2;
-  const double half = std::copysign(kLength / 2 * (top - row.gap), row.reference_velocity);
+  const double half =
+      std::copysign(FlowPlotTuning::kArrow / 2 * (top - row.gap), row.reference_velocity);
   return fmt::format(
       "set arrow from 0,{:.9g} to 0,{:.9g} front filled linewidth 4 linecolor rgb 'white'",
       middle - half, middle + half);
@@ -211,9 +243,9 @@ std::string velocity_arrow(const freefem_axi::RowPicture& row, double radius,
 std::vector<std::string> layout(const PlotView& view, double right, double below, double width,
                                 double height) {
   return {"unset grid", "set border linewidth 1 back", "set tics out nomirror",
-          fmt::format("set lmargin at screen {:.6f}", kLeft / width),
+          fmt::format("set lmargin at screen {:.6f}", FlowPlotTuning::kLeft / width),
           fmt::format("set rmargin at screen {:.6f}", 1 - right / width),
-          fmt::format("set tmargin at screen {:.6f}", 1 - kAbove / height),
+          fmt::format("set tmargin at screen {:.6f}", 1 - FlowPlotTuning::kAbove / height),
           fmt::format("set bmargin at screen {:.6f}", below / height),
           fmt::format("set xrange [{:.9g}:{:.9g}]", view.window.left, view.window.right),
           fmt::format("set yrange [{:.9g}:{:.9g}]", view.window.bottom, view.window.top),
@@ -233,32 +265,32 @@ std::string motion_in_words(lubrication::MotionKind motion) {
                                        : ", spinning at angular velocity";
 }
 
-/// The title says how many times heights are stretched if that is more than 1.05 times.
+/// The title says how many times heights are stretched if that can be seen.
 Panel empty_panel(const std::string& what, const freefem_axi::RowPicture& picture,
                   const freefem_axi::Tabulation& tabulation, const PlotView& view) {
-  constexpr double kVisible = 1.05;
   Panel panel;
   const auto container = freefem_axi::container_in_words(tabulation);
   panel.title = fmt::format(
       "{} {:.6g} of a sphere of radius {:.6g}{} {:.6g}{}\n{}{}", what, picture.gap,
       tabulation.radius, motion_in_words(picture.motion), picture.reference_velocity,
-      view.stretch() > kVisible ? fmt::format(" (heights stretched {:.3g} times)", view.stretch())
-                                : "",
+      view.stretch() > FlowPlotTuning::kVisible
+          ? fmt::format(" (heights stretched {:.3g} times)", view.stretch())
+          : "",
       freefem_axi::geometry_in_words(tabulation), container == "none" ? "" : "; " + container);
   panel.x_label = "distance from the axis (the case's unit of length)";
   panel.y_label = "height (the case's unit of length)";
   return panel;
 }
 
-/// The SVG. The margin below grows by 20 pixels for every two entries of the legend.
+/// The SVG. The margin below grows with every two entries of the legend.
 std::string draw(Panel panel, const PlotView& view, double right, const StopToken& stop) {
-  constexpr double kLegendRow = 20;
   const auto legends =
       std::ranges::count_if(panel.curves, [](const Curve& curve) { return !curve.legend.empty(); });
   const auto legend_rows = legends / 2;
-  const double below = kBelow + kLegendRow * static_cast<double>(legend_rows);
-  const double width = kLeft + view.plot_width + right;
-  const double height = kAbove + view.plot_height + below;
+  const double below =
+      FlowPlotTuning::kBelow + FlowPlotTuning::kLegendRow * static_cast<double>(legend_rows);
+  const double width = FlowPlotTuning::kLeft + view.plot_width + right;
+  const double height = FlowPlotTuning::kAbove + view.plot_height + below;
   auto settings = layout(view, right, below, width, height);
   settings.insert(settings.end(), panel.settings.begin(), panel.settings.end());
   panel.settings = std::move(settings);
@@ -275,10 +307,8 @@ struct ViewedFlow {
 
 /// The grid of the right half (rho > 0) of the view.
 Grid grid_of_view(const PlotView& view) {
-  // Size of a cell [pixels]. gnuplot's time is proportional to the number of cells.
-  constexpr double kCell = 1.5;
-  const auto columns = static_cast<std::size_t>(view.plot_width / 2 / kCell);
-  const auto rows = static_cast<std::size_t>(view.plot_height / kCell);
+  const auto columns = static_cast<std::size_t>(view.plot_width / 2 / FlowPlotTuning::kCell);
+  const auto rows = static_cast<std::size_t>(view.plot_height / FlowPlotTuning::kCell);
   const double half_width = view.window.right / static_cast<double>(columns) / 2;
   const double half_height = view.window.height() / static_cast<double>(rows) / 2;
   return {{half_width, view.window.right - half_width, view.window.bottom + half_height,
@@ -322,14 +352,14 @@ std::pair<double, double> extremes(const QuadraticMesh& mesh, const std::vector<
 }
 
 Curve streamlines(const ViewedFlow& viewed, double radius, double gap) {
-  constexpr int kLines = 14;  // about this number of lines on each side of the axis
   const auto& grid = viewed.grid;
   std::vector<char> is_sphere(grid.size());
   for (std::size_t i = 0; i < is_sphere.size(); ++i)
     is_sphere[i] =
         std::hypot(grid.x(i % grid.columns), grid.y(i / grid.columns) - gap - radius) < radius ? 1
                                                                                                : 0;
-  const auto [lines, step] = StreamLines(grid, true).of(viewed.flow, is_sphere, kLines);
+  const auto [lines, step] =
+      StreamLines(grid, true).of(viewed.flow, is_sphere, FlowPlotTuning::kLines);
   if (lines.empty()) return {};
   std::vector<Polyline> drawn;
   for (const auto& line : lines) drawn.push_back(line.points);
@@ -353,29 +383,27 @@ std::string plot_pressure_and_streamlines(const std::string& what,
   panel.curves.push_back(streamlines(viewed, tabulation.radius, picture.gap));
   std::ranges::move(outlines(picture, view, tabulation.radius), std::back_inserter(panel.curves));
   panel.settings.push_back(velocity_arrow(picture, tabulation.radius, view.window));
-  return draw(panel, view, kColourBar, stop);
+  return draw(panel, view, FlowPlotTuning::kColourBar, stop);
 }
 
 /// Arrows of the velocity in the plane through the axis and the direction of motion. The grid has
 /// the velocity at the right of the axis, where the angle phi about the axis is 0. At the left (phi
 /// = pi), u_z has the other sign; the component to the right is equal. `fastest` is the largest
-/// speed [L/T], whose arrow is 0.9 cells long. Arrows shorter than 0.1 cells are left out.
+/// speed [L/T], whose arrow is the longest. The shortest arrows are left out.
 Curve velocity_arrows(const ViewedFlow& viewed, double fastest) {
   const auto& view = viewed.view;
-  constexpr std::size_t kColumns = 24;
-  // Length of an arrow's head over that of the arrow, and half the angle of the head [rad].
-  constexpr double kHead = 0.35, kAngle = 0.45;
   const auto rows = static_cast<std::size_t>(
-      std::lround(std::max(2.0, kColumns * view.plot_height / view.plot_width)));
+      std::lround(std::max(2.0, FlowPlotTuning::kColumns * view.plot_height / view.plot_width)));
   const auto& window = view.window;
   const auto u_field = colour_field(viewed.flow.velocity_x, viewed.grid, view);
   const auto w_field = colour_field(viewed.flow.velocity_y, viewed.grid, view);
-  const double cell_x = window.width() / kColumns,
+  const double cell_x = window.width() / FlowPlotTuning::kColumns,
                cell_y = window.height() / static_cast<double>(rows);
   std::vector<Polyline> arrows;
-  for (std::size_t i = 0; i < kColumns * rows; ++i) {
-    const std::size_t row = i / kColumns;
-    const double x = window.left + (static_cast<double>(i % kColumns) + 0.5) * cell_x;
+  for (std::size_t i = 0; i < FlowPlotTuning::kColumns * rows; ++i) {
+    const std::size_t row = i / FlowPlotTuning::kColumns;
+    const double x =
+        window.left + (static_cast<double>(i % FlowPlotTuning::kColumns) + 0.5) * cell_x;
     const double y = window.bottom + (static_cast<double>(row) + 0.5) * cell_y;
     const auto pixel = static_cast<std::size_t>((y - window.bottom) / window.height() *
                                                 static_cast<double>(u_field.rows)) *
@@ -386,14 +414,15 @@ Curve velocity_arrows(const ViewedFlow& viewed, double fastest) {
     if (!std::isfinite(u)) continue;
     // The length is proportional to the square root of the speed, so that slow flow can be seen.
     const double speed = std::hypot(u, w);
-    const double length = 0.9 * std::sqrt(speed / fastest);
+    const double length = FlowPlotTuning::kLongestArrow * std::sqrt(speed / fastest);
     const double dx = length * u / speed, dy = length * (x < 0 ? -w : w) / speed;
     const auto place = [&](double along, double across) {
       return std::pair(x + cell_x * (along * dx - across * dy),
                        y + cell_y * (along * dy + across * dx));
     };
-    if (!(length > 0.1)) continue;
-    const double back = 0.5 - kHead * std::cos(kAngle), side = kHead * std::sin(kAngle);
+    if (!(length > FlowPlotTuning::kShortestArrow)) continue;
+    const double back = 0.5 - FlowPlotTuning::kHead * std::cos(FlowPlotTuning::kAngle),
+                 side = FlowPlotTuning::kHead * std::sin(FlowPlotTuning::kAngle);
     arrows.push_back(
         {place(-0.5, 0), place(0.5, 0), place(back, side), place(0.5, 0), place(back, -side)});
   }
@@ -428,18 +457,16 @@ std::string plot_motion(const freefem_axi::RowPicture& picture,
                                 spins ? "azimuthal velocity" : "speed in the plane of motion")};
   if (!spins) panel.curves.push_back(velocity_arrows(viewed, fastest));
   std::ranges::move(outlines(picture, view, tabulation.radius), std::back_inserter(panel.curves));
-  return draw(panel, view, kColourBar, stop);
+  return draw(panel, view, FlowPlotTuning::kColourBar, stop);
 }
 
 std::string plot_mesh(const freefem_axi::RowPicture& picture,
                       const freefem_axi::Tabulation& tabulation, const StopToken& stop) {
-  // A side of the finest mesh is at most a quarter as long and has a quarter of the pieces.
-  constexpr int kPieces = 8;
-  constexpr std::size_t kMostSides = 3500;  // if there are more, the view is made narrower
-  double reach = kGapReach;
+  constexpr int kPieces = FlowPlotTuning::kPiecesOfMesh;
+  double reach = FlowPlotTuning::kGapReach;
   auto view = gap_view(picture.flow, tabulation.radius, picture.gap);
   auto fine = sides(picture.flow, view.window, kPieces / 4);
-  while (fine.size() > kMostSides) {
+  while (fine.size() > FlowPlotTuning::kMostSides) {
     reach /= 2;
     const double right = view.window.right;
     view = gap_view(picture.flow, tabulation.radius, picture.gap, reach);
@@ -458,7 +485,7 @@ std::string plot_mesh(const freefem_axi::RowPicture& picture,
   panel.curves.push_back(mirrored("coarsest mesh", "lines linewidth 1.4 linecolor rgb '#0072B2'",
                                   sides(picture.coarsest, view.window, kPieces)));
   std::ranges::move(outlines(picture, view, tabulation.radius), std::back_inserter(panel.curves));
-  return draw(panel, view, kNoColourBar, stop);
+  return draw(panel, view, FlowPlotTuning::kNoColourBar, stop);
 }
 
 std::string plot_flow(const freefem_axi::RowPicture& picture,

@@ -4,6 +4,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -13,6 +14,21 @@ namespace viscontact::report {
 namespace {
 
 using Index = std::uint32_t;
+
+/// Free choices of the lines and their arrows.
+struct StreamLineTuning {
+  // Least length of a line with an arrow and distance of arrows, over the longer side of the
+  // window.
+  static constexpr double kShort = 0.12, kApart = 0.14;
+  // Shares of the points at which an arrow is tried and the directions of line and flow compared.
+  static constexpr std::array<double, 9> kPlaces = {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9};
+  // Distance of points that are left out from the line, over a step of the grid.
+  static constexpr double kTolerance = 0.1;
+  // Weight of the equation between two neighbouring points that are not both in the fluid.
+  static constexpr double kOutside = 1e-5;
+  // Largest share of points that may have left or entered the fluid without a new factorisation.
+  static constexpr double kNearly = 0.005;
+};
 
 /// A key for a pair of points, which does not depend on their order.
 std::uint64_t pair_key(Index a, Index b) {
@@ -95,16 +111,11 @@ double length_of(const Polyline& line) {
 StreamLine directed(Polyline line, const Grid& grid, const FlowOnGrid& flow,
                     const std::vector<char>& is_body, Polyline& arrows) {
   assert(line.size() >= 2);
-  // Least length of a line with an arrow and distance of arrows, over the longer side of the
-  // window.
-  constexpr double kShort = 0.12, kApart = 0.14;
-  // Shares of the points at which an arrow is tried and the directions of line and flow compared.
-  constexpr std::array<double, 9> kPlaces = {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9};
   const auto at = [&](double share) {
     return static_cast<std::size_t>(share * static_cast<double>(line.size() - 1));
   };
   double along = 0;
-  for (const double share : kPlaces) {
+  for (const double share : StreamLineTuning::kPlaces) {
     const auto i = std::min(at(share), line.size() - 2);
     const auto point = nearest_point(grid, line[i]);
     const double u = flow.velocity_x[point], v = flow.velocity_y[point];
@@ -119,11 +130,11 @@ StreamLine directed(Polyline line, const Grid& grid, const FlowOnGrid& flow,
     return is_body[nearest_point(grid, place)] == 0 &&
            std::ranges::none_of(arrows, [&](const auto& other) {
              return std::hypot(place.first - other.first, place.second - other.second) <
-                    kApart * larger;
+                    StreamLineTuning::kApart * larger;
            });
   };
-  if (length_of(line) > kShort * larger)
-    for (const double share : kPlaces)
+  if (length_of(line) > StreamLineTuning::kShort * larger)
+    for (const double share : StreamLineTuning::kPlaces)
       if (const auto i = at(share); i > 0 && is_free(line[i])) {
         arrow = i;
         arrows.push_back(line[i]);
@@ -131,7 +142,8 @@ StreamLine directed(Polyline line, const Grid& grid, const FlowOnGrid& flow,
       }
   // The parts before and after the arrow are simplified separately, so that the arrow stays at a
   // point of the line.
-  const double tolerance = 0.1 * std::min(grid.step_x(), grid.step_y());  // [L]
+  const double tolerance =
+      StreamLineTuning::kTolerance * std::min(grid.step_x(), grid.step_y());  // [L]
   const auto middle = line.begin() + static_cast<std::ptrdiff_t>(arrow);
   result.points = simplified({line.begin(), middle + 1}, tolerance);
   if (arrow > 0) result.arrow = static_cast<int>(result.points.size()) - 1;
@@ -211,15 +223,18 @@ struct StreamLines::Equations {
   bool is_analysed = false;
 
   /// Weight [1] of the equation between two neighbouring points.
-  static double weight(bool both_in_fluid) { return both_in_fluid ? 1 : 1e-5; }
+  static double weight(bool both_in_fluid) {
+    return both_in_fluid ? 1 : StreamLineTuning::kOutside;
+  }
 
   /// Factorises the matrix for these points, unless it was factorised before for nearly the same.
   void prepare(const Grid& grid, std::vector<char> points) {
-    constexpr double kNearly = 0.005;  // largest share of points that may differ
     if (is_fluid.size() == points.size()) {
       std::size_t different = 0;
       for (std::size_t i = 0; i < points.size(); ++i) different += points[i] != is_fluid[i] ? 1 : 0;
-      if (static_cast<double>(different) <= kNearly * static_cast<double>(points.size())) return;
+      if (static_cast<double>(different) <=
+          StreamLineTuning::kNearly * static_cast<double>(points.size()))
+        return;
     }
     is_fluid = std::move(points);
     using Entry = Eigen::Triplet<double>;

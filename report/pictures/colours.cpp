@@ -13,6 +13,35 @@
 namespace viscontact::report {
 namespace {
 
+/// Free choices of scales, by eye.
+struct ScaleTuning {
+  // Largest number of a scale with the number 0 only: a double cannot represent a quarter of it and
+  // its decade accurately.
+  static constexpr double kSmallest = 1e-300;
+  // Relative rounding error of a number beside a scale.
+  static constexpr double kRounding = 1e-9;
+  // Ends of a scale that differ by at most this fraction of their size are moved apart. The numbers
+  // beside it have three digits, so a reader could not tell such ends apart.
+  static constexpr double kEqual = 1e-9;
+  // Intervals of a linear scale, and numbers of each sign beside a logarithmic one, about.
+  static constexpr double kIntervals = 5;
+  static constexpr int kMostOfASign = 4;
+  // Least distance of numbers over the width of the scale.
+  static constexpr double kApart = 0.11;
+  // Intervals in which gnuplot interpolates colours; more cannot be seen.
+  static constexpr int kSteps = 40;
+  // The words name a pressure beyond 1.2 times the end of the scale. Pressures nearer to the end
+  // would have nearly its colour anyway.
+  static constexpr double kWorthAWord = 1.2;
+  // Share of the pixels that may be beyond each end of a scale. The upper end is cut if the largest
+  // pressure is more than kMuchFarther times the pressure above which this share of the pixels
+  // lies, and the lower end in the same way.
+  static constexpr double kBeyond = 0.005, kMuchFarther = 3;
+  // The scale is logarithmic beyond the usual pressure if an end is cut, or is more than this
+  // number of times the usual pressure.
+  static constexpr double kLogarithmic = 10;
+};
+
 struct ColourNode {
   double place;               ///< on the scale [1]
   std::array<double, 3> rgb;  ///< red, green, blue from 0 to 255
@@ -41,18 +70,16 @@ std::vector<std::string> evenly_spaced(int colours, const Colour& colour) {
 }
 
 /// Round numbers from 0 to `top` >= 0 in about four intervals, as shares of `top` with their texts.
-/// The result has only the number 0 if `top` is so small that a double cannot represent its quarter
-/// and its decade accurately.
+/// The result has only the number 0 if `top` is at most kSmallest.
 std::vector<std::pair<double, std::string>> round_ticks(double top) {
-  constexpr double kSmallest = 1e-300;
-  if (!(top > kSmallest)) return {{0, "0"}};
+  if (!(top > ScaleTuning::kSmallest)) return {{0, "0"}};
   const double rough = top / 4, decade = std::pow(10, std::floor(std::log10(rough)));
   const double step = decade * (rough < 1.5 * decade ? 1
                                 : rough < 3 * decade ? 2
                                 : rough < 7 * decade ? 5
                                                      : 10);
   std::vector<std::pair<double, std::string>> ticks;
-  for (int i = 0; i * step <= top * (1 + 1e-9); ++i)
+  for (int i = 0; i * step <= top * (1 + ScaleTuning::kRounding); ++i)
     ticks.emplace_back(i * step / top, fmt::format("{:.3g}", i * step));
   return ticks;
 }
@@ -95,9 +122,7 @@ std::vector<double> sorted_finite(const std::vector<double>& values) {
 /// The scale with low < high, as gnuplot needs it. If the two ends differ by at most kEqual times
 /// their size, they are moved apart.
 PressureColours widened(PressureColours colours) {
-  // The numbers beside a scale have three digits, so a reader could not tell such ends apart.
-  constexpr double kEqual = 1e-9;
-  if (colours.high - colours.low > kEqual * std::abs(colours.high)) return colours;
+  if (colours.high - colours.low > ScaleTuning::kEqual * std::abs(colours.high)) return colours;
   const double half = colours.high == 0 ? 1 : std::abs(colours.high);
   colours.low -= half;
   colours.high += half;
@@ -160,16 +185,15 @@ std::string PressureColours::colour_at(double place) const {
 std::vector<std::pair<double, std::string>> PressureColours::ticks() const {
   std::vector<std::pair<double, std::string>> ticks;
   if (!(linear_below > 0)) {
-    constexpr double kAbout = 5;  // number of intervals
-    const double step = rounded_up((high - low) / kAbout);
-    for (double n = std::ceil(low / step - 1e-9); n <= high / step + 1e-9; ++n)
+    const double step = rounded_up((high - low) / ScaleTuning::kIntervals);
+    for (double n = std::ceil(low / step - ScaleTuning::kRounding);
+         n <= high / step + ScaleTuning::kRounding; ++n)
       ticks.emplace_back(n * step, short_number(n == 0 ? 0 : n * step));
     return ticks;
   }
-  constexpr int kMost = 4;  // about how many numbers of each sign
   const int decades = static_cast<int>(
       std::floor(std::log10(std::max(std::abs(low), std::abs(high)) / linear_below)));
-  const int every = decades / (kMost + 1) + 1;
+  const int every = decades / (ScaleTuning::kMostOfASign + 1) + 1;
   ticks.emplace_back(0, "0");
   for (int i = 0; i <= decades; i += every) {
     const double pressure = linear_below * std::pow(10, i);
@@ -190,11 +214,10 @@ ColourScale PressureColours::scale(int colours, const std::string& unit) const {
                     [&](double share) { return colour_at(std::lerp(at(low), at(high), share)); }),
       {}};
   if (linear_below > 0) scale.words += fmt::format(", logarithmic beyond {:.3g}", linear_below);
-  constexpr double kApart = 0.11;  // least distance of numbers over the width of the scale
   for (auto [pressure, text] : ticks()) {
     const double share = share_of(pressure);
     if (share < 0 || share > 1 || std::ranges::any_of(scale.ticks, [&](const auto& other) {
-          return std::abs(other.first - share) < kApart;
+          return std::abs(other.first - share) < ScaleTuning::kApart;
         }))
       continue;
     if (text.starts_with("-")) text.replace(0, 1, "−");
@@ -204,11 +227,10 @@ ColourScale PressureColours::scale(int colours, const std::string& unit) const {
 }
 
 std::vector<std::string> PressureColours::settings() const {
-  constexpr int kSteps = 40;  // intervals in which gnuplot interpolates; more cannot be seen
   const double from = at(low), to = at(high);
   std::string palette;
-  for (int i = 0; i <= kSteps; ++i) {
-    const double place = std::lerp(from, to, static_cast<double>(i) / kSteps);
+  for (int i = 0; i <= ScaleTuning::kSteps; ++i) {
+    const double place = std::lerp(from, to, static_cast<double>(i) / ScaleTuning::kSteps);
     palette += fmt::format("{}{:.9g} '{}'", i == 0 ? "" : ", ", place, colour_at(place));
   }
   std::string words = "pressure (unit: viscosity x velocity / length)";
@@ -220,13 +242,10 @@ std::vector<std::string> PressureColours::settings() const {
     ticks = "set cbtics (" + places + ")";
     words += fmt::format("\\nlogarithmic beyond {}", short_number(linear_below));
   }
-  // The words name a pressure beyond 1.2 times the end of the scale. Pressures nearer to the end
-  // would have nearly its colour anyway.
-  constexpr double kWorthAWord = 1.2;
-  if (largest > kWorthAWord * high && largest > 0)
+  if (largest > ScaleTuning::kWorthAWord * high && largest > 0)
     words += fmt::format("{} above {} one colour (largest {})", linear_below > 0 ? ";" : "\\n",
                          short_number(high), short_number(largest));
-  if (smallest < kWorthAWord * low && smallest < 0)
+  if (smallest < ScaleTuning::kWorthAWord * low && smallest < 0)
     words += fmt::format("\\nbelow {} one colour (smallest {})", short_number(low),
                          short_number(smallest));
   return {"set palette defined (" + palette + ")",
@@ -241,19 +260,16 @@ PressureColours proportional_colours(const std::vector<double>& pressures) {
 
 PressureColours robust_colours(const std::vector<double>& pixels, double usual) {
   assert(!(usual < 0));
-  constexpr double kBeyond = 0.005;  // share of the pixels that may be beyond each end
-  // The upper end is cut if the largest pressure is more than kMuchFarther times the pressure above
-  // which a share of kBeyond of the pixels lies, and the lower end in the same way. The scale is
-  // logarithmic beyond `usual` if an end is cut, or is more than kLogarithmic times `usual`.
-  constexpr double kMuchFarther = 3, kLogarithmic = 10;
   const auto sorted = sorted_finite(pixels);
-  const auto few = static_cast<std::size_t>(kBeyond * static_cast<double>(sorted.size()));
+  const auto few =
+      static_cast<std::size_t>(ScaleTuning::kBeyond * static_cast<double>(sorted.size()));
   auto colours = proportional_colours(sorted);
   const double low = sorted[few], high = sorted[sorted.size() - 1 - few];
-  if (high > 0 && colours.high > kMuchFarther * high) colours.high = rounded_up(high);
-  if (low < 0 && colours.low < kMuchFarther * low) colours.low = -rounded_up(-low);
+  if (high > 0 && colours.high > ScaleTuning::kMuchFarther * high) colours.high = rounded_up(high);
+  if (low < 0 && colours.low < ScaleTuning::kMuchFarther * low) colours.low = -rounded_up(-low);
   const bool cut = colours.high < sorted.back() || colours.low > sorted.front();
-  if (cut || std::max(std::abs(colours.low), std::abs(colours.high)) > kLogarithmic * usual)
+  if (cut ||
+      std::max(std::abs(colours.low), std::abs(colours.high)) > ScaleTuning::kLogarithmic * usual)
     colours.linear_below = std::pow(10, std::round(std::log10(usual)));
   return widened(colours);
 }

@@ -17,6 +17,17 @@ namespace viscontact::report {
 namespace {
 
 /// The block has one point in each line; an empty line interrupts the curve.
+/// Free choices of a call.
+struct GnuplotTuning {
+  // A picture takes about one second. If gnuplot needs ten minutes, it hangs.
+  static constexpr std::chrono::seconds kLongest = std::chrono::minutes(10);
+  // gnuplot reads standard input byte by byte, but a file in blocks. If the script is longer
+  // [bytes], blocks save more time than the process `cat` takes.
+  static constexpr std::size_t kLong = 200'000;
+  // Bytes of gnuplot's output in a message.
+  static constexpr std::size_t kOutput = 300;
+};
+
 std::string data_block(const std::string& name, const Curve& curve) {
   std::string text = fmt::format("${} << END_OF_CURVE\n", name);
   for (const auto& [x, y] : curve.points)
@@ -57,8 +68,9 @@ std::string plot_of(const std::string& name, const ColourField& field) {
 }
 
 std::string last_part(const std::string& output) {
-  constexpr std::size_t kLength = 300;
-  return output.size() <= kLength ? output : output.substr(output.size() - kLength);
+  return output.size() <= GnuplotTuning::kOutput
+             ? output
+             : output.substr(output.size() - GnuplotTuning::kOutput);
 }
 
 /// gnuplot's commands for the numbers of a linear axis with these values: as many digits as tell a
@@ -181,22 +193,18 @@ std::string draw_picture(const results::PictureFormat& format, const std::vector
   if (panels.size() > 1) script += "unset multiplot\n";
   if (kind == TextKind::kHashComment)
     return "# gnuplot script by Viscontact, with its data: gnuplot FILE > PICTURE.svg\n" + script;
-  // A picture takes about one second. If gnuplot needs ten minutes, it hangs.
-  constexpr std::chrono::seconds kLongest = std::chrono::minutes(10);
-  // gnuplot reads standard input byte by byte, but a file in blocks. If the script is long, blocks
-  // save more time than the process `cat` takes.
-  constexpr std::size_t kLong = 200'000;  // bytes
-  const std::string gnuplot = script.size() > kLong ? "cat | gnuplot /dev/stdin" : "gnuplot";
+  const std::string gnuplot =
+      script.size() > GnuplotTuning::kLong ? "cat | gnuplot /dev/stdin" : "gnuplot";
   // This shell command puts gnuplot's warnings after the picture. Without it they could stand in
   // the middle of the picture.
   const auto result =
       run_process({"/bin/sh", "-c",
                    "{ errors=$(" + gnuplot +
                        " 2>&1 >&3); status=$?; } 3>&1; printf '%s' \"$errors\"; exit $status"},
-                  {"LC_ALL=C"}, script, {}, kLongest, stop);
+                  {"LC_ALL=C"}, script, {}, GnuplotTuning::kLongest, stop);
   if (result.timed_out)
     throw Error(ErrorKind::kExternalProgram, "gnuplot had not ended after {} s and was stopped",
-                kLongest.count());
+                GnuplotTuning::kLongest.count());
   constexpr int kCannotBeRun = 126, kNotFound = 127;  // of the shell
   if (!result.started || result.exit_status == kNotFound || result.exit_status == kCannotBeRun)
     throw GnuplotMissing(

@@ -11,6 +11,27 @@
 namespace viscontact::swimmer {
 namespace {
 
+/// Bounds of a case.
+struct SwimmerLimits {
+  // Largest radius over the smallest. With a larger ratio the mesh around the small sphere has more
+  // elements than FreeFEM can number.
+  static constexpr double kLargestRatio = 100;
+  // Least gap over the smaller radius; tests go down to this value.
+  static constexpr double kLeastGap = 1e-6;
+  // Longest arm over the sum of both radii.
+  static constexpr double kLargestArm = 1e4;
+  // Arms between two spheres in a table. fit_resistance() needs three values of each gap.
+  static constexpr int kFewestArms = 3, kMostArms = 200;
+  // A row takes 2 to 17 s, as in data/tables/three_spheres.csv, so that so many rows take days.
+  static constexpr double kMostRows = 100000;
+  // Radius of a tube over the largest radius of a sphere. kWidest also limits the height over the
+  // length of the swimmer.
+  static constexpr double kNarrowest = 1.01, kWidest = 1e3;
+  // Relative error of an arm, as in resistance_fit.cpp, because an arm, a gap plus two radii, is
+  // rounded.
+  static constexpr double kRounding = 1e-12;
+};
+
 /// Throws Error(kBadInput) unless there are kFewestSpheres to kMostSpheres radii [L].
 void read_radii(const case_file::TomlSection& section, std::string_view key,
                 std::vector<double>& radii) {
@@ -18,12 +39,10 @@ void read_radii(const case_file::TomlSection& section, std::string_view key,
   section.require(radii.size() >= kFewestSpheres && radii.size() <= kMostSpheres, key,
                   "has {} numbers; it must have {} to {}", radii.size(), kFewestSpheres,
                   kMostSpheres);
-  // With a larger ratio the mesh around the small sphere has more elements than FreeFEM can number.
-  constexpr double kLargestRatio = 100;
   const auto [smallest, largest] = std::ranges::minmax(radii);
-  section.require(largest <= kLargestRatio * smallest, key,
+  section.require(largest <= SwimmerLimits::kLargestRatio * smallest, key,
                   "has a ratio of {:.4g}; it must be at most {}", largest / smallest,
-                  kLargestRatio);
+                  SwimmerLimits::kLargestRatio);
 }
 
 /// `count` lengths of an arm in the table [L], from `from` to `to`.
@@ -37,8 +56,9 @@ void arm_keys(case_file::Keys& keys, ArmGrid& grid) {
                 {"the shortest arm, greater than the sum of both radii, so that the gap is at "
                  "least 1e-6 of the smaller radius"});
   keys.required("to", case_file::number(grid.to, kPositive), {"the longest arm"});
-  // At least 3, because fit_resistance() needs three values of each gap.
-  keys.required("count", case_file::count(grid.count, 3, 200), {"the number of arms between them"});
+  keys.required("count",
+                case_file::count(grid.count, SwimmerLimits::kFewestArms, SwimmerLimits::kMostArms),
+                {"the number of arms between them"});
 }
 
 /// The gaps between the surfaces of spheres k and k + 1 in the table [L], rising; k counts from 0.
@@ -54,17 +74,15 @@ std::vector<double> read_arm_gaps(const case_file::TomlSection& section,
                   "is {}; it must be greater than {}, the sum of the radii of spheres {} and {}, "
                   "which touch there",
                   from, both_radii, k + 1, k + 2);
-  constexpr double kLeastGap = 1e-6;  // over the smaller radius; tests go down to this value
-  const double least = kLeastGap * std::min(radii[k], radii[k + 1]);
+  const double least = SwimmerLimits::kLeastGap * std::min(radii[k], radii[k + 1]);
   section.require(from - both_radii >= least, "from",
                   "is {}, a gap of {:.3g}; a gap must be at least {} of the smaller radius, so "
                   "from must be at least {}",
-                  from, from - both_radii, kLeastGap, both_radii + least);
+                  from, from - both_radii, SwimmerLimits::kLeastGap, both_radii + least);
   section.require(to > from, "to", "is {}; it must be greater than from, {}", to, from);
-  constexpr double kLargestArm = 1e4;  // over the sum of both radii
-  section.require(to <= kLargestArm * both_radii, "to",
-                  "is {}; it must be at most {} times the sum of both radii, {}", to, kLargestArm,
-                  kLargestArm * both_radii);
+  section.require(to <= SwimmerLimits::kLargestArm * both_radii, "to",
+                  "is {}; it must be at most {} times the sum of both radii, {}", to,
+                  SwimmerLimits::kLargestArm, SwimmerLimits::kLargestArm * both_radii);
   auto gaps = chebyshev_arms(from, to, count);
   for (auto& gap : gaps) gap -= both_radii;
   return gaps;
@@ -87,11 +105,9 @@ void read_grid(const case_file::TomlSection& section, std::string_view key, Swim
                   "has {} tables; it must have {}, one for each arm, or be one table for all arms",
                   tables.size(), arms);
   for (std::size_t k = 0; k < arms; ++k) c.gaps.push_back(read_arm_gaps(tables[k], radii, k));
-  // A row takes 2 to 17 s, as in data/tables/three_spheres.csv, so that so many rows take days.
-  constexpr double kMostRows = 100000;
-  section.require(rows_of(c) <= kMostRows, key,
+  section.require(rows_of(c) <= SwimmerLimits::kMostRows, key,
                   "makes a table of {} rows; at most {} are allowed, so take a smaller count",
-                  rows_of(c), kMostRows);
+                  rows_of(c), SwimmerLimits::kMostRows);
 }
 
 /// Reads `table`, a file with a table of resistance matrices, and scales it to the radii and the
@@ -129,22 +145,22 @@ void read_tube(const case_file::TomlSection& section, std::string_view key, Swim
   auto& tube = c.spheres.tube.emplace();
   case_file::read_keys(table, tube_keys, tube);
   const auto& radii = c.spheres.radii;
-  // Limits of the tube's radius over the largest radius of a sphere. kWidest also limits the height
-  // over the length of the swimmer.
-  constexpr double kNarrowest = 1.01, kWidest = 1e3;
   const double largest = std::ranges::max(radii);
-  table.require(tube.radius >= kNarrowest * largest && tube.radius <= kWidest * largest, "radius",
+  table.require(tube.radius >= SwimmerLimits::kNarrowest * largest &&
+                    tube.radius <= SwimmerLimits::kWidest * largest,
+                "radius",
                 "is {}; it must be {} to {} times the largest radius of the spheres, {}, or the "
                 "container must be \"unbounded\"",
-                tube.radius, kNarrowest, kWidest, largest);
+                tube.radius, SwimmerLimits::kNarrowest, SwimmerLimits::kWidest, largest);
   double longest = radii.front() + radii.back();
   for (std::size_t k = 0; k + 1 < radii.size(); ++k)
     longest += c.gaps[k].back() + radii[k] + radii[k + 1];
   if (tube.height)
-    table.require(*tube.height > longest && *tube.height <= kWidest * longest, "height",
+    table.require(*tube.height > longest && *tube.height <= SwimmerLimits::kWidest * longest,
+                  "height",
                   "is {}; it must be greater than {}, the length of the swimmer with the longest "
                   "arms, and at most {} times that",
-                  *tube.height, longest, kWidest);
+                  *tube.height, longest, SwimmerLimits::kWidest);
 }
 
 void swimmer_keys(case_file::Keys& keys, SwimmerCase& c) {
@@ -180,9 +196,8 @@ void swimmer_keys(case_file::Keys& keys, SwimmerCase& c) {
 std::string fault_of_arm(double arm, std::size_t k, const SwimmerCase& c) {
   const double both_radii = c.spheres.radii[k] + c.spheres.radii[k + 1];
   const double from = c.gaps[k].front() + both_radii, to = c.gaps[k].back() + both_radii;
-  // A relative length, as in resistance_fit.cpp, because an arm, a gap plus two radii, is rounded.
-  constexpr double kRounding = 1e-12;
-  if (arm >= from * (1 - kRounding) && arm <= to * (1 + kRounding)) return "";
+  if (arm >= from * (1 - SwimmerLimits::kRounding) && arm <= to * (1 + SwimmerLimits::kRounding))
+    return "";
   if (!(arm > both_radii))
     return fmt::format(
         "makes arm x{} {:.9g}; spheres {} and {} would overlap, as the sum of their radii is "

@@ -19,17 +19,27 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr std::size_t kFewestNodes = 3;  // so that two nodes remain if one is left out
+/// Free choices of the fit and its errors.
+struct ResistanceFitTuning {
+  // Values of each gap, so that two nodes remain if one is left out.
+  static constexpr std::size_t kFewestNodes = 3;
+  // Least scale of the entry R_ij over sqrt(R_ii R_jj). It must be that in collinear_spheres.edp,
+  // which makes the error estimates of a table.
+  static constexpr double kLeastShare = 1e-3;
+  // Draws of the errors of a table, each with its own random signs. 16 give the root mean square of
+  // a result's change to about a fifth (1/sqrt(32)).
+  static constexpr std::uint64_t kDraws = 16;
+};
 
 /// The nodes of the polynomials: for each gap, its values in the table [L], rising.
 std::vector<std::vector<double>> nodes_of(const ResistanceTable& table) {
   auto nodes = gap_grid(table);
   for (std::size_t k = 0; k < nodes.size(); ++k)
-    if (nodes[k].size() < kFewestNodes)
+    if (nodes[k].size() < ResistanceFitTuning::kFewestNodes)
       throw Error(
           ErrorKind::kBadInput,
           "the table has {} values of the gap between spheres {} and {}; a fit needs at least {}",
-          nodes[k].size(), k + 1, k + 2, kFewestNodes);
+          nodes[k].size(), k + 1, k + 2, ResistanceFitTuning::kFewestNodes);
   return nodes;
 }
 
@@ -79,9 +89,8 @@ MatrixXd matrix_from(const MatrixXd& logarithm, const std::vector<double>& gaps,
 /// The value [M/T] by which an error of the entry R_ij is divided to make it relative: |R_ij|, or
 /// kLeastShare sqrt(R_ii R_jj) if that is larger.
 double entry_scale(const MatrixXd& matrix, Index i, Index j) {
-  // The share must be that in collinear_spheres.edp, which makes the error estimates of a table.
-  constexpr double kLeastShare = 1e-3;
-  return std::max(std::abs(matrix(i, j)), kLeastShare * std::sqrt(matrix(i, i) * matrix(j, j)));
+  return std::max(std::abs(matrix(i, j)),
+                  ResistanceFitTuning::kLeastShare * std::sqrt(matrix(i, i) * matrix(j, j)));
 }
 
 /// The largest relative difference [1] of an entry of two matrices.
@@ -223,11 +232,8 @@ PerturbedFits perturbed_fits(const ResistanceTable& table, const ResistanceFit& 
     });
     perturbed.lower_degrees.push_back(std::move(lower));
   }
-  // Each draw has its own random signs. 16 draws give the root mean square of a result's change to
-  // about a fifth (1/sqrt(32)).
-  constexpr std::uint64_t kDraws = 16;
   const auto rows = sorted_rows(table, fit.gaps);
-  for (std::uint64_t draw = 0; draw < kDraws; ++draw) {
+  for (std::uint64_t draw = 0; draw < ResistanceFitTuning::kDraws; ++draw) {
     SplitMix64 random(draw);
     auto changed = rows;
     for (auto& row : changed) change_by_estimates(row, random);

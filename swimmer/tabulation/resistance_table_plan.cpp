@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/freefem_axi/journal/make_plan.hpp"
+#include "viscontact/freefem_axi/motion_table_plan.hpp"
 #include "viscontact/swimmer/tabulation/collinear_spheres.hpp"
 
 namespace viscontact::swimmer {
@@ -74,11 +74,11 @@ std::string inputs_of(const CollinearSpheres& spheres, const Grid& grid) {
 
 /// An estimate of the time of a row on one core [s], from measurements at a relative accuracy of
 /// 1e-5: 2 to 6 s for three spheres, 12 to 37 s for ten. If more accuracy is asked for, the time
-/// grows as for one sphere (freefem_axi/motion_table_plan.cpp).
+/// grows as for one sphere.
 double typical_seconds_of(const CollinearSpheres& spheres) {
-  constexpr double kSecondsPerSphere = 1.5, kKnee = 1e-5, kPower = 0.45;
+  constexpr double kSecondsPerSphere = 1.5;
   return kSecondsPerSphere * static_cast<double>(spheres.radii.size()) *
-         std::pow(std::max(1.0, kKnee / spheres.relative_accuracy), kPower);
+         freefem_axi::time_factor(spheres.relative_accuracy);
 }
 
 }  // namespace

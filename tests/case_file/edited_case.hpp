@@ -12,10 +12,8 @@ namespace viscontact::case_file {
 
 /// A key of data/cases/lecture.toml as it stands there.
 struct LectureKey {
-  const char* path;    ///< as errors name it: "tabulation.gaps.from"
-  const char* header;  ///< the last header line before it, with its brackets; empty: none
-  const char* name;    ///< "from"
-  const char* value;   ///< "1e-3"
+  const char* path;   ///< as errors name it: "tabulation.gaps.from", below the header [tabulation]
+  const char* value;  ///< "1e-3"
 };
 
 /// A changed text, and the line where an error is to be reported.

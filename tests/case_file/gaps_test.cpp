@@ -10,7 +10,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-constexpr LectureKey kGaps = {"tabulation.gaps", "[tabulation]", "gaps",
+constexpr LectureKey kGaps = {"tabulation.gaps",
                               "{ from = 1e-3, to = 2.0, count = 40, spacing = \"log\" }"};
 
 std::vector<double> gaps(const char* value) {
@@ -56,7 +56,7 @@ TEST(Gaps, AreRefusedInAListThatIsNoListOfDifferentPositiveNumbers) {
 
 TEST(Gaps, MustLeaveTheSphereRoomInTheContainer) {
   // 78 and a diameter of 2 fill the 80 of the container, which stands two lines further down.
-  auto edited = with_value({"tabulation.gaps.to", "[tabulation]", "to", "2.0"}, "78.0");
+  auto edited = with_value({"tabulation.gaps.to", "2.0"}, "78.0");
   edited.line += 2;
   expect_refused(edited, "tabulation.container.height");
 }

@@ -1,12 +1,12 @@
 // The tables of docs/case-file.md are those that the declarations of the keys make.
 #include <gmock/gmock.h>
 
-#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "tests/common/made_tables.hpp"
 #include "viscontact/case_file/case_file.hpp"
-#include "viscontact/common/files/file.hpp"
 #include "viscontact/particle_runs/case/particles_case.hpp"
 #include "viscontact/rolling/case/rolling_case.hpp"
 #include "viscontact/swimmer/case/swimmer_case.hpp"
@@ -22,41 +22,10 @@ std::vector<KeyTable> all_tables() {
   return all;
 }
 
-/// The page with these tables between their markers. A table without a marker is a failure.
-std::string with_tables(std::string page, const std::vector<KeyTable>& tables) {
-  const std::string end = "<!-- end of keys -->";
-  for (const auto& table : tables) {
-    const auto marker = "<!-- keys of " + table.section + ", made from the declarations -->\n";
-    const auto begin = page.find(marker);
-    const auto stop = page.find(end, begin);
-    if (begin == std::string::npos || stop == std::string::npos) {
-      ADD_FAILURE() << "docs/case-file.md has no place for a table between " << marker << end;
-      continue;
-    }
-    const auto from = begin + marker.size();
-    page.replace(from, stop - from, table.markdown());
-  }
-  return page;
-}
-
 TEST(CaseFilePage, HasTheTablesThatTheDeclarationsMake) {
-  const auto page =
-      read_file(std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "docs/case-file.md");
-  const auto made = with_tables(page, all_tables());
-  if (made == page) return;
-  const auto file = std::filesystem::absolute("case-file.md");
-  write_file(file, made);
-  FAIL() << "docs/case-file.md is not up to date; copy " << file << " to its place";
-}
-
-TEST(CaseFilePage, HasNoTableOfKeysThatNothingDeclares) {
-  const auto page =
-      read_file(std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "docs/case-file.md");
-  std::size_t markers = 0;
-  for (auto at = page.find("<!-- keys of "); at != std::string::npos;
-       at = page.find("<!-- keys of ", at + 1))
-    ++markers;
-  EXPECT_EQ(markers, all_tables().size());
+  std::vector<std::pair<std::string, std::string>> tables;
+  for (const auto& table : all_tables()) tables.emplace_back(table.section, table.markdown());
+  expect_made_tables("case-file.md", "keys", tables);
 }
 
 struct Rod {

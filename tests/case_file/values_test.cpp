@@ -15,10 +15,8 @@ namespace {
 using ::testing::ElementsAre;
 
 constexpr LectureKey kForce = {
-    "motion.external_force", "[motion]", "external_force",
-    "[ { until = 2.0, value = -200.0 }, { until = 4.0, value = 200.0 } ]"};
-constexpr LectureKey kRoughness = {"viscous_contact.roughness", "[viscous_contact]", "roughness",
-                                   "[0.0, 0.0]"};
+    "motion.external_force", "[ { until = 2.0, value = -200.0 }, { until = 4.0, value = 200.0 } ]"};
+constexpr LectureKey kRoughness = {"viscous_contact.roughness", "[0.0, 0.0]"};
 
 const std::string kFitKeys =
     "basis = \"lecture\"               # a/q + b + c q + d q^2 + e q^3\nweights = \"relative\"\n";
@@ -60,13 +58,12 @@ TEST(FitSection, RefusesWhatItDoesNotKnow) {
 }
 
 TEST(CaseValues, MayBeWholeNumbers) {
-  const Case c = read_text(with_value({"", "[sphere]", "mass", "20.0"}, "7").text);
+  const Case c = read_text(with_value({"sphere.mass", "20.0"}, "7").text);
   EXPECT_EQ(required_motion(c).mass, 7);
 }
 
 TEST(CaseValues, MayBeNegativeWhereThatHasAMeaning) {
-  EXPECT_EQ(required_motion(
-                read_text(with_value({"", "[motion]", "initial_velocity", "0.0"}, "-2.5").text))
+  EXPECT_EQ(required_motion(read_text(with_value({"motion.initial_velocity", "0.0"}, "-2.5").text))
                 .initial_velocity,
             -2.5);
 }
@@ -183,8 +180,7 @@ TEST(Restitution, NeedsARoughness) {
   };
   EXPECT_EQ(required_motion(read_text(with("[1e-3, 0.0]", "0.97").text)).restitution(), 0.97);
   EXPECT_EQ(required_motion(read_text(with("[0.0, 0.0]", "0.0").text)).restitution(), 0);
-  constexpr LectureKey kRestitution = {"viscous_contact.restitution", "[viscous_contact]",
-                                       "restitution", "0.97"};
+  constexpr LectureKey kRestitution = {"viscous_contact.restitution", "0.97"};
   expect_refused(with("[0.0, 0.0]", "0.97"), kRestitution.path);
   expect_refused(with("[1e-3, 0.0]", "1.1"), kRestitution.path);
   expect_refused(with("[1e-3, 0.0]", "-0.1"), kRestitution.path);
@@ -213,8 +209,8 @@ TEST(FitOfACase, HasAFileThatIsText) {
 }
 
 TEST(FitOfACase, ListsTheBasesThereAre) {
-  expect_refused(with_value({"", "[fit]", "basis", "\"lecture\""}, "\"cubic\""), "fit.basis");
-  expect_refused(with_value({"", "[fit]", "weights", "\"relative\""}, "\"none\""), "fit.weights");
+  expect_refused(with_value({"fit.basis", "\"lecture\""}, "\"cubic\""), "fit.basis");
+  expect_refused(with_value({"fit.weights", "\"relative\""}, "\"none\""), "fit.weights");
 }
 
 TEST(ModelsOfACase, AreAListOfNames) {

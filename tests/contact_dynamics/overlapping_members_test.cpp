@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "tests/particles/systems.hpp"
-#include "viscontact/particles/setting/outline.hpp"
+#include "viscontact/particles/setting/chords.hpp"
 #include "viscontact/particles/state/rigid_bodies.hpp"
 
 namespace viscontact::particles {
@@ -66,10 +66,8 @@ TEST(OverlappingMembers, AreDiscsOfOneBodyThatIsHeldRigid) {
   ASSERT_EQ(areas.size(), 2U);
   EXPECT_NEAR(areas[0] + areas[1], 2 * pi / 3 - std::sqrt(3) / 2, 1e-14);
   EXPECT_TRUE(cut_areas_of({}, p).empty());  // by penalty
-  auto plates = rigid_fluid();
-  plates.semi_axes = {{1, 0.1}, {1, 1}};
-  plates.plates = {1, 0};
-  EXPECT_TRUE(cut_areas_of(plates, p).empty());
+  p.shapes = {Shape::plate(1, 0.1), Shape::disc(1)};
+  EXPECT_TRUE(cut_areas_of(rigid_fluid(), p).empty());
 }
 
 // Four discs in a row, of which each overlaps three: what is left of them is the union, whose area
@@ -83,7 +81,7 @@ TEST(OverlappingMembers, InARowCoverTheUnionOnce) {
   auto fluid = rigid_fluid();
   fluid.cut_areas = cut_areas_of(fluid, state.particles);
   double sum = 0;
-  for (std::size_t k = 0; k < 4; ++k) sum += fluid.size_of(2, k, radii[k]);
+  for (std::size_t k = 0; k < 4; ++k) sum += fluid.size_of(Shape::disc(radii[k]), k);
   double integral = 0;
   constexpr int kStrips = 200000;
   constexpr double kFrom = -1.1, kTo = 2.5, kStrip = (kTo - kFrom) / kStrips;

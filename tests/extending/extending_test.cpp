@@ -132,6 +132,7 @@ TEST(Extending, ChangesNoOtherFiles) {
             "freefem_axi/scripts/slip_plane.edp\n"
             "lubrication/terms.cpp\n"
             "particle_runs/case/particles_case.cpp\n"
+            "particle_runs/io/contact_columns.cpp\n"
             "particles/contact/ageing_law.hpp\n"
             "particles/contact/contact_laws.hpp\n"
             "particles/state/pair_memory.hpp\n"

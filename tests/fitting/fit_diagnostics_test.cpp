@@ -86,8 +86,7 @@ TEST(LeaveOneOut, OfAnEndRowIsAnExtrapolationAndNoWarning) {
   EXPECT_EQ(d.left_out_end.value().gap, 2);
   // The row next to it is an inner row, and is what the warning names.
   EXPECT_EQ(d.left_out_inner.value().gap, table.rows[10].gap);
-  EXPECT_THAT(d.warnings, ElementsAre(HasSubstr("fitted without the row at gap 1.002, the formula "
-                                                "misses that row by 0.12 relative")));
+  EXPECT_THAT(d.warnings, ElementsAre(Names("gap 1.002", "0.12")));
 }
 
 TEST(LeaveOneOut, OfInnerRowsIsAboveTheErrorBetweenTheRows) {
@@ -254,7 +253,7 @@ TEST(Warnings, SayThatTheLeadingCoefficientDepartsFromTheory) {
   auto table = table_with_noise(1e-5, 1e-4);
   table.leading_coefficient = 50.5;  // the table's is 50
   EXPECT_THAT(diagnostics_of(table, settings_of("lecture")).warnings,
-              ::testing::Contains(HasSubstr("theory's is 50.5")));
+              ::testing::Contains(Names("1/q", "50.5")));
   table.leading_coefficient = 50;
   EXPECT_THAT(diagnostics_of(table, settings_of("lecture")).warnings,
               ::testing::Not(::testing::Contains(HasSubstr("theory"))));
@@ -263,14 +262,14 @@ TEST(Warnings, SayThatTheLeadingCoefficientDepartsFromTheory) {
 TEST(Warnings, SayThatACoefficientIsNotDetermined) {
   // The force is k/q + 1 and noise: the cubic's coefficients are noise.
   EXPECT_THAT(diagnostics_of(table_with_noise(1e-3, 1e-3), settings_of("lecture")).warnings,
-              ::testing::Contains(HasSubstr("of q^3 is not determined")));
+              ::testing::Contains(Names("q^3")));
 }
 
 TEST(Warnings, SayThatTheResistanceIsNotMonotone) {
   auto table = exact_table();
   for (auto& row : table.rows) row.force = 1 / row.gap + 20 * row.gap;  // a minimum at 0.22
   EXPECT_THAT(diagnostics_of(table, settings_of("lecture")).warnings,
-              ::testing::Contains(HasSubstr("does not decrease at gap 0.2")));
+              ::testing::Contains(Names("resistance", "decrease")));
 }
 
 TEST(Warnings, SayThatTheResistanceIsNotPositive) {
@@ -306,7 +305,7 @@ TEST(Warnings, SayThatTwoVelocitiesAddNoDegreeOfFreedom) {
   settings.basis = lubrication::parse_terms("1/q, ln q, 1");
   const auto fit = fit_force_table(exact_drag_table({0.01, 0.1, 1}, {-1, -2}, 3, 1), settings);
   EXPECT_EQ(fit.diagnostics->degrees_of_freedom, 0U);
-  EXPECT_THAT(fit.diagnostics->warnings, ::testing::Contains(HasSubstr("as many coefficients")));
+  EXPECT_THAT(fit.diagnostics->warnings, ::testing::Contains(Names("coefficients", "rows")));
   for (const auto& term : fit.terms) EXPECT_EQ(term.standard_error, 0);
 }
 
@@ -332,7 +331,7 @@ TEST(TwoWalls, AreFittedFromOneToTheOther) {
 TEST(Warnings, SayThatThereAreAsManyCoefficientsAsRows) {
   const auto table = exact_drag_table(log_spaced(1e-3, 1, 5), {-1}, 3, 1);
   const auto d = diagnostics_of(table, settings_of("lecture"));
-  EXPECT_THAT(d.warnings, ::testing::Contains(HasSubstr("as many coefficients as rows")));
+  EXPECT_THAT(d.warnings, ::testing::Contains(Names("coefficients", "rows")));
   EXPECT_FALSE(d.leave_one_out_rms.has_value());
 }
 

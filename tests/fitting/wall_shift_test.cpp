@@ -95,7 +95,7 @@ TEST(WallShift, RefusesASmoothWallWithAFormulaOutsideTheFit) {
     EXPECT_THAT(bad_input([&] {
                   fit_wall_shift(shifted_table(), lubrication::LubricationForce(fit, outside));
                 }),
-                Says("the smooth wall has a formula for gaps outside its fitted interval"));
+                Names("OutsideInterval"));
 }
 
 }  // namespace

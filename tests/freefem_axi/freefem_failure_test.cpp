@@ -28,8 +28,7 @@ const Tabulation kTabulation = unit_tabulation({0.25}, 5, 1e-3);
 
 TEST(MissingFreeFem, ErrorSaysHowToInstallIt) {
   const FreeFem missing{"no-such-freefem", "."};
-  const auto said =
-      AllOf(Names("no-such-freefem"), Says("apt-get install"), Names("VISCONTACT_FREEFEM"));
+  const auto said = Names("no-such-freefem", "apt-get install", "VISCONTACT_FREEFEM");
   EXPECT_THAT(failure(ErrorKind::kExternalProgram,
                       [&] { (void)solve_row(missing, kTabulation, 0.25, -1); }),
               said);
@@ -207,7 +206,7 @@ TEST(WorkingFolder, WithFilesNamedLikeTheScriptsIncludesIsNotLookedInto) {
   const auto result = run_freefem(default_freefem(), "plane.edp", {});
   std::filesystem::current_path(before);
   // plane.edp itself speaks: it was compiled with its own includes.
-  EXPECT_THAT(result.output, HasSubstr("viscontact-error -accuracy is missing"));
+  EXPECT_THAT(result.output, Names("viscontact-error", "-accuracy"));
 }
 
 }  // namespace

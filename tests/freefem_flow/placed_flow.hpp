@@ -56,7 +56,7 @@ class PlacedFlow {
         driven_(std::move(driven)),
         inertia_(std::move(inertia)),
         fluid_(fluid),
-        solver_(start_fluid_solver(fluid, domain, particles_.radii, dimension_)) {
+        solver_(start_fluid_solver(fluid, domain, shapes_of(particles_), dimension_)) {
     place();
   }
 

@@ -424,8 +424,7 @@ TEST(FrictionInFluid, OfAPlateIsThatOfTheWallAtItsEnd) {
   system.setting.fluid->boundary = LinearFlow{{strain, 0, 0, -strain}};
   const double spine = half - end;
   add_pushed(system, {10, end + kThreshold + spine * std::sin(angle), 0}, half, 0, {0, -3, 0});
-  system.setting.fluid->semi_axes.push_back({half, end});
-  system.setting.fluid->plates.push_back(1);
+  system.state.particles.shapes = {Shape::plate(half, end)};
   add_rotation(system.state.particles);
   system.state.particles.angles[0] = angle;
   auto simulation = system.simulation(drag_of_discs);

@@ -9,7 +9,7 @@
 #include "tests/immersed/stand_in_fluid.hpp"
 #include "tests/particles/systems.hpp"
 #include "viscontact/common/error.hpp"
-#include "viscontact/particles/setting/outline.hpp"
+#include "viscontact/particles/shapes/shape_contacts.hpp"
 #include "viscontact/particles/steps/current_contacts.hpp"
 
 namespace viscontact::particles {
@@ -28,23 +28,18 @@ void add_plate(InFluid& system, const Vector& at, double angle, double mass) {
   add_particle(system.state, at, kHalf, mass);
   p.angles.push_back(angle);
   p.angular_velocities.push_back(0);
-  p.inertias.push_back(homogeneous_inertia_of_plate(mass, {kHalf, kEnd}));
-  system.setting.fluid->semi_axes.push_back({kHalf, kEnd});
-  system.setting.fluid->plates.push_back(1);
+  p.shapes.push_back(Shape::plate(kHalf, kEnd));
+  p.inertias.push_back(p.shapes.back().inertia(mass));
 }
 
-double gap_of(const InFluid& system, const FluidSimulation& simulation, std::size_t i,
-              std::size_t j) {
+double gap_of(const FluidSimulation& simulation, std::size_t i, std::size_t j) {
   const auto& p = simulation.state().particles;
-  const auto& fluid = *system.setting.fluid;
-  return gap(outline_of(fluid, p, p.angles, i), outline_of(fluid, p, p.angles, j));
+  return gap(p.placed_shape(i), p.placed_shape(j));
 }
 
 /// The gap of a plate to the floor, which is at y = 0.
-double gap_to_floor(const InFluid& system, const FluidSimulation& simulation) {
-  const auto& p = simulation.state().particles;
-  return gap(PlanePosition{{0, 0, 0}, {0, 1, 0}},
-             outline_of(*system.setting.fluid, p, p.angles, 0));
+double gap_to_floor(const FluidSimulation& simulation) {
+  return gap(PlanePosition{{0, 0, 0}, {0, 1, 0}}, simulation.state().particles.placed_shape(0));
 }
 
 /// The sum of gamma of both ends of a plate at the floor.
@@ -70,7 +65,7 @@ TEST_P(Plates, FallOnOneEndAndTurnAboutIt) {
     double largest_turn = 0;
     while (simulation.state().time < 6 - h / 2) {
       EXPECT_TRUE(simulation.step(10).converged);
-      const double gap = gap_to_floor(system, simulation);
+      const double gap = gap_to_floor(simulation);
       const double allowed = system.setting.solver.tolerance * kHalf;
       EXPECT_GT(gap, kGap - allowed) << simulation.state().time;
       has_landed = has_landed || gap < kGap + allowed;
@@ -168,7 +163,7 @@ TEST_P(Plates, MeetEachOtherWithTheirEnds) {
   // Later their sides meet, which are no contact of ends.
   while (simulation.state().time < 1.5 - 0.01) {
     EXPECT_TRUE(simulation.step(10).converged);
-    const double gap = gap_of(system, simulation, 0, 1);
+    const double gap = gap_of(simulation, 0, 1);
     const double allowed = system.setting.solver.tolerance * kHalf;
     EXPECT_GT(gap, kGap - allowed) << simulation.state().time;
     has_met = has_met || gap < kGap + allowed;
@@ -283,8 +278,7 @@ TEST_P(Plates, OnAHingeAtTheirContactTurnAsWithoutIt) {
     add_plate(system, {10 + l, 10, 0}, 0, 1);
     if (has_disc) {
       add_disc(system, {10, 10 - kEnd - 0.1 - kGap, 0}, 1, {});
-      system.setting.fluid->semi_axes.push_back({0.1, 0.1});
-      system.setting.fluid->plates.push_back(0);
+      add_missing_shapes(system.state.particles);
       system.setting.given_motions[1] = {};
     }
     Hinge hinge;
@@ -309,8 +303,7 @@ TEST_P(Plates, OnAStopGiveItTheWholeImpact) {
     const double l = kHalf - kEnd, angle = std::numbers::pi / 2;
     add_plate(system, {10, 10 + l, 0}, angle, 1);
     add_disc(system, {10 - kEnd - 0.1 - kGap - 0.055, 10.7, 0}, 0.5, {1, 0, 0});
-    system.setting.fluid->semi_axes.push_back({0.1, 0.1});
-    system.setting.fluid->plates.push_back(0);
+    add_missing_shapes(system.state.particles);
     Hinge hinge;
     hinge.at = {10, 10, 0};
     hinge.point = {0, {-l, 0, 0}};
@@ -342,7 +335,7 @@ TEST_P(Plates, ThatLieOnEachOtherKeepBothEndsApart) {
     auto simulation = system.simulation(constant_drag(0.1));
     for (int n = 0; n < 300; ++n) {
       EXPECT_TRUE(simulation.step(1e9).converged) << tilt << " at " << simulation.state().time;
-      EXPECT_GE(gap_of(system, simulation, 0, 1), kGap - 1e-5) << tilt;
+      EXPECT_GE(gap_of(simulation, 0, 1), kGap - 1e-5) << tilt;
     }
     const auto& p = simulation.state().particles;
     // Both ends are at the threshold gap to the tolerance.

@@ -271,8 +271,8 @@ TEST(ShearedCell, HasTheOverlapsOfEllipsesAndNotOfTheirCircles) {
   for (const Vector& at :
        {Vector{4, 3, 0}, Vector{4, 3.7, 0}, Vector{4, 0.2, 0}, Vector{5, 5.5, 0}})
     add_pushed(system, at, 1, 0, {});
-  system.setting.fluid->semi_axes.assign(4, {1, 0.25});
   auto& p = system.state.particles;
+  p.shapes.assign(4, Shape::ellipse(1, 0.25));
   p.angles.assign(4, 0);
   p.cell = cell_of(system.setting);
   p.cell.moved_for = system.state.time = 1;

@@ -284,8 +284,7 @@ struct HangingPlate {
     auto& p = system.state.particles;
     p.angles = {0, kTilt - std::numbers::pi / 2};
     p.angular_velocities.assign(2, 0);
-    fluid.semi_axes = {{0.1, 0.1}, {kHalf, kEnd}};
-    fluid.plates = {0, 1};
+    p.shapes = {Shape::disc(0.1), Shape::plate(kHalf, kEnd)};
     system.setting.given_motions[0] = {};
     Pair pair{0, 1};
     pair.gamma = -1e9;

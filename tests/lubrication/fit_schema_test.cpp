@@ -81,7 +81,7 @@ class Schema : public ::testing::Test {
   }
 
   void expect_refused(const Json& json, const std::string& key) const {
-    EXPECT_THAT(bad_input([&] { read(json); }), Says(key)) << json.dump();
+    EXPECT_THAT(bad_input([&] { read(json); }), Names(key)) << json.dump();
   }
 
  private:

@@ -165,7 +165,7 @@ TEST(LubricationForce, RefusesAFitThatIsNotADrag) {
   // A force along its velocity.
   Fit fit = fitting::planted_fit({{"1/q", 1}}, 1e-3, 1);
   fit.reference_velocity = 1;
-  EXPECT_THAT(bad_input([&] { LubricationForce{fit}; }), Says("must be positive"));
+  EXPECT_THAT(bad_input([&] { LubricationForce{fit}; }), Names("resistance"));
 }
 
 TEST(LubricationForce, WithoutALeadingTermHasNoLubricationLimit) {

@@ -218,6 +218,18 @@ mass = 2.0
         self.assertEqual(c.tangential_force.shape, (2, 2))
         self.assertTrue(np.all(c.gamma <= 0))
         np.testing.assert_allclose(c.branch, [[0, 1], [0, 0.5]], atol=1e-5)
+        self.assertEqual(list(c.image), [0, 0])
+
+    def test_particles_are_those_of_the_file_at_the_end(self):
+        p = self.open(falling())
+        p.run()
+        now = p.particles()
+        self.assertEqual(now.position.shape, (2, 2))
+        np.testing.assert_array_equal(now.position, p.positions)
+        np.testing.assert_array_equal(now.radius, p.radii)
+        np.testing.assert_array_equal(now.velocity, p.reported_velocities())
+        self.assertEqual(list(now.id), list(p.ids))
+        np.testing.assert_array_equal(now.angular_velocity, p.angular_velocities)
 
     def test_steps_and_times(self):
         p = self.open(falling())

@@ -28,7 +28,7 @@ struct Template {
   /// Expects a refusal that names file and key.
   void expect_refused(const std::string& key, double value, const std::string& named = "") const {
     EXPECT_THAT(bad_input([&] { with(key, value); }),
-                AllOf(IsAt(path.string()), Says(key), Names(named)));
+                AllOf(IsAt(path.string()), Names(key, named)));
   }
 
   TemporaryFolder folder;

@@ -189,7 +189,7 @@ TEST(OptimalStroke, TooLargeADisplacementIsRefusedWithARemedy) {
   EXPECT_THAT(bad_input([] {
                 (void)find_optimal_stroke(swimmer(), {50, arms(6, 6), 8}, {});
               }),
-              Says("make a table of more arms"));
+              Names("50"));
 }
 
 }  // namespace

@@ -64,6 +64,16 @@ inline void add_impact(MomentumEnergyBudget& budget, double mass, double velocit
   budget.solid_work += impact.solid_impulse * velocity / 2 + impact.restitution * leaving / 2;
 }
 
+/// Free choices of impacts.
+struct BounceTuning {
+  /// A flight that is shorter than this fraction of the step (scheme of time steps) or of the
+  /// duration of the motion (exact times) counts as rest, so that the infinitely many bounces of a
+  /// sphere without a film end.
+  static constexpr double kShortestOfStep = 1e-3, kShortestOfMotion = 1e-6;
+  /// Corrections of the time of an impact with drag; each one reduces its error by about h a/u.
+  static constexpr int kCorrections = 4;
+};
+
 /// A step with impacts; times count from its beginning.
 struct ReboundStep {
   ContactState state;             ///< at the end of the step
@@ -100,10 +110,8 @@ inline double time_of_fall(double gap, double velocity, double acceleration, dou
 inline double strike(ReboundStep& step, double time, double velocity, double acceleration,
                      const ContactSetting& setting, double restitution) {
   assert(!(time < step.last_impact));
-  // A flight that is shorter than this fraction of the step counts as rest, so that bounces end.
-  constexpr double kShortestFlight = 1e-3;
-  const double least =
-      setting.mass * kShortestFlight * setting.step * std::max(0.0, -acceleration) / 2;
+  const double least = setting.mass * BounceTuning::kShortestOfStep * setting.step *
+                       std::max(0.0, -acceleration) / 2;
   const auto impact =
       impact_through_film(setting.mass * velocity, setting.gamma_min, restitution, least);
   add_impact(step.budget, setting.mass, velocity, impact);
@@ -161,8 +169,7 @@ std::optional<ReboundStep> rebound_step(const ContactState& state, double push, 
       return state.velocity + (push * time / h + of_drag) * setting.per_mass;
     };
     double time = h, velocity = velocity_at(h);
-    constexpr int kCorrections = 4;  // each one reduces the error of the time by about h a/u
-    for (int n = 0; n < kCorrections && velocity < 0; ++n) {
+    for (int n = 0; n < BounceTuning::kCorrections && velocity < 0; ++n) {
       time = std::min(h, -2 * state.gap / (std::min(0.0, state.velocity) + velocity));
       velocity = velocity_at(time);
     }

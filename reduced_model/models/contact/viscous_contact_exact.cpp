@@ -21,7 +21,7 @@ class EventDriven {
         gamma_min_(model.gamma_min),
         solid_resistance_(model.solid_resistance),
         restitution_(motion.restitution()),
-        shortest_flight_(kShortestFlight * motion.end_time),
+        shortest_flight_(BounceTuning::kShortestOfMotion * motion.end_time),
         last_gap_(motion_ends_at(model.largest_gap)),
         gap_(motion.initial_gap),
         velocity_(motion.initial_velocity) {}
@@ -134,11 +134,6 @@ class EventDriven {
     from_ = t;
     return t;
   }
-
-  // A flight that is shorter than this fraction of the duration of the motion counts as rest, so
-  // that the infinitely many bounces of a sphere without a film end. inertial.cpp has the same
-  // constant.
-  static constexpr double kShortestFlight = 1e-6;
 
   double m_;
   const ExternalForce& f_;

@@ -18,7 +18,7 @@ TEST(LockedFolder, IsHeldByOneAtATime) {
   const TemporaryFolder scratch;
   std::optional<LockedFolder> first(std::in_place, scratch.path(), "is held");
   EXPECT_THAT(bad_input([&] { const LockedFolder second(scratch.path(), "is held"); }),
-              AllOf(IsAt(scratch.path().string()), Says("is held")));
+              AllOf(IsAt(scratch.path().string()), Names("is held")));
   first.reset();
   EXPECT_NO_THROW(const LockedFolder third(scratch.path(), "is held"));
   EXPECT_TRUE(fs::exists(scratch.path()));  // it was there before

@@ -227,7 +227,7 @@ TEST_F(RowJournalFile, PlaceThatCannotBeWrittenIsBadInputThatNamesIt) {
   put_text(scratch_.path() / "file", "");
   const auto below = scratch_.path() / "file" / "table.csv.rows";
   EXPECT_THAT(failure(ErrorKind::kBadInput, [&] { const RowJournal journal(below, kHash); }),
-              Says((scratch_.path() / "file").string()));
+              Names((scratch_.path() / "file").string()));
 }
 
 }  // namespace

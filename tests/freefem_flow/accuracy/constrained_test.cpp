@@ -68,7 +68,7 @@ struct CellOfDiscs {
     p.inertias.assign(discs.size(), 0);
     if (!body.empty()) add_rigid_body(p, {body});
     return {setting, state,
-            start_fluid_solver(*setting.fluid, setting.domain, p.radii, p.dimension)};
+            start_fluid_solver(*setting.fluid, setting.domain, shapes_of(p), p.dimension)};
   }
 };
 

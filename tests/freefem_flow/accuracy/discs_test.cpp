@@ -269,7 +269,7 @@ TEST(LargeMesh, IsComparedWithACoarserOne) {
   SolverLimits limits;
   limits.most_unknowns_to_refine = 1000;
   FlowProcess flow(
-      fluid, domain, discs.radii, 2, solver_command(fluid, 2),
+      fluid, domain, shapes_of(discs), 2, solver_command(fluid, 2),
       [&](const particles::FluidParticles& placed, double coarsening) {
         return mesh_boundary(fluid, domain, placed, coarsening);
       },

@@ -124,7 +124,7 @@ TEST(ForceErrors, OfAnArmAreTrue) {
     state.particles = particles_of(squeezed.discs, 2);
     state.particles.masses.assign(2, 0);
     state.particles.velocities.assign(4, 0);
-    auto solver = start_fluid_solver(*setting.fluid, setting.domain, state.particles.radii, 2);
+    auto solver = start_fluid_solver(*setting.fluid, setting.domain, shapes_of(state.particles), 2);
     particles::FluidSimulation simulation(setting, state, std::move(solver));
     simulation.step(kStep);
     // The arm pulls, and the fluid pushes the first disc back.

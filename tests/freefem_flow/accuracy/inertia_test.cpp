@@ -202,7 +202,8 @@ struct Run {
   std::unique_ptr<FluidSimulation> at(double end) const {
     const auto& p = state.particles;
     auto simulation = std::make_unique<FluidSimulation>(
-        setting, state, start_fluid_solver(*setting.fluid, setting.domain, p.radii, p.dimension));
+        setting, state,
+        start_fluid_solver(*setting.fluid, setting.domain, shapes_of(p), p.dimension));
     while (simulation->state().time < end * (1 - 1e-9)) simulation->step(end);
     return simulation;
   }

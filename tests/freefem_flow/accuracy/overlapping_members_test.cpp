@@ -8,7 +8,7 @@
 
 #include "tests/freefem_flow/placed_flow.hpp"
 #include "viscontact/immersed/fluid_simulation.hpp"
-#include "viscontact/particles/setting/outline.hpp"
+#include "viscontact/particles/setting/chords.hpp"
 #include "viscontact/particles/state/rigid_bodies.hpp"
 
 namespace viscontact::freefem_flow {
@@ -46,7 +46,7 @@ struct InRoundWall {
   particles::Particles after_step() const {
     particles::FluidSimulation simulation(
         setting, state,
-        start_fluid_solver(*setting.fluid, setting.domain, state.particles.radii, 2));
+        start_fluid_solver(*setting.fluid, setting.domain, shapes_of(state.particles), 2));
     EXPECT_TRUE(simulation.step(1).converged);
     return simulation.state().particles;
   }
@@ -60,8 +60,7 @@ TEST(OverlappingMembers, InARowMoveAsAPlate) {
   InRoundWall row(discs);
   row.join();
   InRoundWall plate({{0, 0, 0.8}});
-  plate.setting.fluid->semi_axes = {{0.8, 0.2}};
-  plate.setting.fluid->plates = {1};
+  plate.state.particles.shapes = {particles::Shape::plate(0.8, 0.2)};
   const auto velocities = [](InRoundWall& of, std::int32_t middle) {
     of.setting.forces[middle] = {{{1e300, {1, 1, 0}}}};
     of.setting.torques[middle] = {{{1e300, {0, 0, 1}}}};
@@ -90,7 +89,7 @@ TEST(OverlappingMembers, FloatInAFluidOfTheirDensity) {
   p.bodies = {};
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_GT(areas[k], 0) << k;
-    p.masses[k] = 2 * body.setting.fluid->size_of(2, k, p.radii[k]);
+    p.masses[k] = 2 * body.setting.fluid->size_of(p.shape(k), k);
     p.inertias[k] = 0.01 * p.masses[k];
   }
   body.join();
@@ -107,8 +106,7 @@ TEST(OverlappingMembers, FloatInAFluidOfTheirDensity) {
 TEST(OverlappingMembers, AreNoPlatesWhoseCirclesMeet) {
   const auto velocity = [](RigidConstraint constraint) {
     InRoundWall body({{0, -0.5, 1}, {0, 0.5, 1}}, 12);
-    body.setting.fluid->semi_axes = {{1, 0.2}, {1, 0.2}};
-    body.setting.fluid->plates = {1, 1};
+    body.state.particles.shapes.assign(2, particles::Shape::plate(1, 0.2));
     body.setting.fluid->constraint = constraint;
     body.join();
     EXPECT_TRUE(body.setting.fluid->cut_areas.empty());

@@ -17,6 +17,7 @@ namespace {
 using particles::Fluid;
 using particles::FluidMesh;
 using particles::RigidConstraint;
+using particles::Shape;
 
 Fluid fluid_of(int edges) {
   Fluid fluid;
@@ -33,22 +34,22 @@ struct Placed {
   std::unique_ptr<particles::FluidSolver> solver;
 
   Placed(const Fluid& fluid, const particles::Domain& domain, std::vector<double> positions,
-         std::vector<double> radii, std::vector<double> at_angles)
+         std::vector<Shape> shapes, std::vector<double> at_angles)
       : angles(std::move(at_angles)) {
     bodies.dimension = 2;
     bodies.positions = std::move(positions);
-    bodies.radii = std::move(radii);
-    solver = start_fluid_solver(fluid, domain, bodies.radii, 2);
+    bodies.shapes = std::move(shapes);
+    for (const auto& shape : bodies.shapes) bodies.radii.push_back(shape.bounding_radius());
+    solver = start_fluid_solver(fluid, domain, bodies.shapes, 2);
     solver->place({&bodies, angles, {}, {}});
   }
 };
 
 /// The velocities of a plate of the half length 1 in the middle of a round wall of radius 4.
-std::vector<double> velocities(Fluid fluid, double end_radius, double angle,
+std::vector<double> velocities(const Fluid& fluid, double end_radius, double angle,
                                const std::vector<double>& forces) {
-  fluid.semi_axes = {{1, end_radius}};
-  fluid.plates = {1};
-  return Placed(fluid, particles::DiscDomain{{0, 0}, 4}, {0, 0}, {1}, {angle})
+  return Placed(fluid, particles::DiscDomain{{0, 0}, 4}, {0, 0}, {Shape::plate(1, end_radius)},
+                {angle})
       .solver->velocities(forces, true);
 }
 
@@ -57,8 +58,9 @@ std::vector<double> velocities(Fluid fluid, double end_radius, double angle,
 TEST(Plate, NearlyWithoutSidesMovesAsADisc) {
   const std::vector<double> forces = {1, 0.5, 0.3};
   const auto plate = velocities(fluid_of(16), 0.99, 0.4, forces);
-  const auto disc = Placed(fluid_of(16), particles::DiscDomain{{0, 0}, 4}, {0, 0}, {1}, {0})
-                        .solver->velocities(forces, true);
+  const auto disc =
+      Placed(fluid_of(16), particles::DiscDomain{{0, 0}, 4}, {0, 0}, {Shape::disc(1)}, {0})
+          .solver->velocities(forces, true);
   for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(plate[c], disc[c], 0.02 * std::abs(disc[c]));
 }
 
@@ -135,7 +137,7 @@ TEST(Probes, WhatFlowsInFlowsOutBesideParticles) {
   sides[0] = parabolic(1.5);
   sides[1].kind = particles::WallVelocity::Kind::kOpen;
   fluid.boundary = sides;
-  Placed placed(fluid, channel(false), {2.1, 0.8}, {0.3}, {0});
+  Placed placed(fluid, channel(false), {2.1, 0.8}, {Shape::disc(0.3)}, {0});
   placed.solver->velocities(std::vector<double>{0.2, 0.1, 0}, true);
   const auto probes = placed.solver->quantities().probes;
   EXPECT_NEAR(probes[0][0], 2, 1e-9);
@@ -149,7 +151,8 @@ TEST(Probes, WhatFlowsInFlowsOutBesideParticles) {
 TEST(Probes, MeasureAcrossAPeriod) {
   auto fluid = probed(10);
   fluid.boundary = particles::SideVelocities{};
-  Placed placed(fluid, channel(true), {2.2, 0.7, 0.1, 1.3}, {0.3, 0.3}, {0, 0});
+  Placed placed(fluid, channel(true), {2.2, 0.7, 0.1, 1.3}, {Shape::disc(0.3), Shape::disc(0.3)},
+                {0, 0});
   placed.solver->velocities(std::vector<double>{1, 0, 0, 0, 0, 0}, true);
   const auto probes = placed.solver->quantities().probes;
   EXPECT_GT(probes[1][0], 1e-3);

@@ -52,7 +52,7 @@ struct PulledChain {
       state.pairs.push_back(pair);
     }
     return {setting, state,
-            start_fluid_solver(*setting.fluid, setting.domain, p.radii, p.dimension)};
+            start_fluid_solver(*setting.fluid, setting.domain, shapes_of(p), p.dimension)};
   }
 };
 

@@ -15,7 +15,7 @@
 
 #include "tests/common/failure.hpp"
 #include "tests/freefem_flow/placed_flow.hpp"
-#include "viscontact/particles/setting/outline.hpp"
+#include "viscontact/particles/setting/chords.hpp"
 #include "viscontact/particles/state/rigid_bodies.hpp"
 
 namespace viscontact::freefem_flow {
@@ -204,7 +204,7 @@ TEST(MeshBoundary, OfDiscsOfABodyThatOverlapIsThatOfTheirUnion) {
   expect_closed(boundary);
   EXPECT_EQ(labels_of(boundary), (std::multiset<int>{1, 100, 100, 101, 102, 103}));
   double area = 0;
-  for (std::size_t k = 0; k < 4; ++k) area += fluid.size_of(2, k, particles.radii[k]);
+  for (std::size_t k = 0; k < 4; ++k) area += fluid.size_of(particles.shape(k), k);
   EXPECT_NEAR(area_of(boundary, {100, 101, 102, 103}), -area, kOfPolygon * area);
   // No edge is shorter than half of the wanted length, but for chord over arc: where circles meet
   // there is no narrow gap.
@@ -248,7 +248,7 @@ TEST(MeshBoundary, OfParticlesThatTouchIsRefused) {
                           boundary_of(fluid_with(24), DiscDomain{{}, 6},
                                       {{-1 - gap / 2, 0, 1}, {1 + gap / 2, 0, 1}});
                         }),
-                Says("overlap or have too narrow a gap"));
+                Names("fluid.threshold_gap", "time_step"));
 }
 
 TEST(MeshBoundary, OfManyDiscsIsMadeFast) {

@@ -30,8 +30,16 @@ double area_of(const std::vector<CellEdge>& edges) {
   return area;
 }
 
+struct Disc {
+  particles::Vector2 centre;
+  double radius;
+};
+
 // Corners are joined within a tenth of their distance from the discs, which moves the area.
-void check(const BoxDomain& box, const std::vector<particles::Outline>& circles) {
+void check(const BoxDomain& box, const std::vector<Disc>& discs) {
+  std::vector<particles::PlacedShape> circles;
+  for (const auto& disc : discs)
+    circles.push_back({particles::Shape::disc(disc.radius), disc.centre});
   const auto edges = periodic_cells(box, circles);
   const std::array<double, 2> period = {box.to[0] - box.from[0], box.to[1] - box.from[1]};
   ASSERT_FALSE(edges.empty());
@@ -67,7 +75,7 @@ void check(const BoxDomain& box, const std::vector<particles::Outline>& circles)
       for (int i = box.periodic[0] ? -2 : 0; i <= (box.periodic[0] ? 2 : 0); ++i)
         for (int j = box.periodic[1] ? -2 : 0; j <= (box.periodic[1] ? 2 : 0); ++j) {
           const Point centre = {circle.centre[0] + i * period[0], circle.centre[1] + j * period[1]};
-          EXPECT_GT(distance_of_segment(centre, edge), circle.radius)
+          EXPECT_GT(distance_of_segment(centre, edge), circle.shape.bounding_radius())
               << "edge " << e << " cuts the disc at " << centre[0] << ", " << centre[1];
         }
   }
@@ -78,7 +86,8 @@ constexpr BoxDomain kUnit = {{0, 0}, {1, 1}, {true, true}};
 
 TEST(PeriodicCells, OfOneDiscAreItsSquare) {
   check(kUnit, {{{0.5, 0.5}, 0.3}});
-  const auto edges = periodic_cells(kUnit, std::vector<particles::Outline>{{{0.5, 0.5}, 0.3}});
+  const auto edges = periodic_cells(
+      kUnit, std::vector<particles::PlacedShape>{{particles::Shape::disc(0.3), {0.5, 0.5}}});
   EXPECT_EQ(edges.size(), 4U);
   for (const auto& edge : edges)
     EXPECT_NEAR(std::hypot(edge.to[0] - edge.from[0], edge.to[1] - edge.from[1]), 1, 1e-12);
@@ -121,20 +130,21 @@ TEST(PeriodicCells, OfRandomDiscsTileThePeriod) {
                            {-1 + 1 + 3 * uniform(random), 2 + 1 + 3 * uniform(random)},
                            {uniform(random) < 0.7, true}};
     const std::array<double, 2> period = {box.to[0] - box.from[0], box.to[1] - box.from[1]};
-    std::vector<particles::Outline> circles;
+    std::vector<Disc> circles;
     const int tries = 1 + static_cast<int>(30 * uniform(random));
     for (int i = 0; i < tries; ++i) {
-      const particles::Outline drawn = {
-          {box.from[0] + period[0] * uniform(random), box.from[1] + period[1] * uniform(random)},
-          0.05 + 0.25 * uniform(random)};
+      const double x = box.from[0] + period[0] * uniform(random),
+                   y = box.from[1] + period[1] * uniform(random),
+                   radius = 0.05 + 0.25 * uniform(random);
+      const Disc drawn{{x, y}, radius};
       constexpr double kLeastGap = 1e-3;
-      bool fits = box.periodic[0] || (drawn.centre[0] - drawn.radius > box.from[0] + kLeastGap &&
-                                      drawn.centre[0] + drawn.radius < box.to[0] - kLeastGap);
+      bool fits = box.periodic[0] ||
+                  (x - radius > box.from[0] + kLeastGap && x + radius < box.to[0] - kLeastGap);
       for (const auto& other : circles) {
         double dx = drawn.centre[0] - other.centre[0], dy = drawn.centre[1] - other.centre[1];
         if (box.periodic[0]) dx -= period[0] * std::round(dx / period[0]);
         dy -= period[1] * std::round(dy / period[1]);
-        fits = fits && std::hypot(dx, dy) > drawn.radius + other.radius + kLeastGap;
+        fits = fits && std::hypot(dx, dy) > radius + other.radius + kLeastGap;
       }
       if (fits) circles.push_back(drawn);
     }

@@ -38,7 +38,7 @@ void place_octagon(double gap, particles::RigidConstraint constraint) {
   disc.positions = {0.5, height};
   disc.radii = {0.25};
   const std::vector<double> angles = {0};
-  FlowProcess solver(fluid, particles::BoxDomain{{0, 0}, {1, 1}}, disc.radii, 2,
+  FlowProcess solver(fluid, particles::BoxDomain{{0, 0}, {1, 1}}, shapes_of(disc), 2,
                      solver_command(fluid, 2), boundary);
   solver.place({&disc, angles, {}, {}});
 }

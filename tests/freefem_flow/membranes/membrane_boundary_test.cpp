@@ -45,7 +45,7 @@ TEST(MembraneBoundary, AMembraneIsShiftedToWhereNoPeriodEnds) {
   EXPECT_NEAR(shift_between_membranes(box, curves), 7.75 + 2 - 8, 1e-12);
   EXPECT_EQ(shift_between_membranes(particles::DiscDomain{{}, 9}, curves), 0);
   // A disc at 0 covers 7.5 to 8.5: the widest gap is then from 3 to 4.5.
-  curves.discs.push_back({.centre = {0, 2}, .radius = 0.5});
+  curves.discs.push_back({particles::Shape::disc(0.5), {0, 2}});
   EXPECT_NEAR(shift_between_membranes(box, curves), 3.75 + 2, 1e-12);
 }
 
@@ -53,7 +53,7 @@ TEST(MembraneBoundary, DiscsAreHolesWithShortEdgesInNarrowGaps) {
   const particles::BoxDomain box{{-6, -6}, {6, 6}, {false, false}};
   const auto edges_of = [&](double x) {
     const auto boundary = membrane_boundary(box, {.membranes = {circle(0, 0, 0)},
-                                                  .discs = {{.centre = {x, 0}, .radius = 0.5}},
+                                                  .discs = {{particles::Shape::disc(0.5), {x, 0}}},
                                                   .edges = kEdges,
                                                   .edges_of_disc = 12});
     const auto& disc = boundary.curves[boundary.curves.size() - 2];
@@ -76,8 +76,9 @@ TEST(MembraneBoundary, DiscsAreHolesWithShortEdgesInNarrowGaps) {
 TEST(MembraneBoundary, CurvesThatMeetAreErrors) {
   const particles::BoxDomain box{{-6, -6}, {6, 6}, {false, false}};
   const auto check = [&](double x) {
-    check_places(
-        box, {.membranes = {circle(0, 0, 0)}, .discs = {{.centre = {x, 0}, .radius = 0.5}}}, {});
+    check_places(box,
+                 {.membranes = {circle(0, 0, 0)}, .discs = {{particles::Shape::disc(0.5), {x, 0}}}},
+                 {});
   };
   EXPECT_NO_THROW(check(0));
   EXPECT_NO_THROW(check(1.6));

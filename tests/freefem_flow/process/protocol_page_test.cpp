@@ -31,7 +31,8 @@ TEST(ProtocolPage, ShowsWhatTheExampleAnswers) {
 TEST(ProtocolPage, ShowsTheOpening) {
   particles::Fluid fluid;
   fluid.viscosity = 1;
-  const auto text = opening(fluid, particles::CylinderDomain{5, 10}, std::array{1.0}, 1);
+  const auto text =
+      opening(fluid, particles::CylinderDomain{5, 10}, std::array{particles::Shape::sphere(1)}, 1);
   EXPECT_EQ(block(0).substr(0, text.size()), text);
 }
 

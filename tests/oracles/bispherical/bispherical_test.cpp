@@ -22,63 +22,55 @@ constexpr double kRounding = 1e-14;
 constexpr std::initializer_list<double> kGaps = {1e-6, 1e-5, 1e-4, 1e-3, 1e-2,
                                                  0.1,  1,    10,   100,  1e3};
 
-TEST(Bispherical, AgreesWithTheReferenceValuesNearAPlane) {
-  const std::array<std::string, 2> columns{"gap_over_r", "lambda"};
-  const auto rigid = read_csv(kReference / "sphere_plane.csv", columns, 2);
-  ASSERT_GE(rigid.rows.size(), 8U);
-  for (const auto& row : rigid.rows) {
-    const double epsilon = row.fields[0].value(), exact = row.fields[1].value();
-    EXPECT_NEAR(bispherical_plane_factor(epsilon), exact, kRounding * exact)
-        << "no slip, at " << epsilon;
-  }
-  const auto free = read_csv(kReference / "sphere_free_surface.csv", columns, 2);
-  ASSERT_GE(free.rows.size(), 4U);
-  for (const auto& row : free.rows) {
-    const double epsilon = row.fields[0].value(), exact = row.fields[1].value();
-    EXPECT_NEAR(free_surface_drag_factor(epsilon), exact, kRounding * exact)
-        << "shear-free, at " << epsilon;
+/// Calls check(fields) for each row of a table of reference values with at least `least` rows.
+template <std::size_t columns, class Check>
+void for_each_row(const char* file, const std::array<std::string, columns>& names,
+                  std::size_t least, const Check& check) {
+  const auto table = read_csv(kReference / file, names, columns);
+  EXPECT_GE(table.rows.size(), least);
+  for (const auto& row : table.rows) {
+    std::array<double, columns> fields{};
+    for (std::size_t i = 0; i < columns; ++i) fields[i] = row.fields[i].value();
+    check(fields);
   }
 }
 
+TEST(Bispherical, AgreesWithTheReferenceValuesNearAPlane) {
+  const std::array<std::string, 2> columns{"gap_over_r", "lambda"};
+  for_each_row("sphere_plane.csv", columns, 8, [](const auto& row) {
+    EXPECT_NEAR(bispherical_plane_factor(row[0]), row[1], kRounding * row[1]) << "at " << row[0];
+  });
+  for_each_row("sphere_free_surface.csv", columns, 4, [](const auto& row) {
+    EXPECT_NEAR(free_surface_drag_factor(row[0]), row[1], kRounding * row[1]) << "at " << row[0];
+  });
+}
+
 TEST(Bispherical, AgreesWithTheReferenceValuesOfTwoSpheres) {
-  const auto table = read_csv(
-      kReference / "two_spheres.csv",
-      std::array<std::string, 5>{"size_ratio_a2_over_a1", "gap_over_a1", "X11A", "X12A", "X22A"},
-      5);
-  ASSERT_GE(table.rows.size(), 4U);
-  for (const auto& row : table.rows) {
-    const double ratio = row.fields[0].value(), epsilon = row.fields[1].value();
-    const double x11 = row.fields[2].value(), x12 = row.fields[3].value();
-    const double x22 = row.fields[4].value();
-    const double alone = two_sphere_drag_factor(epsilon, ratio, 0);
-    EXPECT_NEAR(alone, x11, kRounding * x11) << "X11A at " << epsilon;
+  const std::array<std::string, 5> columns{"size_ratio_a2_over_a1", "gap_over_a1", "X11A", "X12A",
+                                           "X22A"};
+  for_each_row("two_spheres.csv", columns, 4, [](const auto& row) {
+    const auto& [ratio, epsilon, x11, x12, x22] = row;
+    EXPECT_NEAR(two_sphere_drag_factor(epsilon, ratio, 0), x11, kRounding * x11)
+        << "X11A at " << epsilon;
     // For other velocities the largest number in the sum is X11A or X12A, both of the same size.
-    for (const double velocity : {-1.0, 0.5, 1.0, 3.0}) {
+    for (const double velocity : {-1.0, 0.5, 1.0, 3.0})
       EXPECT_NEAR(two_sphere_drag_factor(epsilon, ratio, velocity),
                   x11 + (1 + ratio) / 2 * x12 * velocity, 4 * kRounding * x11)
           << "at " << epsilon << ", velocity ratio " << velocity;
-    }
     EXPECT_NEAR(two_sphere_drag_factor(epsilon / ratio, 1 / ratio, 0), x22, kRounding * x22)
         << "X22A at " << epsilon;
-  }
+  });
 }
 
 TEST(Bispherical, AgreesWithTheReferenceValuesInACavity) {
   const std::array<std::string, 3> columns{"R_over_r", "gap_over_r", "lambda"};
-  const auto eccentric = read_csv(kReference / "sphere_in_cavity.csv", columns, 3);
-  ASSERT_GE(eccentric.rows.size(), 13U);
-  for (const auto& row : eccentric.rows) {
-    const double ratio = row.fields[0].value(), epsilon = row.fields[1].value();
-    const double exact = row.fields[2].value();
-    EXPECT_NEAR(cavity_drag_factor(epsilon, ratio), exact, kRounding * exact) << "at " << epsilon;
-  }
-  const auto concentric = read_csv(kReference / "sphere_in_cavity_concentric.csv", columns, 3);
-  ASSERT_GE(concentric.rows.size(), 2U);
-  for (const auto& row : concentric.rows) {
-    const double ratio = row.fields[0].value(), exact = row.fields[2].value();
-    EXPECT_NEAR(concentric_cavity_drag_factor(ratio), exact, kRounding * exact) << "R/r " << ratio;
-    EXPECT_NEAR(cavity_drag_factor(row.fields[1].value(), ratio), exact, kRounding * exact);
-  }
+  for_each_row("sphere_in_cavity.csv", columns, 13, [](const auto& row) {
+    EXPECT_NEAR(cavity_drag_factor(row[1], row[0]), row[2], kRounding * row[2]) << "at " << row[1];
+  });
+  for_each_row("sphere_in_cavity_concentric.csv", columns, 2, [](const auto& row) {
+    EXPECT_NEAR(concentric_cavity_drag_factor(row[0]), row[2], kRounding * row[2]);
+    EXPECT_NEAR(cavity_drag_factor(row[1], row[0]), row[2], kRounding * row[2]);
+  });
 }
 
 TEST(Bispherical, AgreesWithBrennersSeries) {

@@ -22,11 +22,8 @@ struct Refusal {
 };
 std::ostream& operator<<(std::ostream& out, const Refusal& refusal) { return out << refusal.name; }
 
-TEST(RefusedEllipse, InABodyOrWithASolverThatKnowsDiscsOnly) {
+TEST(RefusedEllipse, WithASolverThatKnowsDiscsOnly) {
   const auto text = changed(kDiscsInDisc, "radius = 1.0", "semi_axes = [1.0, 0.5]");
-  expect_refused_at(
-      changed(text, "viscosity = 2.0", "viscosity = 2.0\n[[body]]\nparticles = [0, 1]"),
-      "[[particle]]", "");
   expect_refused_at(changed(text, "viscosity = 2.0", "viscosity = 2.0\nsolver = [\"true\"]"),
                     "solver", "fluid.solver");
 }

@@ -145,15 +145,12 @@ TEST(FluidCase, ReadsPlatesAndProbes) {
               "radius = 0.25\nlength = 1.5\nangle = 1.5\ndensity = 2.0\n[[particle]]") +
       "[[probe]]\nname = \"in-1\"\nfrom = [0.5, 0.0]\nto = [1.0, 6.0]\n");
   const auto& fluid = *c.setting.fluid;
-  EXPECT_TRUE(fluid.is_plate(0));
-  EXPECT_FALSE(fluid.is_plate(1));
-  EXPECT_FALSE(fluid.is_ellipse(0));
-  EXPECT_THAT(fluid.semi_axes[0], ElementsAre(0.75, 0.25));
-  EXPECT_EQ(fluid.end_radius(0, c.particles.radii[0]), 0.25);
+  EXPECT_EQ(c.particles.shape(0), Shape::plate(0.75, 0.25));
+  EXPECT_EQ(c.particles.shape(1), Shape::disc(c.particles.radii[1]));
   EXPECT_EQ(c.particles.radii[0], 0.75);
   EXPECT_DOUBLE_EQ(c.particles.masses[0], 2 * (3.141592653589793 / 16 + 0.5));
   EXPECT_DOUBLE_EQ(c.particles.inertias[0],
-                   homogeneous_inertia_of_plate(c.particles.masses[0], {0.75, 0.25}));
+                   Shape::plate(0.75, 0.25).inertia(c.particles.masses[0]));
   ASSERT_EQ(fluid.probes.size(), 1U);
   EXPECT_EQ(fluid.probes[0].name, "in-1");
   EXPECT_THAT(fluid.probes[0].to, ElementsAre(1, 6));

@@ -106,7 +106,7 @@ TEST_F(RestartFile, SaysWhichEndOfAPlateIsAtAnObstacle) {
   state.walls[1].place = 1;
   const auto text = write_restart(state);
   EXPECT_EQ(read(text).walls, state.walls);
-  state.walls[1].place = 2;
+  state.walls[1].place = 64;
   EXPECT_THAT(bad_input([&] { read(write_restart(state)); }), IsAt("restart.bin"));
 }
 

@@ -488,8 +488,7 @@ TEST(ParticlesPage, CountsWhatEachParticleHasOnce) {
   constexpr std::size_t kCount = 200000;
   Playback playback;
   playback.radii.assign(kCount, 1);
-  playback.semi_axes.assign(kCount, {1, 0.1});
-  playback.plates.assign(kCount, 1);
+  playback.shapes.assign(kCount, Shape::plate(1, 0.1));
   playback.bodies.assign(kCount, -1);
   playback.ids.assign(kCount, 7);
   playback.frames.resize(9);
@@ -499,8 +498,7 @@ TEST(ParticlesPage, CountsWhatEachParticleHasOnce) {
     frame.angles.assign(kCount, 0);
   }
   EXPECT_LT(particles_page(playback, "Plates").size(), 24'000'000U);
-  playback.semi_axes.clear();
-  playback.plates.clear();
+  playback.shapes.clear();
   playback.bodies.clear();
   playback.links.springs.assign(200000, {100000, 100001});
   EXPECT_LT(particles_page(playback, "Links").size(), 24'000'000U);

@@ -81,13 +81,10 @@ TEST_F(Modules, ThatAreMissingAreNamed) {
   install();
   fs::remove_all(prefix() / "lib");
   const auto before = files_below(folder_.path()).size();
-  expect_refusal(run_installed(fit()), ErrorKind::kExternalProgram,
-                 AllOf(HasSubstr("module least_squares cannot be loaded"),
-                       HasSubstr("build or install Viscontact again")));
+  expect_refusal(run_installed(fit()), ErrorKind::kExternalProgram, Names("module least_squares"));
   const auto arguments = hdf5();
   expect_refusal(run_installed(arguments), ErrorKind::kWrongUsage,
-                 AllOf(HasSubstr("--hdf5 needs a build with libhdf5-dev"),
-                       HasSubstr("module hdf5 cannot be loaded")));
+                 Names("--hdf5", "libhdf5-dev", "module hdf5"));
   EXPECT_EQ(files_below(folder_.path()).size(), before + 1);  // the case
 }
 

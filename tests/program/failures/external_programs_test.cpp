@@ -131,7 +131,7 @@ TEST_F(ExternalPrograms, FreeFemThatDoesNotSayItsVersionIsStopped) {
   put_text(path("case.toml"), gentle_case_text());
   const std::vector<std::string> environment = {"VISCONTACT_FREEFEM=" + path("freefem"),
                                                 "VISCONTACT_FREEFEM_TIME_LIMIT=1"};
-  const auto said = Says("does not say which version it is");
+  const auto said = Names(path("freefem"), "version");
   expect_refusal(
       run_viscontact({"tabulate", path("case.toml"), "-o", path("table.csv")}, environment),
       ErrorKind::kExternalProgram, said);

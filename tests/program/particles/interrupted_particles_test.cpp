@@ -58,7 +58,6 @@ class InterruptedParticles : public ParticlesCommand {
   void run_half(const std::string& folder) const {
     const auto result = run(folder, {"INT", 4});
     ASSERT_EQ(result.exit_status, results::exit_code_of(ErrorKind::kInterrupted)) << result.errors;
-    EXPECT_THAT(result.errors, Says("the same command continues from there"));
   }
 };
 
@@ -93,8 +92,6 @@ TEST_F(InterruptedParticles, ListEachReboundOnce) {
   expect_done(run("parts"));
   expect_same_files(path("whole"), path("parts"));
   const auto rebounds = read_file(path("whole/rebounds.csv"));
-  EXPECT_THAT(rebounds,
-              HasSubstr("\ntime,first,second,approach_velocity,solid_impulse,velocity\n"));
   // The disc 12 falls on the floor.
   EXPECT_THAT(rebounds, HasSubstr(",12,-1,"));
 }

@@ -177,14 +177,13 @@ length = 3.0
   };
   const auto at_end = run(put_case(text("1.0")), out());
   expect_done(at_end);
-  EXPECT_THAT(at_end.errors, Says("the flow at the end of the run is missing"));
+  EXPECT_THAT(at_end.errors, Names("warning", "flow"));
   EXPECT_EQ(column("steps.csv", "step").size(), 10U);
   EXPECT_TRUE(fs::exists(out() / "particles.html"));
   EXPECT_EQ(nlohmann::json::parse(read_file(out() / "run.json"))["steps"], 10);
 
   const auto later = run(put_case(text("1.5")), out());
   EXPECT_EQ(later.exit_status, 4);
-  EXPECT_THAT(later.errors, Says("contradict each other"));
   EXPECT_EQ(column("steps.csv", "step").size(), 10U);
 }
 
@@ -214,8 +213,7 @@ force = [1.0, -5.0]
 )"),
                           out());
   EXPECT_EQ(result.exit_status, 4);
-  EXPECT_THAT(result.errors, Names("5 of 5"));
-  EXPECT_THAT(result.errors, Says("(of gaps, friction and links; "));
+  EXPECT_THAT(result.errors, Names("5 of 5", "gaps", "friction"));
   EXPECT_EQ(nlohmann::json::parse(read_file(out() / "run.json"))["steps_with_given_loads"], 5);
 }
 

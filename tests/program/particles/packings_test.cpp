@@ -163,11 +163,9 @@ TEST_F(Packings, GravityThatPointsUpwardsIsAWarning) {
     expect_done(result);
     return result.errors;
   };
-  EXPECT_THAT(with("[0.0, 9.81]"),
-              HasSubstr("warning: space.gravity points upwards (its last component, 9.81, is > 0); "
-                        "gravity towards the floor is negative"));
+  EXPECT_THAT(with("[0.0, 9.81]"), Names("warning", "space.gravity", "9.81"));
   for (const auto* gravity : {"[0.0, -1.0]", "[1.0, 0.0]"})
-    EXPECT_THAT(with(gravity), Not(HasSubstr("upwards")));
+    EXPECT_THAT(with(gravity), Not(Names("space.gravity")));
 }
 
 /// Three discs that fall on a floor in a fluid whose flow is not computed.
@@ -240,7 +238,7 @@ TEST_F(Packings, HaveTheReynoldsAndStokesNumbersOfTheirMotion) {
     EXPECT_TRUE(found["stokes_number"].is_null());
     const double of_film = largest(1).momentum / -lowest;
     EXPECT_NEAR(found["film_stokes_number"].get<double>() / of_film, 1, kRounding);
-    const auto warning = Says("the momentum of the landing is ");
+    const auto warning = Names("warning", "momentum");
     // At 2 the impact decides when solids touch, at 1000 they do not.
     if (lowest == -60.0)
       EXPECT_THAT(result.errors, warning);

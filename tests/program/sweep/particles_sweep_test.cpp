@@ -52,8 +52,7 @@ TEST_F(SweepOfParticles, DryRunMeasuresSteps) {
   EXPECT_EQ(output.at("rows"), 6);
   EXPECT_EQ(output.at("finished"), 0);
   EXPECT_GT(output.at("seconds_per_row"), 0);
-  EXPECT_THAT(output.at("estimated_from").get<std::string>(),
-              HasSubstr("steps of row 1 at the time"));
+  EXPECT_THAT(output.at("estimated_from").get<std::string>(), Names("row 1"));
   EXPECT_FALSE(std::filesystem::exists(path("rows.csv")));
   EXPECT_FALSE(std::filesystem::exists(path("rows.csv.runs")));
 }
@@ -214,9 +213,9 @@ TEST_F(SweepOfParticles, OptionsOfTheOtherKindOfCaseAreRefused) {
   refused({"--vary", "arrangement.area_fraction=0.2,0.4", "--plot", path("x.svg"), "--column", "u"},
           "'u'");
   expect_refused(data("cases/vanishing_viscosity.toml"), {"--draws", "2"}, ErrorKind::kWrongUsage,
-                 Says("for cases of many particles"));
+                 Names("--draws"));
   expect_refused(data("cases/vanishing_viscosity.toml"), {"--launcher", "slurm"},
-                 ErrorKind::kWrongUsage, Says("for cases of many particles"));
+                 ErrorKind::kWrongUsage, Names("--launcher"));
 }
 
 TEST_F(SweepOfParticles, DoesNotReplaceAFileThatIsNoTableOfMeans) {

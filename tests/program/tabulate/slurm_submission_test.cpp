@@ -109,7 +109,7 @@ TEST_F(SlurmSubmission, WithNoRowMissingAsksForNothing) {
   const auto result = submit();
   expect_done(result);
   EXPECT_EQ(result.output, "");
-  EXPECT_THAT(result.errors, Says("no row is missing"));
+  EXPECT_THAT(result.errors, Names(path("table.csv"), "--gather"));
   EXPECT_FALSE(std::filesystem::exists(path("asked")));
 }
 

@@ -141,7 +141,7 @@ TEST(Cvode, PassesOnAnErrorThatTheSystemThrows) {
   };
   Cvode cvode(system, std::array{1.0, 0.0});
   cvode.restart(0, 3);
-  EXPECT_THAT(bad_input([&] { finish(cvode, 3); }), Says("x is too small for us"));
+  EXPECT_THAT(bad_input([&] { finish(cvode, 3); }), Names("x is too small for us"));
 }
 
 TEST(Cvode, PassesOnAnErrorOfTheJacobian) {
@@ -151,7 +151,7 @@ TEST(Cvode, PassesOnAnErrorOfTheJacobian) {
   };
   Cvode cvode(system, std::array{1.0, 0.0});
   cvode.restart(0, 3);
-  EXPECT_THAT(bad_input([&] { finish(cvode, 3); }), Says("no slope here"));
+  EXPECT_THAT(bad_input([&] { finish(cvode, 3); }), Names("no slope here"));
 }
 
 TEST(Cvode, GetsAroundAnErrorThatASmallerStepAvoids) {

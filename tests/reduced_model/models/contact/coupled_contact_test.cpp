@@ -167,7 +167,7 @@ TEST(ContactModels, RefuseAFitWithoutAPositiveLeadingTerm) {
   const lubrication::LubricationForce force(fit);
   EXPECT_THAT(
       bad_input([&] { run_contact_model(viscous_contact_regular_drag, limit_motion(), force); }),
-      Says("1/q"));
+      Names("1/q"));
 }
 
 }  // namespace
