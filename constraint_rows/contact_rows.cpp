@@ -7,6 +7,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "viscontact/particles/contact/shaped_contacts.hpp"
+
 namespace viscontact::particles {
 
 template <int D>
@@ -88,18 +90,20 @@ ContactTangents<D> tangents_of(const Contact<D>& contact, const Particles& parti
   const auto j = index_of(contact.second);
   const Vector normal = normal_of(contact);
   tangents.directions = tangent_basis<D>(normal);
-  const double r_j = particles.radii[j];
+  const auto circles = circles_of(contact, particles);
+  tangents.centres = circles.centres;
+  const double r_j = circles.radii[1];
   tangents.second_arm = r_j;
   if (contact.first >= 0) {
     // The arms are in the ratio of the radii and add up to the distance of the centres, also if the
     // gap is not 0. Opposite impulses at their common end do not change the angular momentum.
-    const double r_i = particles.radii[index_of(contact.first)];
+    const double r_i = circles.radii[0];
     const double distance = r_i + r_j + contact.gap - contact.tolerated;
     tangents.first_arm = r_i * (distance / (r_i + r_j));
     tangents.second_arm = r_j * (distance / (r_i + r_j));
   } else {
     const auto& obstacle = obstacles[static_cast<std::size_t>(contact.obstacle)];
-    const Vector point = particles.position(j) - (r_j + contact.gap) * normal;
+    const Vector point = particles.position(j) + circles.centres[1] - (r_j + contact.gap) * normal;
     tangents.surface = obstacle.displacement(point, begin, end);
   }
   return tangents;
@@ -121,10 +125,10 @@ void add_contact_row(const Contact<D>& contact, const ContactTangents<D>& tangen
     else
       offset += dot(along, side.displacement + cross(side.turn, arm));
   };
-  add(second, direction, second.offset - tangents.second_arm * normal);
+  add(second, direction, second.offset + tangents.centres[1] - tangents.second_arm * normal);
   const bool is_along_plane = contact.loaded_plane >= 0 && k > 0;
   add(first, is_along_plane ? Vector{} : -1 * direction,
-      first.offset + tangents.first_arm * normal);
+      first.offset + tangents.centres[0] + tangents.first_arm * normal);
   problem.add_row(offset, std::span(parts).first(count), impulse);
 }
 

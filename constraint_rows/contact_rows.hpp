@@ -36,9 +36,13 @@ template <int D>
 struct ContactTangents {
   /// Unit vectors at right angles to the normal and to each other.
   std::array<Vector, static_cast<std::size_t>(D - 1)> directions;
-  double first_arm = 0,  ///< from the first particle's centre to the contact [L]; 0 at an obstacle
-      second_arm = 0;    ///< from the second particle's centre to the contact [L], > 0
-  Vector surface{};      ///< displacement of an obstacle at the contact point in the step [L]
+  /// The centres of the circles that touch both surfaces, from those of the particles [L]; 0 for
+  /// discs, spheres and obstacles.
+  std::array<Vector, 2> centres{};
+  double first_arm =
+             0,        ///< from the centre of the first circle to the contact [L]; 0 at an obstacle
+      second_arm = 0;  ///< from the centre of the second circle to the contact [L], > 0
+  Vector surface{};    ///< displacement of an obstacle at the contact point in the step [L]
   double capacity = 0;
 };
 

@@ -18,6 +18,7 @@
 #include "viscontact/contact_dynamics/projection/step_projection.hpp"
 #include "viscontact/membranes/membrane_shape.hpp"
 #include "viscontact/particles/contact/film_tension.hpp"
+#include "viscontact/particles/contact/shaped_contacts.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 #include "viscontact/particles/state/particles.hpp"
 #include "viscontact/particles/state/rigid_bodies.hpp"
@@ -43,8 +44,8 @@ double checked_length(const Particles& p, const std::vector<double>& displacemen
   return norm(w);
 }
 
-std::array<std::int32_t, 3> key_of(const Pair& pair) {
-  return {pair.first, pair.second, pair.image};
+std::array<std::int32_t, 4> key_of(const Pair& pair) {
+  return {pair.first, pair.second, pair.image, pair.place};
 }
 
 /// Calls `change` for each number of `memory` that is an impulse, with the number of `other` at the
@@ -62,11 +63,14 @@ Simulation::Simulation(Setting setting, State state, int threads)
       state_(std::move(state)),
       pouring_(setting_.sources, state_),
       mean_radius_(mean_radius(state_.particles)),
+      has_other_shapes_(state_.particles.has_other_shapes()),
       first_time_(state_.time),
       pool_(std::make_unique<ThreadPool>(threads)),
       obstacles_(obstacles_of(setting_)),
       grid_(setting_.time_step, setting_.scheme == Scheme::kLeapfrog, jump_times(setting_)) {
   assert(!setting_.fluid);
+  assert(!has_other_shapes_ || (state_.particles.dimension == 2 && state_.particles.turn() &&
+                                !setting_.laws.restitution.is_on()));
   assert(state_.particles.dimension == 2 || state_.particles.dimension == 3);
   assert(threads >= 1);
   assert(state_.particles.positions.size() ==
@@ -160,8 +164,9 @@ std::size_t Simulation::remember(const ProjectionResult& projected, double h) {
   std::size_t glued = 0;
   for (std::size_t f = 0; f < projected.pairs.size(); ++f) {
     auto& pair = *projected.pairs[f];
-    setting_.laws.remember(pair, state_.memories, radii_of(pair),
-                           projected.residuals.impulse_errors[f], h);
+    const auto radii =
+        projected.radii.empty() ? radii_of(pair, state_.particles, obstacles_) : projected.radii[f];
+    setting_.laws.remember(pair, state_.memories, radii, projected.residuals.impulse_errors[f], h);
     if (pair.gamma < 0) ++glued;
   }
   return glued;
@@ -240,6 +245,10 @@ ProjectionResult Simulation::project(double h, double next) {
   std::vector<double> no_turns, no_turn_mobilities;  // of particles that do not turn
   for (;;) {
     rebuild_wall_list(state_, planes, margin, *pool_);
+    if (has_other_shapes_) {
+      list_present_contacts(state_.pairs, state_.particles, planes);
+      list_present_contacts(state_.walls, state_.particles, planes);
+    }
     find_impacts<D>(h, next);
     StepProjection<D> projection(state_, h, planes_before, planes, displacements_, mobilities_,
                                  *pool_, loaded_);
@@ -386,12 +395,27 @@ void Simulation::refuse_meeting(double next) const {
   const auto moved = [&](std::int32_t k) {
     return point_of(displacements_.data(), index_of(k), p.dimension);
   };
+  const auto shape_at_end = [&](std::int32_t k, const Vector& shift) {
+    auto shape = p.placed_shape(index_of(k), shift + moved(k));
+    if (!p.is_round(index_of(k)))
+      shape = PlacedShape::at_angle(shape.shape, shape.centre,
+                                    p.angles[index_of(k)] + turns_[index_of(k)]);
+    return shape;
+  };
   for (const auto* pairs : {&state_.pairs, &state_.walls})
     for (const auto& pair : *pairs) {
       if (!is_given(pair.first) || !is_given(pair.second)) continue;
       const auto j = index_of(pair.second);
       double start = 0, end = 0;
-      if (pair.first < 0) {
+      if (has_other_shapes_ && !is_round(p, pair)) {
+        const Vector shift = pair.first < 0 ? Vector{} : shift_of(p.cell, pair.image);
+        const auto second = p.placed_shape(j, shift),
+                   after_second = shape_at_end(pair.second, shift);
+        start = pair.first < 0 ? gap(before[pair.plane()], second)
+                               : gap(p.placed_shape(index_of(pair.first)), second);
+        end = pair.first < 0 ? gap(after[pair.plane()], after_second)
+                             : gap(shape_at_end(pair.first, {}), after_second);
+      } else if (pair.first < 0) {
         start = gap(before[pair.plane()], p.position(j), p.radii[j]);
         end = gap(after[pair.plane()], p.position(j) + moved(pair.second), p.radii[j]);
       } else {

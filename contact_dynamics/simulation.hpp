@@ -121,9 +121,6 @@ class Simulation : public ParticleSimulation {
   std::size_t remember(const ProjectionResult& projected, double h);
   // Makes first guesses for a part whose length is `factor` times that of the part before.
   void scale_impulses(double factor);
-  PairRadii radii_of(const Pair& pair) const {
-    return particles::radii_of(pair, state_.particles, obstacles_);
-  }
   // Adds to arm_works_ the works of the arms in a part whose displacements are known.
   void add_works_of_arms(double h);
   void add_given_loads(const ProjectionResult& projected, double h);
@@ -160,7 +157,8 @@ class Simulation : public ParticleSimulation {
   void move_bodies_freely(double h, double next);
   bool is_first_part() const { return state_.steps == 0 && state_.time == first_time_; }
   bool has_constraints() const {
-    return setting_.laws.friction || !setting_.links.empty() || !state_.particles.bodies.empty();
+    return setting_.laws.friction || !setting_.links.empty() || !state_.particles.bodies.empty() ||
+           has_other_shapes_;
   }
   // Forces and torques on each rigid body; `mean` returns the mean of a force.
   std::vector<BodyLoad> loads_of_bodies(
@@ -199,6 +197,7 @@ class Simulation : public ParticleSimulation {
   State state_;
   Pouring pouring_;
   double mean_radius_;
+  bool has_other_shapes_;             // whether a particle is not round
   double first_time_;                 // time of the state that the constructor was given [T]
   contact_solver::StagesRun stages_;  // of the parts of the step that are done
   std::unique_ptr<ThreadPool> pool_;
@@ -229,17 +228,17 @@ class Simulation : public ParticleSimulation {
   std::vector<Rebound> rebounds_;
   std::vector<ImpactImpulse>
       impacts_;  // impulses of impacts in the parts of the step that are done
-  // Impulses of a pair [M L/T], by Pair::first, second and image. If a step is divided,
+  // Impulses of a pair [M L/T], by Pair::first, second, image and place. If a step is divided,
   // impulses_of_parts_ has the sums over the parts that are done, and before_division_ the state
   // before the step.
   struct Impulses {
     double of_contact = 0;
     PairMemory memory{};
   };
-  std::map<std::array<std::int32_t, 3>, Impulses> impulses_of_parts_;
+  using ImpulsesOfPairs = std::map<std::array<std::int32_t, 4>, Impulses>;
+  ImpulsesOfPairs impulses_of_parts_;
   std::optional<State> before_division_;
-  std::map<std::array<std::int32_t, 3>, Impulses>
-      saved_impulses_;  // before a step whose projection is repeated
+  ImpulsesOfPairs saved_impulses_;  // before a step whose projection is repeated
 };
 
 }  // namespace viscontact::particles

@@ -82,8 +82,10 @@ void ConstraintSystem<D>::add(const Contact<D>& contact, const Pair& pair,
   ContactState state;
   state.tangents = tangents_of(contact, particles_, step_.obstacles, step_.begin, step_.end);
   state.tangents.capacity =
-      pair.gamma -
-      step_.laws.lowest_gamma(pair, memory, radii_of(pair, particles_, step_.obstacles));
+      pair.gamma - step_.laws.lowest_gamma(pair, memory,
+                                           contact.shaped != nullptr
+                                               ? contact.shaped->radii()
+                                               : radii_of(pair, particles_, step_.obstacles));
   state.friction = memory.friction();
   state.solid_load = state.first_load = memory[Remembered::kSolidLoad];
   contact_states_.push_back(state);
@@ -185,7 +187,8 @@ double ConstraintSystem<D>::correct(ContactSystem<D>& system, Island& island,
     const auto& contact = system.contacts[c];
     const bool has_body = particles_.bodies.body_of(contact.second) >= 0 ||
                           (contact.first >= 0 && particles_.bodies.body_of(contact.first) >= 0);
-    if (has_body || system.uses_distance(contact)) shift(b, 0, system.gap(contact));
+    if (has_body || contact.shaped != nullptr || system.uses_distance(contact))
+      shift(b, 0, system.gap(contact));
     ++b;
   }
   for (const auto l : island.links) {

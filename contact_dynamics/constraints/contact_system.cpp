@@ -19,7 +19,8 @@ std::int32_t ContactSystem<D>::number(std::int32_t particle) {
   island_of_.push_back(body_of_[k]);
   island_sizes_.push_back(1);
   const auto rigid = particles_.bodies.body_of(particle);
-  is_held_.push_back(rigid < 0 ? 0 : 1);
+  const bool is_round = k >= particles_.count() || particles_.is_round(k);
+  is_held_.push_back(rigid < 0 && is_round ? 0 : 1);
   uses_distances_.push_back(0);
   if (rigid >= 0)
     for (const auto member : particles_.bodies.bodies[index_of(rigid)].members)
@@ -83,8 +84,16 @@ bool ContactSystem<D>::uses_distance(const Contact<D>& contact) {
 
 template <int D>
 double ContactSystem<D>::gap(const Contact<D>& contact) {
-  return uses_distance(contact) ? distance_after(particles_, contact, displacements_)
-                                : gap_after(contact, displacements_);
+  return gap(contact, uses_distance(contact));
+}
+
+template <int D>
+double ContactSystem<D>::gap(const Contact<D>& contact, bool is_distance) const {
+  if constexpr (D == 2)
+    if (contact.shaped != nullptr)
+      return gap_after_turns(contact, displacements_, turns_, is_distance);
+  return is_distance ? distance_after(particles_, contact, displacements_)
+                     : gap_after(contact, displacements_);
 }
 
 template <int D>

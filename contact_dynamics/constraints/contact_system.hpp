@@ -12,6 +12,7 @@
 #include "viscontact/constraint_rows/solver_names.hpp"
 #include "viscontact/contact_solver/mass_dual_problem.hpp"
 #include "viscontact/particles/contact/contact.hpp"
+#include "viscontact/particles/contact/shaped_contacts.hpp"
 #include "viscontact/particles/state/particles.hpp"
 
 namespace viscontact::particles {
@@ -34,6 +35,10 @@ class ContactSystem {
         particles_(particles),
         body_of_(mobilities.size(), -1) {}
 
+  /// Gives the turns of all particles and planes under a load [rad], 1 (discs) or 3 numbers for each,
+  /// for gaps of particles that are not round. They must outlive the object.
+  void follow_turns(std::span<const double> turns) { turns_ = turns; }
+
   /// Adds a contact, makes its particles take part, and joins them. `w` must be the sum of the
   /// mobilities of its particles, and `allowed` > 0 at solve().
   void add(const Contact<D>& contact);
@@ -52,7 +57,8 @@ class ContactSystem {
   /// `allowed` may be changed.
   std::vector<Contact<D>> contacts;
 
-  /// True if a particle of the contact is in an island with a rigid body or a rigid link.
+  /// True if a particle of the contact is in an island with a rigid body, a rigid link or a particle
+  /// that is not round.
   bool is_held(const Contact<D>& contact);
   /// The gap [L] of any contact after the present displacements, as uses_distance() says.
   double gap(const Contact<D>& contact);
@@ -65,6 +71,8 @@ class ContactSystem {
     has_distances_ = true;
   }
   bool uses_distance(const Contact<D>& contact);
+  /// The gap [L] of any contact after the present displacements, along its normal.
+  double gap_along_normal(const Contact<D>& contact) const { return gap(contact, false); }
   /// Distances add energy to the solutions of some callers.
   void forbid_distances() { may_use_distances_ = false; }
   bool may_use_distances() const { return may_use_distances_; }
@@ -83,6 +91,7 @@ class ContactSystem {
   std::int32_t island(std::int32_t body);
 
  private:
+  double gap(const Contact<D>& contact, bool is_distance) const;
   // Makes `particle` a body if it is none, and so the other particles of its rigid body.
   std::int32_t number(std::int32_t particle);
   // True if the island of one of the two particles has a mark; `marks` has those of roots.
@@ -90,15 +99,14 @@ class ContactSystem {
   void join(std::int32_t island, std::int32_t other);
 
   std::span<double> displacements_;
-  std::span<const double> mobilities_;
+  std::span<const double> mobilities_, turns_;
   const Particles& particles_;
   std::vector<std::int32_t> bodies_, body_of_;
   std::vector<double> free_, body_mobilities_;
   // Union-find trees: the parent of each body, or the body itself if it is the root.
   std::vector<std::int32_t> island_of_;
   std::vector<std::size_t> island_sizes_;  // of each island, at its root
-  // Marks of each island, at its root: whether it has a rigid body or a rigid link, and whether its
-  // gaps are distances.
+  // Marks of each island, at its root: what is_held() says, and whether its gaps are distances.
   std::vector<char> is_held_, uses_distances_;
   // has_distances_ says whether uses_distances_ has a mark, which saves two searches for each gap.
   bool may_use_distances_ = true, has_distances_ = false;

@@ -69,8 +69,8 @@ Vector ConstraintSystem<D>::friction_of_given_slip(const Contact<D>& contact,
   Vector normal{};
   std::copy_n(contact.normal.begin(), D, normal.begin());
   const auto motion = given_motion(contact.second);
-  Vector slip = motion.displacement - state.tangents.second_arm * cross(motion.turn, normal) -
-                state.tangents.surface;
+  Vector slip = motion.displacement - state.tangents.second_arm * cross(motion.turn, normal) +
+                cross(motion.turn, state.tangents.centres[1]) - state.tangents.surface;
   slip = slip - dot(slip, normal) * normal;
   const double length = norm(slip);
   if (!(length > 0)) return {};

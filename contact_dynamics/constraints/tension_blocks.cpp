@@ -40,11 +40,17 @@ std::vector<LinkRow> ConstraintSystem<D>::tension_rows(const ContactSystem<D>& s
   const auto& contact = system.contacts[island.contacts[b]];
   const double force = problem.impulses[block.row] / times_.impulse_time;
   if (contact.first < 0 || !(force < 0)) return {};
-  const auto first = side_of(contact.first), second = side_of(contact.second);
+  auto first = side_of(contact.first), second = side_of(contact.second);
   if (first.unit == second.unit) return {};
   Vector apart{};
   std::ranges::copy(separation<D>(particles_, contact.first, contact.second, contact.image),
                     apart.begin());
+  if (contact.shaped != nullptr) {
+    const auto& centres = contact_states_[island.contacts[b]].tangents.centres;
+    apart = apart + centres[1] - centres[0];
+    first.offset = first.offset + centres[0];
+    second.offset = second.offset + centres[1];
+  }
   return rows_across({contact.first, {}, first.offset}, {contact.second, {}, second.offset}, apart,
                      -force, D);
 }

@@ -154,9 +154,7 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
         error.estimate >= 0 ? error.estimate
                             : factors[c].by_masses * factors[c].by_chains * residual / scale.w;
     result.residuals.take_gap(gap - here.tolerated, pair(selection_.members()[c]));
-    if ((here.impulse != 0 || here.lowest < 0) &&
-        turns_too_far(state_.particles, here, displacements_))
-      ++result.unresolved;
+    if ((here.impulse != 0 || here.lowest < 0) && turns_too_far(here)) ++result.unresolved;
   }
   if (constraints_ && is_final) examine_links(settings, mean_radius, result);
   std::vector<std::size_t> closed;

@@ -69,7 +69,18 @@ void StepProjection<D>::add_constraints(const ConstraintStep& step) {
   links_ = step.links;
   step_ = &step;
   constraints_.emplace(step, state_.particles, displacements_, mobilities_);
+  system_.follow_turns(step.turns);
+  if (D == 2 && state_.particles.has_other_shapes()) shaped_.resize(pair_count());
   constraints_->join_linked(system_);
+}
+
+template <int D>
+const ShapedContact* StepProjection<D>::shaped(std::size_t k) {
+  if (shaped_.empty() || is_round(state_.particles, pair(k))) return nullptr;
+  auto& surfaces = shaped_[k];
+  if (surfaces == nullptr)
+    surfaces = std::make_unique<ShapedContact>(state_.particles, pair(k), planes_);
+  return surfaces.get();
 }
 
 template <int D>
@@ -110,7 +121,7 @@ bool StepProjection<D>::gap_would_close(std::size_t k, double margin) {
   if (!can_bear(k)) return false;
   if (pair(k).first >= 0 && cannot_close<D>(p, pair(k), displacements_, margin)) return false;
   const auto here = contact_at_start(k);
-  return gap_after(with_gap_to_close(here, k), displacements_) < margin &&
+  return system_.gap_along_normal(with_gap_to_close(here, k)) < margin &&
          paths_meet(p, here, displacements_);
 }
 
@@ -130,8 +141,8 @@ std::vector<std::size_t> StepProjection<D>::closed_by_free_motion() {
 template <int D>
 bool StepProjection<D>::has_film(std::size_t k) {
   assert(step_ != nullptr);
-  return step_->laws.lowest_gamma(pair(k), state_.memories.of(pair(k).memory),
-                                  radii_of(pair(k), state_.particles, step_->obstacles)) < 0;
+  return step_->laws.lowest_gamma(pair(k), state_.memories.of(pair(k).memory), radii_of_pair(k)) <
+         0;
 }
 
 template <int D>
@@ -244,7 +255,7 @@ void StepProjection<D>::leave_touching(std::vector<std::size_t>& pairs,
   std::erase_if(pairs, [&](std::size_t k) {
     if (Selection::is_bound(pair(k).gamma, pair(k).impulse) || has_film(k)) return false;
     const auto here = contact(k);
-    return -gap_after(here, displacements_) <= scales.of(here).allowed_gap(settings, mean_radius);
+    return -system_.gap_along_normal(here) <= scales.of(here).allowed_gap(settings, mean_radius);
   });
 }
 
@@ -327,6 +338,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   auto scales = residual_scales();
   for (std::size_t c = 0; c < selection_.members().size(); ++c) {
     result.pairs.push_back(&pair(selection_.members()[c]));
+    if (!shaped_.empty()) result.radii.push_back(radii_of_pair(selection_.members()[c]));
     // A pair with an impulse is chosen in the next step, too, where the convex relaxation may push
     // its particles apart. An impulse that is no larger than its allowed error must not do so.
     const auto& here = system_.contacts[c];
@@ -359,26 +371,20 @@ void StepProjection<D>::take_given(std::size_t c, const PairMemory& memory,
                                    ProjectionResult& result) {
   assert(c < selection_.members().size());
   const auto& here = system_.contacts[c];
-  const auto& p = state_.particles;
   const auto is_given = [&](std::int32_t k) { return k >= 0 && !(mobilities_[index_of(k)] > 0); };
   Vector normal{};
   std::ranges::copy(here.normal, normal.begin());
   const Vector along = result.impulses.back() * normal + memory.friction();
   const Vector on_second = along + memory.across();
   // The arms end at one point, in the ratio of the radii, as those of tangents_of().
-  const double r = p.radii[index_of(here.second)];
-  if (is_given(here.second)) {
-    const double arm =
-        here.first < 0
-            ? r
-            : r * (1 + (here.gap - here.tolerated) / (r + p.radii[index_of(here.first)]));
-    result.on_given.push_back({here.second, on_second, cross(-arm * normal, along)});
-  }
-  if (is_given(here.first)) {
-    const double own = p.radii[index_of(here.first)];
-    const double arm = own * (1 + (here.gap - here.tolerated) / (own + r));
-    result.on_given.push_back({here.first, -1.0 * on_second, cross(arm * normal, -1.0 * along)});
-  }
+  const auto [centres, radii] = circles_of(here, state_.particles);
+  const double share = here.first < 0 ? 1 : 1 + (here.gap - here.tolerated) / (radii[1] + radii[0]);
+  if (is_given(here.second))
+    result.on_given.push_back(
+        {here.second, on_second, cross(centres[1] - radii[1] * share * normal, along)});
+  if (is_given(here.first))
+    result.on_given.push_back({here.first, -1.0 * on_second,
+                               cross(centres[0] + radii[0] * share * normal, -1.0 * along)});
 }
 
 template class StepProjection<2>;

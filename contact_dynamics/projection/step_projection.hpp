@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,7 +19,9 @@
 #include "viscontact/contact_dynamics/constraints/contact_system.hpp"
 #include "viscontact/contact_dynamics/impacts/impacts.hpp"
 #include "viscontact/particles/contact/contact.hpp"
+#include "viscontact/particles/contact/contact_laws.hpp"
 #include "viscontact/particles/contact/film_tension.hpp"
+#include "viscontact/particles/contact/shaped_contacts.hpp"
 #include "viscontact/particles/neighbours/pairs_of_particles.hpp"
 #include "viscontact/particles/setting/setting.hpp"
 #include "viscontact/particles/state/state.hpp"
@@ -137,6 +140,8 @@ struct ProjectionResult {
   /// Normal impulse of each of `pairs` [M L/T].
   std::vector<double> impulses;
   std::vector<PairMemory> memories;  ///< of `pairs`; empty without add_constraints()
+  /// For the laws of `pairs`, at the beginning of the step; empty if all particles are round.
+  std::vector<PairRadii> radii;
   /// Particles whose displacements solve() has changed, and entries of planes under a load.
   std::vector<std::int32_t> bodies;
   /// The impulses [M L/T] and moments [M L^2/T] of the contacts on particles whose motion is given.
@@ -195,9 +200,22 @@ class StepProjection {
     return k < state_.pairs.size() ? state_.pairs[k] : state_.walls[k - state_.pairs.size()];
   }
   std::size_t pair_count() const { return state_.pairs.size() + state_.walls.size(); }
-  // The gap is the true one. A curved obstacle is replaced by its tangent.
+  // Null if both surfaces are round. Threads may call it at the same time for different pairs.
+  const ShapedContact* shaped(std::size_t k);
+  PairRadii radii_of_pair(std::size_t k) {
+    assert(step_ != nullptr);
+    if (const auto* surfaces = shaped(k)) return surfaces->radii();
+    return radii_of(pair(k), state_.particles, step_->obstacles);
+  }
+  // The gap is the true one. A curved obstacle is replaced by its tangent for a round particle.
   Contact<D> contact_at_start(std::size_t k) {
     const auto& p = state_.particles;
+    if constexpr (D == 2)
+      if (const auto* surfaces = shaped(k)) {
+        auto contact = contact_of(pair(k), *surfaces);
+        contact.loaded_plane = loaded_plane(k);
+        return contact;
+      }
     if (impacts_ != nullptr && pair(k).first >= 0 && !is_stretched(k)) return contact_at_end(k);
     auto contact = !tangents_.empty() && pair(k).first < 0
                        ? contact_of<D>(p, pair(k), tangents_[k - state_.pairs.size()])
@@ -230,7 +248,9 @@ class StepProjection {
     double tolerated = tolerated_;
     if (here.first < 0) {
       const auto j = index_of(here.second);
-      const double overlap = -gap(planes_before_[pair(k).plane()], p.position(j), p.radii[j]);
+      const auto& before = planes_before_[pair(k).plane()];
+      const double overlap = -(here.shaped != nullptr ? here.shaped->gap_at(before)
+                                                      : gap(before, p.position(j), p.radii[j]));
       tolerated = std::clamp(overlap, 0.0, tolerated);
     }
     return resolved(here, p, pair(k), planes_, tolerated);
@@ -242,6 +262,12 @@ class StepProjection {
   ResidualScales<D> residual_scales() {
     return {state_,      h_,      displacements_,
             mobilities_, system_, constraints_ ? &*constraints_ : nullptr};
+  }
+  bool turns_too_far(const Contact<D>& contact) const {
+    if constexpr (D == 2)
+      if (contact.shaped != nullptr)
+        return particles::turns_too_far(contact, displacements_, step_->turns);
+    return particles::turns_too_far(state_.particles, contact, displacements_);
   }
   bool takes_part(std::int32_t particle) const {
     return particle >= 0 && system_.body_of(particle) >= 0;
@@ -313,9 +339,10 @@ class StepProjection {
   // exactly back onto a circle. If other contacts move it along the tangent, an error of second
   // order remains.
   std::vector<PlanePosition> tangents_;
-  double tolerated_ = 0;  // [L]
-  double margin_ = 0;     // gap below which a pair is nearly closed [L]
-  Selection selection_;   // of pair(); its members are the contacts of system_
+  std::vector<std::unique_ptr<ShapedContact>> shaped_;  // those asked for, in the order of pair()
+  double tolerated_ = 0;                                // [L]
+  double margin_ = 0;    // gap below which a pair is nearly closed [L]
+  Selection selection_;  // of pair(); its members are the contacts of system_
   ContactSystem<D> system_;
   const Links* links_ = nullptr;
   const ConstraintStep* step_ = nullptr;  // null without constraints

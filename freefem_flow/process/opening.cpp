@@ -8,6 +8,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/text/number.hpp"
+#include "viscontact/particles/shapes/shape_contacts.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {
@@ -20,6 +21,17 @@ using particles::WallVelocity;
 std::string words_of(std::span<const double> values) {
   std::string text;
   for (const double value : values) text += ' ' + format_number(value);
+  return text;
+}
+
+/// The numbers and words of a shape with sides, which must be a rounded polygon or line: its extent
+/// along its axis, its radius, and the corners of its core.
+std::string rounded_polygon(const particles::Shape& shape) {
+  const auto core = particles::core_of({shape});
+  assert(!core.corners.empty());
+  auto text = words_of(std::array{shape.at(0).point[0], core.radius}) +
+              fmt::format(" rounded {}", core.corners.size());
+  for (const auto& corner : core.corners) text += words_of(corner);
   return text;
 }
 
@@ -141,14 +153,16 @@ std::string opening(const particles::Fluid& fluid, const particles::Domain& doma
                       shapes.size());
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     const auto& shape = shapes[k];
-    if (are_round && !are_outlines)
+    if (shape.sides() > 0)
+      text += rounded_polygon(shape);
+    else if (are_round && !are_outlines)
       text += format_number(shape.bounding_radius());
     else
       text += words_of(shape.semi_axes());
     if (are_outlines && !fluid.cut_areas.empty() && fluid.cut_areas[k] > 0)
       text += " cut" + words_of(std::array{fluid.cut_areas[k]});
-    else if (are_outlines)
-      text += fmt::format(" {}", shape.sides() > 0 ? shape.name() : "ellipse");
+    else if (are_outlines && shape.sides() == 0)
+      text += " ellipse";
     text += '\n';
   }
   if (fluid.has_inertia())

@@ -99,23 +99,40 @@ std::string circle(const PanelSettings& panel, const Vector& at, double radius) 
              : "";
 }
 
-/// Particle k, a disc, ellipse or plate, with the centre `at` [L]; empty if it is not seen.
+/// A shape with sides, turned by `degrees` on the page: arcs at its corners, which lines join.
+std::string rounded_polygon(const Shape& shape, double scale, double x, double y, double degrees) {
+  const auto core = core_of({shape});
+  std::string path;
+  for (int k = 0; k < shape.sides(); ++k) {
+    const auto [from, to] = std::pair(shape.side(k).from, shape.side(k).to);
+    if (k > 0)
+      path += fmt::format("A{0:.2f} {0:.2f} 0 0 0 {1:.2f} {2:.2f}", scale * core.radius,
+                          scale * from[0], -scale * from[1]);
+    else
+      path += fmt::format("M{:.2f} {:.2f}", scale * from[0], -scale * from[1]);
+    path += fmt::format("L{:.2f} {:.2f}", scale * to[0], -scale * to[1]);
+  }
+  const auto start = shape.side(0).from;
+  path += fmt::format("A{0:.2f} {0:.2f} 0 0 0 {1:.2f} {2:.2f}Z", scale * core.radius,
+                      scale * start[0], -scale * start[1]);
+  return fmt::format("<path transform=\"translate({:.2f} {:.2f}) rotate({:.2f})\" d=\"{}\"/>\n", x,
+                     y, degrees, path);
+}
+
+/// Particle k with the centre `at` [L]; empty if it is not seen.
 std::string disc(const PanelSettings& panel, const Frame& frame, std::size_t k, const Vector& at) {
   const auto& playback = panel.scene.playback;
   if (playback.shapes.empty()) return circle(panel, at, playback.radii[k]);
   const double x = panel.view.x(at), y = panel.view.y(at), scale = panel.view.scale;
   if (!is_seen(panel, x, y, scale * playback.radii[k])) return "";
-  const auto [a, b] = playback.shapes[k].semi_axes();
-  if (playback.shapes[k].sides() > 0)
-    return fmt::format(
-        "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" rx=\"{:.2f}\" "
-        "transform=\"translate({:.2f} {:.2f}) rotate({:.2f})\"/>\n",
-        -scale * a, -scale * b, 2 * scale * a, 2 * scale * b, scale * b, x, y,
-        -frame.angles[k] * 180 / std::numbers::pi);
+  const auto& shape = playback.shapes[k];
+  const double degrees = -frame.angles[k] * 180 / std::numbers::pi;
+  if (shape.sides() > 0) return rounded_polygon(shape, scale, x, y, degrees);
+  const auto [a, b] = shape.semi_axes();
   return fmt::format(
       "<ellipse rx=\"{:.2f}\" ry=\"{:.2f}\" transform=\"translate({:.2f} {:.2f}) "
       "rotate({:.2f})\"/>\n",
-      scale * a, scale * b, x, y, -frame.angles[k] * 180 / std::numbers::pi);
+      scale * a, scale * b, x, y, degrees);
 }
 
 /// Draws dots that show how far discs and ellipses have turned, in the direction of the particle's

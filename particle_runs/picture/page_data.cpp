@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "viscontact/common/text/base64.hpp"
+#include "viscontact/particles/shapes/shape_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -134,9 +135,24 @@ Contacts contacts_of(const Scene& scene, const PageData& data) {
   return contacts;
 }
 
-/// True if a particle has a shape with sides.
-bool has_sides(const Playback& playback) {
-  return std::ranges::any_of(playback.shapes, [](const Shape& shape) { return shape.sides() > 0; });
+/// The largest number of bytes that a particle needs for its corners.
+std::size_t bytes_of_corners(const Playback& playback) {
+  int most = 0;
+  for (const auto& shape : playback.shapes) most = std::max(most, shape.sides());
+  return most > 0 ? 1 + 2 * sizeof(float) * static_cast<std::size_t>(most) : 0;
+}
+
+/// Adds the entries of a shape to the blocks semiAxes, cornerCounts and corners.
+void append_shape(const Shape& shape, Bytes& semi_axes, Bytes& counts, Bytes& corners) {
+  const auto core = core_of({shape});
+  const bool has_sides = shape.sides() > 0;
+  for (const double axis :
+       has_sides ? Vector2{shape.inner_radius(), core.radius} : shape.semi_axes())
+    append(semi_axes, static_cast<float>(axis));
+  append(counts, static_cast<char>(shape.sides()));
+  if (!has_sides) return;
+  for (const auto& corner : core.corners)
+    for (const double x : corner) append(corners, static_cast<float>(x));
 }
 
 /// How many numbers tell how far a particle has turned: 1 (an angle), 4 (a quaternion), or 0 if the
@@ -176,7 +192,7 @@ Contacts choose_content(PageData& data, const Scene& scene, std::size_t other_by
   const auto of_particle = four(true) + four(!playback.masses.empty()) +
                            four(!playback.ids.empty()) + four(!playback.bodies.empty()) +
                            four(are_added) + 2 * four(!playback.shapes.empty()) +
-                           (has_sides(playback) ? 1 : 0);
+                           bytes_of_corners(playback);
   // The largest numbers of characters that a hinge, and the two numbers of a spring or arm, take.
   constexpr std::size_t kHinge = 80, kEnds = 16;
   const auto& links = playback.links;
@@ -288,17 +304,13 @@ PageData page_data(const Scene& scene, const Blocks& others) {
   std::size_t other_bytes = 0;
   for (const auto& [name, bytes] : others) other_bytes += base64_size(bytes.size());
   auto contacts = choose_content(data, scene, other_bytes);
-  Bytes radii, masses, semi_axes, plates, ids, bodies, times, positions, turns, planes;
+  Bytes radii, masses, semi_axes, counts, corners, ids, bodies, times, positions, turns, planes;
   const auto turn_numbers = numbers_of_turn(playback);
-  const bool are_plates = has_sides(playback);
   const auto dimension = static_cast<std::size_t>(playback.dimension);
   for (std::size_t k = 0; k < playback.radii.size(); k += data.every_particle) {
     append(radii, playback.radii[k]);
     if (!playback.masses.empty()) append(masses, playback.masses[k]);
-    if (!playback.shapes.empty())
-      for (const double axis : playback.shapes[k].semi_axes())
-        append(semi_axes, static_cast<float>(axis));
-    if (are_plates) append(plates, static_cast<char>(playback.shapes[k].sides() > 0 ? 1 : 0));
+    if (!playback.shapes.empty()) append_shape(playback.shapes[k], semi_axes, counts, corners);
     if (!playback.ids.empty()) append(ids, playback.ids[k]);
     if (!playback.bodies.empty()) append(bodies, playback.bodies[k]);
   }
@@ -338,7 +350,10 @@ PageData page_data(const Scene& scene, const Blocks& others) {
   if (auto speeds = speeds_of(data, playback); !speeds.empty())
     data.blocks.emplace_back("speeds", std::move(speeds));
   if (!semi_axes.empty()) data.blocks.emplace_back("semiAxes", semi_axes);
-  if (!plates.empty()) data.blocks.emplace_back("plates", plates);
+  if (!corners.empty()) {
+    data.blocks.emplace_back("cornerCounts", counts);
+    data.blocks.emplace_back("corners", corners);
+  }
   if (!ids.empty()) data.blocks.emplace_back("ids", ids);
   if (!bodies.empty()) data.blocks.emplace_back("bodies", bodies);
   if (turn_numbers > 0)

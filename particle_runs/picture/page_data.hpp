@@ -48,8 +48,10 @@ struct PageData {
 ///   firstFrames    n int32: PageData::first_frames
 ///   masses         n floats [M]
 ///   speeds         f n bytes: 0 to 255 for speeds from 0 to PageData::top_speed
-///   semiAxes       2 n floats [L]: both semi-axes of each particle
-///   plates         n bytes: 1 for a plate with round ends, else 0
+///   semiAxes       2 n floats [L]: both semi-axes of each particle; of one with sides the radius
+///                  of the largest disc in it and that of its corners
+///   cornerCounts   n bytes: number of corners of a particle with sides, else 0
+///   corners        2 floats for each corner [L]: its place relative to centre and angle
 ///   ids, bodies    n int32 each: id, and number of the rigid body or -1
 ///   angles         f n floats [rad], for discs that turn
 ///   orientations   4 f n floats: unit quaternions (w, x, y, z), for spheres that turn

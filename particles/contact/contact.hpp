@@ -17,6 +17,8 @@
 
 namespace viscontact::particles {
 
+class ShapedContact;
+
 /// A contact in the problem of a time step: two particles that may touch, or a particle and an
 /// obstacle. A film in the gap keeps them together while gamma < 0, minus the impulse that it has
 /// absorbed [M L/T].
@@ -47,6 +49,8 @@ struct Contact {
   /// Entry of a plane under a load (PlaneLoad) in the arrays of displacements and mobilities; -1
   /// for others.
   std::int32_t loaded_plane = -1;
+  /// The surfaces, without a fluid, if one of them is not round; null for discs and spheres.
+  const ShapedContact* shaped = nullptr;
 
   /// The entry of the first body in these arrays; -1 if its motion is given.
   std::int32_t first_entry() const { return loaded_plane >= 0 ? loaded_plane : first; }

@@ -1,8 +1,24 @@
 // Shapes of a pair, or of a particle and an obstacle, at their places.
 #include "viscontact/particles/contact/shaped_contacts.hpp"
 
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <utility>
+
 namespace viscontact::particles {
 namespace {
+
+struct ShapedContactTuning {
+  /// A surface of the curvature of its round wall has no finite effective radius: the largest
+  /// radius of a particle in a round wall, over that of the wall.
+  static constexpr double kMostOfWall = 0.999;
+  /// Normals whose directions differ by less are the same [rad], far above rounding errors.
+  static constexpr double kSameNormal = 1e-9;
+  /// Distance of points that are the same, over the size of the shape.
+  static constexpr double kSamePoint = 1e-12;
+};
 
 PlacedShape first_of(const Particles& p, const Pair& pair) {
   return p.placed_shape(index_of(pair.first));
@@ -11,6 +27,54 @@ PlacedShape first_of(const Particles& p, const Pair& pair) {
 PlacedShape second_of(const Particles& p, const Pair& pair) {
   return p.placed_shape(index_of(pair.second),
                         pair.first < 0 ? Vector{} : shift_of(p.cell, pair.image));
+}
+
+/// True if the pair may have several contacts, or if they may have other numbers than 0.
+bool may_have_places(const Particles& p, const Pair& pair,
+                     std::span<const PlanePosition> obstacles) {
+  if (is_round(p, pair)) return false;
+  const bool has_sides = p.shape(index_of(pair.second)).sides() > 0;
+  if (pair.first < 0) return has_sides || obstacles[pair.plane()].is_curved();
+  return has_sides && p.shape(index_of(pair.first)).sides() > 0;
+}
+
+/// True if the point at `arm` from the centre is a corner of the core of the shape.
+bool is_corner(const PlacedShape& shape, const Core& core, const Vector2& arm) {
+  const double allowed = ShapedContactTuning::kSamePoint * shape.shape.bounding_radius();
+  return std::ranges::any_of(core.corners, [&](const Vector2& corner) {
+    return norm(corner - shape.centre - arm) <= allowed;
+  });
+}
+
+/// True if the outline has a side with the normal out of the shape.
+bool has_side(const PlacedShape& shape, const Vector2& normal) {
+  const Vector2 own = along_axes(shape.axis, normal);
+  for (int k = 0; k < shape.shape.sides(); ++k) {
+    const Vector2 of_side = shape.shape.side(k).normal;
+    if (dot(of_side, own) > 0 && std::abs(cross(of_side, own)) <= ShapedContactTuning::kSameNormal)
+      return true;
+  }
+  return false;
+}
+
+Vector2 turned(const Vector2& x, double angle) {
+  return from_axes({std::cos(angle), std::sin(angle)}, x);
+}
+
+/// The motion of an entry of the arrays, 0 of none (< 0).
+ShapeMotion motion_of(std::int32_t entry, std::span<const double> displacements,
+                      std::span<const double> turns) {
+  if (entry < 0) return {};
+  const auto k = index_of(entry);
+  return {{displacements[2 * k], displacements[2 * k + 1]}, turns[k]};
+}
+
+/// The gap between the lines at right angles to `normal` that bound both shapes.
+double gap_along_normal(const PlacedShape& first, const PlacedShape& second,
+                        const Vector2& normal) {
+  return dot(normal, second.centre - first.centre) -
+         first.shape.support(along_axes(first.axis, normal)) -
+         second.shape.support(along_axes(second.axis, -normal));
 }
 
 }  // namespace
@@ -36,6 +100,172 @@ SurfaceContact ShapedContacts::at(const Particles& particles, const Pair& pair,
   if (const auto* walls = std::get_if<WallContacts>(&contacts_))
     return walls->at(pair.place, obstacles[pair.plane()], second);
   return std::get<ShapeContacts>(contacts_).at(pair.place, first_of(particles, pair), second);
+}
+
+PairRadii radii_of(const SurfaceContact& contact, const PlanePosition* obstacle) {
+  PairRadii radii{contact.radii[0], contact.radii[1]};
+  if (obstacle == nullptr) return radii;
+  radii.first = std::numeric_limits<double>::infinity();
+  if (obstacle->is_curved()) {
+    radii.first = -obstacle->radius;
+    radii.second = std::min(radii.second, ShapedContactTuning::kMostOfWall * obstacle->radius);
+  }
+  return radii;
+}
+
+ShapedContact::ShapedContact(const Particles& p, const Pair& pair,
+                             std::span<const PlanePosition> obstacles)
+    : contacts_(p, pair, obstacles),
+      place_(contacts_.contact_of(pair.place)),
+      shapes_{second_of(p, pair), second_of(p, pair)},
+      is_at_obstacle_(pair.first < 0),
+      at_start_(contacts_.at(p, pair, obstacles)) {
+  angles_[1] = p.angles[index_of(pair.second)];
+  if (is_at_obstacle_) {
+    obstacle_ = obstacles[pair.plane()];
+    return;
+  }
+  shapes_[0] = first_of(p, pair);
+  angles_[0] = p.angles[index_of(pair.first)];
+  const std::array cores{core_of(shapes_[0]), core_of(shapes_[1])};
+  are_rounded_ = !cores[0].corners.empty() && !cores[1].corners.empty();
+  const auto& normal = at_start_.normal;
+  for (const int side : {1, 0}) {
+    const auto k = static_cast<std::size_t>(side);
+    const bool follows = are_rounded_ ? !is_corner(shapes_[k], cores[k], at_start_.arms[k])
+                                      : has_side(shapes_[k], side == 0 ? normal : -normal);
+    if (follows) followed_ = side;
+  }
+  if (!are_rounded_) along_at_start_ = gap_along_normal(shapes_[0], shapes_[1], normal);
+}
+
+double ShapedContact::gap_at(const PlanePosition& obstacle) const {
+  assert(is_at_obstacle_);
+  return contacts_.at(place_, obstacle, shapes_[1]).gap;
+}
+
+PlacedShape ShapedContact::moved(std::size_t side, const ShapeMotion& motion) const {
+  const auto& from = shapes_[side];
+  const Vector2 centre = from.centre + motion.displacement;
+  if (from.shape.is_round()) return {from.shape, centre};
+  return PlacedShape::at_angle(from.shape, centre, angles_[side] + motion.turn);
+}
+
+double ShapedContact::gap_along(const ShapeMotion& first, const ShapeMotion& second) const {
+  if (is_at_obstacle_) return distance(first, second);
+  const double turn = followed_ == 0 ? first.turn : followed_ == 1 ? second.turn : 0;
+  const Vector2 normal = turn == 0 ? at_start_.normal : turned(at_start_.normal, turn);
+  if (!are_rounded_)
+    return at_start_.gap +
+           (gap_along_normal(moved(0, first), moved(1, second), normal) - along_at_start_);
+  const auto change = [&](std::size_t side, const ShapeMotion& motion) {
+    return motion.displacement + (turned(at_start_.arms[side], motion.turn) - at_start_.arms[side]);
+  };
+  const Vector2 apart = at_start_.distance * at_start_.normal;
+  return at_start_.gap + dot(normal, apart + (change(1, second) - change(0, first))) -
+         at_start_.distance;
+}
+
+double ShapedContact::distance(const ShapeMotion& first, const ShapeMotion& second) const {
+  if (!is_at_obstacle_) return contacts_.at(place_, moved(0, first), moved(1, second)).gap;
+  return contacts_
+      .at(place_, obstacle_, moved(1, {second.displacement - first.displacement, second.turn}))
+      .gap;
+}
+
+Contact<2> contact_of(const Pair& pair, const ShapedContact& shaped) {
+  const auto& start = shaped.at_start();
+  Contact<2> contact{
+      std::max(pair.first, -1), pair.second, start.normal, start.gap, pair.gamma, pair.impulse};
+  contact.shaped = &shaped;
+  if (pair.first >= 0)
+    contact.image = pair.image;
+  else
+    contact.obstacle = -1 - pair.first;
+  return contact;
+}
+
+double gap_after_turns(const Contact<2>& contact, std::span<const double> displacements,
+                       std::span<const double> turns, bool is_distance) {
+  assert(contact.shaped != nullptr);
+  const auto& shaped = *contact.shaped;
+  const auto first = motion_of(contact.first_entry(), displacements, turns),
+             second = motion_of(contact.second, displacements, turns);
+  return contact.gap +
+         ((is_distance ? shaped.distance(first, second) : shaped.gap_along(first, second)) -
+          shaped.at_start().gap);
+}
+
+bool turns_too_far(const Contact<2>& contact, std::span<const double> displacements,
+                   std::span<const double> turns) {
+  assert(contact.shaped != nullptr);
+  const auto first = motion_of(contact.first, displacements, turns),
+             second = motion_of(contact.second, displacements, turns);
+  if (std::max(std::abs(first.turn), std::abs(second.turn)) > kLargestTurn) return true;
+  if (contact.first < 0) return false;
+  const auto& start = contact.shaped->at_start();
+  const auto moved = [&](std::size_t side, const ShapeMotion& motion) {
+    return motion.displacement + motion.turn * quarter_turn(start.arms[side]);
+  };
+  const double across = cross(start.normal, moved(1, second) - moved(0, first));
+  return std::abs(across) > kLargestTurn * (start.radii[0] + start.radii[1]);
+}
+
+void add_contacts_of(const Particles& particles, Pair pair,
+                     std::span<const PlanePosition> obstacles, std::vector<Pair>& pairs) {
+  if (!may_have_places(particles, pair, obstacles)) {
+    pairs.push_back(pair);
+    return;
+  }
+  const ShapedContacts contacts(particles, pair, obstacles);
+  for (const int place : contacts.places()) {
+    pair.place = place;
+    pairs.push_back(pair);
+  }
+}
+
+std::vector<Pair> at_present_places(std::vector<Pair> before, const Particles& particles,
+                                    std::span<const PlanePosition> obstacles) {
+  for (auto& pair : before)
+    if (may_have_places(particles, pair, obstacles))
+      pair.place = ShapedContacts(particles, pair, obstacles).contact_of(pair.place);
+  std::ranges::stable_sort(before, {}, order_of);
+  std::vector<Pair> pairs;
+  for (const auto& pair : before)
+    if (pairs.empty() || order_of(pairs.back()) != order_of(pair))
+      pairs.push_back(pair);
+    else if (pair.gamma < pairs.back().gamma)
+      pairs.back() = pair;
+  return pairs;
+}
+
+void list_present_contacts(std::vector<Pair>& pairs, const Particles& particles,
+                           std::span<const PlanePosition> obstacles) {
+  assert(std::ranges::is_sorted(pairs, {}, order_of));
+  std::vector<Pair> listed;
+  listed.reserve(pairs.size());
+  const auto bodies = [](const Pair& pair) {
+    return std::tuple(pair.first, pair.second, pair.image);
+  };
+  for (auto from = pairs.begin(); from != pairs.end();) {
+    const auto to = std::find_if(from, pairs.end(),
+                                 [&](const Pair& pair) { return bodies(pair) != bodies(*from); });
+    if (!may_have_places(particles, *from, obstacles)) {
+      listed.insert(listed.end(), from, to);
+    } else {
+      const auto before = at_present_places({from, to}, particles, obstacles);
+      const auto begin = static_cast<std::ptrdiff_t>(listed.size());
+      add_contacts_of(particles, {from->first, from->second, 0, 0, 0, from->image}, obstacles,
+                      listed);
+      std::sort(listed.begin() + begin, listed.end(),
+                [](const Pair& a, const Pair& b) { return a.place < b.place; });
+      for (auto made = listed.begin() + begin; made != listed.end(); ++made)
+        for (const auto& old : before)
+          if (old.place == made->place) *made = old;
+    }
+    from = to;
+  }
+  pairs = std::move(listed);
 }
 
 }  // namespace viscontact::particles

@@ -15,7 +15,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// The numbers by which the list of pairs is ordered.
+/// The numbers by which the list of pairs is ordered; the contacts of a pair by Pair::place.
 template <class AnyPair>
 auto place_of(const AnyPair& pair) {
   return std::tuple(pair.first, pair.second, pair.image);
@@ -130,10 +130,9 @@ void rebuild_neighbour_list(State& state, std::span<const double> displacements,
   for (const auto& pair : close) {
     keep_until(place_of(pair));
     if (p.are_joined(pair.first, pair.second)) continue;
-    if (old != before.end() && place_of(*old) == place_of(pair))
-      pairs.push_back(*old++);
-    else
+    if (old == before.end() || place_of(*old) != place_of(pair))
       pairs.push_back({pair.first, pair.second, 0, 0, 0, pair.image});
+    while (old != before.end() && place_of(*old) == place_of(pair)) pairs.push_back(*old++);
   }
   keep_until({std::numeric_limits<std::int32_t>::max(), 0, 0});
 }
@@ -152,11 +151,13 @@ void rebuild_wall_list(State& state, std::span<const PlanePosition> planes, doub
         return pair.first > plane || (pair.first == plane && index_of(pair.second) < begin);
       });
       for (std::size_t k = begin; k < end; ++k) {
-        const bool known =
-            old != state.walls.end() && old->first == plane && index_of(old->second) == k;
-        if ((known && old->gamma < 0) || gap(planes[w], p.position(k), p.radii[k]) < margin)
-          pairs.values.push_back(known ? *old : Pair{plane, static_cast<std::int32_t>(k)});
-        if (known) ++old;
+        const auto known = old;  // the contacts of the particle with this plane
+        bool is_glued = false;
+        for (; old != state.walls.end() && old->first == plane && index_of(old->second) == k; ++old)
+          is_glued |= old->gamma < 0;
+        if (!is_glued && !(gap(planes[w], p.position(k), p.radii[k]) < margin)) continue;
+        if (known == old) pairs.values.push_back({plane, static_cast<std::int32_t>(k)});
+        pairs.values.insert(pairs.values.end(), known, old);
       }
       return pairs;
     };
@@ -190,7 +191,9 @@ void wrap_into_cell(State& state) {
       shift[d] += wrapped[index_of(pair.second)][d] - wrapped[index_of(pair.first)][d];
     pair.image = image_number(shift[0], shift[1], shift[2]);
   }
-  std::ranges::sort(state.pairs, {}, [](const Pair& pair) { return place_of(pair); });
+  std::ranges::sort(state.pairs, {}, [](const Pair& pair) {
+    return std::tuple_cat(place_of(pair), std::tuple(pair.place));
+  });
 }
 
 }  // namespace viscontact::particles

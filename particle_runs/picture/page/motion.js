@@ -44,11 +44,16 @@ const writtenOrientations = optional('orientations', Float32Array);
 const bodies = optional('bodies', Int32Array);
 // For each particle the first frame in which it exists, if particles are added during the motion.
 const firstFrames = optional('firstFrames', Int32Array);
-// Two semi-axes for each particle [L], the first along its angle, if not all are discs.
+// Two semi-axes for each particle [L], the first along its angle, if not all are discs. Those of a
+// rounded polygon are the radius of the largest disc in it and the radius of its corners.
 const semiAxes = optional('semiAxes', Float32Array);
-// For each particle 1 if it is a plate with round ends, else 0. The semi-axes of a plate are half
-// of its length and the radius of its ends.
-const plates = optional('plates', Int8Array);
+// For each particle the number of its corners if it is a rounded polygon, 2 for a plate, else 0.
+const cornerCounts = optional('cornerCounts', Int8Array);
+// The places of all corners, counter-clockwise, x and y relative to the centre and angle of the
+// particle [L]. Those of particle k begin at firstCorners[k].
+const corners = optional('corners', Float32Array);
+const firstCorners = [0];
+for (const n of cornerCounts || []) firstCorners.push(firstCorners[firstCorners.length - 1] + n);
 // In a periodic motion the contact of a pair is with an image of the second particle, a copy that
 // is shifted by x, y and z periods, each -1, 0 or 1. For each pair: the number x + 3 y + 9 z.
 const images = optional('images', Int8Array);

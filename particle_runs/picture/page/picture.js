@@ -157,24 +157,40 @@ function drawDiscs() {
         if (!size) continue;
         if (pageAtX < -size || pageAtX > canvas.width + size) continue;
         if (pageAtY < -size || pageAtY > canvas.height + size) continue;
-        if (semiAxes) drawEllipse(k, pageAtX, pageAtY);
+        if (semiAxes) drawShape(k, pageAtX, pageAtY);
         else particle(pageAtX, pageAtY, size, lookOf(k));
-        if (angles.length && !(plates && plates[k])) drawMark(k, pageAtX, pageAtY);
+        if (angles.length && !hasCorners(k)) drawMark(k, pageAtX, pageAtY);
       }
   }
 }
 
-// Draws particle k at the centre x, y as a disc, an ellipse or a plate with round ends, in a motion
-// where not all particles are discs.
-function drawEllipse(k, x, y) {
+const hasCorners = k => Boolean(cornerCounts && cornerCounts[k]);
+
+// The corners of particle k, whose centre is at `place` on the canvas. Without corners the centre
+// takes their place.
+function cornersOf(k, place) {
+  if (!hasCorners(k)) return [[place.x, place.y]];
+  const scale = pageRadius[k] / radii[k], c = Math.cos(angles[k]), s = Math.sin(angles[k]);
+  return Array.from({length: cornerCounts[k]}, (_, i) => {
+    const x = scale * corners[2 * (firstCorners[k] + i)];
+    const y = scale * corners[2 * (firstCorners[k] + i) + 1];
+    return [place.x + c * x - s * y, place.y - s * x - c * y];
+  });
+}
+
+// Draws particle k at the centre x, y as a disc, an ellipse or a rounded polygon, in a motion where
+// not all particles are discs.
+function drawShape(k, x, y) {
   const scale = pageRadius[k] / radii[k];
   const [a, b] = [Math.max(scale * semiAxes[2 * k], 0.35), Math.max(scale * semiAxes[2 * k + 1], 0.35)];
   pen.beginPath();
-  if (plates && plates[k]) {
-    // The two round ends; the path joins them by the straight sides.
-    const [c, s] = [(a - b) * Math.cos(angles[k]), -(a - b) * Math.sin(angles[k])];
-    pen.arc(x + c, y + s, b, -angles[k] - Math.PI / 2, -angles[k] + Math.PI / 2);
-    pen.arc(x - c, y - s, b, -angles[k] + Math.PI / 2, -angles[k] + 1.5 * Math.PI);
+  if (hasCorners(k)) {
+    // The round corners; the path joins them by the straight sides.
+    const all = cornersOf(k, {x, y}), n = all.length;
+    const direction = i => Math.atan2(all[(i + 1) % n][1] - all[i % n][1],
+                                      all[(i + 1) % n][0] - all[i % n][0]) + Math.PI / 2;
+    all.forEach(([atX, atY], i) =>
+      pen.arc(atX, atY, b, direction(i + n - 1), direction(i), true));
     pen.closePath();
   } else {
     pen.ellipse(x, y, a, b, -angles[k], 0, 2 * Math.PI);
@@ -319,14 +335,6 @@ function colourOf(i) {
     : ofFriction.length + Math.round(level / 255 * (motion.colours.length - 1));
 }
 
-// The ends of the middle line of plate k, whose centre is at `place` on the canvas; they are the
-// centres of its round ends. If particle k is a disc, both ends are its centre.
-function spineOf(k, place) {
-  const half = plates[k] ? pageRadius[k] / radii[k] * (semiAxes[2 * k] - semiAxes[2 * k + 1]) : 0;
-  const x = half * Math.cos(angles[k]), y = -half * Math.sin(angles[k]);
-  return [[place.x + x, place.y + y], [place.x - x, place.y - y]];
-}
-
 // The point of the line from a to b that is nearest to the point x; all are places on the canvas.
 function nearestOnLine([a, b], x) {
   const along = [b[0] - a[0], b[1] - a[1]], square = along[0] ** 2 + along[1] ** 2;
@@ -335,12 +343,13 @@ function nearestOnLine([a, b], x) {
   return [a[0] + at * along[0], a[1] + at * along[1]];
 }
 
-// Traces the shortest line between the middle lines (spineOf()) of two plates or discs with these
-// centres on the canvas.
-function traceBetweenSpines(first, second, firstPlace, secondPlace) {
-  const one = spineOf(first, firstPlace), other = spineOf(second, secondPlace);
-  const lines = [...one.map(x => [x, nearestOnLine(other, x)]),
-                 ...other.map(x => [nearestOnLine(one, x), x])];
+// Traces the shortest line between the polygons of the corners (cornersOf()) of two particles with
+// these centres on the canvas.
+function traceBetweenCorners(first, second, firstPlace, secondPlace) {
+  const one = cornersOf(first, firstPlace), other = cornersOf(second, secondPlace);
+  const sides = all => all.map((x, i) => [x, all[(i + 1) % all.length]]);
+  const lines = [...one.flatMap(x => sides(other).map(side => [x, nearestOnLine(side, x)])),
+                 ...other.flatMap(x => sides(one).map(side => [nearestOnLine(side, x), x]))];
   const length = ([a, b]) => Math.hypot(a[0] - b[0], a[1] - b[1]);
   const [from, to] = lines.reduce((best, line) => (length(line) < length(best) ? line : best));
   pen.moveTo(...from);
@@ -365,7 +374,7 @@ function shiftOf(i) {
   }));
 }
 
-// Traces the line of contact i: between the centres or, with plates, the middle lines of two
+// Traces the line of contact i: between the centres or the polygons of the corners of two
 // particles, or from a particle to the nearest point of an obstacle.
 function traceContact(i) {
   const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
@@ -381,7 +390,7 @@ function traceContact(i) {
     return;
   }
   const trace = (from, to) =>
-    plates ? traceBetweenSpines(first, second, from, to) : traceLine(from.x, from.y, to.x, to.y);
+    corners ? traceBetweenCorners(first, second, from, to) : traceLine(from.x, from.y, to.x, to.y);
   const centre = k => ({x: pageX[k], y: pageY[k]});
   const shift = shiftOf(i);
   if (!shift.some(s => s)) return trace(centre(first), centre(second));
@@ -399,9 +408,10 @@ const lineWidth = ([share, least, most], radius) => {
   return between(unit * least, share * radius, unit * most);
 };
 
-// The radius of a disc, or the smaller semi-axis of a plate, on the canvas.
+// The radius of the largest disc in particle k on the canvas.
 const halfThickness = k =>
-  plates && plates[k] ? pageRadius[k] / radii[k] * semiAxes[2 * k + 1] : pageRadius[k];
+  semiAxes && pageRadius[k] / radii[k] * (hasCorners(k)
+    ? semiAxes[2 * k] : Math.min(semiAxes[2 * k], semiAxes[2 * k + 1])) || pageRadius[k];
 
 // The width of the line of contact i on the canvas.
 function widthOf(i) {

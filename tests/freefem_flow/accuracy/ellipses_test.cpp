@@ -13,9 +13,11 @@
 #include <vector>
 
 #include "viscontact/freefem_flow/freefem_solver.hpp"
+#include "viscontact/immersed/fluid_simulation.hpp"
 #include "viscontact/immersed/fluid_solver.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/setting/fluid.hpp"
+#include "viscontact/particles/shapes/shape_contacts.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {
@@ -162,6 +164,57 @@ TEST(Ellipse, IsMarkedOnAFixedMesh) {
   // It moves along the force and, because it is slanted, towards its long axis.
   EXPECT_GT(fixed[1], 0);
   EXPECT_NEAR(fixed[1], fitted[1], 0.5 * fitted[1]);
+}
+
+// An ellipse with the semi-axes 1 and 0.5 that a force W pulls onto the floor of a box lands on its
+// side and comes to lie flat. Near the end the floor bears W, at the lever (a^2 - b^2)/b angle = 1.5
+// angle, and the angle falls at the rate 1.5 W M with the mobility M of its turns.
+TEST(Ellipse, SinksOntoAFloorAndComesToLieFlat) {
+  const double h = 0.5, weight = 5, threshold = 0.2;
+  particles::Setting setting;
+  setting.domain = particles::BoxDomain{{0, 0}, {8, 5}, {}};
+  setting.fluid = fluid_of(10);
+  setting.fluid->threshold_gap = threshold;
+  setting.time_step = h;
+  setting.forces[0] = {{{1e300, {0, -weight, 0}}}};
+  particles::State state;
+  auto& p = state.particles;
+  p.dimension = 2;
+  p.positions = {4, 1.1};
+  p.velocities = {0, 0};
+  p.shapes = {Shape::ellipse(1, 0.5)};
+  p.radii = {1};
+  p.masses = p.inertias = p.angular_velocities = {0};
+  p.angles = {0.6};
+  particles::FluidSimulation simulation(
+      setting, state, start_fluid_solver(*setting.fluid, setting.domain, p.shapes, 2));
+  bool has_landed = false;
+  const double allowed = setting.solver.tolerance;
+  double before = 0;
+  for (int n = 0; n < 50; ++n) {
+    before = simulation.state().particles.angles[0];
+    EXPECT_TRUE(simulation.step(1e9).converged);
+    const auto after = simulation.state().particles.placed_shape(0);
+    const double gap = particles::gap({{0, 0, 0}, {0, 1, 0}}, after);
+    has_landed = has_landed || gap < threshold + allowed;
+    EXPECT_GT(gap, threshold - allowed);
+    if (has_landed) {
+      EXPECT_LT(gap, threshold + allowed);
+    }
+  }
+  const auto& flat = simulation.state().particles;
+  ASSERT_EQ(simulation.state().walls.size(), 1U);
+  EXPECT_NEAR(simulation.state().walls[0].impulse / h, weight, 1e-3 * weight);
+  EXPECT_NEAR(flat.positions[1], 0.5 + threshold, 1e-4);
+  EXPECT_LT(std::abs(flat.angles[0]), 2e-3);
+  const std::vector<double> angles = {0};
+  const auto solver = start_fluid_solver(*setting.fluid, setting.domain, flat.shapes, 2);
+  solver->place({&flat, angles, {}, {}});
+  const double turn = 1.5 * weight * solver->velocities(std::vector<double>{0, 0, 1}, false)[2] * h;
+  // Steps take the lever between that of their beginning and that of their end. The mesh, which
+  // changes from step to step, makes an error of 1 %.
+  EXPECT_GT(flat.angles[0] / before, 0.99 * (1 - turn));
+  EXPECT_LT(flat.angles[0] / before, 1.01 / (1 + turn));
 }
 
 }  // namespace
