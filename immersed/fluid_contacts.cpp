@@ -7,7 +7,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <tuple>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/constraint_rows/link_rows.hpp"
@@ -20,58 +19,18 @@
 namespace viscontact::particles {
 namespace {
 
-/// Pairs are sorted by this key, with the obstacles in the order -1, -2, ... Files of contacts and
-/// restart files have this order.
-auto place_of_pair(const Pair& pair) {
-  return std::tuple(std::max(pair.first, -1 - pair.first), pair.second, pair.image, pair.place);
-}
-
-/// Sorts `pairs`. Those that are also in `before`, the list of the step before, get their memory
+/// Sorts `pairs` by order_of(). Those that are also in `before`, the list of the step before, get their memory
 /// from it; the pairs of `before` with gamma < 0 are added.
 void keep_memory(std::vector<Pair>& pairs, std::vector<Pair> before) {
-  std::ranges::sort(pairs, {}, place_of_pair);
-  std::ranges::sort(before, {}, place_of_pair);
+  std::ranges::sort(pairs, {}, order_of);
+  std::ranges::sort(before, {}, order_of);
   std::erase_if(before, [&](const Pair& old) {
-    return !(old.gamma < 0) &&
-           !std::ranges::binary_search(pairs, place_of_pair(old), {}, place_of_pair);
+    return !(old.gamma < 0) && !std::ranges::binary_search(pairs, order_of(old), {}, order_of);
   });
   // set_union() takes a pair that is in both from the first list.
   std::vector<Pair> merged;
-  std::ranges::set_union(before, pairs, std::back_inserter(merged), {}, place_of_pair,
-                         place_of_pair);
+  std::ranges::set_union(before, pairs, std::back_inserter(merged), {}, order_of, order_of);
   pairs = std::move(merged);
-}
-
-/// The pairs `before` of the step before, with the numbers of the present contacts. If two contacts
-/// became one, this one gets the memory of the contact with the smaller gamma.
-std::vector<Pair> at_present_places(const std::vector<Pair>& before, const Particles& p,
-                                    std::span<const PlanePosition> obstacles) {
-  if (!p.has_other_shapes()) return before;
-  std::vector<Pair> pairs;
-  for (auto pair : before) {
-    if (!is_round(p, pair)) pair.place = ShapedContacts(p, pair, obstacles).contact_of(pair.place);
-    const auto same = std::ranges::find(pairs, place_of_pair(pair), place_of_pair);
-    if (same == pairs.end()) {
-      pairs.push_back(pair);
-      continue;
-    }
-    if (pair.gamma < same->gamma) *same = pair;
-  }
-  return pairs;
-}
-
-/// Adds the pair to `pairs`, once for each of its contacts.
-void add_contacts_of(const Particles& p, Pair pair, std::span<const PlanePosition> obstacles,
-                     std::vector<Pair>& pairs) {
-  if (is_round(p, pair)) {
-    pairs.push_back(pair);
-    return;
-  }
-  const ShapedContacts contacts(p, pair, obstacles);
-  for (const int place : contacts.places()) {
-    pair.place = place;
-    pairs.push_back(pair);
-  }
 }
 
 /// Lists all pairs with a distance of their surfaces below `reach` [L] and those with gamma < 0. On
@@ -113,7 +72,7 @@ void list_pairs(StepContacts& step, const State& state, std::span<const PlanePos
 struct MadeContact {
   Contact<2> contact;
   FrictionPlace place{};
-  ContactCircles circles{};
+  ContactCurvature circles{};
 };
 
 /// Radius of the first surface for the laws of contacts.
@@ -130,19 +89,13 @@ MadeContact contact_of_shapes(const Particles& p, const Pair& pair,
   made.place.arms = surfaces.friction_arms();
   made.circles.arms = {dot(surfaces.arms[0], surfaces.normal),
                        dot(surfaces.arms[1], surfaces.normal)};
-  made.circles.radii = {surfaces.radii[0], surfaces.radii[1]};
+  made.circles.radii = radii_of(surfaces, pair.first < 0 ? &obstacles[pair.plane()] : nullptr);
   if (pair.first >= 0) {
     made.contact.image = pair.image;
     return made;
   }
   made.contact.obstacle = -1 - pair.first;
   made.place.on_obstacle = {surfaces.on_obstacle[0], surfaces.on_obstacle[1], 0};
-  const auto& obstacle = obstacles[pair.plane()];
-  made.circles.radii.first = radius_of_obstacle(obstacle);
-  // A surface that fits to a round wall has no finite effective radius.
-  constexpr double kMostOfWall = 0.999;
-  if (obstacle.is_curved())
-    made.circles.radii.second = std::min(surfaces.radii[1], kMostOfWall * obstacle.radius);
   return made;
 }
 
@@ -421,8 +374,8 @@ StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links&
   for (;;) {
     StepContacts step;
     step.iterations = iterations;
-      step.stages = stages;
-      list_pairs(step, state, obstacles, reach, pool);
+    step.stages = stages;
+    list_pairs(step, state, obstacles, reach, pool);
     std::erase_if(step.pairs, is_left_out);
     std::erase_if(step.walls, is_left_out);
     make_contacts(step, p, fluid, obstacles, conditions, friction);
