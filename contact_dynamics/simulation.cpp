@@ -395,12 +395,27 @@ void Simulation::refuse_meeting(double next) const {
   const auto moved = [&](std::int32_t k) {
     return point_of(displacements_.data(), index_of(k), p.dimension);
   };
+  const auto shape_at_end = [&](std::int32_t k, const Vector& shift) {
+    auto shape = p.placed_shape(index_of(k), shift + moved(k));
+    if (!p.is_round(index_of(k)))
+      shape = PlacedShape::at_angle(shape.shape, shape.centre,
+                                    p.angles[index_of(k)] + turns_[index_of(k)]);
+    return shape;
+  };
   for (const auto* pairs : {&state_.pairs, &state_.walls})
     for (const auto& pair : *pairs) {
       if (!is_given(pair.first) || !is_given(pair.second)) continue;
       const auto j = index_of(pair.second);
       double start = 0, end = 0;
-      if (pair.first < 0) {
+      if (has_other_shapes_ && !is_round(p, pair)) {
+        const Vector shift = pair.first < 0 ? Vector{} : shift_of(p.cell, pair.image);
+        const auto second = p.placed_shape(j, shift),
+                   after_second = shape_at_end(pair.second, shift);
+        start = pair.first < 0 ? gap(before[pair.plane()], second)
+                               : gap(p.placed_shape(index_of(pair.first)), second);
+        end = pair.first < 0 ? gap(after[pair.plane()], after_second)
+                             : gap(shape_at_end(pair.first, {}), after_second);
+      } else if (pair.first < 0) {
         start = gap(before[pair.plane()], p.position(j), p.radii[j]);
         end = gap(after[pair.plane()], p.position(j) + moved(pair.second), p.radii[j]);
       } else {

@@ -19,8 +19,9 @@
 namespace viscontact::particles {
 namespace {
 
-/// Sorts `pairs` by order_of(). Those that are also in `before`, the list of the step before, get their memory
-/// from it; the pairs of `before` with gamma < 0 are added.
+/// Sorts `pairs` by order_of(), the order of files of contacts and of restart files. Those that are
+/// also in `before`, the list of the step before, get their memory from it; the pairs of `before`
+/// with gamma < 0 are added.
 void keep_memory(std::vector<Pair>& pairs, std::vector<Pair> before) {
   std::ranges::sort(pairs, {}, order_of);
   std::ranges::sort(before, {}, order_of);
@@ -72,7 +73,7 @@ void list_pairs(StepContacts& step, const State& state, std::span<const PlanePos
 struct MadeContact {
   Contact<2> contact;
   FrictionPlace place{};
-  ContactCurvature circles{};
+  ContactCircles circles{};
 };
 
 /// Radius of the first surface for the laws of contacts.
@@ -89,13 +90,14 @@ MadeContact contact_of_shapes(const Particles& p, const Pair& pair,
   made.place.arms = surfaces.friction_arms();
   made.circles.arms = {dot(surfaces.arms[0], surfaces.normal),
                        dot(surfaces.arms[1], surfaces.normal)};
-  made.circles.radii = radii_of(surfaces, pair.first < 0 ? &obstacles[pair.plane()] : nullptr);
+  made.circles.radii = {surfaces.radii[0], surfaces.radii[1]};
   if (pair.first >= 0) {
     made.contact.image = pair.image;
     return made;
   }
   made.contact.obstacle = -1 - pair.first;
   made.place.on_obstacle = {surfaces.on_obstacle[0], surfaces.on_obstacle[1], 0};
+  made.circles.radii = radii_of(surfaces, &obstacles[pair.plane()]);
   return made;
 }
 
@@ -374,8 +376,8 @@ StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links&
   for (;;) {
     StepContacts step;
     step.iterations = iterations;
-    step.stages = stages;
-    list_pairs(step, state, obstacles, reach, pool);
+      step.stages = stages;
+      list_pairs(step, state, obstacles, reach, pool);
     std::erase_if(step.pairs, is_left_out);
     std::erase_if(step.walls, is_left_out);
     make_contacts(step, p, fluid, obstacles, conditions, friction);

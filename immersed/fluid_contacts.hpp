@@ -262,7 +262,7 @@ struct FrictionOfStep;
 
 /// The circles that touch both surfaces of a contact at the beginning of the step and have their
 /// radii of curvature (SurfaceContact).
-struct ContactCurvature {
+struct ContactCircles {
   PairRadii radii{};  ///< [L]
   /// Their centres from those of the particles, along the normal [L]; 0 for discs and obstacles.
   std::array<double, 2> arms{};
@@ -274,7 +274,7 @@ struct StepContacts {
   /// The contacts of all `pairs`, then of all `walls`, then of the stops of hinges, which have no
   /// film. Contacts that take no part have the impulse 0 and w = 0 or kImmovable.
   std::vector<Contact<2>> contacts;
-  std::vector<ContactCurvature> circles;  ///< of `pairs`, then of `walls`
+  std::vector<ContactCircles> circles;  ///< of `pairs`, then of `walls`
   /// Of the contacts with a finite capacity, in the order of `contacts`; empty without friction.
   std::vector<ContactFrictionInFluid> frictions;
   /// Velocities of all particles by a unit force of each contact [T/M, T/(M L)]; may be empty in a
@@ -347,7 +347,7 @@ struct FrictionPlace {
 /// The friction of a contact before the problem is solved, without ContactFrictionInFluid::contact,
 /// w and slides. `contact` must have the distance D of the surfaces as its gap, and the particles
 /// are at their places at the beginning of the step. The first guess of the impulse is the friction
-/// in the memory of the pair. `radii` are those of ContactCurvature.
+/// in the memory of the pair. `radii` are those of ContactCircles.
 ContactFrictionInFluid friction_of_contact(const FrictionOfStep& step, const Particles& particles,
                                            const Pair& pair, const Contact<2>& contact,
                                            const FrictionPlace& place, const PairRadii& radii,

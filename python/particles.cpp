@@ -238,13 +238,13 @@ std::string help_of(const particles::ColumnForm& column) {
   return text;
 }
 
-/// The entries of a table, in a line each.
+/// The entries that a table may have, in a line each.
 template <class AnyColumn>
 std::string help_of(const std::vector<AnyColumn>& columns) {
   std::string text;
-  for (const auto* column :
-       particles::columns_in(particles::Output::kPython, columns, particles::kAllFacts))
-    text += fmt::format("{:<18} {}\n", column->name, help_of(*column));
+  for (const auto& column : columns)
+    if (column.presence.python.words != particles::kNever.words)
+      text += fmt::format("{:<18} {}\n", column.name, help_of(column));
   return text;
 }
 

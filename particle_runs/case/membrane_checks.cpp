@@ -176,7 +176,7 @@ void check_given_beads(const case_file::TomlSection& section, const ParticlesCas
                     p.masses[index_of(*bead)]);
     section.require(!c.setting.given_motions.contains(*bead), "particles",
                     "contains particle {}, whose motion is given; beads must be free", id);
-    section.require(!in_fluid || p.is_round(index_of(*bead)), "particles",
+    section.require(p.is_round(index_of(*bead)), "particles",
                     "contains particle {}, which is no disc but of the shape '{}'; beads must be "
                     "discs",
                     id, p.shape(index_of(*bead)).name());

@@ -28,16 +28,23 @@ std::vector<const ShapeRule*> shape_rules_of_keys() {
   return rules;
 }
 
-/// Throws Error(kBadInput) for keys of a table [[particle]] that are not allowed in this dimension
-/// (1, 2 or 3), with or without a fluid, or beside each other.
-void check_keys(const case_file::TomlSection& section, int dimension, bool in_fluid) {
+/// Throws Error(kBadInput) for keys of a table [[particle]] that are not allowed in this case, or
+/// beside each other.
+void check_keys(const case_file::TomlSection& section, const ParticlesCase& c) {
+  const int dimension = c.particles.dimension;
+  const bool rebounds = !c.setting.fluid && c.setting.laws.restitution.is_on();
   const ShapeKey* given = nullptr;  // the first key of a shape that the table has
   for (const auto* rule : shape_rules_of_keys()) {
     const auto& key = rule->key;
     if (!section.has(key.name)) continue;
-    section.require(in_fluid && dimension == 2, key.name,
-                    "makes this particle a shape, '{}', which is possible in a fluid in the plane; "
-                    "this particle must have a radius alone",
+    section.require(dimension == 2, key.name,
+                    "makes this particle a shape, '{}', which is possible in the plane; this "
+                    "particle must have a radius alone",
+                    rule->name);
+    section.require(!rebounds, key.name,
+                    "makes this particle a shape, '{}', beside viscous_contact.restitution: "
+                    "without a fluid only discs rebound; restitution must be left out, or this "
+                    "particle must have a radius alone",
                     rule->name);
     section.require(given == nullptr, key.name,
                     "must be left out, because {} gives this particle its shape",
@@ -158,7 +165,7 @@ void particle_keys(case_file::Keys& keys, ParticleTable& p, const ParticlesCase&
   const auto read_fixed = [&](const case_file::TomlSection& section, std::string_view key) {
     p.is_fixed = section.truth(key);
   };
-  if (keys.reads()) check_keys(keys.section(), dimension, in_fluid);
+  if (keys.reads()) check_keys(keys.section(), c);
   keys.optional("fixed", case_file::custom("`true` or `false`", read_fixed),
                 {"whether the particle is at rest, whatever acts on it", "`false`"});
   keys.optional("velocity_given",
@@ -192,11 +199,12 @@ void particle_keys(case_file::Keys& keys, ParticleTable& p, const ParticlesCase&
 }
 
 /// Sets angle, angular velocity and moment of inertia of the last particle of a case without a
-/// fluid. The first table with one of kKeysOfRotation makes all particles turn; those before it get
+/// fluid. The first table with a shape or one of kKeysOfRotation makes all particles turn; those before it get
 /// the defaults of add_rotation().
 void add_rotation_of_last(const case_file::TomlSection& section, const ParticleTable& table,
                           Particles& p) {
-  const bool is_turned = table.given && !table.given->angular_velocity.pieces.empty();
+  const bool is_turned =
+      table.shape || (table.given && !table.given->angular_velocity.pieces.empty());
   if (!p.turn() && !is_turned &&
       std::ranges::none_of(kKeysOfRotation, [&](auto* key) { return section.has(key); }))
     return;

@@ -95,14 +95,14 @@ Contact<2> contact_of(const Pair& pair, const ShapedContact& shaped);
 
 /// The circles that touch both surfaces of a contact and have their radii of curvature; for discs
 /// and spheres these surfaces.
-struct ContactCircles {
+struct SurfaceCircles {
   std::array<Vector, 2> centres{};  ///< from those of the particles [L]; 0 at an obstacle
   std::array<double, 2> radii{};    ///< [L]; 0 at an obstacle
 };
 
 template <int D>
-ContactCircles circles_of(const Contact<D>& contact, const Particles& particles) {
-  ContactCircles circles;
+SurfaceCircles circles_of(const Contact<D>& contact, const Particles& particles) {
+  SurfaceCircles circles;
   if (contact.shaped == nullptr) {
     circles.radii[1] = particles.radii[index_of(contact.second)];
     if (contact.first >= 0) circles.radii[0] = particles.radii[index_of(contact.first)];

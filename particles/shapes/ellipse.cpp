@@ -99,8 +99,8 @@ constexpr ShapeRule kEllipseRule = {
     .name = "ellipse",
     .key = {.name = "semi_axes",
             .is_pair = true,
-            .meaning = "[in a fluid](#particles-in-a-fluid) in the plane, in place of `radius`: an "
-                       "ellipse, whose first semi-axis points along `angle`",
+            .meaning = "[in the plane](#ellipses-and-plates), in place of `radius`: an ellipse, "
+                       "whose first semi-axis points along `angle`",
             .otherwise = "from `radius`",
             .semi_axes = [](const Vector2& numbers, double) { return numbers; }},
     .measure = [](const Vector2& s) { return std::numbers::pi * s[0] * s[1]; },

@@ -21,8 +21,8 @@ constexpr ShapeRule kPlateRule = {
     .name = "plate",
     .key = {.name = "length",
             .needs_radius = true,
-            .meaning = "[in a fluid](#particles-in-a-fluid) in the plane: the particle is a plate "
-                       "of this length along `angle`, with round ends of the `radius`",
+            .meaning = "[in the plane](#ellipses-and-plates): the particle is a plate of this "
+                       "length along `angle`, with round ends of the `radius`",
             .otherwise = "none",
             .semi_axes =
                 [](const Vector2& numbers, double radius) {

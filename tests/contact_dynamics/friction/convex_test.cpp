@@ -386,6 +386,9 @@ TEST_P(ConvexFriction, EveryStepOfABodyInAWedgeOfMovingWallsConverges) {
     run(simulation, 1, [&](const StepReport& report) {
       EXPECT_TRUE(report.converged) << report.time;
       with_given_loads += report.has_given_loads ? 1 : 0;
+      if (report.has_given_loads) {
+        EXPECT_NE(report.solver_stages.find("given_loads:"), std::string::npos);
+      }
       // The openings of the relaxation push the body out at up to 20 times the speed 0.5 of the
       // walls.
       EXPECT_LT(norm(simulation.state().particles.velocity(0)), 15) << report.time;
