@@ -213,21 +213,20 @@ py::object final_particles(PythonParticles& self) {
   auto& simulation = self.simulation();
   const auto p = simulation.reported_particles();
   auto run = particles::facts_of(p);
-  const auto& fluid = self.case_file().setting.fluid;
-  run.is_in_fluid = fluid.has_value();
+  auto* const flow = particles::flow_of(simulation);
+  run.is_in_fluid = flow != nullptr;
   particles::FluidForces forces;
   std::vector<double> values, errors;
-  if (fluid) {
-    values = simulation.fluid_forces();
-    errors = simulation.force_errors().of_fluid;
-    forces = {values, errors, fluid->semi_axes};
-    run.has_semi_axes = !fluid->semi_axes.empty();
+  if (flow != nullptr) {
+    values = flow->fluid_forces();
+    errors = flow->force_errors().of_fluid;
+    forces = {values, errors};
   }
   const auto& loads = simulation.state().given_loads;
-  run.has_given_loads = !fluid && !loads.empty();
+  run.has_given_loads = flow == nullptr && !loads.empty();
   return table_of(
       particles::columns_in(particles::Output::kPython, particles::particle_columns(), run),
-      particles::rows_of(p, simulation.state().time, fluid ? &forces : nullptr, loads),
+      particles::rows_of(p, simulation.state().time, flow != nullptr ? &forces : nullptr, loads),
       p.dimension);
 }
 
@@ -251,6 +250,7 @@ std::string help_of(const std::vector<AnyColumn>& columns) {
 /// The value of a column without components in a row.
 template <class Row>
 py::object value_of(const particles::Column<Row>& column, const Row& row) {
+  if (column.text != nullptr) return py::str(std::string(column.text(row)));
   particles::Entries entries{};
   column.read(row, entries);
   if (column.kind == particles::ValueKind::kTruth) return py::bool_(entries[0] != 0);

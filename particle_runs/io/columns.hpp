@@ -186,6 +186,9 @@ Column<Row> column(const Declaration& declaration, Read /*read*/) {
   Column<Row> made;
   static_cast<Declaration&>(made) = declaration;
   if constexpr (std::is_convertible_v<Value, std::string_view>) {
+    // A text must live as long as the row.
+    static_assert(std::is_reference_v<std::invoke_result_t<Read, const Row&>> ||
+                  std::is_same_v<Value, std::string_view>);
     made.kind = ValueKind::kText;
     made.text = [](const Row& row) -> std::string_view { return Read{}(row); };
   } else {
@@ -203,7 +206,7 @@ auto column(const Declaration& declaration) {
   }(declaration, kMember);
 }
 
-/// The columns of a kind of row that an output has. First come those of `first`, in this order,
+/// The columns of a kind of row that an output has; frames have no texts. First come those of `first`, in this order,
 /// then the others in the order of `all`.
 template <class AnyColumn>
 std::vector<const AnyColumn*> columns_in(Output output, const std::vector<AnyColumn>& all,
@@ -211,7 +214,9 @@ std::vector<const AnyColumn*> columns_in(Output output, const std::vector<AnyCol
                                          std::span<const std::string_view> first = {}) {
   std::vector<const AnyColumn*> found;
   for (const auto& one : all)
-    if (one.presence.in(output).holds(run)) found.push_back(&one);
+    if (one.presence.in(output).holds(run) &&
+        (output != Output::kFrames || one.kind != ValueKind::kText))
+      found.push_back(&one);
   std::ranges::stable_sort(found, {}, [&](const AnyColumn* one) {
     return std::ranges::find(first, one->name) - first.begin();
   });

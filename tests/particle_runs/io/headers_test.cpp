@@ -37,10 +37,11 @@ TEST(Headers, OfFinalContacts) {
 
 TEST(Headers, OfFinalParticles) {
   const auto of = [](int dimension, bool turn, const std::optional<FluidForces>& forces = {},
-                     std::span<const GivenParticleLoad> loads = {}) {
+                     std::span<const GivenParticleLoad> loads = {}, bool is_ellipse = false) {
     State state = no_particles(dimension);
     add_particle(state, {}, 1, 1);
     if (turn) add_rotation(state.particles);
+    if (is_ellipse) state.particles.shapes = {Shape::ellipse(1, 0.5)};
     const auto text = header_of(write_particles(state.particles, forces, loads));
     return text.substr(0, text.find('\n'));
   };
@@ -54,8 +55,7 @@ TEST(Headers, OfFinalParticles) {
       "id,x,y,vx,vy,radius,mass,angle,angular_velocity,fluid_force_x,fluid_force_y,fluid_torque,"
       "fluid_force_error_estimate,fluid_torque_error_estimate";
   EXPECT_EQ(of(2, true, FluidForces{}), of_discs);
-  const std::vector<std::array<double, 2>> axes = {{1, 0.5}};
-  EXPECT_EQ(of(2, true, FluidForces{{}, {}, axes}), of_discs + ",semi_axis_1,semi_axis_2");
+  EXPECT_EQ(of(2, true, FluidForces{}, {}, true), of_discs + ",semi_axis_1,semi_axis_2");
   EXPECT_EQ(of(1, false, FluidForces{}),
             "id,z,vz,radius,mass,fluid_force_z,fluid_force_error_estimate");
   const std::vector<GivenParticleLoad> loads = {{0, {}, {}}};
