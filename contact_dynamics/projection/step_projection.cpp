@@ -369,13 +369,15 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
 
 template <int D>
 bool StepProjection<D>::shapes_turn() const {
-  // Corrections for turns that are smaller [rad] do not decide whether a step is solved.
-  constexpr double kSmallTurn = 1e-3;
-  return std::ranges::any_of(system_.contacts, [&](const Contact<D>& contact) {
-    return contact.shaped != nullptr &&
-           (std::abs(step_->turns[index_of(contact.second)]) > kSmallTurn ||
-            (contact.first >= 0 && std::abs(step_->turns[index_of(contact.first)]) > kSmallTurn));
-  });
+  if constexpr (D == 2) {
+    // Corrections for turns that are smaller [rad] do not decide whether a step is solved.
+    constexpr double kSmallTurn = 1e-3;
+    return std::ranges::any_of(system_.contacts, [&](const Contact<D>& contact) {
+      return contact.shaped != nullptr &&
+             turn_of_shapes(contact, displacements_, step_->turns) > kSmallTurn;
+    });
+  }
+  return false;
 }
 
 template <int D>
