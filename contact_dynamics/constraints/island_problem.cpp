@@ -200,10 +200,18 @@ void ConstraintSystem<D>::make_problem(const ContactSystem<D>& system, Island& i
 
 template ContactSide ConstraintSystem<2>::side_of(std::int32_t) const;
 template ContactSide ConstraintSystem<3>::side_of(std::int32_t) const;
+template bool ConstraintSystem<2>::has_friction(const ContactTangents<2>&) const;
+template bool ConstraintSystem<2>::has_given_slip(const Contact<2>&) const;
+template Vector ConstraintSystem<2>::friction_of_given_slip(const Contact<2>&,
+                                                            const ContactState&) const;
 template void ConstraintSystem<2>::make_problem(const ContactSystem<2>&, Island&, bool, double);
 template bool ConstraintSystem<2>::has_motions_without_contacts(const Island&) const;
 template std::vector<Motion<2>> ConstraintSystem<2>::motions_without_contacts(
     const ContactSystem<2>&, const Island&) const;
+template bool ConstraintSystem<3>::has_friction(const ContactTangents<3>&) const;
+template bool ConstraintSystem<3>::has_given_slip(const Contact<3>&) const;
+template Vector ConstraintSystem<3>::friction_of_given_slip(const Contact<3>&,
+                                                            const ContactState&) const;
 template void ConstraintSystem<3>::make_problem(const ContactSystem<3>&, Island&, bool, double);
 template bool ConstraintSystem<3>::has_motions_without_contacts(const Island&) const;
 template std::vector<Motion<3>> ConstraintSystem<3>::motions_without_contacts(
