@@ -69,8 +69,8 @@ class ShapedContact {
   PairRadii radii() const { return radii_of(at_start_, is_at_obstacle_ ? &obstacle_ : nullptr); }
   /// The gap of two particles along the normal at the beginning of the step [L] after they have
   /// moved. The normal turns with the side on which it stands. This gap is at most the distance of
-  /// the surfaces, and for discs the linearised gap. At an obstacle, whose motion is that of a plane
-  /// under a load, it is the distance.
+  /// the surfaces, and for discs the linearised gap. At an obstacle, whose motion is that of a
+  /// plane under a load, it is the distance.
   double gap_along(const ShapeMotion& first, const ShapeMotion& second) const;
   /// The distance of the surfaces after the motions [L].
   double distance(const ShapeMotion& first, const ShapeMotion& second) const;
@@ -134,9 +134,9 @@ inline auto order_of(const Pair& pair) {
 void add_contacts_of(const Particles& particles, Pair pair,
                      std::span<const PlanePosition> obstacles, std::vector<Pair>& pairs);
 
-/// The pairs `before` of the step before in the order of order_of(), with the numbers of the present
-/// contacts. If two contacts became one, this one gets the memory of the contact with the smaller
-/// gamma.
+/// The pairs `before` of the step before in the order of order_of(), with the numbers of the
+/// present contacts. If two contacts became one, this one gets the memory of the contact with the
+/// smaller gamma.
 std::vector<Pair> at_present_places(std::vector<Pair> before, const Particles& particles,
                                     std::span<const PlanePosition> obstacles);
 
