@@ -98,6 +98,7 @@ ContactTangents<D> tangents_of(const Contact<D>& contact, const Particles& parti
     // The arms are in the ratio of the radii and add up to the distance of the centres, also if the
     // gap is not 0. Opposite impulses at their common end do not change the angular momentum.
     const double r_i = circles.radii[0];
+    assert(r_i + r_j > 0);
     const double distance = r_i + r_j + contact.gap - contact.tolerated;
     tangents.first_arm = r_i * (distance / (r_i + r_j));
     tangents.second_arm = r_j * (distance / (r_i + r_j));

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "viscontact/common/error.hpp"
@@ -619,6 +620,25 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
     });
 }
 
+void Simulation::move_sums_to_present_contacts() {
+  std::set<std::array<std::int32_t, 4>> present;
+  for_pairs([&](const Pair& pair) { present.insert(key_of(pair)); });
+  for (auto sums = impulses_of_parts_.begin(); sums != impulses_of_parts_.end();) {
+    const auto [first, second, image, place] = sums->first;
+    const auto same = present.lower_bound({first, second, image, 0});
+    if (present.contains(sums->first) || same == present.end() || (*same)[0] != first ||
+        (*same)[1] != second || (*same)[2] != image) {
+      ++sums;
+      continue;
+    }
+    auto& of_present = impulses_of_parts_[*same];
+    of_present.of_contact += sums->second.of_contact;
+    for_impulses(of_present.memory, sums->second.memory,
+                 [](double& sum, double value) { sum += value; });
+    sums = impulses_of_parts_.erase(sums);
+  }
+}
+
 template <int D>
 void Simulation::advance_whole(double h, double next, StepReport& report) {
   try {
@@ -665,6 +685,7 @@ StepReport Simulation::step(double end) {
   else
     advance_whole<3>(interval->h, interval->end, report);
   if (!impulses_of_parts_.empty()) {
+    if (has_other_shapes_) move_sums_to_present_contacts();
     for_pairs([&](Pair& pair) {
       const auto sums = impulses_of_parts_.find(key_of(pair));
       const auto impulses = sums == impulses_of_parts_.end() ? Impulses{} : sums->second;

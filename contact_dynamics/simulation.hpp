@@ -111,6 +111,9 @@ class Simulation : public ParticleSimulation {
   // Computes a step. If a part throws, the state becomes that before the step.
   template <int D>
   void advance_whole(double h, double next, StepReport& report);
+  // Two contacts of two shapes may have become one, or have got other numbers, in a later part of
+  // the step. The sums of the earlier parts then go to a present contact of the same shapes.
+  void move_sums_to_present_contacts();
   // Changes the state to that at the end of a part, and adds the part to the report.
   template <int D>
   void accept(const ProjectionResult& projected, double h, double next, StepReport& report);

@@ -14,7 +14,8 @@ namespace viscontact::particles {
 namespace {
 
 /// The rate [L/T] at which a gap grows while the particles rest.
-double drift_of(const Contact<2>& contact, const Pair& pair, const ImpactStep& step, double h) {
+double drift_of(const Contact<2>& contact, const Pair& pair, const FluidImpactStep& step,
+                double h) {
   const auto& p = step.state.particles;
   if (contact.is_stop()) return 0;
   if (contact.first >= 0) {
@@ -37,7 +38,7 @@ double drift_of(const Contact<2>& contact, const Pair& pair, const ImpactStep& s
 /// in an order in which each one uses members of `parts_` that those before it have set.
 class Impact {
  public:
-  Impact(const StepContacts& contacts, const ImpactStep& step, const Mobility& mobility,
+  Impact(const StepContacts& contacts, const FluidImpactStep& step, const Mobility& mobility,
          const ContactConditions& conditions)
       : ordinary_(contacts),
         step_(step),
@@ -67,8 +68,8 @@ class Impact {
   /// Sets the members of each part from `drift` to `hit_at`. Returns true if a contact is hit.
   bool find_hits();
   /// The contact problem of an impact. Its impulses act on the velocities as forces would do in the
-  /// time ImpactStep::impulse_time [T]. The gaps of hit contacts are 0; those of all others are
-  /// multiplied by impulse_time/h, so that they close at the same velocity as in the step.
+  /// time FluidImpactStep::impulse_time [T]. The gaps of hit contacts are 0; those of all others
+  /// are multiplied by impulse_time/h, so that they close at the same velocity as in the step.
   StepContacts problem() const;
   /// Sets Part::load of the contacts that are closed or hit: the impulses that would keep these
   /// gaps from closing if the forces of the step acted on particles at rest. Returns true if
@@ -113,7 +114,7 @@ class Impact {
   }
 
   const StepContacts& ordinary_;  // the contacts of the step, as it was solved without restitution
-  const ImpactStep& step_;
+  const FluidImpactStep& step_;
   const ContactLaws& laws_;
   const Mobility& mobility_;
   const ContactConditions& conditions_;
@@ -372,7 +373,7 @@ std::optional<FluidImpact> Impact::solve() {
 
 }  // namespace
 
-std::optional<FluidImpact> solve_impact(const StepContacts& contacts, const ImpactStep& step,
+std::optional<FluidImpact> solve_impact(const StepContacts& contacts, const FluidImpactStep& step,
                                         const Mobility& mobility,
                                         const ContactConditions& conditions) {
   assert(step.impulse_time > 0 && step.end > step.state.time);

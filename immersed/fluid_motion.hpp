@@ -36,7 +36,7 @@ inline void add_elements(std::span<const double> numbers, std::span<double> sums
 /// A step in which solids may collide. All references must outlive the object. Arrays of this file
 /// have motion_components() numbers for each particle: velocities in [L/T, 1/T], forces in
 /// [M L/T^2, M L^2/T^2].
-struct ImpactStep {
+struct FluidImpactStep {
   const Setting& setting;
   const State& state;                ///< before the step
   std::span<const Plane> obstacles;  ///< obstacles_of(setting)
@@ -76,7 +76,7 @@ struct FluidImpact {
 /// load in the step. A contact is hit if it closes in the step; if it was closed before, its
 /// surfaces must also have approached each other at the beginning of the step, and if it bore a
 /// load, faster than five times the velocity that the forces of the step cause.
-std::optional<FluidImpact> solve_impact(const StepContacts& contacts, const ImpactStep& step,
+std::optional<FluidImpact> solve_impact(const StepContacts& contacts, const FluidImpactStep& step,
                                         const Mobility& mobility,
                                         const ContactConditions& conditions);
 

@@ -231,7 +231,7 @@ std::optional<FluidImpact> FluidSimulation::solve_contacts_of(const StepEquation
   const FrictionOfStep friction{setting_, obstacles_, state_.memories, state_.time, next};
   const bool has_inertia = fluid.has_inertia();
   const auto before = has_inertia ? state_.earlier_velocities : equation.velocities();
-  // ImpactStep::loaded
+  // FluidImpactStep::loaded
   const auto loaded = [&] {
     if (has_inertia) return solver_->velocities(equation.forces(), false);
     std::vector<double> momentum(before.size());
@@ -246,7 +246,8 @@ std::optional<FluidImpact> FluidSimulation::solve_contacts_of(const StepEquation
         conditions, pool_,
         setting_.laws.friction && setting_.laws.friction->coefficient > 0 ? &friction : nullptr);
     if (!setting_.laws.restitution.is_on() || is_computed_twice()) return std::nullopt;
-    const ImpactStep step{setting_, state_, obstacles_, next, impulse_time_of(h), before, loaded};
+    const FluidImpactStep step{setting_,           state_, obstacles_, next,
+                               impulse_time_of(h), before, loaded};
     auto impact = solve_impact(contacts, step, mobility, conditions);
     if (!impact) return impact;
     // Solids may rebound faster than particles move without contact. If they could then reach

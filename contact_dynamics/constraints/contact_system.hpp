@@ -71,8 +71,9 @@ class ContactSystem {
     has_distances_ = true;
   }
   bool uses_distance(const Contact<D>& contact);
-  /// The gap [L] of any contact after the present displacements, along its normal.
-  double gap_along_normal(const Contact<D>& contact) const { return gap(contact, false); }
+  /// The gap [L] of any contact after the present displacements, never a distance of discs or
+  /// spheres.
+  double linear_gap(const Contact<D>& contact) const { return gap(contact, false); }
   /// Distances add energy to the solutions of some callers.
   void forbid_distances() { may_use_distances_ = false; }
   bool may_use_distances() const { return may_use_distances_; }

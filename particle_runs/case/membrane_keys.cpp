@@ -160,6 +160,7 @@ void make_beads(const case_file::TomlSection& section, ParticlesCase& c, Membran
     p.inertias.push_back(0);
   }
   add_missing_ids(p);
+  add_missing_shapes(p);
 }
 
 }  // namespace

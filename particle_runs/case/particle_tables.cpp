@@ -302,6 +302,7 @@ ParticleLines read_particles_of_case(const case_file::TomlSection& root, Particl
       lines.in_case.push_back(section.line());
     }
   if (root.has("arrangement")) read_arrangement(root.section("arrangement"), c);
+  add_missing_shapes(c.particles);
   read_membranes(root, c, lines);
   read_sources(root, c);
   add_missing_shapes(c.particles);

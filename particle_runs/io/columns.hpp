@@ -206,15 +206,17 @@ auto column(const Declaration& declaration) {
   }(declaration, kMember);
 }
 
-/// The columns of a kind of row that an output has. First come those of `first`, in this order,
-/// then the others in the order of `all`.
+/// The columns of a kind of row that an output has; frames have no texts. First come those of
+/// `first`, in this order, then the others in the order of `all`.
 template <class AnyColumn>
 std::vector<const AnyColumn*> columns_in(Output output, const std::vector<AnyColumn>& all,
                                          const RunFacts& run,
                                          std::span<const std::string_view> first = {}) {
   std::vector<const AnyColumn*> found;
   for (const auto& one : all)
-    if (one.presence.in(output).holds(run)) found.push_back(&one);
+    if (one.presence.in(output).holds(run) &&
+        (output != Output::kFrames || one.kind != ValueKind::kText))
+      found.push_back(&one);
   std::ranges::stable_sort(found, {}, [&](const AnyColumn* one) {
     return std::ranges::find(first, one->name) - first.begin();
   });

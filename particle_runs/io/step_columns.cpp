@@ -1,6 +1,7 @@
 // A new column of steps is a row of step_columns().
 #include "viscontact/particle_runs/io/step_columns.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 namespace viscontact::particles {
@@ -101,7 +102,7 @@ CsvTable<StepRow> steps_table(const std::optional<Fluid>& fluid,
   RunFacts run;
   run.is_in_fluid = fluid.has_value();
   run.has_inertia = fluid && fluid->has_inertia();
-  run.has_solver_stages = !further.empty();
+  run.has_solver_stages = std::ranges::find(further, "solver_stages") != further.end();
   return {columns_in(Output::kOverTime, step_columns(), run), run.dimension};
 }
 

@@ -61,7 +61,7 @@ struct Side {
 };
 
 /// The points of an outline that are further from a given point than their neighbours on the
-/// outline are, one or two, and their distances from it. The first one is the farthest.
+/// outline are, at most two, and their distances from it. The first one is the farthest.
 struct FarPoints {
   int count = 0;
   std::array<Vector2, 2> points{};    ///< relative to the centre of the shape [L]

@@ -6,7 +6,13 @@
 
 namespace viscontact::particles {
 
-enum class ShapeKind : std::uint8_t { kDisc, kSphere, kPlate, kEllipse };
+enum class ShapeKind : std::uint8_t {
+  kDisc,
+  kSphere,
+  kPlate,
+  kEllipse,
+  // A new kind stands here, at the end of the list.
+};
 
 /// The key of a table `[[particle]]` of a case that gives a particle in the plane its shape.
 struct ShapeKey {
@@ -46,6 +52,9 @@ struct ShapeRule {
 extern const ShapeRule kDiscRule, kSphereRule, kPlateRule, kEllipseRule;
 
 /// The rows, in the order of ShapeKind.
-inline constexpr std::array kShapeRules = {&kDiscRule, &kSphereRule, &kPlateRule, &kEllipseRule};
+inline constexpr std::array kShapeRules = {
+    &kDiscRule, &kSphereRule, &kPlateRule, &kEllipseRule,
+    // The row of a new kind stands here, at the end of the list.
+};
 
 }  // namespace viscontact::particles

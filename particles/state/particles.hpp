@@ -79,7 +79,10 @@ struct Particles {
     return dimension == 2 ? Shape::disc(radii[k]) : Shape::sphere(radii[k]);
   }
   /// True if the outline of particle k is a circle, so that a turn does not change it.
-  bool is_round(std::size_t k) const { return shapes.empty() || shapes[k].is_round(); }
+  bool is_round(std::size_t k) const {
+    assert(shapes.empty() || k < shapes.size());
+    return shapes.empty() || shapes[k].is_round();
+  }
   /// True if the outline of a particle is no circle.
   bool has_other_shapes() const {
     return std::ranges::any_of(shapes, [](const Shape& shape) { return !shape.is_round(); });

@@ -112,7 +112,7 @@ TEST(ExtendedGeometry, HasTheMotionsThatItDeclaresAndNoOthers) {
 // it.
 TEST(ExtendedBasis, FindsTheSlipLengthFromATableByThePagesCommands) {
   const ReadersFolder folder(VISCONTACT_EXTENDED);
-  EXPECT_EQ(folder.run_page(VISCONTACT_SOURCE_FOLDER "/docs/extending.md"), 4);
+  EXPECT_EQ(folder.run_page(VISCONTACT_SOURCE_FOLDER "/docs/extending.md"), 5);
   const std::string text = read_file(folder.path() / "out/slip.json");
   const auto coefficient = [&](const std::string& term) {
     const auto name = text.find("\"name\": \"" + term + "\"");
@@ -123,7 +123,8 @@ TEST(ExtendedBasis, FindsTheSlipLengthFromATableByThePagesCommands) {
   EXPECT_NEAR(-coefficient("1/q^2") / coefficient("1/q"), 1e-4, 3e-6);
 }
 
-// A geometry, a term with a basis, a model with a parameter, and a contact law with a memory: each
+// A geometry, a term with a basis, a model with a parameter, a shape, and a contact law with a
+// memory: each
 // is its own files and few lines elsewhere.
 TEST(Extending, ChangesNoOtherFiles) {
   EXPECT_EQ(read_file(fs::path(VISCONTACT_EXTENDED).parent_path() / "source/changed_files"),
@@ -133,8 +134,11 @@ TEST(Extending, ChangesNoOtherFiles) {
             "lubrication/terms.cpp\n"
             "particle_runs/case/particles_case.cpp\n"
             "particle_runs/io/contact_columns.cpp\n"
+            "particles/CMakeLists.txt\n"
             "particles/contact/ageing_law.hpp\n"
             "particles/contact/contact_laws.hpp\n"
+            "particles/shapes/rounded_square.cpp\n"
+            "particles/shapes/shape_rule.hpp\n"
             "particles/state/pair_memory.hpp\n"
             "reduced_model/CMakeLists.txt\n"
             "reduced_model/models/models.cpp\n"

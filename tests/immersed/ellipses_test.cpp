@@ -243,8 +243,8 @@ TEST_P(Ellipses, ReboundFromTheFloor) {
 }
 
 // Nearly a disc, it has the motion and the film of the disc, with roughness, friction, a floor and
-// a second particle above it. Gaps of discs are linear in the step, those of ellipses are not, which
-// differ by the square of the way across the normal; the pull of 1e-4 makes it 1e-8.
+// a second particle above it. Gaps of discs are linear in the step, those of ellipses are not,
+// which differ by the square of the way across the normal; the pull of 1e-4 makes it 1e-8.
 TEST(EllipseContact, OfAnEllipseThatIsNearlyADiscIsThatOfTheDisc) {
   const auto state_with = [](const Shape& shape) {
     auto system = with_ellipses(0.02);
