@@ -302,8 +302,6 @@ INSTANTIATE_TEST_SUITE_P(
                 "radius = 1.0\nsemi_axes = [2.0, 1.0]", "radius = 1.0", "particle[0].radius"},
         in_particle("EllipseOnAxis", kSpheresOnAxis, "semi_axes = [2.0, 1.0]",
                     "particle[0].semi_axes"),
-        Refusal{"EllipseWithoutFluid", kDryDiscs, "mass = 1.0",
-                "mass = 1.0\nsemi_axes = [2.0, 1.0]", "semi_axes", "particle[0].semi_axes"},
         Refusal{"OneSemiAxis", kDiscsInDisc, "radius = 1.0", "semi_axes = [1.0]", "semi_axes",
                 "particle[0].semi_axes"},
         Refusal{"SlenderEllipse",
