@@ -99,8 +99,8 @@ void contact_keys(case_file::Keys& keys, ParticlesCase& c) {
   keys.optional("restitution", case_file::number(restitution.coefficient, kShare),
                 {"the coefficient e_d of [restitution](physics.md#5-many-particles-particles), "
                  "(5.15) and in a fluid (6.11), of the solids. A case with it has no arms; without "
-                 "a fluid it has no hinges, and in a fluid no bodies and springs. It must give "
-                 "`gamma_min`, or `viscosity` and `roughness`"});
+                 "a fluid it has no hinges, ellipses and plates, and in a fluid no bodies and "
+                 "springs. It must give `gamma_min`, or `viscosity` and `roughness`"});
   keys.require(!restitution.is_on() || film.gamma_min || film.roughness, "restitution", "{}",
                kNoSolidContact);
   keys.optional(

@@ -550,8 +550,10 @@ TEST(Shapes, ThatAreNearlyRoundMoveLikeDiscs) {
                 {random.uniform(-1, 1), random.uniform(-1, 1)});
     ellipses.state = discs.state;
     for (auto& shape : ellipses.state.particles.shapes) shape = Shape::ellipse(0.45, 0.45 + 1e-9);
-    // Later a contact closes a step earlier than that of a disc.
-    const auto round = discs.after(0.4), nearly = ellipses.after(0.4);
+    // With films the convex method takes its loads from the solution before, and a correction for
+    // turns is one more solution: 1e-5 at the end.
+    const double end = method == FrictionMethod::kConvex ? 0.4 : kEnd;
+    const auto round = discs.after(end), nearly = ellipses.after(end);
     for (std::size_t k = 0; k < round.count(); ++k) {
       EXPECT_LT(norm(nearly.position(k) - round.position(k)), 1e-7);
       EXPECT_NEAR(nearly.angles[k], round.angles[k], 1e-7);

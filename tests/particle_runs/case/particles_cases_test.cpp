@@ -2,10 +2,12 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "viscontact/contact_dynamics/simulation.hpp"
 #include "viscontact/particle_runs/case/particles_case.hpp"
@@ -211,6 +213,38 @@ TEST(Catapult, ThrowsADiscAndTheHoistLiftsItsLoad) {
   EXPECT_GT(highest, 9);
   // The load hangs about the length 3.5 + m g/k below the end of the arm.
   EXPECT_NEAR(catapult.now().position(11)[1], 16 - 4 - (3.5 + 2.0 / 4), 1);
+}
+
+TEST(Shapes, ComeToRestInTheBox) {
+  ShippedRun run("shapes");
+  run.to_end();
+  // Of a potential energy of 50 at the start; its tolerances let a load creep.
+  EXPECT_LT(run.kinetic_energy(), 1e-6);
+  EXPECT_LT(run.overlap(), run.of().setting.solver.tolerance);
+  double on_floor = 0, weight = 0;
+  for (const double mass : run.now().masses) weight += mass;  // gravity is 1
+  for (const auto& contact : run.contacts())
+    if (contact.first < 0)
+      on_floor += contact.normal_force * contact.normal[1] + contact.tangential_force[1];
+  EXPECT_NEAR(on_floor, weight, 1e-4 * weight);
+}
+
+TEST(RockingEllipses, HaveTheirPeriods) {
+  ShippedRun run("rocking_ellipses");
+  std::array<std::vector<double>, 2> passages;
+  std::array<double, 2> before{0.1, 0.1};
+  run.to_end([&] {
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double now = run.now().angles[2 * k];
+      if (now * before[k] < 0) passages[k].push_back(run.time());
+      before[k] = now;
+    }
+  });
+  // Found to a step of 0.01.
+  ASSERT_GE(passages[0].size(), 3U);
+  ASSERT_GE(passages[1].size(), 3U);
+  EXPECT_NEAR(passages[0][2] - passages[0][0], 5.56, 0.02);
+  EXPECT_NEAR(passages[1][2] - passages[1][0], 9.50, 0.02);
 }
 
 TEST(Settling, DiscsLoseTheEnergyOfTheirFallInTheBox) {
