@@ -376,8 +376,8 @@ StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links&
   for (;;) {
     StepContacts step;
     step.iterations = iterations;
-      step.stages = stages;
-      list_pairs(step, state, obstacles, reach, pool);
+    step.stages = stages;
+    list_pairs(step, state, obstacles, reach, pool);
     std::erase_if(step.pairs, is_left_out);
     std::erase_if(step.walls, is_left_out);
     make_contacts(step, p, fluid, obstacles, conditions, friction);
