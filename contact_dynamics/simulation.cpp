@@ -539,7 +539,7 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
     const auto& rebounds = impacts<D>()->rebounds();
     rebounds_.insert(rebounds_.end(), rebounds.begin(), rebounds.end());
     const auto& impulses = impacts<D>()->impulses();
-    impacts_.insert(impacts_.end(), impulses.begin(), impulses.end());
+    impact_impulses_.insert(impact_impulses_.end(), impulses.begin(), impulses.end());
     impacts<D>().reset();
   }
   state_.time = next;
@@ -646,7 +646,7 @@ void Simulation::advance_whole(double h, double next, StepReport& report) {
   } catch (...) {
     impulses_of_parts_.clear();
     rebounds_.clear();
-    impacts_.clear();
+    impact_impulses_.clear();
     undo_impacts();
     if (before_division_) {
       state_ = *before_division_;  // copied, so that the arrays keep their places in memory
@@ -699,7 +699,7 @@ StepReport Simulation::step(double end) {
   for (std::size_t k = 0; k < link_impulses_.size(); ++k)
     state_.link_forces[k] = link_impulses_[k] / link_time_;
   report.given_load /= interval->h;
-  state_.impacts = std::exchange(impacts_, {});
+  state_.impact_impulses = std::exchange(impact_impulses_, {});
   state_.given_loads = given_impulses_;
   for (auto& load : state_.given_loads) {
     load.force = (1 / interval->h) * load.force;

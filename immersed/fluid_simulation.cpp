@@ -48,7 +48,7 @@ FluidSimulation::FluidSimulation(Setting setting, State state, std::unique_ptr<F
   // A restart file of a run without a fluid has no velocities of the step before, and may contain
   // collisions, which a step in a fluid does not use.
   if (state_.earlier_velocities.empty()) state_.earlier_step = 0;
-  state_.impacts = {};
+  state_.impact_impulses = {};
   auto& film = setting_.laws.film;
   film.shape = p.dimension == 1 ? FilmShape::kSpheres : FilmShape::kDiscs;
   film.begins_at = setting_.fluid->threshold_gap;

@@ -121,7 +121,7 @@ bool StepProjection<D>::gap_would_close(std::size_t k, double margin) {
   if (!can_bear(k)) return false;
   if (pair(k).first >= 0 && cannot_close<D>(p, pair(k), displacements_, margin)) return false;
   const auto here = contact_at_start(k);
-  return system_.gap_along_normal(with_gap_to_close(here, k)) < margin &&
+  return (system_.linear_gap(with_gap_to_close(here, k)) < margin || have_passed(here)) &&
          paths_meet(p, here, displacements_);
 }
 
@@ -255,7 +255,7 @@ void StepProjection<D>::leave_touching(std::vector<std::size_t>& pairs,
   std::erase_if(pairs, [&](std::size_t k) {
     if (Selection::is_bound(pair(k).gamma, pair(k).impulse) || has_film(k)) return false;
     const auto here = contact(k);
-    return -system_.gap_along_normal(here) <= scales.of(here).allowed_gap(settings, mean_radius);
+    return -system_.linear_gap(here) <= scales.of(here).allowed_gap(settings, mean_radius);
   });
 }
 

@@ -269,10 +269,16 @@ class StepProjection {
         return particles::turns_too_far(contact, displacements_, step_->turns);
     return particles::turns_too_far(state_.particles, contact, displacements_);
   }
+  bool have_passed(const Contact<D>& contact) const {
+    if constexpr (D == 2)
+      return contact.shaped != nullptr && pass(contact, displacements_, step_->turns);
+    return false;
+  }
   bool takes_part(std::int32_t particle) const {
     return particle >= 0 && system_.body_of(particle) >= 0;
   }
-  // True if the displacements make the linearised gap of pair k smaller than `margin` [L].
+  // True if the displacements make the linearised gap of pair k smaller than `margin` [L], or take
+  // shapes past each other.
   bool gap_would_close(std::size_t k, double margin);
   // True if pair k is not chosen yet, but has a particle that the solution has moved.
   bool may_have_closed(std::size_t k) {

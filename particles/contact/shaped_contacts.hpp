@@ -67,11 +67,14 @@ class ShapedContact {
   /// The gap [L] if the obstacle were at another place.
   double gap_at(const PlanePosition& obstacle) const;
   PairRadii radii() const { return radii_of(at_start_, is_at_obstacle_ ? &obstacle_ : nullptr); }
-  /// The gap of two particles along the normal at the beginning of the step [L] after they have
-  /// moved. The normal turns with the side on which it stands. This gap is at most the distance of
-  /// the surfaces, and for discs the linearised gap. At an obstacle, whose motion is that of a plane
-  /// under a load, it is the distance.
-  double gap_along(const ShapeMotion& first, const ShapeMotion& second) const;
+  /// A lower bound of the distance of the surfaces after the motions [L], of second order in them:
+  /// the gap along the normal at the beginning of the step, or along this normal turned with a
+  /// shape that has sides, if that is larger. For discs it is the linearised gap. Between two
+  /// shapes with sides, and at an obstacle, it is the distance. The motion of an obstacle is that
+  /// of a plane under a load.
+  double gap_after(const ShapeMotion& first, const ShapeMotion& second) const;
+  /// True if the motions, to first order, take the centres of the two circles past each other.
+  bool pass(const ShapeMotion& first, const ShapeMotion& second) const;
   /// The distance of the surfaces after the motions [L].
   double distance(const ShapeMotion& first, const ShapeMotion& second) const;
 
@@ -85,9 +88,8 @@ class ShapedContact {
   bool is_at_obstacle_;
   PlanePosition obstacle_{};
   SurfaceContact at_start_;
-  bool are_rounded_ = false;  // both; the gap is then that of the circles
-  int followed_ = -1;         // the shape with whose side the normal turns; -1: none
-  double along_at_start_ = 0;
+  std::array<bool, 2> have_sides_{};
+  double along_at_start_ = 0;  // the gap along the normal [L]
 };
 
 /// The contact of the two circles. `shaped` must outlive it.
@@ -114,11 +116,15 @@ SurfaceCircles circles_of(const Contact<D>& contact, const Particles& particles)
   return circles;
 }
 
-/// Gap [L] after a step in which all particles, and then all planes under a load, move by
-/// `displacements` [L] and `turns` [rad]: along the normal, or the distance of the surfaces. As
+/// ShapedContact::gap_after() or, if `is_distance`, distance() [L] after a step in which all
+/// particles, and then all planes under a load, move by `displacements` [L] and `turns` [rad]. As
 /// Contact::gap it contains the tolerated overlap. Contact::shaped must not be null.
 double gap_after_turns(const Contact<2>& contact, std::span<const double> displacements,
                        std::span<const double> turns, bool is_distance);
+
+/// ShapedContact::pass() of the same motions.
+bool pass(const Contact<2>& contact, std::span<const double> displacements,
+          std::span<const double> turns);
 
 /// True if a particle that is not round turns by more than kLargestTurn [rad], or if the circles of
 /// two particles move around each other by more than kLargestTurn.
@@ -134,9 +140,9 @@ inline auto order_of(const Pair& pair) {
 void add_contacts_of(const Particles& particles, Pair pair,
                      std::span<const PlanePosition> obstacles, std::vector<Pair>& pairs);
 
-/// The pairs `before` of the step before in the order of order_of(), with the numbers of the present
-/// contacts. If two contacts became one, this one gets the memory of the contact with the smaller
-/// gamma.
+/// The pairs `before` of the step before in the order of order_of(), with the numbers of the
+/// present contacts. If two contacts became one, this one gets the memory of the contact with the
+/// smaller gamma.
 std::vector<Pair> at_present_places(std::vector<Pair> before, const Particles& particles,
                                     std::span<const PlanePosition> obstacles);
 

@@ -1,13 +1,18 @@
-// Ellipses and plates without a fluid: closed forms of rolling, rocking and impacts, and invariances.
+// Ellipses and plates without a fluid: closed forms of rolling, rocking, impacts; invariances.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <numbers>
 #include <vector>
 
+#include "tests/common/random.hpp"
+#include "tests/common/temporary_folder.hpp"
 #include "tests/particles/systems.hpp"
+#include "viscontact/particle_runs/io/restart.hpp"
 #include "viscontact/particles/shapes/shape_contacts.hpp"
 #include "viscontact/particles/steps/current_contacts.hpp"
 
@@ -54,41 +59,542 @@ double energy_of_motion(const Particles& p) {
 /// The energy with gravity along -y.
 double energy_of(const Particles& p) {
   double sum = energy_of_motion(p);
-  for (std::size_t k = 0; k < p.count(); ++k)
-    sum += p.masses[k] * kGravity * p.position(k)[1];
+  for (std::size_t k = 0; k < p.count(); ++k) sum += p.masses[k] * kGravity * p.position(k)[1];
   return sum;
 }
 
-/// The period of an ellipse of semi-axes 2 and 1 that rocks on its flat side, from two passages
-/// through angle 0.
-double period_of_rocking(double h, double friction, double angle) {
-  State state = no_particles(2);
-  const auto shape = Shape::ellipse(2, 1);
-  const double height = shape.support({std::sin(angle), std::cos(angle)});
-  // It begins at rest with its lowest point on the floor.
-  add_shape(state, shape, {0, height}, angle, 1.5);
-  Simulation simulation(on_floor(h, friction), state, 1);
-  std::vector<double> passages;
-  double before = angle;
-  while (passages.size() < 3) {
-    const auto report = simulation.step(100);
-    EXPECT_TRUE(report.converged) << report.time << " " << report.residual;
-    const double now = simulation.state().particles.angles[0];
-    if (before * now < 0) passages.push_back(report.time - h * now / (now - before));
-    before = now;
-    if (report.time > 50) return 0;
-  }
-  return passages[2] - passages[0];
+const Shape kEllipse = Shape::ellipse(2, 1);
+constexpr double kMass = 1.5;
+
+void expect_converged(const StepReport& report) {
+  EXPECT_TRUE(report.converged) << "t = " << report.time << ", residual " << report.residual;
 }
 
-TEST(Shapes, Probe) {
-  const double m = 1.5, a = 2, b = 1, I = m * (a * a + b * b) / 4;
-  const double smooth = 2 * std::numbers::pi * std::sqrt(I / (m * kGravity * (a * a / b - b)));
-  const double rolls =
-      2 * std::numbers::pi * std::sqrt((I + m * b * b) / (m * kGravity * (a * a / b - b)));
-  for (const double h : {4e-3, 2e-3, 1e-3})
-    std::printf("h %g: smooth %.9f (%.9f), rolls %.9f (%.9f)\n", h,
-                period_of_rocking(h, 0, 1e-3), smooth, period_of_rocking(h, 10, 1e-3), rolls);
+/// kEllipse at rest with its lowest point on the floor.
+State tilted_on_floor(double angle) {
+  State state = no_particles(2);
+  add_shape(state, kEllipse, {0, kEllipse.support({std::sin(angle), std::cos(angle)})}, angle,
+            kMass);
+  return state;
+}
+
+/// The time from the first to the third passage of the last particle through its angle 0.
+double period_of(Simulation& simulation) {
+  const double h = simulation.setting().time_step;
+  std::vector<double> passages;
+  double before = simulation.state().particles.angles.back();
+  while (passages.size() < 3 && simulation.state().time < 20) {
+    const auto report = simulation.step(100);
+    expect_converged(report);
+    const double now = simulation.state().particles.angles.back();
+    if (before * now < 0) passages.push_back(report.time - h * now / (now - before));
+    before = now;
+  }
+  return passages.size() < 3 ? 0 : passages[2] - passages[0];
+}
+
+// The radius of curvature of the flat side is a^2/b = 4, the centre is 1 above the floor, and the
+// weight times their difference is the stiffness. Without slip the centre moves by b = 1 for each
+// radian. The second order in h and in the amplitude of 1e-4 are the errors: 4 times less with half
+// of the step.
+TEST(RockingEllipse, HasTheClosedPeriodToSecondOrder) {
+  const double inertia = kEllipse.inertia(kMass), stiffness = kMass * kGravity * (4 - 1);
+  for (const bool rolls : {false, true}) {
+    SCOPED_TRACE(rolls);
+    const double period =
+        2 * std::numbers::pi * std::sqrt((inertia + (rolls ? kMass : 0)) / stiffness);
+    std::vector<double> errors;
+    for (const double h : {1.6e-2, 8e-3}) {
+      auto setting = on_floor(h, rolls ? 10.0 : 0.0);
+      setting.solver.tolerance = 1e-12;
+      Simulation simulation(setting, tilted_on_floor(1e-4), 1);
+      errors.push_back(period_of(simulation) / period - 1);
+      // Without friction no force acts along the floor.
+      if (!rolls) {
+        EXPECT_EQ(simulation.state().particles.velocities[0], 0);
+      }
+    }
+    EXPECT_NEAR(errors[1], 0, 1e-4);
+    EXPECT_NEAR(errors[0] / errors[1], 4, 0.2);
+  }
+}
+
+/// The centre of an ellipse that has rolled from the top of an equal one at 0 and has the angle:
+/// its mirror image in the common tangent.
+Vector2 rolled(double angle) {
+  const Vector2 normal = {-std::sin(angle / 2), std::cos(angle / 2)};
+  return 2 * kEllipse.support(normal) * normal;
+}
+
+/// kEllipse that is fixed, and one that has rolled on it.
+Simulation one_on_another(double h, double angle) {
+  State state = no_particles(2);
+  add_shape(state, kEllipse, {0, 0}, 0, kMass);
+  add_shape(state, kEllipse, rolled(angle), angle, kMass);
+  auto setting = setting_of(h, 10);
+  setting.gravity = {0, -kGravity, 0};
+  setting.given_motions[0] = {};
+  setting.solver.tolerance = 1e-12;
+  return {setting, state, 1};
+}
+
+// A rocking stone: its stiffness is the weight times r_1 r_2/(r_1 + r_2) less the height of the
+// centre over the contact, 2 - 1. An amplitude of 1e-3 changes the period by 8e-7 of it, and the
+// step by 3e-6.
+TEST(RockingEllipse, RollsOnAnEqualOne) {
+  const double period =
+      2 * std::numbers::pi * std::sqrt((kEllipse.inertia(kMass) + kMass) / (kMass * kGravity));
+  auto simulation = one_on_another(4e-3, 1e-3);
+  EXPECT_NEAR(period_of(simulation) / period, 1, 5e-6);
+}
+
+TEST(RollingEllipses, StayMirrorImages) {
+  std::vector<double> errors;
+  for (const double h : {2e-3, 1e-3}) {
+    auto simulation = one_on_another(h, 0.3);
+    double error = 0, least = 1;
+    run(simulation, 2, [&](const StepReport& report) {
+      expect_converged(report);
+      const auto& p = simulation.state().particles;
+      const Vector x = p.position(1);
+      least = std::min(least, p.angles[1]);
+      error = std::max(error, norm(Vector2{x[0], x[1]} - rolled(p.angles[1])));
+    });
+    EXPECT_NEAR(least, -0.3, 0.01);  // it rolls to the other side
+    errors.push_back(error);
+  }
+  // Displacements along the tangent at the beginning of a step are of first order.
+  EXPECT_LT(errors[1], 1e-4);
+  EXPECT_LT(errors[1], 0.6 * errors[0]);
+}
+
+// A cam with a flat follower: the height of the plane over the centre of the ellipse is the support
+// in the direction of its normal, and the torque on the cam is the load times the derivative of
+// this height by the angle.
+TEST(Cam, LiftsAPlaneByItsSupport) {
+  const double h = 1e-3, spin = 2, load = 50, mass = 0.5;
+  State state = no_particles(2);
+  add_shape(state, kEllipse, {0, 0}, 0, kMass, {}, spin);
+  auto setting = setting_of(h, 0);
+  Plane plane = plane_at_rest({0, 1, 0}, {0, -1, 0});
+  plane.load = PlaneLoad{constant({load, 0, 0}), mass};
+  setting.planes = {plane};
+  setting.given_motions[0].angular_velocity = constant({0, 0, spin});
+  setting.solver.tolerance = 1e-9;
+  Simulation simulation(setting, state, 1);
+  const auto height = [](double angle) {
+    return kEllipse.support({std::sin(angle), std::cos(angle)});
+  };
+  run(simulation, 1.5, [&](const StepReport& report) {
+    expect_converged(report);
+    const auto& now = simulation.state();
+    const double angle = now.particles.angles[0], lifted = height(angle) - 1;
+    EXPECT_NEAR(-now.planes[0].displacement, lifted, 1e-9);
+    // The plane has the acceleration of the support; force and torque are means of the step, which
+    // differ from those in its middle by the second order of h, and of its ends by the first.
+    if (now.steps < 3) return;
+    const double before = angle - spin * h;
+    const double acceleration =
+        (height(angle) - 2 * height(before) + height(before - spin * h)) / (h * h);
+    const double force = load + mass * acceleration;
+    const double slope = (height(before + 1e-6) - height(before - 1e-6)) / 2e-6;
+    EXPECT_NEAR(now.given_loads[0].force[1], -force, 1e-4 * load);
+    EXPECT_NEAR(now.given_loads[0].torque[2], -force * slope, 1e-4 * load);
+  });
+}
+
+const Shape kPlate = Shape::plate(1, 0.1);
+constexpr double kSpine = 0.9;  // half of its length
+
+TEST(FallingPlate, LandsFlatOnBothEnds) {
+  State state = no_particles(2);
+  add_shape(state, kPlate, {0.3, 0.6}, 0, kMass);
+  auto setting = on_floor(1e-3, 0.5);
+  Simulation simulation(setting, state, 1);
+  run(simulation, 1, expect_converged);
+  const auto& now = simulation.state();
+  EXPECT_NEAR(now.particles.position(0)[1], 0.1, 1e-6);
+  EXPECT_NEAR(now.particles.angles[0], 0, 1e-9);
+  EXPECT_NEAR(energy_of_motion(now.particles), 0, 1e-15);
+  const auto contacts = contacts_of(setting, now);
+  ASSERT_EQ(contacts.size(), 2U);
+  for (const auto& contact : contacts)
+    EXPECT_NEAR(contact.normal_force, kMass * kGravity / 2, 1e-6 * kMass * kGravity);
+}
+
+// With a step of 1e-7 the plate turns by less than 1e-7 in the impact, and its gap and arms change
+// by as much.
+TEST(FallingPlate, TurnsAboutTheEndThatItFallsOn) {
+  constexpr double kAngle = 0.4, kFall = 1.3, kSmall = 1e-6;
+  const double inertia = kPlate.inertia(kMass);
+  for (const bool rubs : {false, true}) {
+    SCOPED_TRACE(rubs);
+    State state = no_particles(2);
+    const Vector2 end = {-kSpine * std::cos(kAngle), -kSpine * std::sin(kAngle)};
+    add_shape(state, kPlate, {0, 0.1 - end[1]}, kAngle, kMass, {0, -kFall});
+    auto setting = on_floor(1e-7, rubs ? 100.0 : 0.0);
+    setting.gravity = {};
+    Simulation simulation(setting, state, 1);
+    expect_converged(simulation.step(1));
+    const auto& p = simulation.state().particles;
+    const Vector2 arm = {end[0], end[1] - 0.1};  // of the point that touches
+    // Angular momentum about this point, or, without friction, the vertical impulse at it.
+    const double spin = rubs ? kMass * arm[0] * kFall / (inertia + kMass * dot(arm, arm))
+                             : arm[0] * kFall / (1 / kMass + arm[0] * arm[0] / inertia) / inertia;
+    EXPECT_NEAR(p.angular_velocities[0], spin, kSmall);
+    EXPECT_NEAR(p.velocity(0)[1], -spin * arm[0], kSmall);
+    EXPECT_NEAR(p.velocity(0)[0], rubs ? spin * arm[1] : 0, kSmall);
+  }
+}
+
+// Two plates that lie on each other bear the weight of the upper one at two places, whose moments
+// about its centre cancel each other.
+TEST(StackedPlates, BearAtBothEndsOfTheirOverlap) {
+  State state = no_particles(2);
+  add_shape(state, kPlate, {0, 0.1}, 0, kMass);
+  add_shape(state, kPlate, {0.5, 0.3}, std::numbers::pi, kMass);
+  const auto setting = on_floor(1e-3, 0.5);
+  Simulation simulation(setting, state, 1);
+  run(simulation, 0.2, expect_converged);
+  EXPECT_NEAR(energy_of_motion(simulation.state().particles), 0, 1e-15);
+  double sum = 0;
+  int between = 0;
+  for (const auto& contact : contacts_of(setting, simulation.state()))
+    if (contact.first >= 0) {
+      ++between;
+      sum += contact.normal_force;
+    }
+  EXPECT_EQ(between, 2);
+  EXPECT_NEAR(sum, kMass * kGravity, 1e-6 * kMass * kGravity);
+}
+
+// An ellipse whose flat side is wider than the bowl in which it lies rests on two places.
+TEST(EllipseInABowl, RestsOnTwoPlaces) {
+  const Shape wide = Shape::ellipse(1.6, 0.6);
+  State state = no_particles(2);
+  add_shape(state, wide, {0, -1.1}, 0, kMass);
+  auto setting = setting_of(1e-3, 0);
+  setting.domain = DiscDomain{{}, 2};
+  setting.gravity = {0, -kGravity, 0};
+  Simulation simulation(setting, state, 1);
+  run(simulation, 2, expect_converged);
+  const auto& now = simulation.state();
+  EXPECT_NEAR(now.particles.angles[0], 0, 1e-6);
+  EXPECT_NEAR(energy_of_motion(now.particles), 0, 1e-12);
+  const auto contacts = contacts_of(setting, now);
+  ASSERT_EQ(contacts.size(), 2U);
+  for (const auto& contact : contacts) {
+    EXPECT_GT(std::abs(contact.normal[0]), 0.3);
+    EXPECT_NEAR(contact.normal_force * contact.normal[1], kMass * kGravity / 2,
+                1e-6 * kMass * kGravity);
+  }
+}
+
+// gamma is minus the impulse that the film has absorbed; the film then holds the ellipse until a
+// pull has given it back: 0.5 s with 4, and then 1 s with half of it.
+TEST(FilmOfAnEllipse, GivesBackWhatItHasAbsorbed) {
+  State state = no_particles(2);
+  add_shape(state, kEllipse, {0, 1}, 0, kMass);
+  auto setting = setting_of(1e-2, 0);
+  setting.laws.film.gamma_min = -100;
+  setting.planes = {plane_at_rest({}, {0, 1, 0})};
+  setting.forces[0] = {{{0.5, {0, -4, 0}}, {10, {0, 2, 0}}}};
+  Simulation simulation(setting, state, 1);
+  run(simulation, 0.5, expect_converged);
+  EXPECT_NEAR(pair_of(simulation.state(), -1, 0).gamma, -2, 1e-9);
+  run(simulation, 1.4, expect_converged);
+  EXPECT_NEAR(pair_of(simulation.state(), -1, 0).gamma, -0.2, 1e-9);
+  EXPECT_NEAR(simulation.state().particles.position(0)[1], 1, 1e-9);
+  run(simulation, 1.6, expect_converged);
+  EXPECT_EQ(pair_of(simulation.state(), -1, 0).gamma, 0);
+  EXPECT_GT(simulation.state().particles.position(0)[1], 1);
+}
+
+/// gamma_min of a rough surface follows from the radius of curvature at the contact.
+TEST(FilmOfAnEllipse, HasTheRadiusOfCurvature) {
+  for (const double angle : {0.0, std::numbers::pi / 2}) {
+    State state = no_particles(2);
+    add_shape(state, kEllipse, {0, angle == 0 ? 1.0 : 2.0}, angle, kMass);
+    auto setting = setting_of(1e-2, 0);
+    setting.laws.film.gamma_min.reset();
+    setting.laws.film.viscosity = 1e-3;
+    setting.laws.film.roughness = 1e-3;
+    setting.planes = {plane_at_rest({}, {0, 1, 0})};
+    setting.forces[0] = constant({0, -100, 0});
+    Simulation simulation(setting, state, 1);
+    run(simulation, 2, expect_converged);
+    const double radius = angle == 0 ? 4 : 0.5;  // a^2/b, b^2/a
+    EXPECT_NEAR(pair_of(simulation.state(), -1, 0).gamma,
+                setting.laws.film.lowest_gamma(radius, std::numeric_limits<double>::infinity()),
+                1e-9);
+  }
+}
+
+/// A scene in a box with friction: rows of ellipses, plates and discs that fall.
+State falling(std::size_t rows, std::uint64_t seed) {
+  Random random(seed);
+  State state = no_particles(2);
+  for (std::size_t k = 0; k < 4 * rows; ++k) {
+    const Vector2 at = {0.6 + static_cast<double>(k % 4), 0.6 + 1.05 * static_cast<double>(k / 4)};
+    const Shape shape = k % 3 == 0   ? Shape::ellipse(0.45, 0.2)
+                        : k % 3 == 1 ? Shape::plate(0.45, 0.1)
+                                     : Shape::disc(0.3);
+    add_shape(state, shape, at, random.uniform(0, 3), shape.measure(),
+              {random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5)});
+  }
+  return state;
+}
+
+Setting box_with_friction(double h) {
+  auto setting = setting_of(h, 0.5);
+  setting.domain = BoxDomain{{0, 0, 0}, {4.2, 30, 0}};
+  setting.gravity = {0, -kGravity, 0};
+  return setting;
+}
+
+TEST(Pile, ComesToRestAndItsForcesBalance) {
+  const auto setting = box_with_friction(2e-3);
+  Simulation simulation(setting, falling(6, 3), 1);
+  double energy = energy_of(simulation.state().particles), gain = 0;
+  run(simulation, 5, [&](const StepReport& report) {
+    expect_converged(report);
+    const double now = energy_of(simulation.state().particles);
+    gain = std::max(gain, now - energy);
+    energy = now;
+  });
+  const auto& p = simulation.state().particles;
+  double weight = 0;
+  for (const double mass : p.masses) weight += mass * kGravity;
+  // Finite turns of flat sides.
+  EXPECT_LT(gain, 1e-9 * energy);
+  EXPECT_LT(energy_of_motion(p), 1e-12 * energy);
+  // Half of the tolerance is left where it is, and half is the error of a step.
+  EXPECT_LT(largest_overlap(setting, simulation.state()), setting.solver.tolerance);
+  std::vector<Vector> forces(p.count());
+  for (std::size_t k = 0; k < p.count(); ++k) forces[k][1] = -p.masses[k] * kGravity;
+  for (const auto& contact : contacts_of(setting, simulation.state())) {
+    const Vector force = contact.normal_force * contact.normal + contact.tangential_force;
+    auto& on_second = forces[index_of(contact.second)];
+    on_second = on_second + force;
+    if (contact.first < 0) continue;
+    auto& on_first = forces[index_of(contact.first)];
+    on_first = on_first - force;
+  }
+  for (const auto& force : forces) EXPECT_LT(norm(force), 1e-6 * weight);
+}
+
+double angular_momentum_with_spin(const Particles& p) {
+  double sum = angular_momentum(p)[2];
+  for (std::size_t k = 0; k < p.count(); ++k) sum += p.inertias[k] * p.angular_velocities[k];
+  return sum;
+}
+
+TEST(Collisions, KeepMomentumAndAngularMomentumAndLoseEnergy) {
+  for (const double friction : {0.0, 0.4}) {
+    SCOPED_TRACE(friction);
+    auto state = falling(4, 5);
+    auto& p = state.particles;
+    // Towards the middle.
+    for (std::size_t k = 0; k < p.count(); ++k)
+      for (std::size_t d = 0; d < 2; ++d) p.velocities[2 * k + d] += 2.1 - p.positions[2 * k + d];
+    for (auto& spin : p.angular_velocities) spin = 1;
+    const Vector before = momentum(p);
+    const double turning = angular_momentum_with_spin(p);
+    double energy = energy_of_motion(p), gain = 0;
+    Simulation simulation(setting_of(2e-3, friction), state, 1);
+    std::size_t contacts = 0;
+    run(simulation, 2, [&](const StepReport& report) {
+      expect_converged(report);
+      contacts += report.contacts;
+      const double now = energy_of_motion(simulation.state().particles);
+      gain = std::max(gain, now - energy);
+      energy = now;
+    });
+    const auto& after = simulation.state().particles;
+    EXPECT_LT(gain, 1e-6 * energy);
+    EXPECT_GT(contacts, 1000U);
+    EXPECT_LT(norm(momentum(after) - before), 1e-12);
+    EXPECT_NEAR(angular_momentum_with_spin(after), turning, 1e-11);
+  }
+}
+
+/// A scene with a setting in which contacts last: shapes that fall into a corner with friction.
+struct Scene {
+  State state = falling(2, 11);
+  Setting setting = box_with_friction(5e-3);
+  Scene() {
+    setting.domain = {};
+    setting.planes = {plane_at_rest({}, {0, 1, 0}), plane_at_rest({}, {1, 0, 0})};
+    setting.gravity = {-2, -kGravity, 0};
+    setting.laws.film.gamma_min = -0.01;
+    setting.solver.tolerance = 1e-12;
+  }
+  Particles after(double end) const {
+    Simulation simulation(setting, state, 1);
+    run(simulation, end, expect_converged);
+    EXPECT_GT(contacts_of(setting, simulation.state()).size(), 5U);
+    return simulation.state().particles;
+  }
+};
+
+// Rounding errors and residuals grow in the motion up to this time by less than a factor of 1e4.
+constexpr double kEnd = 0.7, kSame = 1e-8;
+
+/// Turned by `angle` about the origin or, if `is_mirrored`, first mirrored at the y axis.
+Scene mapped(Scene scene, double angle, bool is_mirrored) {
+  const double sign = is_mirrored ? -1 : 1;
+  const auto map = [&](const Vector& x) -> Vector {
+    const Vector y = {sign * x[0], x[1], 0};
+    return displacement_at(y, {0, 0, angle}, y, 2);
+  };
+  auto& p = scene.state.particles;
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    const Vector x = map(p.position(k)), v = map(p.velocity(k));
+    std::copy_n(x.begin(), 2, &p.positions[2 * k]);
+    std::copy_n(v.begin(), 2, &p.velocities[2 * k]);
+    p.angles[k] = sign * p.angles[k] + angle;
+    p.angular_velocities[k] *= sign;
+  }
+  scene.setting.gravity = map(scene.setting.gravity);
+  for (auto& plane : scene.setting.planes)
+    plane.start = {map(plane.start.point), map(plane.start.normal)};
+  return scene;
+}
+
+TEST(Shapes, MoveInTheSameWaySeenFromAnotherSide) {
+  const Scene scene;
+  const auto straight = scene.after(kEnd);
+  for (const bool is_mirrored : {false, true})
+    for (const double angle : {0.0, std::numbers::pi / 6}) {
+      SCOPED_TRACE(testing::Message() << is_mirrored << " " << angle);
+      const auto other = mapped(scene, angle, is_mirrored).after(kEnd);
+      Scene expected;
+      expected.state.particles = straight;
+      const auto map = mapped(expected, angle, is_mirrored).state.particles;
+      for (std::size_t k = 0; k < other.count(); ++k) {
+        EXPECT_LT(norm(other.position(k) - map.position(k)), kSame);
+        EXPECT_NEAR(other.angles[k], map.angles[k], kSame);
+      }
+    }
+}
+
+TEST(Shapes, MoveInTheSameWayUnderOtherNames) {
+  const Scene scene;
+  const auto first = scene.after(kEnd);
+  Scene renamed;
+  renamed.state = no_particles(2);
+  const auto& p = scene.state.particles;
+  const std::size_t n = p.count();
+  for (std::size_t k = n; k-- > 0;)
+    add_shape(renamed.state, p.shapes[k], {p.position(k)[0], p.position(k)[1]}, p.angles[k],
+              p.masses[k], {p.velocity(k)[0], p.velocity(k)[1]}, p.angular_velocities[k]);
+  const auto last = renamed.after(kEnd);
+  for (std::size_t k = 0; k < n; ++k) {
+    EXPECT_LT(norm(first.position(k) - last.position(n - 1 - k)), kSame);
+    EXPECT_NEAR(first.angles[k], last.angles[n - 1 - k], kSame);
+  }
+}
+
+TEST(Shapes, MoveInTheSameWayInOtherUnits) {
+  constexpr double kLength = 1024, kWeight = 0.125, kTime = 32;
+  const Scene scene;
+  Scene other;
+  auto& p = other.state.particles;
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    p.radii[k] *= kLength;
+    p.shapes[k] = p.shapes[k].scaled(kLength);
+    p.masses[k] *= kWeight;
+    p.inertias[k] *= kWeight * kLength * kLength;
+    p.angular_velocities[k] /= kTime;
+  }
+  for (auto& x : p.positions) x *= kLength;
+  for (auto& v : p.velocities) v *= kLength / kTime;
+  other.setting.gravity = kLength / (kTime * kTime) * other.setting.gravity;
+  other.setting.time_step *= kTime;
+  *other.setting.laws.film.gamma_min *= kWeight * kLength / kTime;
+  const auto one = scene.after(kEnd), scaled = other.after(kTime * kEnd);
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    EXPECT_LT(norm((1 / kLength) * scaled.position(k) - one.position(k)), kSame);
+    EXPECT_NEAR(scaled.angles[k], one.angles[k], kSame);
+  }
+}
+
+TEST(Shapes, ContinueFromARestartBitForBit) {
+  const auto setting = box_with_friction(5e-3);
+  Simulation whole(setting, falling(3, 4), 1);
+  run(whole, 0.8);
+  const TemporaryFolder folder;
+  const auto saved = folder.file("restart.bin", write_restart(whole.state()));
+  run(whole, 1);
+  auto state = read_restart(saved);
+  state.particles.shapes = whole.state().particles.shapes;
+  Simulation continued(setting, state, 2);
+  run(continued, 1);
+  EXPECT_EQ(continued.state().particles.positions, whole.state().particles.positions);
+  EXPECT_EQ(continued.state().particles.angles, whole.state().particles.angles);
+  EXPECT_EQ(continued.state().pairs, whole.state().pairs);
+  EXPECT_EQ(continued.state().walls, whole.state().walls);
+}
+
+// Semi-axes that differ by 1e-9 move all places by about as much, times the factor by which
+// contacts multiply differences.
+TEST(Shapes, ThatAreNearlyRoundMoveLikeDiscs) {
+  for (const auto method : {FrictionMethod::kCoulomb, FrictionMethod::kConvex}) {
+    Scene discs, ellipses;
+    discs.setting.laws.friction->method = ellipses.setting.laws.friction->method = method;
+    Random random(2);
+    discs.state = no_particles(2);
+    for (std::size_t k = 0; k < 8; ++k)
+      add_shape(discs.state, Shape::disc(0.45),
+                {0.6 + static_cast<double>(k % 4), 0.6 + 1.05 * static_cast<double>(k / 4)}, 0, 1,
+                {random.uniform(-1, 1), random.uniform(-1, 1)});
+    ellipses.state = discs.state;
+    for (auto& shape : ellipses.state.particles.shapes) shape = Shape::ellipse(0.45, 0.45 + 1e-9);
+    // Later a contact closes a step earlier than that of a disc.
+    const auto round = discs.after(0.4), nearly = ellipses.after(0.4);
+    for (std::size_t k = 0; k < round.count(); ++k) {
+      EXPECT_LT(norm(nearly.position(k) - round.position(k)), 1e-7);
+      EXPECT_NEAR(nearly.angles[k], round.angles[k], 1e-7);
+    }
+  }
+}
+
+// The plate hangs on a hinge at one end of its spine, and comes to lie on a disc that is fixed.
+TEST(HingedPlate, LiesOnADisc) {
+  State state = no_particles(2);
+  add_shape(state, kPlate, {kSpine, 0}, 0, kMass);
+  add_shape(state, Shape::disc(0.3), {1, -1}, 0, 1);
+  auto setting = setting_of(1e-3, 0.3);
+  setting.gravity = {0, -kGravity, 0};
+  setting.given_motions[1] = {};
+  Hinge hinge;
+  hinge.point = {0, {-kSpine, 0, 0}};
+  setting.links.hinges = {hinge};
+  Simulation simulation(setting, state, 1);
+  run(simulation, 3, expect_converged);
+  const auto& now = simulation.state();
+  // The distance of the centre of the disc from the line of the plate is the sum of the radii.
+  const double angle = now.particles.angles[0];
+  EXPECT_NEAR(std::sin(angle) + std::cos(angle), 0.4, 1e-6);
+  EXPECT_NEAR(energy_of_motion(now.particles), 0, 1e-12);
+}
+
+// A body of two plates that cross falls on the floor and rests on two ends.
+TEST(BodyOfPlates, RestsOnTwoEnds) {
+  State state = no_particles(2);
+  const double angle = 0.7;
+  add_shape(state, kPlate, {0, 1.2}, angle, kMass);
+  add_shape(state, kPlate, {0, 1.2}, std::numbers::pi - angle, kMass);
+  add_rigid_body(state.particles, {{0, 1}});
+  const auto setting = on_floor(1e-3, 0.3);
+  Simulation simulation(setting, state, 1);
+  run(simulation, 1, expect_converged);
+  const auto& now = simulation.state();
+  EXPECT_NEAR(now.particles.position(0)[1], 0.1 + kSpine * std::sin(angle), 1e-6);
+  const auto contacts = contacts_of(setting, now);
+  ASSERT_EQ(contacts.size(), 2U);
+  for (const auto& contact : contacts)
+    EXPECT_NEAR(contact.normal_force, kMass * kGravity, 1e-6 * kMass * kGravity);
 }
 
 }  // namespace
