@@ -19,6 +19,16 @@
 namespace viscontact::particles {
 namespace {
 
+/// Free choices of the contacts of a step.
+struct FluidContactTuning {
+  // Particles are found by circles around them that overlap, whose radii must be below half a
+  // period, because only the nearest images of particles have a number (periods.hpp).
+  static constexpr double kShareOfPeriod = 0.499;
+  // Each correction multiplies the error by about the angle [rad] by which particles turn in the
+  // step, so that few corrections are needed.
+  static constexpr int kMostCorrections = 20;
+};
+
 /// Sorts `pairs` by order_of(), the order of files of contacts and of restart files. Those that are
 /// also in `before`, the list of the step before, get their memory from it; the pairs of `before`
 /// with gamma < 0 are added.
@@ -38,14 +48,11 @@ void keep_memory(std::vector<Pair>& pairs, std::vector<Pair> before) {
 /// an axis the side of a cylinder is left out.
 void list_pairs(StepContacts& step, const State& state, std::span<const PlanePosition> obstacles,
                 double reach, ThreadPool& pool) {
-  // Particles are found by circles around them that overlap, whose radii must be below half a
-  // period, because only the nearest images of particles have a number (periods.hpp).
-  constexpr double kShareOfPeriod = 0.499;
   const auto& p = state.particles;
   std::vector<double> extents = p.radii;
   double furthest = std::numeric_limits<double>::infinity();
   for (const double length : p.cell.lengths)
-    if (length > 0) furthest = std::min(furthest, kShareOfPeriod * length);
+    if (length > 0) furthest = std::min(furthest, FluidContactTuning::kShareOfPeriod * length);
   for (auto& extent : extents) extent = std::max(extent, std::min(extent + reach / 2, furthest));
   const auto close = p.cell.is_periodic()
                          ? close_pairs_in_period(p.cell, p.positions, extents, pool)
@@ -383,13 +390,10 @@ StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links&
     make_contacts(step, p, fluid, obstacles, conditions, friction);
     step.contacts.insert(step.contacts.end(), stops.begin(), stops.end());
     solve(step);
-    // Each correction multiplies the error by about the angle [rad] by which particles turn in the
-    // step, so that few corrections are needed.
-    constexpr int kMostCorrections = 20;
-    for (int n = 0; n < kMostCorrections && p.has_other_shapes(); ++n) {
+    for (int n = 0; n < FluidContactTuning::kMostCorrections && p.has_other_shapes(); ++n) {
       if (!correct_turns(step, p, fluid, obstacles, conditions)) break;
       solve(step);
-      if (n + 1 == kMostCorrections) step.is_solved = false;
+      if (n + 1 == FluidContactTuning::kMostCorrections) step.is_solved = false;
     }
     step.reach = reach;
     const double needed = reach_of(state, fluid, step.velocities, conditions);

@@ -13,6 +13,21 @@
 namespace viscontact::particles {
 namespace {
 
+/// Free choices of the impact.
+struct FluidImpactTuning {
+  // An approach counts only if it changes the gap in the step by more than a thousandth of the
+  // tolerance of gaps, and if its velocity exceeds rounding errors.
+  static constexpr double kUnseen = 1e-3, kRounding = 1e-12;
+  // A contact that bore a load is hit only if its surfaces approached each other faster than
+  // kUnderLoad times the rate that the forces of a step cause. Otherwise small rebounds would
+  // keep a packing moving. impacts/impacts.cpp uses the same number.
+  static constexpr double kUnderLoad = 5;
+  // After 50 halvings the error of the share is about a rounding error.
+  static constexpr int kHalvings = 50;
+  // The rate of a gap below this share of its rate before is a rounding error.
+  static constexpr double kAtRest = 1e-9;
+};
+
 /// The rate [L/T] at which a gap grows while the particles rest.
 double drift_of(const Contact<2>& contact, const Pair& pair, const FluidImpactStep& step,
                 double h) {
@@ -127,12 +142,10 @@ bool Impact::find_hits() {
   const auto free = conditions_.free_velocities;
   const double h = conditions_.h;
   const double touching = conditions_.solver.tolerance * conditions_.mean_radius;
-  // An approach counts only if it changes the gap in the step by more than a thousandth of the
-  // tolerance `touching`, and if its velocity exceeds rounding errors.
-  constexpr double kUnseen = 1e-3, kRounding = 1e-12;
-  const double unseen = std::max(kUnseen * touching / h,
-                                 kRounding * std::max(fastest(free, conditions_.layout),
-                                                      fastest(step_.before, conditions_.layout)));
+  const double unseen =
+      std::max(FluidImpactTuning::kUnseen * touching / h,
+               FluidImpactTuning::kRounding * std::max(fastest(free, conditions_.layout),
+                                                       fastest(step_.before, conditions_.layout)));
   const auto approaches = [&](std::size_t c) {
     const auto& part = parts_[c];
     const double approach = rate(c, free);
@@ -167,12 +180,10 @@ bool Impact::find_hits() {
   for (const auto c : approaching) {
     auto& part = parts_[c];
     const auto& of = pair(c);
-    // A contact that bore a load is hit only if its surfaces approached each other faster than
-    // kUnderLoad times the rate that the forces of a step cause. Otherwise small rebounds would
-    // keep a packing moving. impacts/impacts.cpp uses the same number.
-    constexpr double kUnderLoad = 5;
     const bool bore_load = of.impulse != 0 || of.gamma < 0;
-    if (part.is_closed && bore_load && !(rate(c, step_.before) < kUnderLoad * part.pull)) continue;
+    if (part.is_closed && bore_load &&
+        !(rate(c, step_.before) < FluidImpactTuning::kUnderLoad * part.pull))
+      continue;
     part.is_hit = any = true;
     part.hit_at = part.start / (-rate(c, free) * h);
   }
@@ -254,8 +265,7 @@ void Impact::restrain(const StepContacts& compressed, StepContacts& restored) co
   };
   if (!(work(1) > 0)) return;
   double low = 0, high = 1;
-  constexpr int kHalvings = 50;  // after 50 halvings the error is about a rounding error
-  for (int n = 0; n < kHalvings; ++n) {
+  for (int n = 0; n < FluidImpactTuning::kHalvings; ++n) {
     const double middle = (low + high) / 2;
     (work(middle) > 0 ? high : low) = middle;
   }
@@ -314,8 +324,6 @@ void Impact::move(FluidImpact& impact) {
 }
 
 void Impact::book(FluidImpact& impact) const {
-  // The rate of a gap below this share of its rate before is a rounding error.
-  constexpr double kAtRest = 1e-9;
   for (std::size_t c = 0; c < parts_.size(); ++c) {
     const auto& part = parts_[c];
     const auto& contact = impact.contacts[c];
@@ -327,9 +335,10 @@ void Impact::book(FluidImpact& impact) const {
     impact.absorbed.back() = of.gamma - gamma;
     const double approach = rate(c, conditions_.free_velocities),
                  after = rate(c, impact.velocities);
-    impact.rebounds.push_back({step_.state.time + part.hit_at * conditions_.h, of.first, of.second,
-                               std::min(approach, 0.0), part.solid,
-                               after <= kAtRest * std::abs(approach) ? 0 : after});
+    impact.rebounds.push_back(
+        {step_.state.time + part.hit_at * conditions_.h, of.first, of.second,
+         std::min(approach, 0.0), part.solid,
+         after <= FluidImpactTuning::kAtRest * std::abs(approach) ? 0 : after});
   }
 }
 
