@@ -335,6 +335,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     choose(near);
     if (more.empty() && near.empty()) is_rough = false;
   }
+  result.turns_too_far |= !result.residuals.converged && shapes_turn();
   auto scales = residual_scales();
   for (std::size_t c = 0; c < selection_.members().size(); ++c) {
     result.pairs.push_back(&pair(selection_.members()[c]));
@@ -364,6 +365,19 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   result.buckling = constraints_ ? constraints_->buckling() : 0;
   result.has_given_loads = constraints_ && constraints_->has_given_up();
   return result;
+}
+
+template <int D>
+bool StepProjection<D>::shapes_turn() const {
+  if constexpr (D == 2) {
+    // Corrections for turns that are smaller [rad] do not decide whether a step is solved.
+    constexpr double kSmallTurn = 1e-3;
+    return std::ranges::any_of(system_.contacts, [&](const Contact<D>& contact) {
+      return contact.shaped != nullptr &&
+             turn_of_shapes(contact, displacements_, step_->turns) > kSmallTurn;
+    });
+  }
+  return false;
 }
 
 template <int D>

@@ -133,7 +133,8 @@ struct ProjectionResult {
   /// are allowed, or no residual or overlap is more than kBroken mean radii.
   std::vector<std::string> unsolved_links;
   /// True if some motion satisfies the linear equations, but none was found with finite turns:
-  /// links and contacts contradict each other, or turn too far in the step.
+  /// links and contacts contradict each other, or turn too far in the step. Also true of a step that
+  /// is not solved while particles that are not round turn in it.
   bool turns_too_far = false;
   bool contact_contradicts = false;  ///< true: contacts may contradict these links
   std::vector<Pair*> pairs;
@@ -290,6 +291,8 @@ class StepProjection {
     const auto first = pair(k).first < 0 ? loaded_plane(k) : pair(k).first;
     return w(first, pair(k).second) > 0;
   }
+  // True if a particle with a contact that is not round turns, so that a shorter step may be solved.
+  bool shapes_turn() const;
   // Adds the impulse of contact `c` to ProjectionResult::on_given if a motion is given.
   void take_given(std::size_t c, const PairMemory& memory, ProjectionResult& result);
   // Needs add_constraints().

@@ -143,6 +143,8 @@ Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
     playback.masses.assign(last.masses.begin(), last.masses.end());
     if (!playback.ids.empty()) playback.ids = last.ids;
     if (!playback.bodies.empty()) playback.bodies.resize(last.radii.size(), -1);
+    for (auto k = playback.shapes.size(); k > 0 && k < last.radii.size(); ++k)
+      playback.shapes.push_back(Shape::disc(last.radii[k]));
   }
   // A page of 24 MB cannot show as much as kMostBytes.
   const auto motions = read_plane_motions(c, folder, files.size());

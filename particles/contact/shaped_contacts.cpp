@@ -153,6 +153,13 @@ double ShapedContact::distance(const ShapeMotion& first, const ShapeMotion& seco
       .gap;
 }
 
+double ShapedContact::turn(const ShapeMotion& first, const ShapeMotion& second) const {
+  double largest = shapes_[1].shape.is_round() ? 0 : std::abs(second.turn);
+  if (!is_at_obstacle_ && !shapes_[0].shape.is_round())
+    largest = std::max(largest, std::abs(first.turn));
+  return largest;
+}
+
 Contact<2> contact_of(const Pair& pair, const ShapedContact& shaped) {
   const auto& start = shaped.at_start();
   Contact<2> contact{
@@ -183,13 +190,19 @@ bool pass(const Contact<2>& contact, std::span<const double> displacements,
                               motion_of(contact.second, displacements, turns));
 }
 
+double turn_of_shapes(const Contact<2>& contact, std::span<const double> displacements,
+                      std::span<const double> turns) {
+  assert(contact.shaped != nullptr);
+  return contact.shaped->turn(motion_of(contact.first, displacements, turns),
+                              motion_of(contact.second, displacements, turns));
+}
+
 bool turns_too_far(const Contact<2>& contact, std::span<const double> displacements,
                    std::span<const double> turns) {
   assert(contact.shaped != nullptr);
   const auto first = motion_of(contact.first, displacements, turns),
              second = motion_of(contact.second, displacements, turns);
-  if (std::max(std::abs(first.turn), std::abs(second.turn)) > ShapedContactTuning::kLargestTurn)
-    return true;
+  if (contact.shaped->turn(first, second) > ShapedContactTuning::kLargestTurn) return true;
   if (contact.first < 0) return false;
   const auto& start = contact.shaped->at_start();
   const auto moved = [&](std::size_t side, const ShapeMotion& motion) {

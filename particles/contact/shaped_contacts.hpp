@@ -77,6 +77,8 @@ class ShapedContact {
   bool pass(const ShapeMotion& first, const ShapeMotion& second) const;
   /// The distance of the surfaces after the motions [L].
   double distance(const ShapeMotion& first, const ShapeMotion& second) const;
+  /// The larger magnitude of the turns of the shapes that are not round [rad].
+  double turn(const ShapeMotion& first, const ShapeMotion& second) const;
 
  private:
   PlacedShape moved(std::size_t side, const ShapeMotion& motion) const;
@@ -125,6 +127,10 @@ double gap_after_turns(const Contact<2>& contact, std::span<const double> displa
 /// ShapedContact::pass() of the same motions.
 bool pass(const Contact<2>& contact, std::span<const double> displacements,
           std::span<const double> turns);
+
+/// ShapedContact::turn() of the same motions.
+double turn_of_shapes(const Contact<2>& contact, std::span<const double> displacements,
+                      std::span<const double> turns);
 
 /// True if a particle that is not round turns by more than kLargestTurn [rad], or if the circles of
 /// two particles move around each other by more than kLargestTurn.

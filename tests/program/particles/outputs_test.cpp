@@ -1,6 +1,7 @@
 // What `viscontact particles` writes, and when it writes it again.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tests/program/particles/particles_command.hpp"
@@ -46,6 +47,33 @@ TEST_F(ParticlesCommand, WritesWhatTheInterfacePromises) {
   // Glued since they fell: gravity and push have given the floor all that it remembers.
   EXPECT_THAT(content(out() / "final_contacts.csv"),
               ::testing::ContainsRegex("2,-1,[^,]*,-2,[^,]*,[^,]*,0,0\n"));
+}
+
+TEST_F(ParticlesCommand, ShowsAnEllipseAndTheDiscsThatASourceAdds) {
+  expect_done(run(put_case(R"(title = "An ellipse and a source"
+[space]
+dimension = 2
+[viscous_contact]
+time_step = 0.1
+end_time = 1.0
+gamma_min = 0.0
+[[particle]]
+centre = [0.0, 0.0]
+semi_axes = [1.0, 0.5]
+angle = 0.5
+mass = 1.0
+[[source]]
+radius = 0.3
+mass = 1.0
+rate = 2.0
+region = { from = [5.0, 0.0], to = [9.0, 4.0] }
+)"),
+                  out()));
+  // The names, the ellipse, and the discs of the times 0, 0.5 and 1.
+  const auto table = content(out() / "final_particles.csv");
+  EXPECT_THAT(table, HasSubstr("semi_axis_1,semi_axis_2"));
+  EXPECT_EQ(std::ranges::count(table, '\n'), 5);
+  EXPECT_THAT(content(out() / "particles.html"), HasSubstr("semiAxes"));
 }
 
 TEST_F(ParticlesCommand, WritesNoMessageIntoItsFilesIfItHasNoStandardStreams) {
