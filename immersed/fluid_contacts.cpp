@@ -27,6 +27,9 @@ struct FluidContactTuning {
   // Each correction multiplies the error by about the angle [rad] by which particles turn in the
   // step, so that few corrections are needed.
   static constexpr int kMostCorrections = 20;
+  // Turns [rad] of a particle that touches: beyond 1 the corrections for them diverge, and an
+  // ellipse was left with half of its size in the floor.
+  static constexpr double kMostTurn = 1;
 };
 
 /// Sorts `pairs` by order_of(), the order of files of contacts and of restart files. Those that are
@@ -221,6 +224,27 @@ bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
   return true;
 }
 
+/// Throws Error(kNotConverged) if a particle that is not round and bears a force turns so far in the
+/// step that corrections of its gaps for the turn have no meaning.
+void check_turns(const StepContacts& step, const Particles& p,
+                 const ContactConditions& conditions) {
+  if (!p.has_other_shapes()) return;
+  for (std::size_t c = 0; c < step.pairs.size() + step.walls.size(); ++c) {
+    if (step.contacts[c].impulse == 0) continue;
+    for (const auto particle : {step.contacts[c].first, step.contacts[c].second}) {
+      if (particle < 0 || p.is_round(index_of(particle))) continue;
+      const double turn =
+          conditions.h * std::abs(step.velocities[conditions.layout.at(particle, 2)]);
+      if (turn > FluidContactTuning::kMostTurn)
+        throw Error(ErrorKind::kNotConverged,
+                    "the {} {} would turn by {:.3g} rad in the step while it touches; at most "
+                    "{:.3g} rad can be resolved, so that a shorter time step helps",
+                    p.shape(index_of(particle)).name(), p.id(index_of(particle)), turn,
+                    FluidContactTuning::kMostTurn);
+    }
+  }
+}
+
 /// Throws Error(kNotConverged) if two particles with sides are closer after the step than the
 /// tolerance allows, at a place that was no contact at its beginning.
 void check_sides_apart(const StepContacts& step, const Particles& p, const Fluid& fluid,
@@ -398,6 +422,7 @@ StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links&
     step.reach = reach;
     const double needed = reach_of(state, fluid, step.velocities, conditions);
     if (needed <= reach) {
+      check_turns(step, p, conditions);
       check_sides_apart(step, p, fluid, conditions);
       return step;
     }

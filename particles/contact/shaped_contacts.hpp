@@ -79,6 +79,9 @@ class ShapedContact {
   double distance(const ShapeMotion& first, const ShapeMotion& second) const;
   /// The larger magnitude of the turns of the shapes that are not round [rad].
   double turn(const ShapeMotion& first, const ShapeMotion& second) const;
+  /// How far the turns of the shapes that are not round move the contact along the surfaces, over
+  /// the sizes of these shapes [1], the larger one.
+  double shift(const ShapeMotion& first, const ShapeMotion& second) const;
 
  private:
   PlacedShape moved(std::size_t side, const ShapeMotion& motion) const;
@@ -132,8 +135,9 @@ bool pass(const Contact<2>& contact, std::span<const double> displacements,
 double turn_of_shapes(const Contact<2>& contact, std::span<const double> displacements,
                       std::span<const double> turns);
 
-/// True if a particle that is not round turns by more than kLargestTurn [rad], or if the circles of
-/// two particles move around each other by more than kLargestTurn.
+/// True if a particle that is not round turns too far in the step, or so that its contact moves too
+/// far along its surface, or if the circles of two particles move around each other by more than
+/// kLargestTurn.
 bool turns_too_far(const Contact<2>& contact, std::span<const double> displacements,
                    std::span<const double> turns);
 

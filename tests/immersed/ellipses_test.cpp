@@ -8,6 +8,7 @@
 #include <numeric>
 #include <vector>
 
+#include "tests/common/failure.hpp"
 #include "tests/immersed/stand_in_fluid.hpp"
 #include "tests/particles/systems.hpp"
 #include "viscontact/particles/shapes/shape_contacts.hpp"
@@ -58,6 +59,19 @@ InFluid with_ellipses(double h, double density = 0) {
   auto system = in_fluid(2, 20, h, kGap);
   system.setting.fluid->density = density;
   return system;
+}
+
+// The gap after a turn of more than 1 rad says nothing: the ellipse would be left in the floor.
+TEST(EllipseInALongStep, ThatTurnsTooFarOnTheFloorIsAnError) {
+  auto system = with_ellipses(0.2);
+  add_ellipse(system, {10, 1.0, 0}, 0.6, 1);
+  system.setting.forces[0] = constant({0, -1000, 0});
+  auto simulation = system.simulation(constant_drag(0.5));
+  EXPECT_THAT(failure(ErrorKind::kNotConverged,
+                      [&] {
+                        while (simulation.state().time < 1) simulation.step(1);
+                      }),
+              Names("ellipse 0", "1 rad"));
 }
 
 // Falling onto the floor, it tips over its lowest point, keeps its gap in steps of 0.1 rad and
