@@ -224,15 +224,17 @@ bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
   return true;
 }
 
-/// Throws Error(kNotConverged) if a particle that is not round and bears a force turns so far in the
-/// step that corrections of its gaps for the turn have no meaning.
+/// Throws Error(kNotConverged) if a particle without sides that is not round and bears a force turns
+/// so far in the step that corrections of its gaps for the turn have no meaning.
 void check_turns(const StepContacts& step, const Particles& p,
                  const ContactConditions& conditions) {
   if (!p.has_other_shapes()) return;
   for (std::size_t c = 0; c < step.pairs.size() + step.walls.size(); ++c) {
     if (step.contacts[c].impulse == 0) continue;
     for (const auto particle : {step.contacts[c].first, step.contacts[c].second}) {
-      if (particle < 0 || p.is_round(index_of(particle))) continue;
+      // The contacts of shapes with sides follow their corners, whose circles turns do not change.
+      if (particle < 0 || p.is_round(index_of(particle)) || p.shape(index_of(particle)).sides() > 0)
+        continue;
       const double turn =
           conditions.h * std::abs(step.velocities[conditions.layout.at(particle, 2)]);
       if (turn > FluidContactTuning::kMostTurn)
