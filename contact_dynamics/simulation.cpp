@@ -30,6 +30,15 @@ namespace viscontact::particles {
 
 namespace {
 
+struct OverlapTuning {
+  // Growth of an overlap, in tolerances, that is no rounding error. Motions at one velocity leave
+  // overlaps as they are, but for rounding errors.
+  static constexpr double kDeeper = 1e-3;
+  // The overlap of a step that jams, in mean radii. Steps that fail for another reason, such as
+  // their friction, leave overlaps of up to 3e-3 in data/cases/particles/shear_under_pressure.toml.
+  static constexpr double kJam = 0.01;
+};
+
 /// Length of the displacement of particle k [L]. Throws Error(kNotConverged) if a component of the
 /// displacement or of the position exceeds `largest` [L] in magnitude or is not a number.
 double checked_length(const Particles& p, const std::vector<double>& displacements, std::size_t k,
@@ -391,8 +400,6 @@ void Simulation::refuse_meeting(double next) const {
   const auto& p = state_.particles;
   const auto before = positions_of(obstacles_, state_.time), after = positions_of(obstacles_, next);
   const double tolerance = setting_.solver.tolerance * mean_radius_;
-  // Motions at one velocity leave overlaps as they are, but for rounding errors.
-  constexpr double kDeeper = 1e-3;
   const auto moved = [&](std::int32_t k) {
     return point_of(displacements_.data(), index_of(k), p.dimension);
   };
@@ -426,7 +433,7 @@ void Simulation::refuse_meeting(double next) const {
         start = norm(apart) - sum;
         end = norm(apart + moved(pair.second) - moved(pair.first)) - sum;
       }
-      if (end < -tolerance && end < start - kDeeper * tolerance)
+      if (end < -tolerance && end < start - OverlapTuning::kDeeper * tolerance)
         throw Error(ErrorKind::kNotConverged,
                     "the given motions contradict each other: {}, whose motions are both given, "
                     "would overlap by {:.3g} mean radii in the step to time {}; change fixed, "
@@ -511,11 +518,9 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
   });
   const auto [names, impulse] = pressing(projected, next);
   report.given_load += impulse;
-  // In mean radii. Steps that fail for another reason, such as their friction, leave overlaps of up
-  // to 3e-3 in data/cases/particles/shear_under_pressure.toml.
-  constexpr double kOverlap = 0.01;
-  report.jams = report.jams || (!names.empty() && !projected.residuals.converged &&
-                                -projected.residuals.smallest_gap > kOverlap * mean_radius_);
+  report.jams =
+      report.jams || (!names.empty() && !projected.residuals.converged &&
+                      -projected.residuals.smallest_gap > OverlapTuning::kJam * mean_radius_);
   if (!names.empty()) report.pressing = names;
   take_impulses(projected);
   report.glued = remember(projected, h);
@@ -539,7 +544,7 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
     const auto& rebounds = impacts<D>()->rebounds();
     rebounds_.insert(rebounds_.end(), rebounds.begin(), rebounds.end());
     const auto& impulses = impacts<D>()->impulses();
-    impacts_.insert(impacts_.end(), impulses.begin(), impulses.end());
+    impact_impulses_.insert(impact_impulses_.end(), impulses.begin(), impulses.end());
     impacts<D>().reset();
   }
   state_.time = next;
@@ -646,7 +651,7 @@ void Simulation::advance_whole(double h, double next, StepReport& report) {
   } catch (...) {
     impulses_of_parts_.clear();
     rebounds_.clear();
-    impacts_.clear();
+    impact_impulses_.clear();
     undo_impacts();
     if (before_division_) {
       state_ = *before_division_;  // copied, so that the arrays keep their places in memory
@@ -699,7 +704,7 @@ StepReport Simulation::step(double end) {
   for (std::size_t k = 0; k < link_impulses_.size(); ++k)
     state_.link_forces[k] = link_impulses_[k] / link_time_;
   report.given_load /= interval->h;
-  state_.impacts = std::exchange(impacts_, {});
+  state_.impact_impulses = std::exchange(impact_impulses_, {});
   state_.given_loads = given_impulses_;
   for (auto& load : state_.given_loads) {
     load.force = (1 / interval->h) * load.force;

@@ -92,8 +92,8 @@ class Simulation : public ParticleSimulation {
 
   std::span<const Rebound> rebounds() const override { return rebounds_; }
 
-  /// With Scheme::kLeapfrog, the velocity that forces, gravity and torques have given since the time
-  /// of the state's velocities is added, for particles and bodies without links and without an
+  /// With Scheme::kLeapfrog, the velocity that forces, gravity and torques have given since the
+  /// time of the state's velocities is added, for particles and bodies without links and without an
   /// impulse of a contact in the last step.
   Particles reported_particles() const override;
 
@@ -229,8 +229,8 @@ class Simulation : public ParticleSimulation {
   std::unique_ptr<Impacts<2>> impacts_in_plane_;
   std::unique_ptr<Impacts<3>> impacts_in_space_;
   std::vector<Rebound> rebounds_;
-  std::vector<ImpactImpulse>
-      impacts_;  // impulses of impacts in the parts of the step that are done
+  // Of the impacts in the parts of the step that are done.
+  std::vector<ImpactImpulse> impact_impulses_;
   // Impulses of a pair [M L/T], by Pair::first, second, image and place. If a step is divided,
   // impulses_of_parts_ has the sums over the parts that are done, and before_division_ the state
   // before the step.

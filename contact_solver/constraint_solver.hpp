@@ -31,10 +31,9 @@ enum class ConstraintStart {
 /// `max_iterations` iterations are done, and returns the iterate with the smallest residual. The
 /// tables of CoulombLadder and ConvexLadder say which method runs when; SolverResult::stages lists
 /// those that ran, whose iterations add up to SolverResult::iterations. In a convex problem that
-/// is_rough, interior points stop early, and the residual
-/// may be several times the allowed one. Loads of FrictionBound::kGiven are replaced by those of a
-/// first solution, unless problem.keeps_loads. One thread computes all, so that results do not
-/// depend on their number.
+/// is_rough, interior points stop early, and the residual may be several times the allowed one.
+/// Loads of FrictionBound::kGiven are replaced by those of a first solution, unless
+/// problem.keeps_loads. One thread computes all, so that results do not depend on their number.
 template <int D>
 ConstraintSolution<D> solve_constraints(ConstraintProblem<D>& problem, int max_iterations,
                                         ConstraintStart start = ConstraintStart::kSweeps);

@@ -12,10 +12,10 @@ namespace {
 
 struct ConvexTuning {
   // Accuracies of interior points relative to the violations without impulses. With 1e-6 in place
-  // of kAccurate spheres take 3 to 7 % less time, but proximal steps fail where several contacts are
-  // near the tips of their cones. A solution with kRough only finds the pairs that take part, and
-  // first loads. In bench/box2d.cpp it misses no more pairs with 1e-2 than with 1e-3, but some more
-  // with 3e-2. kExact is for problems that are near their solution.
+  // of kAccurate spheres take 3 to 7 % less time, but proximal steps fail where several contacts
+  // are near the tips of their cones. A solution with kRough only finds the pairs that take part,
+  // and first loads. In bench/box2d.cpp it misses no more pairs with 1e-2 than with 1e-3, but some
+  // more with 3e-2. kExact is for problems that are near their solution.
   static constexpr double kRough = 1e-2, kAccurate = 1e-9, kExact = 1e-13;
   static constexpr int kMostInteriorPoints = 60;
   // Most solutions near their guess take two to eight iterations.

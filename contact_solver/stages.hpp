@@ -17,8 +17,8 @@ enum class Stage : unsigned char {
   kNewton,     ///< steps of Newton's method on the free contacts
   kFactors,    ///< factors of W between the free contacts, as preconditioners
   kGradients,  ///< products with W in conjugate gradients with projection
-  // Coulomb's law and convex problems: constraint_solver.cpp. Iterations of steps (5.8) are
-  // factorisations and solutions with factors.
+  // Coulomb's law and convex problems: coulomb_ladder.cpp, convex_ladder.cpp. Iterations of steps
+  // (5.8) are factorisations and solutions with factors.
   kSweeps,           ///< Gauss-Seidel sweeps
   kProximalSteps,    ///< steps (5.8) with Coulomb's law
   kBranchPath,       ///< changes of branches on the path within such a step
@@ -29,7 +29,7 @@ enum class Stage : unsigned char {
   kStepsNearGuess,   ///< steps (5.8) of a convex problem from a guess that is nearly a solution
   kInteriorPoints,   ///< factorisations of interior points
   kStepsFromInside,  ///< steps (5.8) of a convex problem from the end of interior points
-  // The equations of an island of particles: island_solver.cpp. Each beginning counts.
+  // The equations of an island of particles: island_ladder.cpp. Each beginning counts.
   kCorrections,  ///< solutions with offsets corrected for finite turns
   kDistances,    ///< new beginnings with gaps that are distances
   kGivenLoads,   ///< new beginnings with given loads, because there was no solution

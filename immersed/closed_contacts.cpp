@@ -15,6 +15,20 @@ namespace {
 
 using Eigen::Index;
 
+/// Free choices of the correction of impulses.
+struct ClosedContactTuning {
+  // Directions that are this near to each other count as one, far above rounding errors of places.
+  static constexpr double kParallel = 1e-9;
+  // Velocities by unit forces are sums with errors of this size; rows that are equal within them
+  // are redundant, but only if their directions are.
+  static constexpr double kEqual = 2e-11;
+  // Each correction leaves about the relative error of W of the error.
+  static constexpr int kMostCorrections = 4;
+  // Below this part of the tolerance nothing is corrected: the rest is left for errors of the
+  // velocities that the fluid solver computes from the final forces.
+  static constexpr double kShare = 0.25;
+};
+
 constexpr double kRoundingOfDoubles = std::numeric_limits<double>::epsilon();
 
 /// Rank of the rows as directions in the space of all motions that any of the `responses` has. With
@@ -31,10 +45,8 @@ Index rank_of(const std::vector<std::vector<double>>& rows,
   for (std::size_t r = 0; r < rows.size(); ++r)
     for (std::size_t m = 0; m < moved.size(); ++m)
       directions(static_cast<Index>(r), static_cast<Index>(m)) = rows[r][moved[m]];
-  // Directions that are this near to each other count as one, far above rounding errors of places.
-  constexpr double kParallel = 1e-9;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factor;
-  factor.setThreshold(kParallel);
+  factor.setThreshold(ClosedContactTuning::kParallel);
   factor.compute(directions.transpose());
   return factor.rank();
 }
@@ -126,10 +138,7 @@ void ClosedContacts::factorise() {
           sliding.slope * change(row, step_.of_slips[sliding.friction]);
   }
   matrix = matrix.cwiseQuotient(scales_ * scales_.transpose()).eval();
-  // Velocities by unit forces are sums with errors of this size; rows that are equal within them
-  // are redundant, but only if their directions are.
-  constexpr double kEqual = 2e-11;
-  factor_.setThreshold(kEqual);
+  factor_.setThreshold(ClosedContactTuning::kEqual);
   factor_.compute(matrix);
   if (factor_.rank() == n) return;
   std::vector<std::vector<double>> directions;
@@ -181,11 +190,6 @@ ClosedContacts::Impulses ClosedContacts::changes_by(double error) const {
 
 void correct_impulses(StepContacts& step, double mu_s, const Mobility& mobility,
                       const ContactConditions& conditions) {
-  // Each correction leaves about the relative error of W of the error.
-  constexpr int kMostCorrections = 4;
-  // Below this part of the tolerance nothing is corrected: the rest is left for errors of the
-  // velocities that the fluid solver computes from the final forces.
-  constexpr double kShare = 0.25;
   if (!step.is_solved) return;
   // The largest error over the impulse at work.
   const auto error_of = [&](const ClosedContacts::Impulses& errors,
@@ -210,11 +214,11 @@ void correct_impulses(StepContacts& step, double mu_s, const Mobility& mobility,
     if (mu_s > 0) take_residuals_of_friction(step, mu_s, step.velocities, conditions, residuals);
     // A correction may close further contacts, which the next one takes into account.
     if (n == 0 || (residuals.converged && error < before)) {
-      if (error <= kShare * conditions.solver.impulse_tolerance) return;
+      if (error <= ClosedContactTuning::kShare * conditions.solver.impulse_tolerance) return;
       best = step;
       before = error;
     }
-    if (n == kMostCorrections) break;
+    if (n == ClosedContactTuning::kMostCorrections) break;
     for (std::size_t c = 0; c < step.contacts.size(); ++c) {
       auto& contact = step.contacts[c];
       if (contact.w > 0)

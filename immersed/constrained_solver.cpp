@@ -15,12 +15,28 @@ using Eigen::Index;
 
 namespace {
 
-// Numbers below this factor times the relative errors of the velocities count as zero.
-constexpr double kAboveErrors = 10;
-
-// Geometric rows act where their z is at least this. Without them the motion is stable up to 1
-// without masses, and up to 2 with masses, where they damp an oscillation that is resolved.
-constexpr double kResolved = 0.05, kResolvedWithMass = 0.1;
+/// Free choices of the solver for linear conditions on velocities.
+struct ConstrainedSolverTuning {
+  // Numbers below this factor times the relative errors of the velocities count as zero.
+  static constexpr double kAboveErrors = 10;
+  // Geometric rows act where their z is at least this. Without them the motion is stable up to 1
+  // without masses, and up to 2 with masses, where they damp an oscillation that is resolved.
+  static constexpr double kResolved = 0.05, kResolvedWithMass = 0.1;
+  // The least theta keeps 1/theta finite. It changes the force of a spring by less than the
+  // relative error of the fluid solver's velocities does, which is at least 1e-9
+  // (error_of_answers()).
+  static constexpr double kLeastTheta = 1e-9;
+  // The forces of links hardly depend on how fast the links turn, so that few rounds are needed.
+  // Stiffnesses that are not settled make the step less accurate.
+  static constexpr int kRounds = 50;
+  static constexpr double kSettled = 1e-8;
+  // A row is broken if its error exceeds this part of the largest sum. It is far above the relative
+  // error of the velocities, which is usually 1e-9.
+  static constexpr double kBroken = 1e-4;
+  // Each correction multiplies the error of the sums by about the relative difference of both
+  // mobilities, which is small.
+  static constexpr int kCorrections = 2;
+};
 
 }  // namespace
 
@@ -101,10 +117,9 @@ void ConstrainedSolver::respond() {
 
 double ConstrainedSolver::theta_for(double z, const VelocityConstraint& row) const {
   if (has_inertia_) {
-    // The bound keeps 1/theta finite. It changes the force of a spring by less than the relative
-    // error of the fluid solver's velocities does, which is at least 1e-9 (error_of_answers()).
-    constexpr double kLeast = 1e-9;
-    return std::isfinite(z * z) ? std::max(kLeast, 2 * z * z / (2 + z * z)) : 2;
+    return std::isfinite(z * z)
+               ? std::max(ConstrainedSolverTuning::kLeastTheta, 2 * z * z / (2 + z * z))
+               : 2;
   }
   if (row.accelerates) z *= z;
   if (row.accelerates && row.is_geometric) z *= z;
@@ -132,7 +147,9 @@ void ConstrainedSolver::set_stiffnesses(std::vector<double> stiffnesses) {
   auto rates = rates_of_turning(stiffnesses_);
   std::vector<char> acts(rows_.size(), 0);
   for (std::size_t r = 0; r < rows_.size(); ++r)
-    acts[r] = rates[r] >= (rows_[r].accelerates || has_inertia_ ? kResolvedWithMass : kResolved);
+    acts[r] = rates[r] >= (rows_[r].accelerates || has_inertia_
+                               ? ConstrainedSolverTuning::kResolvedWithMass
+                               : ConstrainedSolverTuning::kResolved);
   // Where a unit is turned, the forces that turn it count as forces of the step. The rows across
   // their links must then act, too.
   for (std::size_t r = 0; r < rows_.size(); ++r)
@@ -177,10 +194,6 @@ bool ConstrainedSolver::settle_stiffnesses(std::span<const double> forces, doubl
   assert(tolerance >= 0);
   const auto before = stiffnesses_;
   const Eigen::VectorXd free = sums(solver_->velocities(forces, true));
-  // The forces of links hardly depend on how fast the links turn, so that few rounds are needed.
-  // Stiffnesses that are not settled make the step less accurate.
-  constexpr int kRounds = 50;
-  constexpr double kSettled = 1e-8;
   const auto largest_change = [&](const std::vector<double>& from, const std::vector<double>& to) {
     double change = 0;
     for (std::size_t r = 0; r < rows_.size(); ++r)
@@ -188,11 +201,11 @@ bool ConstrainedSolver::settle_stiffnesses(std::span<const double> forces, doubl
         change = std::max(change, std::abs(to[r] - from[r]) / larger);
     return change;
   };
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < ConstrainedSolverTuning::kRounds; ++round) {
     auto next = stiffnesses_for(solve(given() - free, true));
     const double change = largest_change(stiffnesses_, next);
     set_stiffnesses(std::move(next));
-    if (change <= kSettled) break;
+    if (change <= ConstrainedSolverTuning::kSettled) break;
   }
   if (largest_change(before, stiffnesses_) > tolerance) return true;
   set_stiffnesses(before);
@@ -222,7 +235,7 @@ void ConstrainedSolver::factorise() {
   fixed_matrix_ = scaled(fixed_, fixed_);
   // Redundant rows make the matrix singular, up to the errors of the velocities. The decomposition
   // then gives the forces with the least sum of squares.
-  const double noise = kAboveErrors * relative_error_;
+  const double noise = ConstrainedSolverTuning::kAboveErrors * relative_error_;
   factor_.setThreshold(noise);
   if (!fixed_.empty()) factor_.compute(fixed_matrix_);
   coupling_ = scaled(springs_, fixed_);
@@ -290,12 +303,10 @@ void ConstrainedSolver::check(const Eigen::VectorXd& right, const Eigen::VectorX
   const Eigen::VectorXd parts = scale_.cwiseProduct(matrix_.cwiseAbs() * forces.cwiseAbs());
   double largest = 0;
   for (const Index r : fixed_) largest = std::max(largest, std::abs(scaled[r]) + parts[r]);
-  // Far above the relative error of the velocities, which is usually 1e-9.
-  constexpr double kBroken = 1e-4;
   std::string names;
   for (const Index r : fixed_) {
     const auto& name = rows_[static_cast<std::size_t>(r)].name;
-    if (std::abs(added[r] - scaled[r]) <= kBroken * largest ||
+    if (std::abs(added[r] - scaled[r]) <= ConstrainedSolverTuning::kBroken * largest ||
         names.find(name) != std::string::npos)
       continue;
     names += (names.empty() ? "" : ", ") + name;
@@ -384,10 +395,7 @@ SecondMesh ConstrainedSolver::vary_mesh() {
 
 void ConstrainedSolver::correct(const Eigen::VectorXd& right, std::span<const double> forces,
                                 Eigen::VectorXd& of_rows) {
-  // Each correction multiplies the error of the sums by about the relative difference of both
-  // mobilities, which is small.
-  constexpr int kCorrections = 2;
-  for (int n = 0; n < kCorrections; ++n) {
+  for (int n = 0; n < ConstrainedSolverTuning::kCorrections; ++n) {
     std::vector<double> all(forces.begin(), forces.end());
     add_row_forces(all, of_rows);
     Eigen::VectorXd missing = right - sums(solver_->velocities(all, true));

@@ -18,6 +18,34 @@ namespace {
 
 using Eigen::Index;
 
+/// Free choices of the solution of a ContactProblem.
+struct ContactProblemTuning {
+  // The other contacts of a group may cancel the change by the contact itself. An estimate of w is
+  // therefore at least the median divided by kLargestRatio; w scales unknowns and allowed residuals
+  // only.
+  static constexpr double kLargestRatio = 10;
+  // A tenth of the residual is enough for the size of the change. Where more products are needed,
+  // the change would have gone on growing.
+  static constexpr double kReduction = 0.1, kUnfinished = 10;
+  // A correction by a tenth takes less than a solution.
+  static constexpr int kMostProducts = 40;
+  // Newton's method takes few steps, or it cycles.
+  static constexpr int kNewtonSteps = 50;
+  // As long as the load of a heavy particle on a light one is not known, the allowed residuals may
+  // be below rounding errors. A first solution may have residuals that are larger by this factor.
+  static constexpr double kRough = 1e6;
+  // The least tolerances of gaps and impulses in a rough solution, which only finds further
+  // contacts.
+  static constexpr double kRoughLength = 1e-3, kRoughImpulse = 1e-2;
+  // The relative error of velocities that are sums of responses to forces. Residuals that such
+  // errors cause are allowed in all rounds.
+  static constexpr double kErrorOfSums = 2e-11;
+  // The allowed residuals depend on the impulses, which are known only after the first round. If W
+  // is not symmetric, each round multiplies the error by about the ratio of the skew part of W to
+  // the symmetric part.
+  static constexpr int kRounds = 4, kRoundsOfSkewPart = 40;
+};
+
 double gap_without_contact(const Contact<2>& contact, const ContactConditions& conditions) {
   return gap_after(contact, conditions.free_velocities.data(), conditions.h, conditions.layout);
 }
@@ -69,16 +97,13 @@ int estimate_w(std::span<Contact<2>> contacts, std::size_t motions, const Mobili
       }
   }
   ratio = largest > 0 ? largest / least : 1;
-  // The other contacts of the group may cancel the change by the contact itself. An estimate is
-  // therefore at least the median divided by kLargestRatio; w scales unknowns and allowed residuals
-  // only.
   std::vector<double> sorted;
   for (const auto& contact : contacts) sorted.push_back(contact.w);
   std::ranges::sort(sorted);
   const double typical = sorted[sorted.size() / 2];
-  constexpr double kLargestRatio = 10;
   for (auto& contact : contacts)
-    if (!(contact.w > typical / kLargestRatio)) contact.w = typical / kLargestRatio;
+    if (!(contact.w > typical / ContactProblemTuning::kLargestRatio))
+      contact.w = typical / ContactProblemTuning::kLargestRatio;
   return static_cast<int>(groups);
 }
 
@@ -158,9 +183,6 @@ struct Correction {
 /// in relation to the residuals says how large the errors of impulses are.
 template <SolvableDualProblem Problem>
 Correction correct_by_gradients(Problem& problem, int most) {
-  // A tenth of the residual is enough for the size of the change. Where more products are needed,
-  // the change would have gone on growing.
-  constexpr double kReduction = 0.1, kUnfinished = 10;
   Correction correction;
   const std::size_t n = problem.count();
   std::vector<double> y(problem.displacement_count()), residual(n), change(n);
@@ -181,7 +203,7 @@ Correction correct_by_gradients(Problem& problem, int most) {
   if (!(before > 0)) return correction;
   auto direction = residual;
   double left = before;
-  while (left > kReduction * before && correction.products < most) {
+  while (left > ContactProblemTuning::kReduction * before && correction.products < most) {
     const double form = problem.to_bodies(direction, y);
     ++correction.products;
     if (!(form > 0)) break;
@@ -198,22 +220,14 @@ Correction correct_by_gradients(Problem& problem, int most) {
     left = largest_of(residual);
   }
   correction.amplification = std::max(1.0, largest_of(change) / before);
-  if (left > kReduction * before) {
-    correction.amplification *= kUnfinished;
+  if (left > ContactProblemTuning::kReduction * before) {
+    correction.amplification *= ContactProblemTuning::kUnfinished;
     return correction;
   }
   for (std::size_t c = 0; c < n; ++c)
     if (problem.is_free(c)) problem.z[c] = std::max(problem.bound[c], problem.z[c] + change[c]);
   return correction;
 }
-
-struct DenseTuning {
-  // Newton's method takes few steps, or it cycles.
-  static constexpr int kNewtonSteps = 50;
-  // As long as the load of a heavy particle on a light one is not known, the allowed residuals may
-  // be below rounding errors. A first solution may have residuals that are larger by this factor.
-  static constexpr double kRough = 1e6;
-};
 
 /// One solution of the problem with a matrix W.
 class DenseLadder {
@@ -251,8 +265,8 @@ class DenseLadder {
   bool newton(Stage stage) {
     auto of = problem();
     contact_solver::DenseFactor factor(conditions_.velocity_error);
-    const auto solved =
-        contact_solver::active_set_newton(of, factor, std::min(left(), DenseTuning::kNewtonSteps));
+    const auto solved = contact_solver::active_set_newton(
+        of, factor, std::min(left(), ContactProblemTuning::kNewtonSteps));
     count(stage, solved.iterations);
     take(of);
     return solved.residual <= 1;
@@ -264,9 +278,9 @@ class DenseLadder {
   }
   void take_newton_roughly(Stage stage) {
     ++tries_;
-    for (auto& contact : contacts_) contact.allowed *= DenseTuning::kRough;
+    for (auto& contact : contacts_) contact.allowed *= ContactProblemTuning::kRough;
     if (!newton(stage)) {
-      for (auto& contact : contacts_) contact.allowed /= DenseTuning::kRough;
+      for (auto& contact : contacts_) contact.allowed /= ContactProblemTuning::kRough;
       return;
     }
     set_allowed(contacts_, conditions_);
@@ -342,27 +356,21 @@ bool ContactProblem::solve(bool is_rough) {
   is_rough_ = is_rough && !is_dense;  // with a dense W an accurate solution is as fast
   auto conditions = conditions_;
   if (is_rough_) {
-    constexpr double kRoughLength = 1e-3, kRoughImpulse = 1e-2;
     auto& settings = conditions.solver;
-    settings.tolerance = std::max(settings.tolerance, kRoughLength);
-    settings.impulse_tolerance = std::max(settings.impulse_tolerance, kRoughImpulse);
+    settings.tolerance = std::max(settings.tolerance, ContactProblemTuning::kRoughLength);
+    settings.impulse_tolerance =
+        std::max(settings.impulse_tolerance, ContactProblemTuning::kRoughImpulse);
   }
   const auto is_solved = [&] {
     return measure_residuals(contacts_, velocities_, conditions).converged;
   };
-  // The relative error of velocities that are sums of responses to forces. Residuals that such
-  // errors cause are allowed in all rounds.
-  constexpr double kErrorOfSums = 2e-11;
   if (conditions.keeps_solution && is_dense) {
     take_velocities();
     if (is_solved()) return true;
   }
-  conditions.velocity_error = kErrorOfSums;
-  // The allowed residuals depend on the impulses, which are known only after the first round. If W
-  // is not symmetric, each round multiplies the error by about the ratio of the skew part of W to
-  // the symmetric part.
-  constexpr int kRounds = 4, kRoundsOfSkewPart = 40;
-  const int rounds = is_dense && !conditions.is_symmetric ? kRoundsOfSkewPart : kRounds;
+  conditions.velocity_error = ContactProblemTuning::kErrorOfSums;
+  const int rounds = is_dense && !conditions.is_symmetric ? ContactProblemTuning::kRoundsOfSkewPart
+                                                          : ContactProblemTuning::kRounds;
   for (int round = 0; round < rounds; ++round) {
     for (auto& contact : contacts_) contact.impulse = std::max(contact.impulse, contact.lowest);
     set_allowed(contacts_, conditions);
@@ -377,7 +385,8 @@ bool ContactProblem::solve(bool is_rough) {
     if (iterations_ >= conditions_.solver.max_iterations) break;
   }
   // Larger residuals are no failure if errors of the mobility explain them.
-  conditions.velocity_error = std::max(kErrorOfSums, conditions_.velocity_error);
+  conditions.velocity_error =
+      std::max(ContactProblemTuning::kErrorOfSums, conditions_.velocity_error);
   return is_solved();
 }
 
@@ -416,9 +425,7 @@ void ContactProblem::solve_by_products() {
   iterations_ += 1 + products;
   stages_[Stage::kGradients] += products;
   if (!is_rough_) {
-    // A correction by a tenth takes less than a solution.
-    constexpr int kMostProducts = 40;
-    const auto correction = correct_by_gradients(problem, kMostProducts);
+    const auto correction = correct_by_gradients(problem, ContactProblemTuning::kMostProducts);
     iterations_ += correction.products;
     amplification_ = correction.amplification;
   }

@@ -19,6 +19,19 @@
 namespace viscontact::particles {
 namespace {
 
+/// Free choices of the contacts of a step.
+struct FluidContactTuning {
+  // Particles are found by circles around them that overlap, whose radii must be below half a
+  // period, because only the nearest images of particles have a number (periods.hpp).
+  static constexpr double kShareOfPeriod = 0.499;
+  // Each correction multiplies the error by about the angle [rad] by which particles turn in the
+  // step, so that few corrections are needed.
+  static constexpr int kMostCorrections = 20;
+  // Turns [rad] of a particle that touches: beyond 1 the corrections for them diverge, and an
+  // ellipse was left with half of its size in the floor.
+  static constexpr double kMostTurn = 1;
+};
+
 /// Sorts `pairs` by order_of(), the order of files of contacts and of restart files. Those that are
 /// also in `before`, the list of the step before, get their memory from it; the pairs of `before`
 /// with gamma < 0 are added.
@@ -38,14 +51,11 @@ void keep_memory(std::vector<Pair>& pairs, std::vector<Pair> before) {
 /// an axis the side of a cylinder is left out.
 void list_pairs(StepContacts& step, const State& state, std::span<const PlanePosition> obstacles,
                 double reach, ThreadPool& pool) {
-  // Particles are found by circles around them that overlap, whose radii must be below half a
-  // period, because only the nearest images of particles have a number (periods.hpp).
-  constexpr double kShareOfPeriod = 0.499;
   const auto& p = state.particles;
   std::vector<double> extents = p.radii;
   double furthest = std::numeric_limits<double>::infinity();
   for (const double length : p.cell.lengths)
-    if (length > 0) furthest = std::min(furthest, kShareOfPeriod * length);
+    if (length > 0) furthest = std::min(furthest, FluidContactTuning::kShareOfPeriod * length);
   for (auto& extent : extents) extent = std::max(extent, std::min(extent + reach / 2, furthest));
   const auto close = p.cell.is_periodic()
                          ? close_pairs_in_period(p.cell, p.positions, extents, pool)
@@ -214,6 +224,29 @@ bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
   return true;
 }
 
+/// Throws Error(kNotConverged) if a particle without sides that is not round and bears a force turns
+/// so far in the step that corrections of its gaps for the turn have no meaning.
+void check_turns(const StepContacts& step, const Particles& p,
+                 const ContactConditions& conditions) {
+  if (!p.has_other_shapes()) return;
+  for (std::size_t c = 0; c < step.pairs.size() + step.walls.size(); ++c) {
+    if (step.contacts[c].impulse == 0) continue;
+    for (const auto particle : {step.contacts[c].first, step.contacts[c].second}) {
+      // The contacts of shapes with sides follow their corners, whose circles turns do not change.
+      if (particle < 0 || p.is_round(index_of(particle)) || p.shape(index_of(particle)).sides() > 0)
+        continue;
+      const double turn =
+          conditions.h * std::abs(step.velocities[conditions.layout.at(particle, 2)]);
+      if (turn > FluidContactTuning::kMostTurn)
+        throw Error(ErrorKind::kNotConverged,
+                    "the {} {} would turn by {:.3g} rad in the step while it touches; at most "
+                    "{:.3g} rad can be resolved, so that a shorter time step helps",
+                    p.shape(index_of(particle)).name(), p.id(index_of(particle)), turn,
+                    FluidContactTuning::kMostTurn);
+    }
+  }
+}
+
 /// Throws Error(kNotConverged) if two particles with sides are closer after the step than the
 /// tolerance allows, at a place that was no contact at its beginning.
 void check_sides_apart(const StepContacts& step, const Particles& p, const Fluid& fluid,
@@ -376,24 +409,22 @@ StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links&
   for (;;) {
     StepContacts step;
     step.iterations = iterations;
-      step.stages = stages;
-      list_pairs(step, state, obstacles, reach, pool);
+    step.stages = stages;
+    list_pairs(step, state, obstacles, reach, pool);
     std::erase_if(step.pairs, is_left_out);
     std::erase_if(step.walls, is_left_out);
     make_contacts(step, p, fluid, obstacles, conditions, friction);
     step.contacts.insert(step.contacts.end(), stops.begin(), stops.end());
     solve(step);
-    // Each correction multiplies the error by about the angle [rad] by which particles turn in the
-    // step, so that few corrections are needed.
-    constexpr int kMostCorrections = 20;
-    for (int n = 0; n < kMostCorrections && p.has_other_shapes(); ++n) {
+    for (int n = 0; n < FluidContactTuning::kMostCorrections && p.has_other_shapes(); ++n) {
       if (!correct_turns(step, p, fluid, obstacles, conditions)) break;
       solve(step);
-      if (n + 1 == kMostCorrections) step.is_solved = false;
+      if (n + 1 == FluidContactTuning::kMostCorrections) step.is_solved = false;
     }
     step.reach = reach;
     const double needed = reach_of(state, fluid, step.velocities, conditions);
     if (needed <= reach) {
+      check_turns(step, p, conditions);
       check_sides_apart(step, p, fluid, conditions);
       return step;
     }

@@ -89,8 +89,8 @@ struct ContactConditions {
   double mean_radius = 0;  ///< of the particles [L], > 0
   /// Relative error [1], >= 0, of velocities and of the mobility, below which no residual can fall.
   double velocity_error = 0;
-  /// Impulse of a force in the step, divided by h times the force [1]: FluidImpactStep::impulse_time
-  /// over h.
+  /// Impulse of a force in the step, divided by h times the force [1]:
+  /// FluidImpactStep::impulse_time over h.
   double share_of_impulse = 1;
   /// Largest change [T/M], >= 0, of the velocity of a gap or slip by a unit force of its contact,
   /// with which hinges count as holding it, so that it is left out of the problem; 0: none is held.

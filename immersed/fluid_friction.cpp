@@ -17,9 +17,17 @@
 namespace viscontact::particles {
 namespace {
 
-/// The problem of all contacts together is solved to this share of the allowed residuals; the rest
-/// is left for errors of its velocities. Any share well below 1 works.
-constexpr double kShareOfAllowed = 0.1;
+/// Free choices of the rounds.
+struct FluidFrictionTuning {
+  // The problem of all contacts together is solved to this share of the allowed residuals; the rest
+  // is left for errors of its velocities. Any share well below 1 works.
+  static constexpr double kShareOfAllowed = 0.1;
+  // One round is enough unless further contacts are added after it; a packing takes a few more.
+  static constexpr int kMostRounds = 30;
+  // Up to this ratio of the residual to the allowed one the solution with given loads counts as
+  // near the law.
+  static constexpr double kNear = 100;
+};
 
 /// The sides of a box that are walls, as indices of SideVelocities, in the order of the obstacles.
 std::vector<std::size_t> walls_of(const BoxDomain& box) {
@@ -86,12 +94,10 @@ class FrictionSolver {
   }
 
   void solve_in_rounds() {
-    // One round is enough unless further contacts are added after it; a packing takes a few more.
-    constexpr int kMostRounds = 30;
     double least = std::numeric_limits<double>::infinity();
     auto best = impulses();
     step_.has_given_loads = false;
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < FluidFrictionTuning::kMostRounds; ++round) {
       solve_gaps(round > 0);
       double excess = excess_of_coulomb();
       if (excess > 1 && round > 0) {
@@ -117,8 +123,6 @@ class FrictionSolver {
   /// solution with them nearly obeys Coulomb's law, otherwise those of a solution without friction.
   /// The loads of the rounds grow without bound where friction locks particles that must move.
   void give_up(const Impulses& best) {
-    // Up to this ratio of the residual to the allowed one the solution counts as near the law.
-    constexpr double kNear = 100;
     step_.has_given_loads = true;
     for (auto& contact : step_.contacts) contact.impulse = 0;
     for (auto& friction : step_.frictions) friction.impulse = 0;
@@ -130,7 +134,7 @@ class FrictionSolver {
     // Residuals are allowed in proportion to the impulses: none may count as small because the
     // impulses are large.
     const double excess = excess_of_coulomb() * std::max(1.0, largest_load() / load);
-    if (step_.is_solved && excess <= kNear) return;
+    if (step_.is_solved && excess <= FluidFrictionTuning::kNear) return;
     take(without_friction);
     solve_with_given_loads_of_step();
     excess_of_coulomb();
@@ -256,7 +260,7 @@ class FrictionSolver {
       ConstraintBlock block;
       block.row = problem.offsets.size();
       block.lowest = contact.lowest;
-      block.allowed = block.allowed_slip = kShareOfAllowed * contact.allowed;
+      block.allowed = block.allowed_slip = FluidFrictionTuning::kShareOfAllowed * contact.allowed;
       answers.push_back(&respond_to_gap(c));
       problem.offsets.push_back(gap_after(contact, free, conditions_.h, conditions_.layout));
       problem.impulses.push_back(contact.impulse);
@@ -266,7 +270,8 @@ class FrictionSolver {
         block.rows = 2;
         block.friction = mu_s_;
         block.capacity = friction.capacity;
-        block.allowed_slip = kShareOfAllowed * allowed_for(friction, contact, conditions_);
+        block.allowed_slip =
+            FluidFrictionTuning::kShareOfAllowed * allowed_for(friction, contact, conditions_);
         problem.offsets.push_back(friction.slip(contact, free, conditions_.h, conditions_.layout));
         problem.impulses.push_back(friction.impulse);
       }

@@ -13,6 +13,21 @@
 namespace viscontact::particles {
 namespace {
 
+/// Free choices of the impact.
+struct FluidImpactTuning {
+  // An approach counts only if it changes the gap in the step by more than a thousandth of the
+  // tolerance of gaps, and if its velocity exceeds rounding errors.
+  static constexpr double kUnseen = 1e-3, kRounding = 1e-12;
+  // A contact that bore a load is hit only if its surfaces approached each other faster than
+  // kUnderLoad times the rate that the forces of a step cause. Otherwise small rebounds would
+  // keep a packing moving. impacts/impacts.cpp uses the same number.
+  static constexpr double kUnderLoad = 5;
+  // After 50 halvings the error of the share is about a rounding error.
+  static constexpr int kHalvings = 50;
+  // The rate of a gap below this share of its rate before is a rounding error.
+  static constexpr double kAtRest = 1e-9;
+};
+
 /// The rate [L/T] at which a gap grows while the particles rest.
 double drift_of(const Contact<2>& contact, const Pair& pair, const FluidImpactStep& step,
                 double h) {
@@ -56,7 +71,7 @@ class Impact {
     double pull = 0;         // rate of the gap by the forces of the step on particles at rest [L/T]
     bool is_closed = false;  // at the beginning of the step
     bool is_hit = false;     // its gap closes in the step by an approach, not by the load alone
-    double late = 0;  // time of the hit after the beginning of the step over its length [1], 0 to 1
+    double hit_at = 0;       // time of the hit in the step over its length [1], 0 to 1
     double load = 0;  // impulse of the contact if particles are at rest [M L/T], see take_load()
     // The following numbers are impulses [M L/T].
     double compressed = 0;  // impulse at the end of the compression, load included
@@ -65,11 +80,11 @@ class Impact {
     double restored = 0;    // least impulse of the whole impact: compressed + left + e_d solid
   };
 
-  /// Sets the members of each part from `drift` to `late`. Returns true if a contact is hit.
+  /// Sets the members of each part from `drift` to `hit_at`. Returns true if a contact is hit.
   bool find_hits();
   /// The contact problem of an impact. Its impulses act on the velocities as forces would do in the
-  /// time FluidImpactStep::impulse_time [T]. The gaps of hit contacts are 0; those of all others are
-  /// multiplied by impulse_time/h, so that they close at the same velocity as in the step.
+  /// time FluidImpactStep::impulse_time [T]. The gaps of hit contacts are 0; those of all others
+  /// are multiplied by impulse_time/h, so that they close at the same velocity as in the step.
   StepContacts problem() const;
   /// Sets Part::load of the contacts that are closed or hit: the impulses that would keep these
   /// gaps from closing if the forces of the step acted on particles at rest. Returns true if
@@ -127,12 +142,10 @@ bool Impact::find_hits() {
   const auto free = conditions_.free_velocities;
   const double h = conditions_.h;
   const double touching = conditions_.solver.tolerance * conditions_.mean_radius;
-  // An approach counts only if it changes the gap in the step by more than a thousandth of the
-  // tolerance `touching`, and if its velocity exceeds rounding errors.
-  constexpr double kUnseen = 1e-3, kRounding = 1e-12;
-  const double unseen = std::max(kUnseen * touching / h,
-                                 kRounding * std::max(fastest(free, conditions_.layout),
-                                                      fastest(step_.before, conditions_.layout)));
+  const double unseen =
+      std::max(FluidImpactTuning::kUnseen * touching / h,
+               FluidImpactTuning::kRounding * std::max(fastest(free, conditions_.layout),
+                                                       fastest(step_.before, conditions_.layout)));
   const auto approaches = [&](std::size_t c) {
     const auto& part = parts_[c];
     const double approach = rate(c, free);
@@ -167,14 +180,12 @@ bool Impact::find_hits() {
   for (const auto c : approaching) {
     auto& part = parts_[c];
     const auto& of = pair(c);
-    // A contact that bore a load is hit only if its surfaces approached each other faster than
-    // kUnderLoad times the rate that the forces of a step cause. Otherwise small rebounds would
-    // keep a packing moving. impacts/impacts.cpp uses the same number.
-    constexpr double kUnderLoad = 5;
     const bool bore_load = of.impulse != 0 || of.gamma < 0;
-    if (part.is_closed && bore_load && !(rate(c, step_.before) < kUnderLoad * part.pull)) continue;
+    if (part.is_closed && bore_load &&
+        !(rate(c, step_.before) < FluidImpactTuning::kUnderLoad * part.pull))
+      continue;
     part.is_hit = any = true;
-    part.late = part.start / (-rate(c, free) * h);
+    part.hit_at = part.start / (-rate(c, free) * h);
   }
   return any;
 }
@@ -254,8 +265,7 @@ void Impact::restrain(const StepContacts& compressed, StepContacts& restored) co
   };
   if (!(work(1) > 0)) return;
   double low = 0, high = 1;
-  constexpr int kHalvings = 50;  // after 50 halvings the error is about a rounding error
-  for (int n = 0; n < kHalvings; ++n) {
+  for (int n = 0; n < FluidImpactTuning::kHalvings; ++n) {
     const double middle = (low + high) / 2;
     (work(middle) > 0 ? high : low) = middle;
   }
@@ -276,12 +286,12 @@ void Impact::move(FluidImpact& impact) {
   const auto& layout = conditions_.layout;
   double first = 1;
   for (const auto& part : parts_)
-    if (part.is_hit) first = std::min(first, part.late);
+    if (part.is_hit) first = std::min(first, part.hit_at);
   std::vector<double> loads(impact.velocities.size());
   for (std::size_t c = 0; c < parts_.size(); ++c) {
     const auto& part = parts_[c];
     const double load = part.is_hit ? 0 : part.load;
-    const double rest = 1 - (part.is_hit ? part.late : first);
+    const double rest = 1 - (part.is_hit ? part.hit_at : first);
     const double impulse = load + rest * (impact.contacts[c].impulse - load);
     add_contact_force(impact.contacts[c], impulse / step_.impulse_time, loads, layout);
   }
@@ -314,8 +324,6 @@ void Impact::move(FluidImpact& impact) {
 }
 
 void Impact::book(FluidImpact& impact) const {
-  // The rate of a gap below this share of its rate before is a rounding error.
-  constexpr double kAtRest = 1e-9;
   for (std::size_t c = 0; c < parts_.size(); ++c) {
     const auto& part = parts_[c];
     const auto& contact = impact.contacts[c];
@@ -327,9 +335,10 @@ void Impact::book(FluidImpact& impact) const {
     impact.absorbed.back() = of.gamma - gamma;
     const double approach = rate(c, conditions_.free_velocities),
                  after = rate(c, impact.velocities);
-    impact.rebounds.push_back({step_.state.time + part.late * conditions_.h, of.first, of.second,
-                               std::min(approach, 0.0), part.solid,
-                               after <= kAtRest * std::abs(approach) ? 0 : after});
+    impact.rebounds.push_back(
+        {step_.state.time + part.hit_at * conditions_.h, of.first, of.second,
+         std::min(approach, 0.0), part.solid,
+         after <= FluidImpactTuning::kAtRest * std::abs(approach) ? 0 : after});
   }
 }
 

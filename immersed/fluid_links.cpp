@@ -15,12 +15,22 @@
 namespace viscontact::particles {
 namespace {
 
-// Corrections end when no length or place is off by more than kOfTolerance times the error that
-// solver.tolerance allows, so that errors do not add up over the steps. Each correction multiplies
-// the error by about the angle [rad] by which a body or an arm turns in the step, so that few are
-// needed unless this angle is about 1.
-constexpr double kOfTolerance = 1e-3;
-constexpr int kMostChanges = 20;
+/// Free choices of the corrections and of the turns of links.
+struct FluidLinkTuning {
+  // Corrections end when no length or place is off by more than kOfTolerance times the error that
+  // solver.tolerance allows, so that errors do not add up over the steps. Each correction
+  // multiplies the error by about the angle [rad] by which a body or an arm turns in the step, so
+  // that few are needed unless this angle is about 1.
+  static constexpr double kOfTolerance = 1e-3;
+  static constexpr int kMostChanges = 20;
+  // One half of the allowed residuals of contacts is left for errors of the velocities that the
+  // fluid solver computes at last.
+  static constexpr double kShareOfAllowed = 0.5;
+  // Tensions that are off by this share turn links by a share of the turn of the step.
+  static constexpr double kFollowed = 0.02;
+  // Along a side, where the nearest points slide on it, the arm is 0 up to this part of the radius.
+  static constexpr double kRounding = 1e-9;
+};
 
 }  // namespace
 
@@ -41,11 +51,11 @@ std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equatio
   const bool with_springs = !equation.link_times().empty();
   const double allowed = tolerated_length();
   double off = 0;  // [L]
-  for (int n = 0; n <= kMostChanges; ++n) {
+  for (int n = 0; n <= FluidLinkTuning::kMostChanges; ++n) {
     const auto missing =
         constrained.missing(velocities, forces, thetas, constrained_solver_->stiffnesses());
     off = h * largest_magnitude(missing);
-    if (off <= kOfTolerance * allowed || n == kMostChanges) break;
+    if (off <= FluidLinkTuning::kOfTolerance * allowed || n == FluidLinkTuning::kMostChanges) break;
     add_elements(constrained_solver_->change(velocities, missing, with_springs), forces);
   }
   holds = off <= allowed;
@@ -70,7 +80,9 @@ double FluidSimulation::hold_turned(const ConstrainedMotion& constrained, double
     for (std::size_t r = 0; r < missing.size(); ++r)
       if (r >= rows.size() || rows[r].is_spring()) missing[r] = 0;
     const double off = h * largest_magnitude(missing);
-    if (off <= kOfTolerance * tolerated_length() || n == kMostChanges) return off;
+    if (off <= FluidLinkTuning::kOfTolerance * tolerated_length() ||
+        n == FluidLinkTuning::kMostChanges)
+      return off;
     add_elements(constrained_solver_->change(velocities, missing, false), row_forces);
   }
 }
@@ -81,8 +93,8 @@ void FluidSimulation::hold_with_contacts(const StepEquation& equation,
                                          std::vector<double>& row_forces) {
   auto& contact = motion.contact;
   if (!has_links_ || motion.impact || !(largest_magnitude(contact.loads) > 0)) return;
-  const double allowed = kOfTolerance * tolerated_length();
-  for (int round = 0; round < kMostChanges; ++round) {
+  const double allowed = FluidLinkTuning::kOfTolerance * tolerated_length();
+  for (int round = 0; round < FluidLinkTuning::kMostChanges; ++round) {
     auto velocities = motion.linear;
     for (std::size_t i = 0; i < velocities.size(); ++i)
       velocities[i] += contact.velocities[i] - motion.free[i];
@@ -101,12 +113,10 @@ void FluidSimulation::hold_with_contacts(const StepEquation& equation,
     motion.links_hold = off <= tolerated_length() && h * change <= allowed;
     // The contacts need not be solved again if their residuals stay allowed. They may be allowed
     // less than `allowed`, because the impulse of a light load is as exact as that of a large one.
-    // One half is left for errors of the velocities that the fluid solver computes at last.
-    constexpr double kShare = 0.5;
     if (h * change <= allowed &&
         (!contact.is_solved ||
          residuals_of(contact, contact.velocities, contact_conditions(motion.free, h)).excess <=
-             kShare))
+             FluidLinkTuning::kShareOfAllowed))
       return;
     const int iterations = contact.iterations;
     motion.impact = solve_contacts_of(equation, motion.free, h, next, contact);
@@ -137,9 +147,7 @@ bool FluidSimulation::follow_turns(const StepEquation& equation, ConstrainedMoti
   const auto rows = constrained.geometric_rows();
   if (rows.empty() || (rows.size() == before && loaded == settled)) return false;
   constrained_solver_->turn_with(rows);
-  // Tensions that are off by this share turn links by a share of the turn of the step.
-  constexpr double kFollowed = 0.02;
-  const bool changed = constrained_solver_->settle_stiffnesses(loaded, kFollowed);
+  const bool changed = constrained_solver_->settle_stiffnesses(loaded, FluidLinkTuning::kFollowed);
   settled = std::move(loaded);
   return changed || rows.size() > before;
 }
@@ -175,11 +183,10 @@ double FluidSimulation::turn_of_films(const StepContacts& step,
       if (k < 0) continue;
       const auto i = index_of(k);
       length += one == 0 ? radii.first : radii.second;
-      // Along a side, where the nearest points slide on it, the arm is 0 up to rounding.
-      constexpr double kRounding = 1e-9;
       const double arm = std::abs(arms[one]);
-      has_arm = has_arm || arm > kRounding * p.radii[i];
-      has_side = has_side || (p.shape(i).sides() > 0 && !(arm > kRounding * p.radii[i]));
+      has_arm = has_arm || arm > FluidLinkTuning::kRounding * p.radii[i];
+      has_side =
+          has_side || (p.shape(i).sides() > 0 && !(arm > FluidLinkTuning::kRounding * p.radii[i]));
       film.of_arms = std::max(film.of_arms, -contact.impulse * arm * mobility[layout_.at(k, 2)]);
     }
     if (has_side || (!has_arm && !is_split)) continue;

@@ -24,9 +24,17 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// How often a step is solved with geometric rows at most. Tensions hardly depend on how fast links
-// turn.
-constexpr int kMostTurns = 10;
+/// Free choices of a step.
+struct FluidStepTuning {
+  // How often a step is solved with geometric rows at most. Tensions hardly depend on how fast
+  // links turn.
+  static constexpr int kMostTurns = 10;
+  // A particle resists a force with its mass over the step plus a drag of about the viscosity, or
+  // some 1e5 times the viscosity in the narrowest gap that a mesh resolves. Over 1/(viscosity + mass
+  // over the step), least_w is therefore kShareOfW, or kAboveErrors times the relative error of
+  // velocities if this is more.
+  static constexpr double kShareOfW = 1e-9, kAboveErrors = 10;
+};
 
 LinkTimes times_of_links(const StepEquation& equation, double h, double next) {
   const auto flow = equation.flow_step();
@@ -48,7 +56,7 @@ FluidSimulation::FluidSimulation(Setting setting, State state, std::unique_ptr<F
   // A restart file of a run without a fluid has no velocities of the step before, and may contain
   // collisions, which a step in a fluid does not use.
   if (state_.earlier_velocities.empty()) state_.earlier_step = 0;
-  state_.impacts = {};
+  state_.impact_impulses = {};
   auto& film = setting_.laws.film;
   film.shape = p.dimension == 1 ? FilmShape::kSpheres : FilmShape::kDiscs;
   film.begins_at = setting_.fluid->threshold_gap;
@@ -173,16 +181,14 @@ ContactConditions FluidSimulation::contact_conditions(std::span<const double> fr
   if (!setting_.links.hinges.empty()) {
     // If a hinge holds a gap, the change w of the velocity of this gap by a unit force [T/M] should
     // be 0, but consists of errors. least_w must lie between these errors and the least w of a gap
-    // that can change. A particle resists a force with its mass over the step plus a drag of about
-    // the viscosity, or some 1e5 times the viscosity in the narrowest gap that a mesh resolves.
-    // There are no hinges on an axis, where the drag would have another dimension.
-    constexpr double kShare = 1e-9, kErrors = 10;
+    // that can change. There are no hinges on an axis, where the drag would have another dimension.
     double heaviest = 0;
     const auto& p = state_.particles;
     for (std::size_t k = 0; k < p.count(); ++k)
       heaviest = std::max(heaviest, p.masses[k] + fluid.density * fluid.size_of(p.shape(k), k));
     for (const auto& body : p.bodies.bodies) heaviest = std::max(heaviest, body.mass);
-    conditions.least_w = std::max(kShare, kErrors * error_of_answers(fluid)) /
+    conditions.least_w = std::max(FluidStepTuning::kShareOfW,
+                                  FluidStepTuning::kAboveErrors * error_of_answers(fluid)) /
                          (fluid.viscosity + heaviest / impulse_time_of(h));
   }
   return conditions;
@@ -325,7 +331,7 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
       iterations += motion.contact.iterations + (motion.impact ? motion.impact->iterations : 0);
       stages += motion.contact.stages;
       if (motion.impact) stages += motion.impact->stages;
-      if (!constrained || motion.impact || turns == kMostTurns) break;
+      if (!constrained || motion.impact || turns == FluidStepTuning::kMostTurns) break;
       loaded = forces;
       auto of_rows = constrained_solver_->row_forces();
       if (largest_magnitude(motion.contact.loads) > 0) {

@@ -87,8 +87,8 @@ class FluidSimulation : public FlowSimulation {
     return solver_->flow();
   }
 
-  /// The flow is that of the next step, whose problem is solved without moving anything. Throws also
-  /// Error(kNotConverged) if links or particles with sides make step() throw it.
+  /// The flow is that of the next step, whose problem is solved without moving anything. Throws
+  /// also Error(kNotConverged) if links or particles with sides make step() throw it.
   FlowField flow_at_present() override;
 
   std::vector<double> fluid_forces() const override { return quantities_.fluid_forces; }

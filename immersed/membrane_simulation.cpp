@@ -110,7 +110,7 @@ MembraneSimulation::Implementation::Implementation(Setting setting, State state,
   film.shape = FilmShape::kDiscs;
   film.begins_at = setting_.fluid->threshold_gap;
   auto& p = state_.particles;
-  state_.impacts = {};  // a restart file of a run without a fluid may have impacts
+  state_.impact_impulses = {};  // a restart file of a run without a fluid may have impacts
   p.cell = cell_of(setting_);
   p.angles.resize(p.count());
   p.angular_velocities.resize(p.count());

@@ -16,6 +16,17 @@
 namespace viscontact::particles {
 namespace {
 
+/// Free choices of the equation of a step.
+struct StepEquationTuning {
+  // If drag and acceleration nearly cancel, their sum is nearly 0, and the share of the
+  // acceleration means nothing, although the links of the particle may exert large forces that
+  // cancel each other. The bound keeps the powers of such links finite. It changes only reported
+  // powers.
+  static constexpr double kLargestShare = 10;
+  // Means over two steps of the same length differ by rounding errors.
+  static constexpr double kSame = 1e-12;
+};
+
 /// Mass [M] or moment of inertia [M L^2] of each component. The mass of a rigid body is divided
 /// among its members, and evenly what its moment of inertia exceeds that of these masses.
 std::vector<double> masses_of(const Particles& p, const MotionLayout& layout) {
@@ -368,12 +379,10 @@ std::vector<double> StepEquation::velocities_of_work(std::span<const double> flo
     const double before = velocity(k, i % layout_.components);
     const double accelerating = masses_[i] / h_ * (at_end[i] - before);
     const double all = accelerating + drag[i];
-    // If drag and acceleration nearly cancel, `all` is nearly 0, and the share means nothing,
-    // although the links of the particle may exert large forces that cancel each other. The bound
-    // keeps the powers of such links finite. It changes only reported powers.
-    constexpr double kLargestShare = 10;
-    const double share =
-        all != 0 ? std::clamp(accelerating / all, -kLargestShare, kLargestShare) : 0;
+    const double share = all != 0
+                             ? std::clamp(accelerating / all, -StepEquationTuning::kLargestShare,
+                                          StepEquationTuning::kLargestShare)
+                             : 0;
     velocities[i] += share * ((before + at_end[i]) / 2 - flow[i]);
   }
   return velocities;
@@ -423,10 +432,9 @@ bool StepEquation::has_jump(std::int32_t driven) const {
   const double before = std::max(0.0, state_.time - state_.earlier_step);
   const auto earlier = given_motion(setting_.given_motions.at(driven), before, state_.time);
   const auto& now = driven_.at(driven);
-  // Means over two steps of the same length differ by rounding errors.
-  constexpr double kSame = 1e-12;
   for (std::size_t d = 0; d < 3; ++d)
-    if (std::abs(now[d] - earlier[d]) > kSame * (std::abs(now[d]) + std::abs(earlier[d])))
+    if (std::abs(now[d] - earlier[d]) >
+        StepEquationTuning::kSame * (std::abs(now[d]) + std::abs(earlier[d])))
       return true;
   return false;
 }

@@ -11,6 +11,16 @@
 #include "viscontact/contact_dynamics/constraints/island_ladder.hpp"
 
 namespace viscontact::particles {
+namespace {
+
+struct HeldApartTuning {
+  // A case may give lengths that are shorter by the rounding errors of its numbers.
+  static constexpr double kShorter = 1e-6;
+  // Rounding errors of a distance over the distance.
+  static constexpr double kRounding = 1e-9;
+};
+
+}  // namespace
 
 template <int D>
 ConstraintSystem<D>::ConstraintSystem(const ConstraintStep& step, const Particles& particles,
@@ -60,18 +70,16 @@ bool ConstraintSystem<D>::is_held_apart(const Pair& pair) const {
   for (const auto& arm : step_.links->arms) {
     if (std::minmax(arm.first, arm.second) != std::minmax(pair.first, pair.second)) continue;
     const auto i = index_of(pair.first), j = index_of(pair.second);
-    // A case may give lengths that are shorter by the rounding errors of its numbers.
-    constexpr double kShorter = 1e-6;
-    const double touching = (1 - kShorter) * (particles_.radii[i] + particles_.radii[j]);
+    const double touching =
+        (1 - HeldApartTuning::kShorter) * (particles_.radii[i] + particles_.radii[j]);
     // An arm holds the nearest image. Other images may touch, also if they are equally near.
-    constexpr double kRounding = 1e-9;
     const Vector nearest =
         nearest_image(particles_.cell, particles_.position(j) - particles_.position(i));
     Vector apart{};
     std::ranges::copy(separation<D>(particles_, pair.first, pair.second, pair.image),
                       apart.begin());
     return length_at(arm.length, times_.end) >= touching &&
-           norm(apart - nearest) <= kRounding * norm(nearest);
+           norm(apart - nearest) <= HeldApartTuning::kRounding * norm(nearest);
   }
   return false;
 }

@@ -35,8 +35,8 @@ class ContactSystem {
         particles_(particles),
         body_of_(mobilities.size(), -1) {}
 
-  /// Gives the turns of all particles and planes under a load [rad], 1 (discs) or 3 numbers for each,
-  /// for gaps of particles that are not round. They must outlive the object.
+  /// Gives the turns of all particles and planes under a load [rad], 1 (discs) or 3 numbers for
+  /// each, for gaps of particles that are not round. They must outlive the object.
   void follow_turns(std::span<const double> turns) { turns_ = turns; }
 
   /// Adds a contact, makes its particles take part, and joins them. `w` must be the sum of the
@@ -57,8 +57,8 @@ class ContactSystem {
   /// `allowed` may be changed.
   std::vector<Contact<D>> contacts;
 
-  /// True if a particle of the contact is in an island with a rigid body, a rigid link or a particle
-  /// that is not round.
+  /// True if a particle of the contact is in an island with a rigid body, a rigid link or a
+  /// particle that is not round.
   bool is_held(const Contact<D>& contact);
   /// The gap [L] of any contact after the present displacements, as uses_distance() says.
   double gap(const Contact<D>& contact);

@@ -2,6 +2,7 @@
 #include "viscontact/contact_dynamics/constraints/island_ladder.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -68,7 +69,7 @@ const std::array<typename IslandLadder<D>::Row, 8> IslandLadder<D>::kTable{{
     {Stage::kGivenLoads, &IslandLadder::is_locked, nullptr, &IslandLadder::retry_with_first_loads,
      nullptr, nullptr},
     // The corrected problem is not solved, and its gaps are linear: anew with distances, and with
-    // as many iterations as were taken.
+    // as many further iterations as were taken.
     {Stage::kDistances, &IslandLadder::needs_distances, nullptr,
      &IslandLadder::use_distances_with_more_iterations, nullptr, nullptr},
     // It is not solved with distances either: anew with the loads without corrections or, with
@@ -286,10 +287,11 @@ void IslandLadder<D>::retry_with_given_loads(const std::vector<double>& impulses
   const auto tensions = island_.tensions;
   const auto shifts = island_.shifts, shifts_across = island_.shifts_across;
   restart();
+  assert(may_give_up());  // as before, or the table would enter the same row without end
   // The rows of tensions, which are the last ones, may have changed.
   std::copy_n(impulses.begin(), std::min(impulses.size(), problem_.impulses.size()),
               problem_.impulses.begin());
-  if (may_give_up() && give_up(impulses.empty(), stage)) {
+  if (give_up(impulses.empty(), stage)) {
     corrections_ = 1;
     phase_ = Phase::kNotSolved;
     return;

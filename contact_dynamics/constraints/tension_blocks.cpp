@@ -12,6 +12,14 @@
 namespace viscontact::particles {
 namespace {
 
+struct TensionTuning {
+  // Tensions that differ by less than this part of their sum count as the same. Each solution of a
+  // problem whose loads may drift shifts them by up to 1e-5.
+  static constexpr double kSame = 1e-4;
+  // Shifts below this part of what is allowed change no tensions, as IslandTuning::kEnd.
+  static constexpr double kSmall = 0.5;
+};
+
 /// The mobility of a row [T/M, T/(M L^2)].
 template <int D>
 double mobility_of(std::span<const RowPart<D>> parts, const ConstraintProblem<D>& problem) {
@@ -171,8 +179,7 @@ double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Isla
       impulses += std::abs(rows[t].impulse);
       differences += std::abs(rows[t].impulse - problem.impulses[problem.blocks[sources + t].row]);
     }
-    constexpr double kSame = 1e-4;  // each solution of such a problem shifts them by up to 1e-5
-    if (differences <= kSame * impulses) return 0;
+    if (differences <= TensionTuning::kSame * impulses) return 0;
   }
   changes.resize(problem.units.size());
   for (std::size_t t = 0; t < island.tensions.size(); ++t) {
@@ -195,8 +202,7 @@ double ConstraintSystem<D>::change_tensions(const ContactSystem<D>& system, Isla
   };
   for (const auto& tension : island.tensions) take(tension.source);
   for (const auto& row : rows) take(row.tension.source);
-  constexpr double kSmall = 0.5;  // of what is allowed, as IslandTuning::kEnd
-  if (largest <= kSmall && !is_always) return largest;
+  if (largest <= TensionTuning::kSmall && !is_always) return largest;
   if (!island.tensions.empty()) {
     const auto first_row = problem.blocks[sources].row;
     problem.parts.resize(problem.rows[first_row].first_part);

@@ -14,6 +14,21 @@
 #include "viscontact/particles/state/particles.hpp"
 
 namespace viscontact::particles {
+namespace {
+
+struct ImpactSolutionTuning {
+  // Residuals over the fastest approach [1]: what the solver tries to reach, near the rounding
+  // errors of a double, and what counts as solved.
+  static constexpr double kExact = 1e-13, kSolved = 1e-8;
+  // Iterations with kLeastImpulses, as many as one proximal step may take, so that a failure costs
+  // little, and with kSweeps, far above the 3000 without progress after which solve_constraints()
+  // gives up.
+  static constexpr int kMostWithLeast = 200, kMostWithSweeps = 10000;
+  // Bisections of a share in [0, 1], nearly to the rounding errors of a double.
+  static constexpr int kHalvings = 50;
+};
+
+}  // namespace
 
 template <int D>
 ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double time,
@@ -117,9 +132,7 @@ void Impacts<D>::move_unit(std::int32_t particle, const Motion<D>& change, doubl
 template <int D>
 void Impacts<D>::apply_impacts(const std::vector<Hit>& hits, double time) {
   assert(!hits.empty() && time >= 0 && time <= step_.h);
-  // Residuals over the fastest approach [1]: what the solver tries to reach, near the rounding
-  // errors of a double, and what counts as solved.
-  constexpr double kExact = 1e-13, kSolved = 1e-8;
+  using Tuning = ImpactSolutionTuning;
   const auto& laws = step_.laws;
   std::vector<std::int32_t> unit_of;
   auto problem = problem_of(hits, time, unit_of);
@@ -132,7 +145,7 @@ void Impacts<D>::apply_impacts(const std::vector<Hit>& hits, double time) {
   auto compression = problem;
   for (auto& block : compression.blocks) {
     block.rows = 1;
-    block.allowed = kExact * step_.h * fastest;
+    block.allowed = Tuning::kExact * step_.h * fastest;
   }
   const auto keep_normal_rows = [&](ConstraintProblem<D>& of) {
     std::vector<ConstraintRow> rows;
@@ -146,20 +159,19 @@ void Impacts<D>::apply_impacts(const std::vector<Hit>& hits, double time) {
   keep_normal_rows(compression);
   // Where contacts share a body, only sums of their impulses are determined. With kLeastImpulses
   // what solids give back does not depend on the order of the contacts. With friction between
-  // spheres it may not converge, and kSweeps follow. 200 iterations are as many as one proximal
-  // step may take, so that a failure costs little; 10000 is far above the 3000 without progress
-  // after which solve_constraints() gives up.
+  // spheres it may not converge, and kSweeps follow.
   const auto solve = [&](ConstraintProblem<D>& of) {
     const auto guess = of.impulses;
     const auto is_solved = [&](ConstraintStart start, int most_iterations) {
       const auto result = solve_constraints(of, most_iterations, start).result;
       iterations_ += result.iterations;
       stages_ += result.stages;
-      return result.residual * kExact <= kSolved;
+      return result.residual * Tuning::kExact <= Tuning::kSolved;
     };
-    if (hits.size() > 1 && is_solved(ConstraintStart::kLeastImpulses, 200)) return;
+    if (hits.size() > 1 && is_solved(ConstraintStart::kLeastImpulses, Tuning::kMostWithLeast))
+      return;
     of.impulses = guess;
-    converged_ = is_solved(ConstraintStart::kSweeps, 10000) && converged_;
+    converged_ = is_solved(ConstraintStart::kSweeps, Tuning::kMostWithSweeps) && converged_;
   };
   solve(compression);
   // What the film can absorb, gamma - gamma_min; the impulse of the compression and the part that
@@ -188,8 +200,8 @@ void Impacts<D>::apply_impacts(const std::vector<Hit>& hits, double time) {
     auto& block = problem.blocks[c];
     const auto& phase = phases[c];
     block.lowest = phase.compressed + phase.lowest;
-    block.allowed = kExact * step_.h * fastest;
-    block.allowed_slip = kExact * step_.h * fastest_slip;
+    block.allowed = Tuning::kExact * step_.h * fastest;
+    block.allowed_slip = Tuning::kExact * step_.h * fastest_slip;
     const bool rubs = laws.friction && phase.solid > 0;
     block.friction = rubs ? laws.friction->coefficient : 0;
     // Friction is bounded by the coefficient of friction times the impulse beyond `capacity`, which
@@ -228,8 +240,7 @@ void Impacts<D>::apply_impacts(const std::vector<Hit>& hits, double time) {
       return impulses;
     };
     double low = 0, high = 1;
-    constexpr int kHalvings = 50;
-    for (int n = 0; n < kHalvings; ++n) {
+    for (int n = 0; n < Tuning::kHalvings; ++n) {
       const double middle = (low + high) / 2;
       (work(between(middle)) > 0 ? high : low) = middle;
     }
@@ -271,7 +282,7 @@ void Impacts<D>::apply_impacts(const std::vector<Hit>& hits, double time) {
     impulses_.push_back({of.first, push, hits[c].sum * hits[c].normal});
     if (phase.solid > 0)
       rebounds_.push_back({step_.begin + time, of.first, of.second, hits[c].approach, phase.solid,
-                           std::abs(after) <= kExact * fastest ? 0 : after});
+                           std::abs(after) <= Tuning::kExact * fastest ? 0 : after});
     ++hits_of_[hits[c].pair];
   }
   std::vector<std::int32_t> changed;

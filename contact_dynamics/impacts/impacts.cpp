@@ -13,9 +13,29 @@
 namespace viscontact::particles {
 namespace {
 
-// Times of hits that differ by less than this share of the step count as equal, so that the hits of
-// a symmetric impact are decided together in spite of rounding errors.
-constexpr double kSameTime = 1e-9;
+struct HitTuning {
+  // Times of hits that differ by less than this share of the step count as equal, so that the hits
+  // of a symmetric impact are decided together in spite of rounding errors.
+  static constexpr double kSameTime = 1e-9;
+  // This number of secants only guards against an endless loop.
+  static constexpr int kMostSecants = 200;
+  // Steps of Newton's method, far more than it needs.
+  static constexpr int kMostNewtonSteps = 20;
+  // An approach that would cause a bounce that lasts less than this fraction of the step counts as
+  // at rest.
+  static constexpr double kShortestFlight = 0.05;
+  // An approach is not seen if it moves the particles by less than a thousandth of
+  // ImpactStep::touching in the step, or is a rounding error, relative to the speeds.
+  static constexpr double kUnseen = 1e-3, kRounding = 1e-12;
+  // The slowest hit of a pair at rest over the velocity that forces give the pair in a step.
+  // Slower hits would keep a packing shaking.
+  static constexpr double kPulled = 5;
+  // A pair that has been hit so often in a step, or so often with a load, is not hit again,
+  // because impacts under load can follow each other without end.
+  static constexpr int kMostHits = 1000, kMostUnderLoad = 30;
+  // Each search moves on by at least this part of the step, which is above rounding errors.
+  static constexpr double kBeyondRounding = 1e-12;
+};
 
 /// A root of a continuous function that is > 0 at `from` and <= 0 at `until`, by the Illinois
 /// method (a bracketing secant method): the upper end of the last bracket.
@@ -23,9 +43,7 @@ template <class Function>
 double root_of_falling(const Function& f, double from, double until) {
   double low = from, high = until, at_low = f(low), at_high = f(high);
   int side = 0;
-  // This number only guards against an endless loop.
-  constexpr int kMostSteps = 200;
-  for (int n = 0; n < kMostSteps && at_high != 0; ++n) {
+  for (int n = 0; n < HitTuning::kMostSecants && at_high != 0; ++n) {
     double t = (low * at_high - high * at_low) / (at_high - at_low);
     // If one end is the root but for rounding errors, the secant ends there, and bisection moves
     // the other end.
@@ -266,9 +284,8 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
                               : (rate + std::sqrt(root)) / (-2 * curvature));
   if (obstacle != nullptr && !approach.turns()) return t <= until ? std::optional(t) : std::nullopt;
   // The normal of two particles and the arm of a body change on the way, so that Newton's method
-  // improves the guess t. 20 steps are far more than it needs.
-  constexpr int kMostSteps = 20;
-  for (int i = 0; i < kMostSteps; ++i) {
+  // improves the guess t.
+  for (int i = 0; i < HitTuning::kMostNewtonSteps; ++i) {
     const double falls = rate_at(t);
     if (!(falls < 0)) return search();
     const double change = -gap_at(t) / falls;
@@ -289,26 +306,24 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
   at_start.c = at_start.c + flight_or_none(of.second).lag;
   if (of.first >= 0) at_start.c = at_start.c - flight_or_none(of.first).lag;
   at_start.first.lag = at_start.second.lag = {};
-  // An approach slower than `ended` [L/T] would cause a bounce that lasts less than this fraction
-  // of the step. The contact then counts as at rest. Both limits of rest, this one and `pulled`,
-  // tend to 0 with h (docs/physics.md (5.16)).
-  constexpr double kShortestFlight = 0.05;
+  using Tuning = HitTuning;
+  // An approach slower than `ended` [L/T] would cause too short a bounce. Both limits of rest, this
+  // one and `pulled`, tend to 0 with h (docs/physics.md (5.16)).
   const double pull = acceleration_of_gap(approach, time);
-  const double ended =
-      std::max(kShortestFlight * -step_.h * pull / (2 * step_.laws.restitution.coefficient), 0.0);
-  // An approach slower than `unseen` [L/T] moves the particles by less than a thousandth of
-  // `touching` in the step, or is a rounding error.
-  constexpr double kUnseen = 1e-3, kRounding = 1e-12;
+  const double ended = std::max(
+      Tuning::kShortestFlight * -step_.h * pull / (2 * step_.laws.restitution.coefficient), 0.0);
+  // An approach slower than `unseen` [L/T] moves the particles too little, or is a rounding error.
   const double speeds = norm(free_velocity(of.first)) + norm(free_velocity(of.second)) +
                         norm(flight_or_none(of.first).change) +
                         norm(flight_or_none(of.second).change);
-  const double unseen = std::max(kUnseen * step_.touching / step_.h, kRounding * speeds);
-  // `pulled` [L/T] is five times the velocity that forces give the pair in a step. `rests` is true
-  // if the pair touched at the beginning of the step and neither approached nor opened faster than
-  // `unseen`, or, if it bore a load, approached no faster than `pulled`. Such a pair is hit only if
-  // it approaches faster than `pulled`, because slower hits would keep a packing shaking. A pair
-  // without load that opens still flies after an impact, also if its gap is below `touching`.
-  const double pulled = 5 * step_.h *
+  const double unseen =
+      std::max(Tuning::kUnseen * step_.touching / step_.h, Tuning::kRounding * speeds);
+  // `pulled` [L/T] is kPulled times the velocity that forces give the pair in a step. `rests` is
+  // true if the pair touched at the beginning of the step and neither approached nor opened faster
+  // than `unseen`, or, if it bore a load, approached no faster than `pulled`. Such a pair is hit
+  // only if it approaches faster than `pulled`, because slower hits would keep a packing shaking. A
+  // pair without load that opens still flies after an impact, also if its gap is below `touching`.
+  const double pulled = Tuning::kPulled * step_.h *
                         std::max({std::abs(dot(normal, acceleration(of.second))),
                                   std::abs(dot(normal, acceleration(of.first))), std::abs(pull)});
   const bool bore_load = of.impulse != 0 || of.gamma < 0;
@@ -338,22 +353,18 @@ void Impacts<D>::expect(std::size_t k, double from) {
   const auto& of = pair(k);
   if (is_given(of.first) && is_given(of.second)) return;
   const std::array versions = {version(of.first), version(of.second)};
-  if (!hits_of_.empty()) {
-    // A pair that has been hit so often in a step, or so often with a load, is not hit again,
-    // because impacts under load can follow each other without end.
-    constexpr int kMostHits = 1000, kMostUnderLoad = 30;
-    if (hits_of_[k] >= (of.impulse == 0 ? kMostHits : kMostUnderLoad)) return;
-  }
+  using Tuning = HitTuning;
+  if (!hits_of_.empty() &&
+      hits_of_[k] >= (of.impulse == 0 ? Tuning::kMostHits : Tuning::kMostUnderLoad))
+    return;
   const auto approach = approach_of(k);
   // Each pass searches from `begin` to the next jump of the obstacle's velocity or the step's end.
   for (double begin = from, end = 0; begin < step_.h; begin = end) {
-    // Each pass moves on by at least this part of the step, which is above rounding errors.
-    constexpr double kBeyondRounding = 1e-12;
     // A hit at the end of the step counts although rounding errors make it later.
-    end = (1 + kSameTime) * step_.h;
+    end = (1 + Tuning::kSameTime) * step_.h;
     if (approach.obstacle != nullptr)
       end = std::min(end, approach.obstacle->velocity.next_end(step_.begin + begin) - step_.begin);
-    end = std::max(end, begin + kBeyondRounding * step_.h);
+    end = std::max(end, begin + Tuning::kBeyondRounding * step_.h);
     const auto at = time_of_meeting(approach, begin, end);
     if (!at || !hit_at(k, std::min(*at, step_.h))) continue;
     expected_.push({std::min(*at, step_.h), k, versions});
@@ -369,7 +380,7 @@ void Impacts<D>::run() {
   while (!expected_.empty()) {
     const double time = expected_.top().time;
     std::vector<Hit> hits;
-    while (!expected_.empty() && expected_.top().time <= time + kSameTime * step_.h) {
+    while (!expected_.empty() && expected_.top().time <= time + HitTuning::kSameTime * step_.h) {
       const auto next = expected_.top();
       expected_.pop();
       const auto& of = pair(next.pair);

@@ -47,8 +47,8 @@ struct ImpactStep {
 /// with all contacts of connected particles that are hit at one time. Between impacts each
 /// particle, or the centre of its rigid body, flies on a parabola: with the acceleration a [L/T^2]
 /// by forces, its velocity at the time t of the step is u* + a (t - h/2), plus the changes by its
-/// impacts. A impact at t_c that changes it by d thus moves it by (h - t_c) d until the end. Bodies
-/// turn with a constant angular velocity between impacts.
+/// impacts. An impact at t_c that changes it by d thus moves it by (h - t_c) d until the end.
+/// Bodies turn with a constant angular velocity between impacts.
 ///
 /// A pair is hit when its gap closes. If it touches, it is hit if it approached before the step,
 /// or, if it bore a load, if it approaches faster than five times the velocity that forces give its

@@ -15,9 +15,28 @@
 namespace viscontact::particles {
 namespace {
 
-/// Smallest gap that the fitted mesh (FluidMesh::kFitted) resolves, divided by the radius of the
-/// smaller particle; docs/fluid.md repeats it. The narrower a gap, the more edges the mesh needs.
-constexpr double kLeastGapOfMesh = 1e-3;
+/// Free choices of the checks and of the default of the threshold gap.
+struct FluidStartTuning {
+  // Smallest gap that the fitted mesh (FluidMesh::kFitted) resolves, divided by the radius of the
+  // smaller particle; docs/fluid.md repeats it. The narrower a gap, the more edges the mesh needs.
+  static constexpr double kLeastGapOfMesh = 1e-3;
+  static constexpr double kDegree = std::numbers::pi / 180;
+  // The least angle of an arc between two overlaps, and the least angle of fluid between two
+  // circles. docs/fluid.md and the messages repeat both.
+  static constexpr double kLeastArc = 1 * kDegree, kLeastWedge = 20 * kDegree;
+  // Relative difference of numbers that count as equal, far above rounding errors.
+  static constexpr double kRounding = 1e-9;
+  // The limit of gaps_at_start() over the period minus the diameter, which must be less than 1.
+  static constexpr double kLess = 0.999;
+  // The least penalty that holds bodies and links. The forces that hold them are computed from
+  // velocities of the fluid, which have rounding errors of about 1e-15/penalty. The limit is
+  // measured: a body of seven touching discs was held with penalties down to 3e-11; with 1e-11 the
+  // step failed with constraints that seemed to contradict each other.
+  static constexpr double kLeastPenalty = 1e-10;
+  // The default of the threshold gap over the smallest radius, unless particles are closer to each
+  // other. A change alters results of cases without the key.
+  static constexpr double kOfRadius = 0.05;
+};
 
 /// The gap [L] at which the solids of rough particles touch, which is twice their roughness; 0 for
 /// smooth particles.
@@ -60,9 +79,6 @@ bool check_overlap(const ParticlesCase& c, const ParticleNames& names, std::size
   if (!chord_of(c.particles, k, other))
     fail("one of them is inside the other one, where it must be left out");
   const auto chords = chords_of(*c.setting.fluid, c.particles, k);
-  // The least angle of an arc between two overlaps. docs/fluid.md and the messages repeat it and
-  // kLeastWedge, the least angle of fluid between two circles, below.
-  constexpr double kDegree = std::numbers::pi / 180, kLeastArc = 1 * kDegree;
   for (std::size_t i = 0; i < chords.size(); ++i) {
     const auto &before = chords[i], &after = chords[(i + 1) % chords.size()];
     const double turn = i + 1 < chords.size() ? 0 : 2 * std::numbers::pi;
@@ -72,7 +88,7 @@ bool check_overlap(const ParticlesCase& c, const ParticleNames& names, std::size
           "{} has a part in common with both {} and {}, and each two of the three circles meet "
           "outside the third one, which the mesh does not join; move one of them or leave it out",
           names(k), names(before.other), names(after.other)));
-    if (arc < kLeastArc)
+    if (arc < FluidStartTuning::kLeastArc)
       fail(
           fmt::format("less than one degree of the circle of {} is between two of the others; the "
                       "mesh needs more",
@@ -80,12 +96,12 @@ bool check_overlap(const ParticlesCase& c, const ParticleNames& names, std::size
   }
   const auto chord = std::ranges::find(chords, other, &Chord::other);
   if (chord == chords.end()) return false;
-  constexpr double kLeastWedge = 20 * kDegree;
-  if (chord->wedge < kLeastWedge)
+  if (chord->wedge < FluidStartTuning::kLeastWedge)
     fail(
         fmt::format("the fluid where their circles meet is a wedge of {:.3g} degrees; the mesh "
                     "needs at least {:.0f}, for which the overlap must be deeper",
-                    chord->wedge / kDegree, kLeastWedge / kDegree));
+                    chord->wedge / FluidStartTuning::kDegree,
+                    FluidStartTuning::kLeastWedge / FluidStartTuning::kDegree));
   return true;
 }
 
@@ -120,7 +136,8 @@ void check_bodies(const case_file::TomlSection& root, const ParticlesCase& c,
                           "{} and {} of one body overlap across a side of the period, where the "
                           "mesh does not join them; another origin of the period avoids this",
                           names(other), names(k));
-        const double needed = kLeastGapOfMesh * std::min(p.radii[k], p.radii[other]);
+        const double needed =
+            FluidStartTuning::kLeastGapOfMesh * std::min(p.radii[k], p.radii[other]);
         if (gap < 0 && may_overlap(c, k, other)) {
           check_overlap(c, names, other, k);
           if (!check_overlap(c, names, k, other)) continue;
@@ -149,7 +166,7 @@ void check_bodies(const case_file::TomlSection& root, const ParticlesCase& c,
   for (std::size_t a = 0; a < c.setting.links.arms.size(); ++a) {
     const auto& arm = c.setting.links.arms[a];
     const double r1 = p.radii[index_of(arm.first)], r2 = p.radii[index_of(arm.second)];
-    const double least = r1 + r2 + kLeastGapOfMesh * std::min(r1, r2);
+    const double least = r1 + r2 + FluidStartTuning::kLeastGapOfMesh * std::min(r1, r2);
     const double shortest = least_length(arm.length, c.end_time);
     root.sections("arm")[a].require(shortest >= least, "length",
                                     "becomes {:.9g}; in a fluid it must leave a gap of at least a "
@@ -213,7 +230,6 @@ void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c,
   const auto& fluid = *c.setting.fluid;
   if (!fluid.has_inertia()) return;
   const auto& p = c.particles;
-  constexpr double kRounding = 1e-9;  // far above rounding errors
   for (std::size_t k = 0; k < p.count(); ++k) {
     if (is_driven(c, static_cast<std::int32_t>(k))) continue;
     if (!(p.masses[k] > 0))
@@ -230,7 +246,7 @@ void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c,
                       names(k));
     if (fluid.constraint == RigidConstraint::kRigid || p.inertias.empty()) continue;
     const double uniform = p.shape(k).inertia(p.masses[k]);
-    if (std::abs(p.inertias[k] - uniform) > kRounding * uniform)
+    if (std::abs(p.inertias[k] - uniform) > FluidStartTuning::kRounding * uniform)
       throw_bad_input(
           names.at(k),
           "{} has the moment of inertia {}; in a fluid with a density and constraint = \"penalty\" "
@@ -247,7 +263,8 @@ void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c,
       uniform += masses[m] * dot(body.offsets[m], body.offsets[m]) + p.shape(k).inertia(masses[m]);
     }
     root.sections("body")[b].require(
-        std::abs(body.inertia[8] - uniform) <= kRounding * uniform, "moment_of_inertia",
+        std::abs(body.inertia[8] - uniform) <= FluidStartTuning::kRounding * uniform,
+        "moment_of_inertia",
         "is {}; in a fluid with a density and constraint = \"penalty\" it must be that of uniform "
         "particles, {}, or the constraint \"rigid\"",
         body.inertia[8], uniform);
@@ -259,11 +276,11 @@ void check_side_of_cylinder(const ParticlesCase& c, const ParticleNames& names) 
   if (cylinder == nullptr || c.setting.fluid->mesh != FluidMesh::kFitted) return;
   for (std::size_t k = 0; k < c.particles.count(); ++k) {
     const double radius = c.particles.radii[k], gap = cylinder->radius - radius;
-    if (gap < kLeastGapOfMesh * radius)
+    if (gap < FluidStartTuning::kLeastGapOfMesh * radius)
       throw_bad_input(names.at(k),
                       "{} has a gap of {:.3g} to the side of the cylinder, which the mesh does not "
                       "resolve; it must be at least a thousandth of the radius, {:.3g}",
-                      names(k), gap, kLeastGapOfMesh * radius);
+                      names(k), gap, FluidStartTuning::kLeastGapOfMesh * radius);
   }
 }
 
@@ -281,9 +298,8 @@ void check_mean_flow(const case_file::TomlSection& root, const ParticlesCase& c)
                                "is 'fixed'; it must be \"fitted\" in a box that is periodic both "
                                "ways and sheared or strained, because a particle that the fixed "
                                "mesh cuts has a different velocity on the other side");
-  constexpr double kRounding = 1e-9;  // far above rounding errors
   root.section("viscous_contact")
-      .require(c.end_time <= (1 + kRounding) * c.setting.time_step, "end_time",
+      .require(c.end_time <= (1 + FluidStartTuning::kRounding) * c.setting.time_step, "end_time",
                "is {}; it must be at most time_step, {}, in a box that is periodic both ways and "
                "sheared or strained, because the cell of this version keeps its shape and gives "
                "instantaneous velocities only",
@@ -296,7 +312,7 @@ void check_arrangement(const case_file::TomlSection& root, const ParticlesCase& 
   if (!c.arrangement) return;
   const auto& fluid = *c.setting.fluid;
   const double gap = c.arrangement->smallest_gap;
-  const double least = kLeastGapOfMesh * std::ranges::min(c.arrangement->radii);
+  const double least = FluidStartTuning::kLeastGapOfMesh * std::ranges::min(c.arrangement->radii);
   const auto section = root.section("arrangement");
   section.require(!root.section("fluid").has("threshold_gap") || gap >= fluid.threshold_gap,
                   "smallest_gap",
@@ -321,11 +337,12 @@ void check_gap(const ParticlesCase& c, const ParticleNames& names, const StartGa
   const auto other = is_pair ? names(index_of(at.first))
                              : obstacle_name(c, static_cast<std::size_t>(-1 - at.first));
   const bool is_plane = !is_pair && other.starts_with("plane");
-  if (fluid.mesh == FluidMesh::kFitted && !is_plane && at.gap < kLeastGapOfMesh * radius)
+  if (fluid.mesh == FluidMesh::kFitted && !is_plane &&
+      at.gap < FluidStartTuning::kLeastGapOfMesh * radius)
     throw_bad_input(names.at(j),
                     "{} and {} have a gap of {:.3g} at the start, which the mesh does not resolve; "
                     "it must be at least a thousandth of the smaller radius, {:.3g}",
-                    other, names(j), at.gap, kLeastGapOfMesh * radius);
+                    other, names(j), at.gap, FluidStartTuning::kLeastGapOfMesh * radius);
   const double allowed = c.setting.solver.tolerance * mean_radius(p);
   if (at.gap < fluid.threshold_gap - allowed &&
       !(is_driven(c, at.first) && is_driven(c, at.second)))
@@ -340,22 +357,16 @@ void check_gap(const ParticlesCase& c, const ParticleNames& names, const StartGa
 /// The largest limit of gaps that gaps_at_start() accepts, but at most `asked` [L].
 double limit_within_periods(const ParticlesCase& c, double asked) {
   const double diameter = 2 * std::ranges::max(c.particles.radii);
-  // The limit must be less than the period minus the diameter.
-  constexpr double kLess = 0.999;
   for (const double period : periods_of(c.setting.domain))
-    if (period > 0) asked = std::min(asked, kLess * (period - diameter));
+    if (period > 0) asked = std::min(asked, FluidStartTuning::kLess * (period - diameter));
   return asked;
 }
 
-/// The forces that hold bodies and links are computed from velocities of the fluid, which have
-/// rounding errors of about 1e-15/penalty. The limit is measured: a body of seven touching discs
-/// was held with penalties down to 3e-11; with 1e-11 the step failed with constraints that seemed
-/// to contradict each other.
 void check_penalty(const case_file::TomlSection& root, const ParticlesCase& c) {
-  constexpr double kLeast = 1e-10;
   const auto& fluid = *c.setting.fluid;
   const auto has_members = [](const auto& body) { return body.members.size() > 1; };
-  if (fluid.constraint != RigidConstraint::kPenalty || fluid.penalty >= kLeast ||
+  if (fluid.constraint != RigidConstraint::kPenalty ||
+      fluid.penalty >= FluidStartTuning::kLeastPenalty ||
       (c.setting.links.empty() && std::ranges::none_of(c.particles.bodies.bodies, has_members)))
     return;
   root.section("fluid").fail(
@@ -363,17 +374,16 @@ void check_penalty(const case_file::TomlSection& root, const ParticlesCase& c) {
       "is {}; in a case with bodies or links it must be at least {}, because the forces that hold "
       "them follow from velocities with rounding errors of 1e-15/penalty. constraint = \"rigid\" "
       "has no penalty",
-      fluid.penalty, kLeast);
+      fluid.penalty, FluidStartTuning::kLeastPenalty);
 }
 
 }  // namespace
 
 void set_default_threshold_gap(ParticlesCase& c) {
   assert(c.setting.fluid && c.particles.count() > 0);
-  constexpr double kOfRadius = 0.05;  // a change alters results of cases without the key
   double smallest = std::ranges::min(c.particles.radii);
   for (const auto& shape : c.particles.shapes) smallest = std::min(smallest, shape.inner_radius());
-  const double longest = kOfRadius * smallest;
+  const double longest = FluidStartTuning::kOfRadius * smallest;
   double threshold = longest;
   for (const double period : periods_of(c.setting.domain))
     if (period > 0)
@@ -404,8 +414,9 @@ void check_fluid_start(const case_file::TomlSection& root, const ParticlesCase& 
   check_solver(root, c, names);
   check_inertia(root, c, names);
   check_side_of_cylinder(c, names);
-  const double limit = std::max(c.setting.fluid->threshold_gap,
-                                kLeastGapOfMesh * std::ranges::max(c.particles.radii));
+  const double limit =
+      std::max(c.setting.fluid->threshold_gap,
+               FluidStartTuning::kLeastGapOfMesh * std::ranges::max(c.particles.radii));
   for (const auto& at : gaps_at_start(c, limit_within_periods(c, limit))) check_gap(c, names, at);
 }
 

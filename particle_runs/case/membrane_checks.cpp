@@ -19,6 +19,36 @@
 namespace viscontact::particles {
 namespace {
 
+/// Free choices of the checks.
+struct MembraneCheckTuning {
+  // The least and the largest viscosity ratio. At smaller ones the solution is lost in rounding
+  // errors (1e-6 ends in errors of FreeFEM). At larger ones the error of the elements grows: the
+  // inclination of a membrane of reduced area 0.9 after half a time unit should hardly depend on
+  // such large ratios, but it differs by 0.002 rad between 1e2 and 1e3, and by 0.015 rad between
+  // 1e3 and 1e4.
+  static constexpr double kLeastRatio = 1e-4, kMostRatio = 1e3;
+  // The bending rigidity, over `scale` in check_in_fluid(), up to which a membrane may have few
+  // beads, and the least number of beads of a stiffer one. The lengths are kept, and stiff bending
+  // keeps the curve smooth; a curve of few beads can then hardly move along itself around the area
+  // inside, as it should in a shear flow. With 12 beads and 1000 times `scale` as the bending
+  // rigidity, the inclination is 0.43 rad, and 0.58 rad would be right. Both numbers are choices
+  // between such tests.
+  static constexpr double kStiff = 100;
+  static constexpr std::int32_t kBeadsOfStiff = 32;
+  // With three beads the distances, which are kept, would determine the shape.
+  static constexpr std::int32_t kLeastWithoutFluid = 4;
+  // If the membrane is flat, its sides lie on each other, and no motion changes its area, so that
+  // the equation of the area is singular.
+  static constexpr double kLeastReducedArea = 1e-3;
+  // The distances of given particles have the rounding errors of their positions.
+  static constexpr double kRounding = 1 + 1e-9;
+  // A membrane with the largest area that its distances allow can only move rigidly: the gradient
+  // of the area is then a linear combination of those of the distances, and the equations are
+  // singular. In a test, a membrane with 0.993 of the largest area still kept area and distances
+  // when a disc hit it.
+  static constexpr double kOfLargestArea = 0.993;
+};
+
 void check_case_without_fluid(const case_file::TomlSection& root, const ParticlesCase& c) {
   root.section("viscous_contact")
       .require(
@@ -115,31 +145,22 @@ double rate_of_deformation(const ParticlesCase& c) {
 void check_in_fluid(const case_file::TomlSection& section, const ParticlesCase& c) {
   assert(c.setting.fluid && !c.setting.fluid->membranes.empty());
   const auto& membrane = c.setting.fluid->membranes.back();
-  // At smaller viscosity ratios the solution is lost in rounding errors (1e-6 ends in errors of
-  // FreeFEM). At larger ones the error of the elements grows: the inclination of a membrane of
-  // reduced area 0.9 after half a time unit should hardly depend on such large ratios, but it
-  // differs by 0.002 rad between 1e2 and 1e3, and by 0.015 rad between 1e3 and 1e4.
-  constexpr double kLeast = 1e-4, kMost = 1e3;
-  section.require(membrane.viscosity_ratio >= kLeast && membrane.viscosity_ratio <= kMost,
+  section.require(membrane.viscosity_ratio >= MembraneCheckTuning::kLeastRatio &&
+                      membrane.viscosity_ratio <= MembraneCheckTuning::kMostRatio,
                   "inner_viscosity",
                   "is {:.6g} times the viscosity of the fluid outside; it must be from 1e-4 to 1e3 "
                   "times as large",
                   membrane.viscosity_ratio);
-  // The lengths are kept, and stiff bending keeps the curve smooth; a curve of few beads can then
-  // hardly move along itself around the area inside, as it should in a shear flow. With 12 beads
-  // and 1000 times `scale` as the bending rigidity, the inclination is 0.43 rad, and 0.58 rad would
-  // be right. kStiff and kBeadsOfStiff are choices between such tests.
-  constexpr double kStiff = 100;
-  constexpr std::int32_t kBeadsOfStiff = 32;
   const double scale = c.setting.fluid->viscosity * rate_of_deformation(c) *
                        std::pow(membrane.area / std::numbers::pi, 1.5);
-  section.require(membrane.count() >= kBeadsOfStiff ||
-                      membrane.bending_rigidity <= kStiff * scale || scale == 0,
-                  section.has("particles") ? "particles" : "beads",
-                  "makes {} beads, too few for so stiff a membrane: the bending rigidity is {:.3g} "
-                  "times viscosity, rate of deformation and R0^3, R0^2 = area/pi; from 100 on a "
-                  "membrane must have at least {} beads",
-                  membrane.count(), membrane.bending_rigidity / scale, kBeadsOfStiff);
+  section.require(
+      membrane.count() >= MembraneCheckTuning::kBeadsOfStiff ||
+          membrane.bending_rigidity <= MembraneCheckTuning::kStiff * scale || scale == 0,
+      section.has("particles") ? "particles" : "beads",
+      "makes {} beads, too few for so stiff a membrane: the bending rigidity is {:.3g} "
+      "times viscosity, rate of deformation and R0^3, R0^2 = area/pi; from 100 on a "
+      "membrane must have at least {} beads",
+      membrane.count(), membrane.bending_rigidity / scale, MembraneCheckTuning::kBeadsOfStiff);
 }
 
 void check_case_of_membranes(const case_file::TomlSection& root,
@@ -157,9 +178,7 @@ void check_given_beads(const case_file::TomlSection& section, const ParticlesCas
                        const Membrane& membrane) {
   const bool in_fluid = c.setting.fluid.has_value();
   const auto& p = c.particles;
-  // With three beads the distances, which are kept, would determine the shape.
-  constexpr std::int32_t kLeastWithoutFluid = 4;
-  const auto least = in_fluid ? kLeastBeads : kLeastWithoutFluid;
+  const auto least = in_fluid ? kLeastBeads : MembraneCheckTuning::kLeastWithoutFluid;
   section.require(membrane.count() >= least, "particles",
                   "has {} beads; a membrane {} must have at least {}", membrane.count(),
                   in_fluid ? "in a fluid" : "without a fluid", least);
@@ -192,21 +211,17 @@ void check_place(const case_file::TomlSection& section, const ParticlesCase& c) 
   const auto count = membrane.beads.size();
   check_width(section, membrane, own, c.setting.domain);
   section.require(!crosses_itself(own), shape, "makes a membrane that crosses itself");
-  // If the membrane is flat, its sides lie on each other, and no motion changes its area, so that
-  // the equation of the area is singular.
-  constexpr double kLeastReducedArea = 1e-3;
   const double reduced_area =
       4 * std::numbers::pi * membrane.area / (membrane.perimeter * membrane.perimeter);
-  section.require(reduced_area >= kLeastReducedArea, shape,
+  section.require(reduced_area >= MembraneCheckTuning::kLeastReducedArea, shape,
                   "makes a flat membrane, with the reduced area {:.3g}; it must be at least {}",
-                  reduced_area, kLeastReducedArea);
+                  reduced_area, MembraneCheckTuning::kLeastReducedArea);
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = i + 2; j < count; ++j) {
       const auto a = index_of(membrane.beads[i]), b = index_of(membrane.beads[j]);
       const double distance = std::hypot(own[2 * i] - own[2 * j], own[2 * i + 1] - own[2 * j + 1]);
-      // The distances of given particles have the rounding errors of their positions.
-      constexpr double kRounding = 1 + 1e-9;
-      section.require((i == 0 && j + 1 == count) || distance * kRounding >= p.radii[a] + p.radii[b],
+      section.require((i == 0 && j + 1 == count) ||
+                          distance * MembraneCheckTuning::kRounding >= p.radii[a] + p.radii[b],
                       shape,
                       "makes particles {} and {} overlap across the membrane; its area must be "
                       "larger, or its beads smaller",
@@ -217,18 +232,13 @@ void check_place(const case_file::TomlSection& section, const ParticlesCase& c) 
       !c.setting.fluid || (reduced_area > 0.2999 && reduced_area < 0.99901), shape,
       "makes a membrane of the reduced area {:.6g}; in a fluid it must be from 0.3 to 0.999",
       reduced_area);
-  // A membrane with the largest area that its distances allow can only move rigidly: the gradient
-  // of the area is then a linear combination of those of the distances, and the equations are
-  // singular. In a test, a membrane with 0.993 of the largest area still kept area and distances
-  // when a disc hit it.
-  constexpr double kOfLargestArea = 0.993;
   if (!c.setting.fluid && membrane.keeps_area) {
     const double largest = largest_area(membrane.lengths);
-    section.require(membrane.area <= kOfLargestArea * largest, shape,
+    section.require(membrane.area <= MembraneCheckTuning::kOfLargestArea * largest, shape,
                     "makes a membrane of the area {:.6g}, and the largest one that its beads can "
                     "enclose is {:.6g}; it must be at most {} of this one, with which it can "
                     "change its shape, or inner_area must be \"free\"",
-                    membrane.area, largest, kOfLargestArea);
+                    membrane.area, largest, MembraneCheckTuning::kOfLargestArea);
   }
   const auto periods = periods_of(c.setting.domain);
   for (std::size_t m = 0; m + 1 < membranes.size(); ++m) {

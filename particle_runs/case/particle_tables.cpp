@@ -199,8 +199,8 @@ void particle_keys(case_file::Keys& keys, ParticleTable& p, const ParticlesCase&
 }
 
 /// Sets angle, angular velocity and moment of inertia of the last particle of a case without a
-/// fluid. The first table with a shape or one of kKeysOfRotation makes all particles turn; those before it get
-/// the defaults of add_rotation().
+/// fluid. The first table with a shape or one of kKeysOfRotation makes all particles turn; those
+/// before it get the defaults of add_rotation().
 void add_rotation_of_last(const case_file::TomlSection& section, const ParticleTable& table,
                           Particles& p) {
   const bool is_turned =

@@ -206,8 +206,8 @@ auto column(const Declaration& declaration) {
   }(declaration, kMember);
 }
 
-/// The columns of a kind of row that an output has; frames have no texts. First come those of `first`, in this order,
-/// then the others in the order of `all`.
+/// The columns of a kind of row that an output has; frames have no texts. First come those of
+/// `first`, in this order, then the others in the order of `all`.
 template <class AnyColumn>
 std::vector<const AnyColumn*> columns_in(Output output, const std::vector<AnyColumn>& all,
                                          const RunFacts& run,

@@ -43,16 +43,16 @@ Vector force_of(const CurrentContact& contact) {
 }
 
 /// Calls `visit` for each contact of the last step, and for each contact of the collisions in it
-/// (State::impacts), whose impulse is divided by the length of the step. The arguments are the
-/// number of the first particle, or -1 - k for obstacle k; the mean force on the second particle [M
-/// L/T^2]; and the branch [L], the vector to the centre of the second particle from that of the
-/// first or from the nearest point of the obstacle.
+/// (State::impact_impulses), whose impulse is divided by the length of the step. The arguments are
+/// the number of the first particle, or -1 - k for obstacle k; the mean force on the second
+/// particle [M L/T^2]; and the branch [L], the vector to the centre of the second particle from
+/// that of the first or from the nearest point of the obstacle.
 template <class Visit>
 void for_forces(const Setting& setting, const State& state, const Visit& visit) {
-  assert(state.impacts.empty() || state.earlier_step > 0);
+  assert(state.impact_impulses.empty() || state.earlier_step > 0);
   for (const auto& contact : contacts_of(setting, state))
     visit(contact.first, force_of(contact), contact.branch);
-  for (const auto& impact : state.impacts)
+  for (const auto& impact : state.impact_impulses)
     visit(impact.first, (1 / state.earlier_step) * impact.impulse, impact.branch);
 }
 

@@ -23,8 +23,8 @@ struct TimeTable {
                       std::span<const double> force_errors);
 };
 
-/// bodies.csv, hinges.csv, springs.csv, arms.csv and membranes.csv of a run, without those for which
-/// the case has nothing.
+/// bodies.csv, hinges.csv, springs.csv, arms.csv and membranes.csv of a run, without those for
+/// which the case has nothing.
 std::vector<TimeTable> time_tables(const Setting& setting, const Particles& particles);
 
 /// The tables of docs/file-formats.md with their columns.

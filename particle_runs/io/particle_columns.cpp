@@ -83,9 +83,10 @@ std::vector<Column<ParticleRow>> make_particle_columns() {
                   [](const ParticleRow& row) { return row.particles.position(row.k); }),
       of_particle({"velocity", "L/T", "of the centre", {}, "v"},
                   [](const ParticleRow& row) { return row.particles.velocity(row.k); }),
-      of_particle({"radius", "L", "of an ellipse or a plate the larger semi-axis",
-                   except_over_time(kAlways)},
-                  [](const ParticleRow& row) { return row.particles.radii[row.k]; }),
+      of_particle(
+          {"radius", "L", "half of the length of a plate, the larger semi-axis of an ellipse",
+           except_over_time(kAlways)},
+          [](const ParticleRow& row) { return row.particles.radii[row.k]; }),
       of_particle({"mass", "M", "", {.over_time = kNever, .frames = kWithMass}},
                   [](const ParticleRow& row) { return row.particles.masses[row.k]; }),
       of_particle({"angle", "", "in radians, counter-clockwise", everywhere(kDiscsTurn)},

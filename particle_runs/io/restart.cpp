@@ -41,8 +41,8 @@ struct StoredArrays {
   /// each with a line break, `memories` for each name one number for each pair and wall.
   std::vector<char> names;
   std::vector<double> memories;
-  // The members of State::impacts, in an array for each, because ImpactImpulse has bytes without a
-  // value, which would change the hash of the file.
+  // The members of State::impact_impulses, in an array for each, because ImpactImpulse has bytes
+  // without a value, which would change the hash of the file.
   std::vector<std::int32_t> impact_firsts;
   std::vector<Vector> impact_impulses, impact_branches;
   std::vector<std::int32_t> given_particles;
@@ -168,7 +168,7 @@ bool take_impacts(const StoredArrays& arrays, State& state) {
                                arrays.impact_branches[k]};
     if (impact.first >= 0 && index_of(impact.first) >= state.particles.count()) return false;
     if (!is_finite(impact.impulse) || !is_finite(impact.branch)) return false;
-    state.impacts.push_back(impact);
+    state.impact_impulses.push_back(impact);
   }
   return true;
 }
@@ -336,7 +336,7 @@ std::string write_restart(const State& state) {
   clear_zeros(arrays.frictions);
   clear_zeros(arrays.solid_load);
   for (const auto& body : state.particles.bodies.bodies) arrays.bodies.push_back(body);
-  for (const auto& impact : state.impacts) {
+  for (const auto& impact : state.impact_impulses) {
     arrays.impact_firsts.push_back(impact.first);
     arrays.impact_impulses.push_back(impact.impulse);
     arrays.impact_branches.push_back(impact.branch);

@@ -16,6 +16,14 @@
 namespace viscontact::particles {
 namespace {
 
+/// Free choices of the drawing.
+struct FramePictureTuning {
+  // Least radius of a dot that is seen [page units].
+  static constexpr double kSmallest = 0.5;
+  // With 240 sides the polygon differs from the circle by less than 1e-4 of the radius.
+  static constexpr int kSides = 240;
+};
+
 /// Calls visit(k, centre) for each particle k that is drawn: with its own centre [L] and with those
 /// of its periodic images.
 template <class Visit>
@@ -138,7 +146,6 @@ std::string disc(const PanelSettings& panel, const Frame& frame, std::size_t k, 
 /// Draws dots that show how far discs and ellipses have turned, in the direction of the particle's
 /// angle. Very small particles have none. Empty if the frame has no angles.
 std::string angle_marks(const PanelSettings& panel, const Frame& frame) {
-  constexpr double kSmallest = 0.5;  // least radius of a dot that is seen [page units]
   if (frame.angles.size() != panel.scene.playback.radii.size()) return "";
   std::string text;
   for_each_image(panel, frame, [&](std::size_t k, const Vector& centre) {
@@ -146,7 +153,7 @@ std::string angle_marks(const PanelSettings& panel, const Frame& frame) {
     if (!shapes.empty() && shapes[k].sides() > 0) return;  // the sides show the direction
     const double r = shapes.empty() ? panel.scene.playback.radii[k] : shapes[k].semi_axes()[0];
     const double angle = frame.angles[k];
-    if (kStyle.mark_radius * r * panel.view.scale >= kSmallest)
+    if (kStyle.mark_radius * r * panel.view.scale >= FramePictureTuning::kSmallest)
       text += circle(
           panel, centre + kStyle.mark_distance * r * Vector{std::cos(angle), std::sin(angle), 0},
           kStyle.mark_radius * r);
@@ -157,10 +164,9 @@ std::string angle_marks(const PanelSettings& panel, const Frame& frame) {
 /// Dots at the ends of the three axes that turn with sphere k, on the side that the reader sees.
 /// The text is empty if the frame has no orientations or if the sphere is too small.
 std::string orientation_marks(const PanelSettings& panel, const Frame& frame, std::size_t k) {
-  constexpr double kSmallest = 0.5;  // least radius of a dot that is seen [page units]
   const double r = panel.scene.playback.radii[k];
   if (frame.orientations.size() != 4 * panel.scene.playback.radii.size() ||
-      kStyle.axis_radius * r * panel.view.scale < kSmallest)
+      kStyle.axis_radius * r * panel.view.scale < FramePictureTuning::kSmallest)
     return "";
   const float* q = &frame.orientations[4 * k];
   const double w = q[0], x = q[1], y = q[2], z = q[3];
@@ -242,12 +248,10 @@ std::string path_of(const Polygon& polygon, const Projection& view) {
   return path;
 }
 
-/// With 240 sides the polygon differs from the circle by less than 1e-4 of the radius.
 Polygon circle_polygon(const PlanePosition& place) {
-  constexpr int kSides = 240;
   Polygon polygon;
-  for (int k = 0; k < kSides; ++k) {
-    const double angle = 2 * std::numbers::pi * k / kSides;
+  for (int k = 0; k < FramePictureTuning::kSides; ++k) {
+    const double angle = 2 * std::numbers::pi * k / FramePictureTuning::kSides;
     polygon.push_back(place.point + place.radius * Vector{std::cos(angle), std::sin(angle), 0});
   }
   return polygon;

@@ -14,6 +14,20 @@
 namespace viscontact::particles {
 namespace {
 
+/// Free choices of what a page shows.
+struct PageDataTuning {
+  // The largest step, divided by the smallest radius, with which coordinates take two bytes.
+  static constexpr double kSmall = 0.02;
+  // The largest size of a page [bytes], and the largest number of particles that it shows.
+  static constexpr std::size_t kMostBytes = 24'000'000, kMostParticles = 200'000;
+  static constexpr std::size_t kRest = 200'000;  // bytes, more than script, style and words have
+  // The largest numbers of characters that a hinge, and the two numbers of a spring or arm, take.
+  static constexpr std::size_t kHinge = 80, kEnds = 16;
+  // The page interpolates between the points of the grid. Therefore points up to three layers
+  // outside the flow get the mean of their neighbours.
+  static constexpr int kLayers = 3;
+};
+
 // The script reads the numbers as little-endian.
 static_assert(std::endian::native == std::endian::little);
 
@@ -32,9 +46,7 @@ void append_short(Bytes& bytes, std::uint32_t value) {
 }
 
 void choose_position_bytes(PageData& data, const Playback& playback) {
-  // kSteps is the largest 16-bit number. kSmall is the largest step, divided by the smallest
-  // radius, with which coordinates take two bytes.
-  constexpr double kSteps = 65535, kSmall = 0.02;
+  constexpr double kSteps = 65535;  // the largest 16-bit number
   const auto dimension = static_cast<std::size_t>(playback.dimension);
   for (std::size_t d = 0; d < dimension; ++d) {
     Interval reach;
@@ -49,7 +61,8 @@ void choose_position_bytes(PageData& data, const Playback& playback) {
   const double largest_step =
       *std::max_element(data.step.begin(), data.step.begin() + playback.dimension);
   // With an infinite position the step is not finite: the comparison fails, and floats are used.
-  if (smallest == playback.radii.end() || largest_step <= kSmall * *smallest) return;
+  if (smallest == playback.radii.end() || largest_step <= PageDataTuning::kSmall * *smallest)
+    return;
   data.position_bytes = 4;
   data.low = {0, 0, 0};
   data.step = {1, 1, 1};
@@ -169,13 +182,11 @@ std::size_t numbers_of_turn(const Playback& playback) {
 }
 
 /// Chooses the frames and particles, and whether contacts are shown, so that the page has at most
-/// kMostBytes and kMostParticles. `other_bytes` is the size of the flow in base64. If the other
+/// the allowed bytes and particles. `other_bytes` is the size of the flow in base64. If the other
 /// numbers of two frames are too many, the page is larger.
 Contacts choose_content(PageData& data, const Scene& scene, std::size_t other_bytes) {
   const auto& playback = scene.playback;
-  constexpr std::size_t kMostBytes = 24'000'000, kMostParticles = 200'000;
-  constexpr std::size_t kRest = 200'000;  // bytes, more than script, style and words have
-  data.every_particle = playback.radii.size() / (kMostParticles + 1) + 1;
+  data.every_particle = playback.radii.size() / (PageDataTuning::kMostParticles + 1) + 1;
   const auto particles = (playback.radii.size() + data.every_particle - 1) / data.every_particle;
   const auto planes = playback.frames.empty() ? 0 : playback.frames.front().planes.size();
   const auto positions =
@@ -193,22 +204,20 @@ Contacts choose_content(PageData& data, const Scene& scene, std::size_t other_by
                            four(!playback.ids.empty()) + four(!playback.bodies.empty()) +
                            four(are_added) + 2 * four(!playback.shapes.empty()) +
                            bytes_of_corners(playback);
-  // The largest numbers of characters that a hinge, and the two numbers of a spring or arm, take.
-  constexpr std::size_t kHinge = 80, kEnds = 16;
   const auto& links = playback.links;
-  const auto of_links =
-      links.hinges.size() * kHinge + (links.springs.size() + links.arms.size()) * kEnds;
+  const auto of_links = links.hinges.size() * PageDataTuning::kHinge +
+                        (links.springs.size() + links.arms.size()) * PageDataTuning::kEnds;
   for (std::size_t every = 1;; every *= 2) {
     choose_frames(data, playback, every);
-    const auto others = kRest + other_bytes + data.frames.size() * bytes_of_frame +
+    const auto others = PageDataTuning::kRest + other_bytes + data.frames.size() * bytes_of_frame +
                         base64_size(particles * of_particle) + of_links;
     const bool last = data.frames.size() <= 2;
-    if (others > kMostBytes && !last) continue;
+    if (others > PageDataTuning::kMostBytes && !last) continue;
     auto contacts = contacts_of(scene, data);
     const auto size = others + base64_size(contacts.pairs.size()) +
                       base64_size(contacts.images.size()) + base64_size(contacts.offsets.size()) +
                       base64_size(contacts.frames.size());
-    if (size <= kMostBytes) return contacts;
+    if (size <= PageDataTuning::kMostBytes) return contacts;
     if (!last) continue;
     data.contacts = false;
     return contacts_of(scene, data);
@@ -259,11 +268,9 @@ template <class Share>
 void append_levels(Bytes& bytes, const std::vector<float>& field, std::size_t columns,
                    const Share& share) {
   assert(columns > 0);
-  // The page interpolates between the points of the grid. Therefore points up to three layers
-  // outside the flow get the mean of their neighbours.
-  constexpr int kLayers = 3;
   std::vector<double> values(field.begin(), field.end());
-  for (int layer = 0; layer < kLayers; ++layer) report::fill_next_to_known(values, columns);
+  for (int layer = 0; layer < PageDataTuning::kLayers; ++layer)
+    report::fill_next_to_known(values, columns);
   for (const double value : values)
     bytes.push_back(std::isnan(value) ? kNothing
                                       : static_cast<unsigned char>(std::lround(

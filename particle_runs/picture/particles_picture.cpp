@@ -17,8 +17,29 @@
 namespace viscontact::particles {
 namespace {
 
-// Width of the picture, largest height of all panels, margin, title and caption.
-constexpr double kPictureWidth = 1000, kMostHeight = 900, kEdge = 16, kTitle = 44, kCaption = 30;
+/// Free choices of the picture, by eye.
+struct StillPictureTuning {
+  // Width of the picture, largest height of all panels, margin, title and caption.
+  static constexpr double kPictureWidth = 1000, kMostHeight = 900, kEdge = 16, kTitle = 44,
+                          kCaption = 30;
+  // Width over height of all panels.
+  static constexpr double kSlide = 2.2;
+  // Height and width of the bar of a scale of colours, and height of a scale with its numbers and
+  // words.
+  static constexpr int kBarHeight = 12;
+  static constexpr double kBar = 360, kHeightOfBars = 60;
+  // Two scales stand beside each other; the words of more scales would not fit in the width.
+  static constexpr std::size_t kBarsInRow = 2;
+  // Number of colours of the speed.
+  static constexpr int kBands = 20;
+  // Points of a line that are nearer than this to the last one could not be seen.
+  static constexpr double kNear = 0.5;
+  // Length of an arrowhead and half its width.
+  static constexpr double kLength = 5, kHalfWidth = 2.2;
+  // In a panel, more particles or points of a flow could not be told apart. If the web page shows
+  // flows on more points, the picture takes as many.
+  static constexpr std::size_t kMostInPanel = 20000, kPointsOfFlow = 50000;
+};
 
 /// The indices of the frames that are drawn, increasing: those whose times are nearest to evenly
 /// spaced times, each once. Empty without frames.
@@ -44,13 +65,13 @@ std::vector<std::size_t> chosen_frames(const Playback& playback, int panels) {
 /// With this number of columns all panels together are about as wide as a slide.
 int columns_for(int panels, double width_over_height) {
   assert(panels >= 1);
-  constexpr double kSlide = 2.2;  // width over height of all panels
   int best = 1;
   double least = std::numeric_limits<double>::infinity();
   for (int columns = 1; columns <= panels; ++columns) {
     const int rows = (panels + columns - 1) / columns;
     const double misfit =
-        std::abs(std::log(columns * width_over_height / rows / kSlide)) + (rows * columns - panels);
+        std::abs(std::log(columns * width_over_height / rows / StillPictureTuning::kSlide)) +
+        (rows * columns - panels);
     if (misfit < least) {
       least = misfit;
       best = columns;
@@ -61,26 +82,24 @@ int columns_for(int panels, double width_over_height) {
 
 /// The upper left corner of the bar is (left, top); numbers and words are below the bar.
 std::string picture_of(const report::ColourScale& bar, double left, double top, double width) {
+  using Tuning = StillPictureTuning;
   assert(!bar.colours.empty());
-  constexpr int kHeight = 12;  // [page units]
   std::string text;
   const double step = width / static_cast<double>(bar.colours.size());
   for (std::size_t c = 0; c < bar.colours.size(); ++c)
     text += fmt::format(
         "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{}\" fill=\"{}\"/>\n",
         left + static_cast<double>(c) * step, top, step + (c + 1 < bar.colours.size() ? 0.3 : 0),
-        kHeight, bar.colours[c]);
+        Tuning::kBarHeight, bar.colours[c]);
   text += "<g font-size=\"12\" text-anchor=\"middle\">\n";
   for (const auto& [share, number] : bar.ticks)
     text += fmt::format(
         "<path d=\"M{0:.2f} {1:.2f}v4\" stroke=\"#333\"/>"
         "<text x=\"{0:.2f}\" y=\"{2:.2f}\">{3}</text>\n",
-        left + width * share, top + kHeight, top + kHeight + 16, number);
+        left + width * share, top + Tuning::kBarHeight, top + Tuning::kBarHeight + 16, number);
   return text + fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\">{}</text></g>\n", left + width / 2,
-                            top + kHeight + 34, bar.words);
+                            top + Tuning::kBarHeight + 34, bar.words);
 }
-
-constexpr int kBands = 20;  // number of colours of the speed
 
 /// The speed as a field on triangles, for level lines. One more ring of points surrounds the grid.
 /// Its points have the places of the outermost points of the grid, but the speed -1, so that level
@@ -112,15 +131,16 @@ report::LinearField closed_field(const report::Grid& grid, const FlowFrame& fram
   return field;
 }
 
-/// Appends a line [L] to an SVG path. Points nearer than kNear to the last appended point are left
-/// out, because they could not be seen, but never the first and the last point.
+/// Appends a line [L] to an SVG path. Points that are too near to the last appended point are
+/// left out, because they could not be seen, but never the first and the last point.
 void append_path(std::string& path, const report::Polyline& line, const Projection& view) {
-  constexpr double kNear = 0.5;
   double last_x = 0, last_y = 0;
   for (std::size_t i = 0; i < line.size(); ++i) {
     const Vector at = {line[i].first, line[i].second, 0};
     const double x = view.x(at), y = view.y(at);
-    if (i > 0 && i + 1 < line.size() && std::hypot(x - last_x, y - last_y) < kNear) continue;
+    if (i > 0 && i + 1 < line.size() &&
+        std::hypot(x - last_x, y - last_y) < StillPictureTuning::kNear)
+      continue;
     path += fmt::format("{}{:.1f} {:.1f}", i == 0 ? "M" : "L", x, y);
     last_x = x;
     last_y = y;
@@ -130,15 +150,15 @@ void append_path(std::string& path, const report::Polyline& line, const Projecti
 /// SVG path of an arrowhead with its tip at point number `at` of a line [L], in the direction of
 /// the line; empty if this point and the point before it have the same place.
 std::string arrow_head(const report::Polyline& line, std::size_t at, const Projection& view) {
+  using Tuning = StillPictureTuning;
   assert(at >= 1 && at < line.size());
-  constexpr double kLength = 5, kHalfWidth = 2.2;  // [page units]
   const Vector tip = {line[at].first, line[at].second, 0};
   const Vector tail = {line[at - 1].first, line[at - 1].second, 0};
   const double x = view.x(tip), y = view.y(tip), dx = x - view.x(tail), dy = y - view.y(tail);
   const double length = std::hypot(dx, dy);
   if (!(length > 0)) return "";
-  const double a = kLength * dx / length, b = kLength * dy / length;
-  const double c = -kHalfWidth * dy / length, d = kHalfWidth * dx / length;
+  const double a = Tuning::kLength * dx / length, b = Tuning::kLength * dy / length;
+  const double c = -Tuning::kHalfWidth * dy / length, d = Tuning::kHalfWidth * dx / length;
   return fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z", x, y, x - a + c, y - b + d,
                      x - a - c, y - b - d);
 }
@@ -153,13 +173,16 @@ std::string half_picture(const FlowFrames& flows, const FlowFrame& frame, const 
       top, view.scale * window.width(), view.scale * window.height(), report::speed_colour(0));
   const auto speed = closed_field(flows.grid, frame);
   if (flows.top_speed > 0)
-    for (int band = 1; band < kBands; ++band) {
+    for (int band = 1; band < StillPictureTuning::kBands; ++band) {
       std::string path;
-      for (const auto& line : report::level_lines(speed, flows.top_speed * band / kBands))
+      for (const auto& line :
+           report::level_lines(speed, flows.top_speed * band / StillPictureTuning::kBands))
         append_path(path, line, view);
       if (!path.empty())
-        text += fmt::format("<path fill=\"{}\" fill-rule=\"evenodd\" d=\"{}\"/>\n",
-                            report::speed_colour(static_cast<double>(band) / (kBands - 1)), path);
+        text += fmt::format(
+            "<path fill=\"{}\" fill-rule=\"evenodd\" d=\"{}\"/>\n",
+            report::speed_colour(static_cast<double>(band) / (StillPictureTuning::kBands - 1)),
+            path);
     }
   std::string lines, arrows;
   for (const auto& line : frame.lines) {
@@ -220,9 +243,11 @@ std::string opening(const std::string& title, double height, bool has_bodies) {
       "<title>{2}</title>\n<defs>{5}{6}</defs>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
       "<text x=\"{3:.0f}\" y=\"29\" font-size=\"{4:.1f}\" text-anchor=\"middle\">{2}</text>\n",
-      kPictureWidth, height, report::escaped(title), kPictureWidth / 2,
+      StillPictureTuning::kPictureWidth, height, report::escaped(title),
+      StillPictureTuning::kPictureWidth / 2,
       // A long title has a smaller font. A character is on average half as wide as high.
-      std::min(20.0, 2 * (kPictureWidth - 2 * kEdge) / static_cast<double>(title.size() + 1)),
+      std::min(20.0, 2 * (StillPictureTuning::kPictureWidth - 2 * StillPictureTuning::kEdge) /
+                         static_cast<double>(title.size() + 1)),
       gradient("ball", kStyle.ball), has_bodies ? gradient("body", kStyle.ball_of_body) : "");
 }
 
@@ -232,13 +257,14 @@ std::string panels_of(const PanelSettings& panel, const std::vector<std::size_t>
   const auto& units = panel.scene.playback.units;
   std::string text;
   // If the height limits the scale, the panels do not fill the width and stand apart.
-  const double place = kPictureWidth / columns;
+  const double place = StillPictureTuning::kPictureWidth / columns;
   for (int i = 0; i < static_cast<int>(chosen.size()); ++i) {
     const auto f = chosen[static_cast<std::size_t>(i)];
     const auto& frame = panel.scene.playback.frames[f];
     const int row = i / columns;
     const double left = place * (i % columns) + (place - panel.width) / 2;
-    const double top = kTitle + row * (panel.height + kCaption);
+    const double top =
+        StillPictureTuning::kTitle + row * (panel.height + StillPictureTuning::kCaption);
     text += fmt::format(
         "<svg x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\">\n{}"
         "<rect width=\"100%\" height=\"100%\" fill=\"none\" stroke=\"#ccc\"/>\n</svg>\n"
@@ -256,29 +282,29 @@ std::string panels_of(const PanelSettings& panel, const std::vector<std::size_t>
 
 std::string particles_picture(const Playback& original, const std::string& title, int panels,
                               const FlowFrames* known) {
-  // In a panel, more particles or points of a flow could not be told apart. If the web page shows
-  // flows on more points, the picture takes as many, so that it can use `known`.
-  constexpr std::size_t kMostInPanel = 20000, kPointsOfFlow = 50000;
+  using Tuning = StillPictureTuning;
   const auto chosen = chosen_frames(original, panels);
   const int count = static_cast<int>(chosen.size());
-  const auto scene =
-      scene_of(original, chosen, chosen, std::max(kPointsOfFlow, shown_flows(original).points),
-               known != nullptr ? *known : FlowFrames{});
+  // The picture has at least as many points as the flows of the web page, so that it can use
+  // `known`.
+  const auto scene = scene_of(original, chosen, chosen,
+                              std::max(Tuning::kPointsOfFlow, shown_flows(original).points),
+                              known != nullptr ? *known : FlowFrames{});
   PanelSettings panel{.scene = scene,
                       .view = view_of(scene.playback.dimension),
-                      .every = scene.playback.radii.size() / (kMostInPanel + 1) + 1};
+                      .every = scene.playback.radii.size() / (Tuning::kMostInPanel + 1) + 1};
   const auto [wide, high] = show_box(panel.view, scene.box);
   const int columns = columns_for(std::max(count, 1), wide / high);
   const int rows = (count + columns - 1) / columns;
   auto& scale = panel.view.scale;
-  scale = (kPictureWidth - (columns + 1) * kEdge) / (columns * wide);
-  if (rows > 0) scale = std::min(scale, (kMostHeight / rows - kCaption) / high);
+  scale = (Tuning::kPictureWidth - (columns + 1) * Tuning::kEdge) / (columns * wide);
+  if (rows > 0) scale = std::min(scale, (Tuning::kMostHeight / rows - Tuning::kCaption) / high);
   panel.width = scale * wide;
   panel.height = scale * high;
-  const double bottom = kTitle + rows * (panel.height + kCaption) + 6;
+  const double bottom = Tuning::kTitle + rows * (panel.height + Tuning::kCaption) + 6;
   std::vector<report::ColourScale> bars;
   if (scene.flows.top_speed > 0) {
-    bars.push_back(report::speed_scale(scene.flows.top_speed, kBands,
+    bars.push_back(report::speed_scale(scene.flows.top_speed, Tuning::kBands,
                                        scene.playback.units.unit_or_dimension(0, 1, -1)));
     bars.back().words += "; equal flow between streamlines";
   }
@@ -295,28 +321,26 @@ std::string particles_picture(const Playback& original, const std::string& title
   if (scene.slides) say("contacts that slide are orange");
   if (has_films && scene.touches && !has_friction) say("contacts without a film are grey");
   const double top_of_bars = bottom + (words.empty() ? 0 : 16);
-  constexpr double kHeightOfBars = 60;  // of a scale with its numbers and words [page units]
-  // Two scales stand beside each other; the words of more scales would not fit in the width.
-  constexpr std::size_t kBarsInRow = 2;
-  const auto rows_of_bars = (bars.size() + kBarsInRow - 1) / kBarsInRow;
-  auto svg = opening(title, top_of_bars + kHeightOfBars * static_cast<double>(rows_of_bars),
+  const auto rows_of_bars = (bars.size() + Tuning::kBarsInRow - 1) / Tuning::kBarsInRow;
+  auto svg = opening(title, top_of_bars + Tuning::kHeightOfBars * static_cast<double>(rows_of_bars),
                      !scene.playback.bodies.empty());
   svg += panels_of(panel, chosen, columns);
   if (panel.every > 1)
     svg += fmt::format(
         "<text x=\"{:.0f}\" y=\"{:.2f}\" font-size=\"11\" text-anchor=\"end\">one particle in {} "
         "is drawn</text>\n",
-        kPictureWidth - kEdge, bottom + 4, panel.every);
+        Tuning::kPictureWidth - Tuning::kEdge, bottom + 4, panel.every);
   if (!words.empty())
-    svg += fmt::format("<text x=\"{:.0f}\" y=\"{:.2f}\" font-size=\"12\">{}</text>\n", kEdge,
-                       bottom + 4, words);
-  constexpr double kBar = 360;  // width of a scale of colours [page units]
+    svg += fmt::format("<text x=\"{:.0f}\" y=\"{:.2f}\" font-size=\"12\">{}</text>\n",
+                       Tuning::kEdge, bottom + 4, words);
   for (std::size_t b = 0; b < bars.size(); ++b) {
-    const auto row = b / kBarsInRow, in_row = std::min(kBarsInRow, bars.size() - kBarsInRow * row);
-    const double middle =
-        kPictureWidth * (static_cast<double>(b % kBarsInRow) + 0.5) / static_cast<double>(in_row);
-    svg += picture_of(bars[b], middle - kBar / 2,
-                      top_of_bars + kHeightOfBars * static_cast<double>(row), kBar);
+    const auto row = b / Tuning::kBarsInRow,
+               in_row = std::min(Tuning::kBarsInRow, bars.size() - Tuning::kBarsInRow * row);
+    const double middle = Tuning::kPictureWidth *
+                          (static_cast<double>(b % Tuning::kBarsInRow) + 0.5) /
+                          static_cast<double>(in_row);
+    svg += picture_of(bars[b], middle - Tuning::kBar / 2,
+                      top_of_bars + Tuning::kHeightOfBars * static_cast<double>(row), Tuning::kBar);
   }
   return svg + "</svg>\n";
 }

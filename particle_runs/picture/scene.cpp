@@ -15,6 +15,29 @@
 namespace viscontact::particles {
 namespace {
 
+/// Free choices of the scene.
+struct SceneTuning {
+  // Largest distance of a plane that is shown, over the longest side of the box.
+  static constexpr double kNear = 0.5;
+  // If all particles cover more than 1.5 times the interval that the central ones cover, some have
+  // flown away.
+  static constexpr double kFlownAway = 1.5;
+  // If the domain is more than this many times as large as the box of the particles, the whole
+  // domain is not shown, because the particles would be too small.
+  static constexpr double kTooLarge = 16;
+  // Margin, and least length of a side, over the longest side of the box.
+  static constexpr double kMargin = 0.04, kFlattest = 0.15;
+  // Largest number of values of each frame, enough for quantiles.
+  static constexpr std::size_t kOfFrame = 4000;
+  // About how many streamlines a picture has.
+  static constexpr int kLines = 18;
+  // Largest number of flows on the page, and of the points of each.
+  static constexpr std::size_t kMostFlows = 150, kMostPoints = 60'000;
+  // In an impact a few contacts have much larger forces than all others. Therefore the largest 2 %
+  // of the forces are beyond the scale.
+  static constexpr std::size_t kOneIn = 50;
+};
+
 /// The interval that the particles of a frame cover along an axis [L], without the `cut` outermost
 /// particles at either end, and without particles at NaN, which do not exist yet. Empty if no
 /// particle is left.
@@ -45,19 +68,19 @@ double size_of(const ViewBox& box, int dimension) {
 
 /// Extends the box to a plane or circle near it, so that the reader sees what particles lie on.
 void extend_to_plane(ViewBox& box, const PlanePosition& plane, int dimension) {
-  constexpr double kNear = 0.5;  // largest distance over the longest side
   const double size = size_of(box, dimension);
   if (plane.is_curved())
     for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
       const double low = plane.point[d] - plane.radius, high = plane.point[d] + plane.radius;
-      if (box.low[d] - low <= kNear * size) box.low[d] = std::min(box.low[d], low);
-      if (high - box.high[d] <= kNear * size) box.high[d] = std::max(box.high[d], high);
+      if (box.low[d] - low <= SceneTuning::kNear * size) box.low[d] = std::min(box.low[d], low);
+      if (high - box.high[d] <= SceneTuning::kNear * size)
+        box.high[d] = std::max(box.high[d], high);
     }
   double distance = 0;
   for (std::size_t d = 0; d < 3; ++d)
     distance +=
         plane.normal[d] * ((plane.normal[d] > 0 ? box.low[d] : box.high[d]) - plane.point[d]);
-  if (distance <= 0 || distance > kNear * size) return;
+  if (distance <= 0 || distance > SceneTuning::kNear * size) return;
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
     const double shift = -plane.normal[d] * distance;
     (shift < 0 ? box.low[d] : box.high[d]) += shift;
@@ -67,9 +90,6 @@ void extend_to_plane(ViewBox& box, const PlanePosition& plane, int dimension) {
 /// Scene::box, where the flow, if there is one, fills `domain`.
 ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& frames,
                     const std::optional<report::Window>& domain) {
-  // If all particles cover more than 1.5 times the interval that the central ones cover, some have
-  // flown away.
-  constexpr double kFlownAway = 1.5;
   const auto dimension = static_cast<std::size_t>(playback.dimension);
   // The particles that are left out at both ends of all axes are together 2 %.
   const auto cut = playback.radii.size() / (100 * dimension);
@@ -84,7 +104,7 @@ ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& fr
       central.add(middle.low, middle.high);
     }
     if (!(all.low <= all.high)) all = central = {-1, 1};
-    const bool flown = all.high - all.low > kFlownAway * (central.high - central.low);
+    const bool flown = all.high - all.low > SceneTuning::kFlownAway * (central.high - central.low);
     box.low[axis] = flown ? central.low : all.low;
     box.high[axis] = flown ? central.high : all.high;
     size = std::max(size, box.high[axis] - box.low[axis]);
@@ -93,17 +113,13 @@ ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& fr
   for (const auto f : frames)
     for (const auto& plane : playback.frames[f].planes)
       extend_to_plane(box, plane, playback.dimension);
-  // If the domain is more than this many times as large as the box of the particles, the whole
-  // domain is not shown, because the particles would be too small.
-  constexpr double kTooLarge = 16;
-  if (domain && std::max(domain->width(), domain->height()) <= kTooLarge * size)
+  if (domain && std::max(domain->width(), domain->height()) <= SceneTuning::kTooLarge * size)
     box = {{domain->left, domain->bottom, 0}, {domain->right, domain->top, 0}};
-  // Margin, and least length of a side, over the longest side of the box.
-  constexpr double kMargin = 0.04, kFlattest = 0.15;
   size = std::max(size, size_of(box, playback.dimension));
   for (std::size_t axis = 0; axis < dimension; ++axis) {
     const double more =
-        std::max(kMargin * size, 0.5 * (kFlattest * size - (box.high[axis] - box.low[axis])));
+        std::max(SceneTuning::kMargin * size,
+                 0.5 * (SceneTuning::kFlattest * size - (box.high[axis] - box.low[axis])));
     box.low[axis] -= more;
     box.high[axis] += more;
   }
@@ -149,15 +165,14 @@ std::vector<char> points_in_bodies(const report::Grid& grid, const Playback& pla
   return is_body;
 }
 
-/// Values at points outside the particles, at most kOfFrame of each frame, enough for quantiles.
+/// Values at points outside the particles, from which quantiles are computed.
 struct Samples {
   std::vector<double> values;
 
   /// Adds the finite values of every n-th point. `is_body` is that of points_in_bodies().
   void add(const std::vector<float>& field, const std::vector<char>& is_body) {
     assert(is_body.size() == field.size());
-    constexpr std::size_t kOfFrame = 4000;
-    const auto every = field.size() / kOfFrame + 1;
+    const auto every = field.size() / SceneTuning::kOfFrame + 1;
     for (std::size_t i = 0; i < field.size(); i += every)
       if (is_body[i] == 0 && std::isfinite(field[i])) values.push_back(field[i]);
   }
@@ -262,7 +277,6 @@ report::Window common_part(const report::Window& extent, const ViewBox& view) {
 /// result are empty.
 FlowFrame read_flow_frame(const Playback& in_plane, std::size_t f, const FlowFrames& flows,
                           const std::vector<char>& is_body, report::StreamLines& stream_lines) {
-  constexpr int kLines = 18;  // about how many streamlines a picture has
   FlowFrame found;
   found.frame = f;
   const auto field = flow_of(in_plane, in_plane.frames[f]);
@@ -275,7 +289,10 @@ FlowFrame read_flow_frame(const Playback& in_plane, std::size_t f, const FlowFra
   const double mean = mean_outside(flow.pressure, is_body);
   for (const double pressure : flow.pressure)
     found.pressure.push_back(static_cast<float>(pressure - mean));
-  found.lines = stream_lines.of(flow, is_body, flows.has_axis ? kLines * 2 / 3 : kLines).lines;
+  found.lines =
+      stream_lines
+          .of(flow, is_body, flows.has_axis ? SceneTuning::kLines * 2 / 3 : SceneTuning::kLines)
+          .lines;
   return found;
 }
 
@@ -313,15 +330,14 @@ FlowFrames read_flows(const Playback& in_plane, bool has_axis, const report::Win
 }  // namespace
 
 ShownFlows shown_flows(const Playback& playback) {
-  constexpr std::size_t kMostFlows = 150, kMostPoints = 60'000;
   std::vector<std::size_t> with_flow;
   for (std::size_t f = 0; f < playback.frames.size(); ++f)
     if (!playback.frames[f].flow.empty()) with_flow.push_back(f);
   ShownFlows shown;
-  const auto count = std::min(with_flow.size(), kMostFlows);
+  const auto count = std::min(with_flow.size(), SceneTuning::kMostFlows);
   for (std::size_t i = 0; i < count; ++i)
     shown.frames.push_back(with_flow[count < 2 ? 0 : i * (with_flow.size() - 1) / (count - 1)]);
-  if (count > 0) shown.points = std::min(kMostPoints, kFlowBytesOfPage / 2 / count);
+  if (count > 0) shown.points = std::min(SceneTuning::kMostPoints, kFlowBytesOfPage / 2 / count);
   return shown;
 }
 
@@ -360,10 +376,8 @@ Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
     scene.mean_radius =
         std::accumulate(radii.begin(), radii.end(), 0.0) / static_cast<double>(radii.size());
   if (forces.empty()) return scene;
-  // In an impact a few contacts have much larger forces than all others. Therefore the largest 2 %
-  // of the forces are beyond the scale.
-  constexpr std::size_t kOneIn = 50;
-  const auto top = forces.end() - 1 - static_cast<std::ptrdiff_t>(forces.size() / kOneIn);
+  const auto top =
+      forces.end() - 1 - static_cast<std::ptrdiff_t>(forces.size() / SceneTuning::kOneIn);
   std::ranges::nth_element(forces, top);
   scene.top_force = *top;
   scene.force_words = fmt::format("line width: normal force, widest from {:.3g} [{}] on", *top,

@@ -119,8 +119,8 @@ class Table {
   std::int64_t end_ = 0;
 };
 
-/// The arrays of `columns` in a section of the frames: first those of decimal numbers, then those of
-/// whole numbers.
+/// The arrays of `columns` in a section of the frames: first those of decimal numbers, then those
+/// of whole numbers.
 template <class AnyColumn>
 std::array<std::vector<Array>, 2> arrays_of(const std::vector<AnyColumn>& columns,
                                             std::string_view section, int dimension) {

@@ -106,7 +106,7 @@ void check_same_particles(const State& state, const ParticlesCase& c, const fs::
       differs(
           fmt::format("a given motion of particle {}", c.particles.id(index_of(load.particle))));
   for (const auto& film : state.walls) check_first(film.first);
-  for (const auto& impact : state.impacts) check_first(impact.first);
+  for (const auto& impact : state.impact_impulses) check_first(impact.first);
 }
 
 /// The restart file stores no ids and shapes, nor those of particles that sources have added.

@@ -18,6 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Free choices of the lengths of the tables, which stay below 50 MB and 80 MB.
+struct RunLogTuning {
+  // After kMostRows steps, only one step in kOneIn has a row, and each step that has not converged.
+  static constexpr std::int64_t kMostRows = 1000000, kOneIn = 1000;
+  // Later rebounds have no rows.
+  static constexpr std::uint64_t kMostRebounds = 1000000;
+};
+
 /// Throws Error(kBadInput), which names the file, if one of the first `count` files of a kind is
 /// missing or does not end as an XML file of VTK must end.
 void check_frames(const fs::path& folder, const FrameKind& kind, std::uint64_t count) {
@@ -100,23 +108,20 @@ void RunLog::resume(const RunRecord& record) {
 void RunLog::add_step(const StepReport& report, const State& state,
                       std::span<const Rebound> rebounds) {
   assert(rebounds.empty() || case_.setting.laws.restitution.is_on());
-  // The tables stay below 50 MB and 80 MB. After kMostRows steps, only one step in kOneIn has a
-  // row, and each step that has not converged.
-  constexpr std::int64_t kMostRows = 1000000, kOneIn = 1000;
-  constexpr std::uint64_t kMostRebounds = 1000000;
   const double duration = report.time - std::max(record_.totals.last_time, case_.average_from);
   if (case_.average_from_given && duration > 0)
     record_.totals.add_means(values_to_average(case_.setting, state), duration);
   record_.totals.add(report, case_.average_from);
   record_.totals.regime.add(case_, state, report.glued > 0);
   const auto steps = record_.totals.steps;
-  if (steps <= kMostRows || steps % kOneIn == 0 || !report.converged) {
+  if (steps <= RunLogTuning::kMostRows || steps % RunLogTuning::kOneIn == 0 || !report.converged) {
     files_.at("steps.csv")
         .append(step_row(state.steps, report, case_.setting.fluid, case_.step_columns));
     if (!report.fluid.probes.empty())
       files_.at("probes.csv").append(probe_rows(report.fluid, case_.setting.fluid->probes));
   }
-  const auto more = rebounds.first(std::min(rebounds.size(), kMostRebounds - record_.rebounds));
+  const auto more =
+      rebounds.first(std::min(rebounds.size(), RunLogTuning::kMostRebounds - record_.rebounds));
   if (more.empty()) return;
   files_.at("rebounds.csv").append(rebound_rows(state.particles, more));
   record_.rebounds += more.size();

@@ -43,8 +43,8 @@ struct Contact {
   /// (1/m_i + 1/m_j) with the masses of both; a particle whose motion is given, and an obstacle
   /// other than a plane under a load, adds nothing.
   double w = 0;
-  /// Change of the gap per counter-clockwise turn [rad] of both particles [L]. They are 0 except in
-  /// a fluid, for particles that are not discs and at stops of hinges.
+  /// Change of the gap per counter-clockwise turn [rad] of both particles [L]. They are 0 without a
+  /// fluid (see `shaped`), and in a fluid for discs except at stops of hinges.
   std::array<double, 2> levers{};
   /// Entry of a plane under a load (PlaneLoad) in the arrays of displacements and mobilities; -1
   /// for others.

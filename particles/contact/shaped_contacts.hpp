@@ -68,10 +68,10 @@ class ShapedContact {
   double gap_at(const PlanePosition& obstacle) const;
   PairRadii radii() const { return radii_of(at_start_, is_at_obstacle_ ? &obstacle_ : nullptr); }
   /// A lower bound of the distance of the surfaces after the motions [L], of second order in them:
-  /// the gap along the normal at the beginning of the step, or along this normal turned with a shape
-  /// that has sides, if that is larger. For discs it is the linearised gap. Between two shapes with
-  /// sides, and at an obstacle, it is the distance. The motion of an obstacle is that of a plane
-  /// under a load.
+  /// the gap along the normal at the beginning of the step, or along this normal turned with a
+  /// shape that has sides, if that is larger. For discs it is the linearised gap. Between two
+  /// shapes with sides, and at an obstacle, it is the distance. The motion of an obstacle is that
+  /// of a plane under a load.
   double gap_after(const ShapeMotion& first, const ShapeMotion& second) const;
   /// True if the motions, to first order, take the centres of the two circles past each other.
   bool pass(const ShapeMotion& first, const ShapeMotion& second) const;
@@ -79,6 +79,9 @@ class ShapedContact {
   double distance(const ShapeMotion& first, const ShapeMotion& second) const;
   /// The larger magnitude of the turns of the shapes that are not round [rad].
   double turn(const ShapeMotion& first, const ShapeMotion& second) const;
+  /// How far the turns of the shapes that are not round move the contact along the surfaces, over
+  /// the sizes of these shapes [1], the larger one.
+  double shift(const ShapeMotion& first, const ShapeMotion& second) const;
 
  private:
   PlacedShape moved(std::size_t side, const ShapeMotion& motion) const;
@@ -132,8 +135,9 @@ bool pass(const Contact<2>& contact, std::span<const double> displacements,
 double turn_of_shapes(const Contact<2>& contact, std::span<const double> displacements,
                       std::span<const double> turns);
 
-/// True if a particle that is not round turns by more than kLargestTurn [rad], or if the circles of
-/// two particles move around each other by more than kLargestTurn.
+/// True if a particle that is not round turns too far in the step, or so that its contact moves too
+/// far along its surface, or if the circles of two particles move around each other by more than
+/// kLargestTurn.
 bool turns_too_far(const Contact<2>& contact, std::span<const double> displacements,
                    std::span<const double> turns);
 
@@ -146,9 +150,9 @@ inline auto order_of(const Pair& pair) {
 void add_contacts_of(const Particles& particles, Pair pair,
                      std::span<const PlanePosition> obstacles, std::vector<Pair>& pairs);
 
-/// The pairs `before` of the step before in the order of order_of(), with the numbers of the present
-/// contacts. If two contacts became one, this one gets the memory of the contact with the smaller
-/// gamma.
+/// The pairs `before` of the step before in the order of order_of(), with the numbers of the
+/// present contacts. If two contacts became one, this one gets the memory of the contact with the
+/// smaller gamma.
 std::vector<Pair> at_present_places(std::vector<Pair> before, const Particles& particles,
                                     std::span<const PlanePosition> obstacles);
 

@@ -9,6 +9,13 @@
 namespace viscontact::particles {
 namespace {
 
+struct BoundedRegionTuning {
+  // In a box that is kMany times as large as the distances of the planes, a bounded region has the
+  // same size, but for kSame, as in a box twice as large. Planes that meet at angles below 1e-4
+  // need a larger one.
+  static constexpr double kMany = 1e4, kSame = 1e-9;
+};
+
 /// The box with this centre and half of the side [L].
 BoxDomain box_about(const Vector& centre, double half, int dimension) {
   BoxDomain box;
@@ -25,17 +32,15 @@ double size_of_region(const Domain& domain, std::span<const PlanePosition> plane
   assert(dimension >= 1 && dimension <= 3);
   if (!std::holds_alternative<std::monostate>(domain)) return measure(domain, planes);
   if (planes.empty() || dimension < 2) return 0;
-  // In a box that is much larger than the distances of the planes, a bounded region has the same
-  // size as in a box twice as large. Planes that meet at angles below 1e-4 need a larger one.
-  constexpr double kMany = 1e4, kSame = 1e-9;
+  using Tuning = BoundedRegionTuning;
   Vector centre{};
   for (const auto& plane : planes)
     centre = centre + (1 / static_cast<double>(planes.size())) * plane.point;
   double reach = 0;
   for (const auto& plane : planes) reach = std::max(reach, norm(plane.point - centre));
-  const double size = measure(box_about(centre, kMany * reach, dimension), planes);
-  const double again = measure(box_about(centre, 2 * kMany * reach, dimension), planes);
-  return std::abs(again - size) <= kSame * size ? size : 0;
+  const double size = measure(box_about(centre, Tuning::kMany * reach, dimension), planes);
+  const double again = measure(box_about(centre, 2 * Tuning::kMany * reach, dimension), planes);
+  return std::abs(again - size) <= Tuning::kSame * size ? size : 0;
 }
 
 }  // namespace viscontact::particles

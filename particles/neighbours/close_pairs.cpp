@@ -14,15 +14,24 @@
 namespace viscontact::particles {
 namespace {
 
+struct CellGridTuning {
+  // Bits that one pass of the radix sort orders. With 11 bits its table has 16 kB.
+  static constexpr int kBits = 11;
+  // Positions in the sample whose median is the middle of a grid.
+  static constexpr std::size_t kSample = 1001;
+  // Cells along an axis, so that cell numbers of three axes fit into 64 bits.
+  static constexpr double kMostCells = 1 << 20;
+};
+
 struct Entry {
   std::uint64_t cell;
   std::int32_t particle;
 };
 
 /// A radix sort, which keeps the order of entries with equal cells. `most` is a bound of all cell
-/// numbers. With 11 bits in a pass its table has 16 kB.
+/// numbers.
 void sort_by_cell(std::vector<Entry>& entries, std::uint64_t most) {
-  constexpr int kBits = 11;
+  constexpr int kBits = CellGridTuning::kBits;
   std::vector<Entry> sorted(entries.size());
   for (int shift = 0; shift < 64 && (most >> shift) > 0; shift += kBits) {
     std::array<std::size_t, (1 << kBits) + 1> begin{};
@@ -55,7 +64,7 @@ class Grid {
       // neighbouring ones, so that no pair is missed.
       middle_[d] = middle(positions, d);
       half_[d] = std::min(std::ceil(std::max(high - middle_[d], middle_[d] - low) * per_cell_) + 1,
-                          kMostCells / 2);
+                          CellGridTuning::kMostCells / 2);
       cells_[d] = static_cast<std::uint64_t>(2 * half_[d]) + 3;  // one spare cell on each side
     }
   }
@@ -92,8 +101,7 @@ class Grid {
  private:
   /// The median of a sample, which a few particles far away do not change.
   static double middle(std::span<const double> positions, std::size_t d) {
-    constexpr std::size_t kSample = 1001;
-    const std::size_t count = positions.size() / D, stride = count / kSample + 1;
+    const std::size_t count = positions.size() / D, stride = count / CellGridTuning::kSample + 1;
     std::vector<double> sample;
     for (std::size_t k = 0; k < count; k += stride) sample.push_back(positions[k * D + d]);
     const auto half = sample.begin() + std::ssize(sample) / 2;
@@ -101,8 +109,6 @@ class Grid {
     return *half;
   }
 
-  // So that cell numbers of three axes fit into 64 bits.
-  static constexpr double kMostCells = 1 << 20;
   double per_cell_;
   std::array<double, D> middle_{}, half_{};
   std::array<std::uint64_t, D> cells_{};

@@ -15,6 +15,15 @@
 namespace viscontact::particles {
 namespace {
 
+struct NeighbourListTuning {
+  // Rounding errors of positions add to the sum of radii and skins, which is therefore kept below
+  // this part of the period.
+  static constexpr double kLess = 1 - 1e-9;
+  // The least skin in radii, and in displacements of a step. In bench/box2d.cpp smaller values cost
+  // time because the list is made more often, and larger values because the list has more pairs.
+  static constexpr double kOfRadius = 0.25, kSteps = 3;
+};
+
 /// The numbers by which the list of pairs is ordered; the contacts of a pair by Pair::place.
 template <class AnyPair>
 auto place_of(const AnyPair& pair) {
@@ -54,9 +63,7 @@ double half_shortest_period(const PeriodicCell& cell) {
 /// `moved`, further than this largest skin.
 double skin_within_period(const Particles& p, std::size_t k, double half_period, double skin,
                           double moved) {
-  // Rounding errors of positions add to the sum.
-  constexpr double kLess = 1 - 1e-9;
-  const double longest = kLess * (half_period - p.radii[k]) / 2;
+  const double longest = NeighbourListTuning::kLess * (half_period - p.radii[k]) / 2;
   if (!(moved <= longest))
     throw Error(ErrorKind::kNotConverged,
                 "particle {} moves by {:.3g} relative to the others in a step, and at most {:.3g} "
@@ -89,9 +96,7 @@ bool neighbour_list_is_valid(const State& state, std::span<const double> displac
 void rebuild_neighbour_list(State& state, std::span<const double> displacements, ThreadPool& pool) {
   const auto& p = state.particles;
   assert(displacements.size() >= p.positions.size());
-  // In bench/box2d.cpp smaller values cost time because the list is made more often, and larger
-  // values because the list has more pairs.
-  constexpr double kOfRadius = 0.25, kSteps = 3;
+  using Tuning = NeighbourListTuning;
   const auto displacement = [&](std::size_t k) {
     return point_of(displacements.data(), k, p.dimension);
   };
@@ -103,7 +108,7 @@ void rebuild_neighbour_list(State& state, std::span<const double> displacements,
   std::vector<double> extents(p.count());
   for (std::size_t k = 0; k < p.count(); ++k) {
     const double moved = norm(displacement(k) - common);
-    skins[k] = std::max({skins[k], kOfRadius * p.radii[k], kSteps * moved});
+    skins[k] = std::max({skins[k], Tuning::kOfRadius * p.radii[k], Tuning::kSteps * moved});
     if (p.cell.is_periodic()) skins[k] = skin_within_period(p, k, half_period, skins[k], moved);
     extents[k] = p.radii[k] + skins[k];
   }

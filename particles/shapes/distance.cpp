@@ -144,8 +144,8 @@ class ShapePair {
   }
 
  private:
-  /// True if the shapes are still apart by the margin, in the direction of lines with this gap, when
-  /// each has lost a layer of its least curvature radius. Their convex cores have one shortest
+  /// True if the shapes are still apart by the margin, in the direction of lines with this gap,
+  /// when each has lost a layer of its least curvature radius. Their convex cores have one shortest
   /// distance.
   bool are_apart(double gap) const { return gap > margin_ - least_radius_; }
 

@@ -88,7 +88,8 @@ FarPoints far_points_in_quadrant(const Vector2& s, const Vector2& centre) {
   else if (u == 0)
     add({-far.normals[0][0], far.normals[0][1]});
   else  // The stationary points have normals along (u/(m - a^2), v/(m - b^2)) with
-      // (a u/(m - a^2))^2 + (b v/(m - b^2))^2 = 1. The first vector has the m of the least left side.
+      // (a u/(m - a^2))^2 + (b v/(m - b^2))^2 = 1. The first vector has the m of the least left
+      // side.
     add(farthest_between(arc, unit(Vector2{-u * (q * q), v * (p * p)}), {-1, 0}));
   return far;
 }

@@ -161,6 +161,8 @@ Core core_of(const PlacedShape& placed) {
 }
 
 double gap(const PlacedShape& first, const PlacedShape& second) {
+  if (core_of(first).corners.empty() || core_of(second).corners.empty())
+    return nearest_points(first, second).gap;
   const ShapeContacts contacts(first, second);
   return contacts.at(contacts.places().front(), first, second).gap;
 }

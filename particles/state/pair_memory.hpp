@@ -40,7 +40,7 @@ struct MemoryField {
 };
 
 /// All numbers that laws remember. Restart files store them by name, so that names stay as they
-/// are.
+/// are; "carried" is the name of Remembered::kSolidLoad there.
 inline constexpr std::array kMemoryFields = {
     MemoryField{"friction_x", true, false}, MemoryField{"friction_y", true, false},
     MemoryField{"friction_z", true, false}, MemoryField{"carried", true, false},

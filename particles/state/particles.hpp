@@ -42,8 +42,8 @@ struct Particles {
   std::vector<double> angular_velocities{};
   /// Moments of inertia, one for each particle: [M L^2], of discs in a fluid [M L].
   std::vector<double> inertias{};
-  /// Shape of each particle in the plane, from the case; the restart file does not store them. Empty:
-  /// all particles are discs or spheres.
+  /// Shape of each particle in the plane, from the case; the restart file does not store them.
+  /// Empty: all particles are discs or spheres.
   std::vector<Shape> shapes{};
   /// The cell says how images of particles are shifted. A simulation takes it from its setting; the
   /// restart file does not store it.
@@ -87,8 +87,8 @@ struct Particles {
   bool has_other_shapes() const {
     return std::ranges::any_of(shapes, [](const Shape& shape) { return !shape.is_round(); });
   }
-  /// The shape of particle k at its place, which `shift` [L] is added to, or of a sphere on the axis
-  /// with its centre at (0, z). Particles that are not round must have angles.
+  /// The shape of particle k at its place, which `shift` [L] is added to, or of a sphere on the
+  /// axis with its centre at (0, z). Particles that are not round must have angles.
   PlacedShape placed_shape(std::size_t k, const Vector& shift = {}) const {
     return placed_shape(k, angles, shift);
   }

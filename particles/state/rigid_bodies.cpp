@@ -11,6 +11,18 @@
 namespace viscontact::particles {
 namespace {
 
+struct RigidBodyTuning {
+  // Distances that differ by less than this share of the period count as equal. It is far more than
+  // the rounding errors of positions, and far less than a user would distinguish.
+  static constexpr double kEqual = 1e-9;
+  // Each iteration for a turn multiplies the error by about the turn in radians, so that 50
+  // iterations are enough for turns up to 0.5. A step in which a body turns by a radian does not
+  // resolve the motion, so that its iteration need not converge.
+  static constexpr int kMost = 50;
+  // The last change of a turn over the turn: some rounding errors.
+  static constexpr double kExact = 4 * std::numeric_limits<double>::epsilon();
+};
+
 /// Adds m times |r|^2 times the unit matrix, minus m r r^T, for the mass m [M] at r [L] from the
 /// centre.
 void add_point_mass(Matrix3& inertia, double mass, const Vector& r) {
@@ -63,11 +75,9 @@ Cut cut_of(const Particles& p, const std::vector<std::int32_t>& members, std::si
                                               : sorted[0] + period - sorted[m]);
   const auto widest = std::ranges::max_element(distances);
   cut.widest = *widest;
-  // Distances that differ by less than this share of the period count as equal. It is far more than
-  // the rounding errors of positions, and far less than a user would distinguish.
-  constexpr double kEqual = 1e-9;
-  cut.count = static_cast<int>(std::ranges::count_if(
-      distances, [&](double distance) { return distance >= cut.widest - kEqual * period; }));
+  cut.count = static_cast<int>(std::ranges::count_if(distances, [&](double distance) {
+    return distance >= cut.widest - RigidBodyTuning::kEqual * period;
+  }));
   const auto begin = static_cast<std::size_t>(widest - distances.begin()) + 1;
   const double from = begin < sorted.size() ? sorted[begin] : 0;
   for (std::size_t m = 0; m < places.size(); ++m)
@@ -295,18 +305,13 @@ namespace {
 Vector midpoint_turn(const RigidBody& body, const Vector& angular_momentum, const Matrix3& added,
                      double h) {
   Vector turn = h * (inverse_of(present_inertia(body, 3) + added) * angular_momentum);
-  // Each iteration multiplies the error by about the turn in radians, so that 50 iterations are
-  // enough for turns up to 0.5. A step in which a body turns by a radian does not resolve the
-  // motion, so that its iteration need not converge.
-  constexpr int kMost = 50;
-  constexpr double kExact = 4 * std::numeric_limits<double>::epsilon();  // some rounding errors
-  for (int n = 0; n < kMost; ++n) {
+  for (int n = 0; n < RigidBodyTuning::kMost; ++n) {
     RigidBody middle = body;
     middle.orientation = turned(body.orientation, 0.5 * turn);
     const Vector next = h * (inverse_of(present_inertia(middle, 3) + added) * angular_momentum);
     const double change = norm(next - turn);
     turn = next;
-    if (change <= kExact * norm(turn)) break;
+    if (change <= RigidBodyTuning::kExact * norm(turn)) break;
   }
   return turn;
 }

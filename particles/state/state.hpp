@@ -98,7 +98,7 @@ struct State {
   double earlier_step = 0;  ///< length of the last step [T]; 0 if there was none
   /// Impulses of the impacts in the last step, without a fluid, for the tables walls.csv and
   /// stress.csv.
-  std::vector<ImpactImpulse> impacts;
+  std::vector<ImpactImpulse> impact_impulses;
   /// The motions of Setting::planes, 0 for planes without a load; empty if no plane has a load.
   std::vector<PlaneMotion> planes;
   /// Loads of the particles whose motion is given, without a fluid, in the order of their numbers.

@@ -95,9 +95,9 @@ struct StepReport {
   bool has_given_loads = false;
   /// The largest kappa, docs/physics.md (5.21), in a fluid the largest z, (6.15), of links that
   /// push [1], >= 0: above 1 the step does not resolve how what they push buckles. In a fluid also
-  /// half of the z of films that pull and that no row turns with the motion, those of plates, and
-  /// with Coupling::kSplitting all films: above 1 what the film pulls may vibrate across it with a
-  /// growing amplitude.
+  /// half of the z of films that pull and that no row turns with the motion, those of plates and
+  /// ellipses, and with Coupling::kSplitting all films: above 1 what the film pulls may vibrate
+  /// across it with a growing amplitude.
   double buckling = 0;
   /// True if films that pull have no springs across them, docs/physics.md (5.21), because the step
   /// has no solution with these.

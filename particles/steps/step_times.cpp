@@ -8,9 +8,14 @@
 namespace viscontact::particles {
 namespace {
 
-// Differences of times below this fraction of h count as rounding errors. Rounding errors are
-// smaller in runs of up to 1e9 steps.
-constexpr double kTiny = 1e-6;
+struct StepEndTuning {
+  // Differences of times below this fraction of h count as rounding errors. Rounding errors are
+  // smaller in runs of up to 1e9 steps.
+  static constexpr double kTiny = 1e-6;
+  // A step of the length h that begins at most 1.125 h before a jump would end after the jump, or
+  // at most h/8 before it. It is shortened.
+  static constexpr double kNear = 1.125;
+};
 
 }  // namespace
 
@@ -40,23 +45,21 @@ std::vector<double> jump_times(const Setting& setting) {
 double leapfrog_step_end(double time, double grid_end, double h, std::span<const double> jumps) {
   assert(h > 0);
   assert(std::ranges::is_sorted(jumps));
-  const auto next = std::ranges::upper_bound(jumps, time + kTiny * h);
+  const auto next = std::ranges::upper_bound(jumps, time + StepEndTuning::kTiny * h);
   const double until_jump = next == jumps.end() ? 2 * h : *next - time;
-  // A step of the length h that begins at most 1.125 h before a jump would end after the jump, or
-  // at most h/8 before it. The step is then shortened so that the jump is in the middle of the next
-  // one, which gets the same length.
-  constexpr double kNear = 1.125;
+  // A step that would end after the jump or shortly before it is shortened so that the jump is in
+  // the middle of the next one, which gets the same length.
   if (until_jump <= h / 2) return time + 2 * until_jump;
-  if (until_jump <= kNear * h) return time + until_jump * 2 / 3;
+  if (until_jump <= StepEndTuning::kNear * h) return time + until_jump * 2 / 3;
   const double rest = grid_end - time;
   // The steps return to the grid in one step of the length `rest` or, below h/2, in two.
-  if (rest < h / 2 - kTiny * h) return time + (rest + h) / 2;
+  if (rest < h / 2 - StepEndTuning::kTiny * h) return time + (rest + h) / 2;
   return grid_end;
 }
 
 std::optional<StepInterval> StepGrid::next(const State& state, double end) const {
   assert(time_step_ > 0);
-  const double tiny = kTiny * time_step_;
+  const double tiny = StepEndTuning::kTiny * time_step_;
   if (!(end > state.time + tiny)) return std::nullopt;
   const double on_grid =
       state.grid_time + static_cast<double>(state.steps + 1 - state.grid_step) * time_step_;

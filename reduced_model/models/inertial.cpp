@@ -75,7 +75,7 @@ class InertialRun {
           });
           add_rows_of_step(impact, equation_.instant(impact, solid_gap_, impact));
           now_ = impact;
-          strike_solids();
+          collide_with_solids();
           continue;
         }
         add_rows_of_step(cvode_.time(), now);
@@ -83,7 +83,7 @@ class InertialRun {
         double film = 0;
         if (now_ < stop_ && equation_.lands_at_once(now_, now, film)) {
           if (film < solid_gap_) {
-            strike_solids();
+            collide_with_solids();
             continue;
           }
           cvode_.set_state(std::array{equation_.state_of(film)});
@@ -104,7 +104,7 @@ class InertialRun {
   void restart(double first_step) { cvode_.restart(now_, stop_, first_step); }
 
   /// Then restarts CVODE, or lets the sphere rest until the next stop.
-  void strike_solids() {
+  void collide_with_solids() {
     const double before = std::min(0.0, velocity_at_solids()), m = motion_.mass;
     if (!trajectory_.solid_contact_from)
       trajectory_.solid_contact_from = {
@@ -132,10 +132,10 @@ class InertialRun {
     look_at_approach({solid_gap_, before, 0, 0});
     const double drag = (force_.impulse(fastest_.gap) - force_.impulse(solid_gap_)) / motion_.mass;
     const double approach = fastest_.velocity, leaving = std::max(0.0, after - drag);
-    if (leaving > 0 || !has_struck_)
+    if (leaving > 0 || !has_impact_)
       trajectory_.rebounds.push_back(
           {now_, approach, -motion_.mass * before, leaving, leaving / -approach});
-    has_struck_ = !(leaving > 0);
+    has_impact_ = !(leaving > 0);
     if (leaving > 0) fastest_ = {solid_gap_, 0, 0, 0};
   }
 
@@ -263,7 +263,7 @@ class InertialRun {
   bool ended_ = false;  // true after the sphere has reached the wall opposite
   // The state of fastest approach since the last rebound.
   InertialInstant fastest_{motion_.initial_gap, std::min(0.0, motion_.initial_velocity), 0, 0};
-  bool has_struck_ = false;                    // an impact since then is recorded
+  bool has_impact_ = false;                    // an impact since then is recorded
   double solid_impulse_ = 0, solid_work_ = 0;  // of the solids on the sphere
   bool rests_ = false;                         // true while the sphere rests on the solids
   InertialEquation equation_;

@@ -52,7 +52,7 @@ inline constexpr std::array kInertialRoughParameters = {kReferenceTimeStep, kRel
 /// The velocity of approach in Trajectory::rebounds is the largest one towards the solids since the
 /// last rebound. The velocity after the impact is the one that the sphere would have without an
 /// external force as it gets back to the gap at which it was that fast, and 0 if the film stops it
-/// before. A sphere that is stopped may strike the solids again; these impacts are not listed.
+/// before. A sphere that is stopped may hit the solids again; these impacts are not listed.
 ///
 /// Throws the errors of simulate_inertial() and of check_start_outside_roughness(), and with
 /// roughness Error(kNotConverged) if f_ext has too many periods (ExternalForce::sign_changes()).

@@ -84,8 +84,8 @@ class InertialEquation {
   InertialInstant instant(double t, double gap, double force_time) const;
 
   /// The first step that CVODE should try after a restart; 0 leaves the choice to CVODE. It is
-  /// positive if the damping time m/R is below InertialTuning::kTimeResolution t, so that the velocity follows a
-  /// jump of f_ext at once.
+  /// positive if the damping time m/R is below InertialTuning::kTimeResolution t, so that the
+  /// velocity follows a jump of f_ext at once.
   double first_step(double t, double gap) const;
 
   /// The state near that of `gap` in which drag and force at time t are balanced. It obeys (I)
@@ -93,9 +93,9 @@ class InertialEquation {
   /// gap is too small for a double.
   double balanced_state(double t, double gap) const;
 
-  /// True if the rest of a fall, and the damping time m/R at its end, are below InertialTuning::kTimeResolution t.
-  /// Then `film` is the gap Gamma^{-1}(P(t)), at which the velocity is 0 by (I). Throws the errors
-  /// of balanced_state().
+  /// True if the rest of a fall, and the damping time m/R at its end, are below
+  /// InertialTuning::kTimeResolution t. Then `film` is the gap Gamma^{-1}(P(t)), at which the
+  /// velocity is 0 by (I). Throws the errors of balanced_state().
   bool lands_at_once(double t, const InertialInstant& now, double& film) const;
 
  private:

@@ -15,7 +15,7 @@
 namespace viscontact::contact_solver {
 namespace {
 
-// Violations at the end of a path over the size of the problem, as constraint_solver.cpp asks.
+// Violations at the end of a path over the size of the problem, as coulomb_ladder.cpp asks.
 constexpr double kAccuracy = 1e-7;
 constexpr int kMost = 2000;
 

@@ -147,7 +147,7 @@ void solve_redundant_problems(double accuracy) {
 TEST(InteriorPointsOfFriction, SolveRedundantProblemsInThePlane) {
   solve_redundant_problems<2>(1e-8);
 }
-/// With the accuracy for which constraint_solver.cpp asks.
+/// Most problems of spheres need no higher accuracy, see ConvexTuning in convex_ladder.cpp.
 TEST(InteriorPointsOfFriction, SolveRedundantProblemsInSpace) { solve_redundant_problems<3>(1e-6); }
 
 /// Films that pull, and nothing else: without their impulses nothing moves, and the guess is wrong.

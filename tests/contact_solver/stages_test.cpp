@@ -1,4 +1,4 @@
-// The loop that runs a table of stages, and which stages run for problems whose solutions are known.
+// The loop that runs a table of stages, and which stages run for problems with known solutions.
 #include "viscontact/contact_solver/stages.hpp"
 
 #include <gtest/gtest.h>

@@ -86,6 +86,8 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
           // bases of pairs, two of which are named bases
           Found("motions/pair_fit.cpp", "asymptotic"),
           Found("motions/pair_fit.cpp", "asymptotic_extended"),
+          // a shape of particles
+          Found("particles/shapes/disc.cpp", "sphere"),
           // words for the geometry in the head of a table
           Found("lubrication/second_wall.cpp", "plane"),
           Found("lubrication/second_wall.cpp", "cavity"),

@@ -94,8 +94,8 @@ TEST_F(RoundedSquare, HasTheAreaOfThePage) {
   EXPECT_NEAR(particle.at(6), 4 - (4 - M_PI) * 0.04, 1e-12);
 }
 
-// In the middle of a round wall the velocity of a square does not depend on its angle. The mesh makes
-// an error of 1e-3.
+// In the middle of a round wall the velocity of a square does not depend on its angle. The mesh
+// makes an error of 1e-3.
 TEST_F(RoundedSquare, MovesInAFluidAlikeAtAllAngles) {
   const auto velocity = [&](const std::string& angle) {
     const auto folder = run(R"(title = "A square in a round wall"

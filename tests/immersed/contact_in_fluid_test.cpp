@@ -286,8 +286,8 @@ TEST(ContactInFluid, HasNoImpactsOfAnEarlierRunWithoutAFluid) {
   auto system = in_fluid(2, 8, 0.1, 0.02);
   add_pushed(system, {1.03, 1.03, 0}, 1, 1, {-1, -1, 0});
   system.state.earlier_step = 0.1;
-  system.state.impacts = {{-1, {0, 1, 0}, {0, 1, 0}}};
-  EXPECT_TRUE(system.simulation(constant_drag(5)).state().impacts.empty());
+  system.state.impact_impulses = {{-1, {0, 1, 0}, {0, 1, 0}}};
+  EXPECT_TRUE(system.simulation(constant_drag(5)).state().impact_impulses.empty());
 }
 
 TEST(ContactInFluid, GoesOnFromARestartWithTheSameBits) {

@@ -99,7 +99,7 @@ class ContactClock {
 
   void look_at(const StepTimes& times, const ContactState& before, double push,
                const ContactStep& step) {
-    if (std::exchange(is_struck_, false)) return;
+    if (std::exchange(had_impacts_, false)) return;
     const bool contact =
         step.state.gap == 0 && (step.state.gamma < 0 || step.film != 0 || step.solid != 0);
     const auto [time, next, impulse_begin, impulse_end] = times;
@@ -122,18 +122,18 @@ class ContactClock {
   }
   /// Takes the times of contact from a step of rebound.hpp. The next call of look_at(), for the
   /// same step, then does nothing.
-  void strike(const StepTimes& times, const ReboundStep& step) {
+  void look_at_impacts(const StepTimes& times, const ReboundStep& step) {
     if (!interval_) interval_ = {times.begin + step.first_impact, 0};
     touching_ = step.state.gap == 0;
     (*interval_)[1] = touching_ ? times.end : times.begin + step.last_impact;
-    is_struck_ = true;
+    had_impacts_ = true;
   }
   std::optional<std::array<double, 2>> interval() const { return interval_; }
 
  private:
   double mass_;
   std::optional<std::array<double, 2>> interval_;
-  bool touching_ = false, is_struck_ = false;
+  bool touching_ = false, had_impacts_ = false;
 };
 
 /// The first touch of the solids, in the first step in which they carry a load. Before this step
@@ -153,7 +153,7 @@ SolidTouch touch_in(const ContactModel& model, double mass, double landing, cons
 
 /// The state after the impulse `push` of the external force at one instant, at which the gap does
 /// not change, and the impulses of film and solids.
-ContactStep kicked(const ContactState& state, double push, const ContactSetting& setting) {
+ContactStep after_impulse(const ContactState& state, double push, const ContactSetting& setting) {
   ContactStep step{state};
   const double momentum = setting.mass * state.velocity + push;
   if (state.gap > 0) {
@@ -174,17 +174,17 @@ ContactStep as_contact_step(const ReboundStep& step) {
 }
 
 /// Makes the steps from the start to the end. Calls `rebound(times, step)` for each step with
-/// impacts, `impulse_time(velocity before, push, step)` for each other impulse `push` of the
+/// impacts, `add_impulse(velocity before, push, step)` for each other impulse `push` of the
 /// external force, and `add(times, setting, state before, push, step, state at the end)` after each
 /// step. `turns` are the times at which the force changes its sign, increasing. In a staggered
 /// model the impulses before and after such a time act one after the other, because the solids
 /// carry the impulse before it, and must not give this impulse back to the sphere afterwards. In a
 /// step in which the sphere reaches the wall opposite, the motion ends early, and the row has the
 /// time of that. Returns the end of the last step.
-template <class Drag, class Rebounding, class Kick, class Add>
+template <class Drag, class Rebounding, class AddImpulse, class Add>
 double run_steps(const Motion& motion, const ContactModel& model, const Drag& drag,
-                 std::span<const double> turns, const Rebounding& rebound, const Kick& impulse_time,
-                 const Add& add) {
+                 std::span<const double> turns, const Rebounding& rebound,
+                 const AddImpulse& add_impulse, const Add& add) {
   const double end = motion.end_time;
   const double h = motion.parameter(kContactTimeStep);
   const int steps = step_count(end, h);
@@ -209,8 +209,8 @@ double run_steps(const Motion& motion, const ContactModel& model, const Drag& dr
       times.impulse_end = t + setting.step / 2;
       for (; turn != turns.end() && *turn < times.impulse_end; ++turn) {
         const double part = (*turn - since) * force.mean(since, *turn);
-        const auto step = kicked(state, part, setting);
-        impulse_time(state.velocity, part, step);
+        const auto step = after_impulse(state, part, setting);
+        add_impulse(state.velocity, part, step);
         earlier.film += step.film;
         earlier.solid += step.solid;
         state = step.state;
@@ -220,16 +220,16 @@ double run_steps(const Motion& motion, const ContactModel& model, const Drag& dr
     }
     push *= force.mean(since, times.impulse_end);
     ContactStep step;
-    std::optional<ReboundStep> impacts;
+    std::optional<ReboundStep> step_with_impacts;
     if (model.restitution > 0 && state.gamma == 0 && (state.gap > 0 || state.velocity > 0))
-      impacts = rebound_step(state, push, force_of_step.mean(t, next) * setting.per_mass, setting,
-                             model.restitution, drag);
-    if (impacts) {
-      step = as_contact_step(*impacts);
-      rebound(times, *impacts);
+      step_with_impacts = rebound_step(state, push, force_of_step.mean(t, next) * setting.per_mass,
+                                       setting, model.restitution, drag);
+    if (step_with_impacts) {
+      step = as_contact_step(*step_with_impacts);
+      rebound(times, *step_with_impacts);
     } else {
       step = contact_step(state, push, setting, drag);
-      impulse_time(state.velocity, push, step);
+      add_impulse(state.velocity, push, step);
     }
     step.film += earlier.film;
     step.solid += earlier.solid;
@@ -237,9 +237,9 @@ double run_steps(const Motion& motion, const ContactModel& model, const Drag& dr
     const bool ends = at_end.gap >= last;  // at the wall opposite
     if (model.is_staggered) {
       const double rest = (next - times.impulse_end) * force_of_half.mean(times.impulse_end, next);
-      const auto end_kick = kicked(step.state, rest, setting);
-      at_end = end_kick.state;
-      if (n + 1 == steps || ends) impulse_time(step.state.velocity, rest, end_kick);
+      const auto at_end_step = after_impulse(step.state, rest, setting);
+      at_end = at_end_step.state;
+      if (n + 1 == steps || ends) add_impulse(step.state.velocity, rest, at_end_step);
     }
     if (ends) {
       // The gap is linear within a step of the scheme.
@@ -289,12 +289,12 @@ Trajectory run_contact_model(const Motion& motion, ContactModel model) {
   const auto add = [&](const StepTimes& times, const ContactSetting& setting,
                        const ContactState& before, double push, const ContactStep& step,
                        const ContactState& end) {
-    const double per_kick = times.impulse_end == times.end && times.impulse_begin == times.begin
+    const double per_time = times.impulse_end == times.end && times.impulse_begin == times.begin
                                 ? setting.per_step
                                 : 1 / (times.impulse_end - times.impulse_begin);
     trajectory.rows.push_back({times.end, model.contact_gap + end.gap, end.velocity,
-                               (step.film + step.drag) * per_kick, force.value(times.end),
-                               end.gamma, step.solid * per_kick});
+                               (step.film + step.drag) * per_time, force.value(times.end),
+                               end.gamma, step.solid * per_time});
     clock.look_at(times, before, push, step);
     if (step.solid > 0 && !is_rebound && !trajectory.solid_contact_from)
       trajectory.solid_contact_from =
@@ -321,17 +321,17 @@ Trajectory run_contact_model(const Motion& motion, ContactModel model) {
       of.time += times.begin;
       trajectory.rebounds.push_back(of);
     }
-    clock.strike(times, step);
+    clock.look_at_impacts(times, step);
     lowest_gamma = std::min(lowest_gamma, step.lowest_gamma);
     for (const auto& entry : kBudgetEntries) budget.*entry.value += step.budget.*entry.value;
   };
-  const auto impulse_time = [&](double velocity, double push, const ContactStep& step) {
+  const auto add_impulse = [&](double velocity, double push, const ContactStep& step) {
     add_to(budget, velocity, push, step);
   };
   const double end = model.drag
                          ? run_steps(motion, model, DragAtDistance(*model.drag, model.contact_gap),
-                                     turns, rebound, impulse_time, add)
-                         : run_steps(motion, model, NoDrag(), turns, rebound, impulse_time, add);
+                                     turns, rebound, add_impulse, add)
+                         : run_steps(motion, model, NoDrag(), turns, rebound, add_impulse, add);
   trajectory.steps = static_cast<long>(trajectory.rows.size()) - 1;
   if (lowest_gamma < 0 && model.film_thickness)
     trajectory.film_from_gamma = model.film_thickness(lowest_gamma);

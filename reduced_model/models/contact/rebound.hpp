@@ -107,8 +107,8 @@ inline double time_of_fall(double gap, double velocity, double acceleration, dou
 /// Records the impact of a sphere with `velocity` < 0 at `time` from the beginning of a step in
 /// `step`. `acceleration` is the external force divided by m. Returns the velocity after the
 /// impact; 0 if the sphere stays.
-inline double strike(ReboundStep& step, double time, double velocity, double acceleration,
-                     const ContactSetting& setting, double restitution) {
+inline double collide(ReboundStep& step, double time, double velocity, double acceleration,
+                      const ContactSetting& setting, double restitution) {
   assert(!(time < step.last_impact));
   const double least = setting.mass * BounceTuning::kShortestOfStep * setting.step *
                        std::max(0.0, -acceleration) / 2;
@@ -176,7 +176,7 @@ std::optional<ReboundStep> rebound_step(const ContactState& state, double push, 
     if (!(velocity < 0)) return {};
     step.budget.drag_impulse = of_drag;
     step.budget.drag_work = of_drag * (state.velocity + velocity) / 2;
-    const double after = strike(step, time, velocity, acceleration, setting, restitution);
+    const double after = collide(step, time, velocity, acceleration, setting, restitution);
     if (after > 0) {
       const double rest = h - time, momentum = m * after + push * rest / h;
       if (rest > 0) {
@@ -198,7 +198,7 @@ std::optional<ReboundStep> rebound_step(const ContactState& state, double push, 
       time += fall;
       gap = 0;
       velocity =
-          strike(step, time, velocity + acceleration * fall, acceleration, setting, restitution);
+          collide(step, time, velocity + acceleration * fall, acceleration, setting, restitution);
       if (velocity > 0) continue;
       stay(step, push, setting, drag);
       break;

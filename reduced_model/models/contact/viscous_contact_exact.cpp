@@ -192,10 +192,11 @@ Trajectory simulate_viscous_contact_exact(const Motion& motion,
       if (at_row) ++next_row;
       if (at_row || event < stop || sphere.ended() || before.contact() != sphere.contact())
         add_row(sphere, event);
-      const bool has_struck = sphere.rebounds().size() > before.rebounds().size();
-      if ((has_struck || (sphere.contact() && !before.contact())) && !trajectory.contact_interval)
+      const bool has_rebounded = sphere.rebounds().size() > before.rebounds().size();
+      if ((has_rebounded || (sphere.contact() && !before.contact())) &&
+          !trajectory.contact_interval)
         trajectory.contact_interval = {event, event};
-      if (has_struck || before.contact()) (*trajectory.contact_interval)[1] = event;
+      if (has_rebounded || before.contact()) (*trajectory.contact_interval)[1] = event;
       ++trajectory.steps;
       now = event;
       if (sphere.ended()) break;

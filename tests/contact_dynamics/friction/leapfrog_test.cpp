@@ -100,7 +100,7 @@ TEST(Leapfrog, ReportsVelocitiesAtThePresentTime) {
 }
 
 TEST(Leapfrog, FreeFallIsExactAlsoInStepsThatAFastDiscDivides) {
-  // The first disc moves by two diameters in a step and strikes the second.
+  // The first disc moves by two diameters in a step and hits the second.
   State state = no_particles(2);
   add_particle(state, {0, 0, 0}, 0.5, 1, {100, 0, 0});
   add_particle(state, {6, 0, 0}, 0.5, 1, {});

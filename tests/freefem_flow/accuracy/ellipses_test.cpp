@@ -167,8 +167,8 @@ TEST(Ellipse, IsMarkedOnAFixedMesh) {
 }
 
 // An ellipse with the semi-axes 1 and 0.5 that a force W pulls onto the floor of a box lands on its
-// side and comes to lie flat. Near the end the floor bears W, at the lever (a^2 - b^2)/b angle = 1.5
-// angle, and the angle falls at the rate 1.5 W M with the mobility M of its turns.
+// side and comes to lie flat. Near the end the floor bears W, at the lever (a^2 - b^2)/b angle =
+// 1.5 angle, and the angle falls at the rate 1.5 W M with the mobility M of its turns.
 TEST(Ellipse, SinksOntoAFloorAndComesToLieFlat) {
   const double h = 0.5, weight = 5, threshold = 0.2;
   particles::Setting setting;

@@ -20,7 +20,8 @@ using ::testing::AllOf;
 class OneDisc {
  public:
   explicit OneDisc(const std::string& script, std::chrono::milliseconds limit = 10min)
-      : solver_(fluid(), particles::DiscDomain{{}, 8}, std::array{particles::Shape::disc(1)}, 2, {{"sh", "-c", script}},
+      : solver_(fluid(), particles::DiscDomain{{}, 8}, std::array{particles::Shape::disc(1)}, 2,
+                {{"sh", "-c", script}},
                 [](const particles::FluidParticles&, double) { return MeshBoundary{}; },
                 {limit, {}}) {
     disc_.positions = {0, 0};

@@ -79,14 +79,14 @@ TEST_F(RestartFile, HasWhatSourcesHaveDone) {
 TEST_F(RestartFile, HasTheImpactsOfTheLastStep) {
   auto state = disc_on_plane(-0.75);
   state.earlier_step = 0.1;
-  state.impacts = {{-1, {0.1, 1.0 / 3, 0}, {0, 1, 0}}, {0, {-2, 0, 0}, {1.0 / 7, 0, 0}}};
+  state.impact_impulses = {{-1, {0.1, 1.0 / 3, 0}, {0, 1, 0}}, {0, {-2, 0, 0}, {1.0 / 7, 0, 0}}};
   const auto text = write_restart(state);
   const auto again = read(text);
-  ASSERT_EQ(again.impacts.size(), 2U);
+  ASSERT_EQ(again.impact_impulses.size(), 2U);
   for (std::size_t k = 0; k < 2; ++k) {
-    EXPECT_EQ(again.impacts[k].first, state.impacts[k].first);
-    EXPECT_EQ(again.impacts[k].impulse, state.impacts[k].impulse);
-    EXPECT_EQ(again.impacts[k].branch, state.impacts[k].branch);
+    EXPECT_EQ(again.impact_impulses[k].first, state.impact_impulses[k].first);
+    EXPECT_EQ(again.impact_impulses[k].impulse, state.impact_impulses[k].impulse);
+    EXPECT_EQ(again.impact_impulses[k].branch, state.impact_impulses[k].branch);
   }
   EXPECT_EQ(write_restart(again), text);
   const auto refused = [&](const std::function<void(State&)>& change) {
@@ -94,9 +94,9 @@ TEST_F(RestartFile, HasTheImpactsOfTheLastStep) {
     change(other);
     EXPECT_THAT(bad_input([&] { read(write_restart(other)); }), IsAt("restart.bin"));
   };
-  refused([](State& other) { other.impacts[1].first = 1; });
-  refused([](State& other) { other.impacts[0].impulse[1] = std::nan(""); });
-  refused([](State& other) { other.impacts[0].branch[0] = INFINITY; });
+  refused([](State& other) { other.impact_impulses[1].first = 1; });
+  refused([](State& other) { other.impact_impulses[0].impulse[1] = std::nan(""); });
+  refused([](State& other) { other.impact_impulses[0].branch[0] = INFINITY; });
   refused([](State& other) { other.earlier_step = 0; });
 }
 

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// A pendulum of two discs on a hinge strikes a disc on a rough floor, to which a spring ties
+/// A pendulum of two discs on a hinge hits a disc on a rough floor, to which a spring ties
 /// another; an arm between two further discs changes its length.
 std::string linked_case(const std::string& scheme) {
   return R"(title = "Linked discs"
