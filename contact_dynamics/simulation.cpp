@@ -2,14 +2,12 @@
 #include "viscontact/contact_dynamics/simulation.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "viscontact/common/error.hpp"
@@ -31,9 +29,6 @@ namespace viscontact::particles {
 namespace {
 
 struct OverlapTuning {
-  // Growth of an overlap, in tolerances, that is no rounding error. Motions at one velocity leave
-  // overlaps as they are, but for rounding errors.
-  static constexpr double kDeeper = 1e-3;
   // The overlap of a step that jams, in mean radii. Steps that fail for another reason, such as
   // their friction, leave overlaps of up to 3e-3 in data/cases/particles/shear_under_pressure.toml.
   static constexpr double kJam = 0.01;
@@ -52,18 +47,6 @@ double checked_length(const Particles& p, const std::vector<double>& displacemen
                               "step",
                               p.id(k), x[d], w[d], time));
   return norm(w);
-}
-
-std::array<std::int32_t, 4> key_of(const Pair& pair) {
-  return {pair.first, pair.second, pair.image, pair.place};
-}
-
-/// Calls `change` for each number of `memory` that is an impulse, with the number of `other` at the
-/// same place.
-template <class Change>
-void for_impulses(PairMemory& memory, const PairMemory& other, const Change& change) {
-  for (std::size_t f = 0; f < kMemoryFields.size(); ++f)
-    if (kMemoryFields[f].is_impulse) change(memory.values()[f], other.values()[f]);
 }
 
 }  // namespace
@@ -128,15 +111,6 @@ void Simulation::pour() {
   if (!setting_.added_torques.empty()) added_torques();
 }
 
-void Simulation::scale_impulses(double factor) {
-  for_pairs([&](Pair& pair) {
-    pair.impulse *= factor;
-    if (pair.memory == PairMemories::kNone) return;
-    auto& memory = state_.memories.make(pair.memory);
-    for_impulses(memory, memory, [&](double& value, double) { value *= factor; });
-  });
-}
-
 bool Simulation::pull_across(std::span<Pair* const> pairs, std::span<const double> impulses) const {
   const auto kappas = kappas_of_films(
       state_.particles, mobilities_,
@@ -148,14 +122,6 @@ bool Simulation::pull_across(std::span<Pair* const> pairs, std::span<const doubl
 bool Simulation::pulled_across() const {
   return !state_.memories.empty() && std::ranges::any_of(state_.pairs, [&](const Pair& pair) {
     return norm(state_.memories.of(pair.memory).across()) > 0;
-  });
-}
-
-void Simulation::save_impulses() {
-  if (!saved_impulses_.empty() || before_division_) return;
-  for_pairs([&](const Pair& pair) {
-    if (pair.impulse != 0 || pair.memory != PairMemories::kNone)
-      saved_impulses_[key_of(pair)] = {pair.impulse, state_.memories.of(pair.memory)};
   });
 }
 
@@ -323,7 +289,7 @@ ProjectionResult Simulation::project(double h, double next) {
     const auto& friction = setting_.laws.friction;
     const bool is_convex = friction && friction->method == FrictionMethod::kConvex;
     if (!setting_.laws.restitution.is_on() && !is_convex) {
-      save_impulses();
+      if (saved_impulses_.empty() && !before_division_) saved_impulses_.copy(state_);
       take_impulses(projected);
     }
     margin = std::max(margin, 2 * gone);
@@ -361,122 +327,6 @@ void Simulation::add_works_of_arms(double h) {
   }
 }
 
-void Simulation::add_given_loads(const ProjectionResult& projected, double h) {
-  if (given_impulses_.empty()) return;
-  const auto add = [&](const GivenParticleLoad& impulse) {
-    assert(setting_.given_motions.contains(impulse.particle));
-    auto& sum = *std::ranges::lower_bound(given_impulses_, impulse.particle, {},
-                                          &GivenParticleLoad::particle);
-    sum.force = sum.force + impulse.force;
-    sum.torque = sum.torque + impulse.torque;
-  };
-  for (const auto& impulse : projected.on_given) add(impulse);
-  if (impacts_in_plane_) std::ranges::for_each(impacts_in_plane_->on_given(), add);
-  if (impacts_in_space_) std::ranges::for_each(impacts_in_space_->on_given(), add);
-  const double impulse_time = impulse_time_of(h);
-  const LinkTimes times{h, impulse_time, state_.time + h, false};
-  for (const auto& link : link_equations(setting_.links, state_.particles, times))
-    for (std::size_t r = 0; r < link.rows.size(); ++r)
-      for (const auto& part : link.rows[r].parts)
-        if (is_given(part.particle) && !part.is_turn)
-          add({part.particle, impulse_time * link_forces_[link.first_force + r] * part.direction});
-}
-
-bool Simulation::has_given_motions() const {
-  return !setting_.given_motions.empty() ||
-         std::ranges::any_of(setting_.planes, [](const Plane& plane) {
-           return !plane.load &&
-                  (!plane.velocity.pieces.empty() || norm(plane.angular_velocity) > 0);
-         });
-}
-
-bool Simulation::is_given(std::int32_t body) const {
-  if (body >= 0) return setting_.given_motions.contains(body);
-  return loaded_.empty() || loaded_[static_cast<std::size_t>(-1 - body)] < 0;
-}
-
-void Simulation::refuse_meeting(double next) const {
-  if (setting_.given_motions.empty()) return;
-  const auto& p = state_.particles;
-  const auto before = positions_of(obstacles_, state_.time), after = positions_of(obstacles_, next);
-  const double tolerance = setting_.solver.tolerance * mean_radius_;
-  const auto moved = [&](std::int32_t k) {
-    return point_of(displacements_.data(), index_of(k), p.dimension);
-  };
-  const auto shape_at_end = [&](std::int32_t k, const Vector& shift) {
-    auto shape = p.placed_shape(index_of(k), shift + moved(k));
-    if (!p.is_round(index_of(k)))
-      shape = PlacedShape::at_angle(shape.shape, shape.centre,
-                                    p.angles[index_of(k)] + turns_[index_of(k)]);
-    return shape;
-  };
-  for (const auto* pairs : {&state_.pairs, &state_.walls})
-    for (const auto& pair : *pairs) {
-      if (!is_given(pair.first) || !is_given(pair.second)) continue;
-      const auto j = index_of(pair.second);
-      double start = 0, end = 0;
-      if (has_other_shapes_ && !is_round(p, pair)) {
-        const Vector shift = pair.first < 0 ? Vector{} : shift_of(p.cell, pair.image);
-        const auto second = p.placed_shape(j, shift),
-                   after_second = shape_at_end(pair.second, shift);
-        start = pair.first < 0 ? gap(before[pair.plane()], second)
-                               : gap(p.placed_shape(index_of(pair.first)), second);
-        end = pair.first < 0 ? gap(after[pair.plane()], after_second)
-                             : gap(shape_at_end(pair.first, {}), after_second);
-      } else if (pair.first < 0) {
-        start = gap(before[pair.plane()], p.position(j), p.radii[j]);
-        end = gap(after[pair.plane()], p.position(j) + moved(pair.second), p.radii[j]);
-      } else {
-        const auto i = index_of(pair.first);
-        const Vector apart = p.position(j) + shift_of(p.cell, pair.image) - p.position(i);
-        const double sum = p.radii[i] + p.radii[j];
-        start = norm(apart) - sum;
-        end = norm(apart + moved(pair.second) - moved(pair.first)) - sum;
-      }
-      if (end < -tolerance && end < start - OverlapTuning::kDeeper * tolerance)
-        throw Error(ErrorKind::kNotConverged,
-                    "the given motions contradict each other: {}, whose motions are both given, "
-                    "would overlap by {:.3g} mean radii in the step to time {}; change fixed, "
-                    "velocity_given or the velocity of the plane",
-                    name_of_pair(pair, p, setting_), -end / mean_radius_, next);
-    }
-}
-
-Simulation::Pressing Simulation::pressing(const ProjectionResult& projected, double next) const {
-  if (!has_given_motions()) return {};
-  const auto before = positions_of(obstacles_, state_.time), after = positions_of(obstacles_, next);
-  std::vector<std::int32_t> planes, particles;
-  double impulse = 0;
-  const auto add = [](std::vector<std::int32_t>& list, std::int32_t number) {
-    if (std::ranges::find(list, number) == list.end()) list.push_back(number);
-  };
-  for (std::size_t f = 0; f < projected.pairs.size(); ++f) {
-    const auto& pair = *projected.pairs[f];
-    if (!(projected.impulses[f] > 0)) continue;
-    for (const auto body : {pair.first, pair.second}) {
-      if (!is_given(body)) continue;
-      const bool moves = body < 0
-                             ? before[pair.plane()] != after[pair.plane()]
-                             : !setting_.given_motions.at(body).velocity.pieces.empty() ||
-                                   !setting_.given_motions.at(body).angular_velocity.pieces.empty();
-      if (!moves) continue;
-      impulse += projected.impulses[f];
-      if (body >= 0)
-        add(particles, state_.particles.id(index_of(body)));
-      else
-        add(planes, body);
-    }
-  }
-  const auto listed = [](std::string_view kind, std::vector<std::int32_t>& numbers) {
-    std::ranges::sort(numbers, {}, [](std::int32_t n) { return std::abs(n); });
-    if (numbers.empty()) return std::string();
-    return fmt::format("{}{} {}", kind, numbers.size() > 1 ? "s" : "", fmt::join(numbers, ", "));
-  };
-  const auto of_planes = listed("plane", planes), of_particles = listed("particle", particles);
-  const bool are_both = !planes.empty() && !particles.empty();
-  return {of_planes + (are_both ? " and " : "") + of_particles, impulse};
-}
-
 template <int D>
 void Simulation::find_impacts(double h, double next) {
   impacts<D>().reset();
@@ -509,13 +359,14 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
                         StepReport& report) {
   // A pair that bore friction without a normal impulse in the step before can be missing in this
   // projection. The friction of such a pair is then 0.
-  for_pairs([&](Pair& pair) {
-    if (pair.memory == PairMemories::kNone) return;
-    auto& memory = state_.memories.make(pair.memory);
-    if (pair.impulse == 0) memory.set_friction({});
-    // A step without constraints has no memories that take the place of these.
-    if (pair.impulse == 0 || projected.memories.empty()) memory.set_across({});
-  });
+  for (auto* pairs : {&state_.pairs, &state_.walls})
+    for (auto& pair : *pairs) {
+      if (pair.memory == PairMemories::kNone) continue;
+      auto& memory = state_.memories.make(pair.memory);
+      if (pair.impulse == 0) memory.set_friction({});
+      // A step without constraints has no memories that take the place of these.
+      if (pair.impulse == 0 || projected.memories.empty()) memory.set_across({});
+    }
   const auto [names, impulse] = pressing(projected, next);
   report.given_load += impulse;
   report.jams =
@@ -607,41 +458,16 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
     const double middle = state_.time + h / 2;
     report.iterations += projected.iterations;
     stages_ += projected.stages;
-    scale_impulses(0.5);
+    // A first guess for a part of half of the length.
+    scale_impulses(0.5, state_);
     advance<D>(h / 2, middle, halvings + 1, report);
     advance<D>(h / 2, next, halvings + 1, report);
     // The next part may have twice the length. Its first guess is then twice these impulses.
-    if (halvings > 0) scale_impulses(2);
+    if (halvings > 0) scale_impulses(2, state_);
     return;
   }
   accept<D>(projected, h, next, report);
-  if (halvings > 0)
-    for_pairs([&](const Pair& pair) {
-      if (pair.impulse == 0 && pair.memory == PairMemories::kNone) return;
-      auto& sums = impulses_of_parts_[key_of(pair)];
-      sums.of_contact += pair.impulse;
-      for_impulses(sums.memory, state_.memories.of(pair.memory),
-                   [](double& sum, double value) { sum += value; });
-    });
-}
-
-void Simulation::move_sums_to_present_contacts() {
-  std::set<std::array<std::int32_t, 4>> present;
-  for_pairs([&](const Pair& pair) { present.insert(key_of(pair)); });
-  for (auto sums = impulses_of_parts_.begin(); sums != impulses_of_parts_.end();) {
-    const auto [first, second, image, place] = sums->first;
-    const auto same = present.lower_bound({first, second, image, 0});
-    if (present.contains(sums->first) || same == present.end() || (*same)[0] != first ||
-        (*same)[1] != second || (*same)[2] != image) {
-      ++sums;
-      continue;
-    }
-    auto& of_present = impulses_of_parts_[*same];
-    of_present.of_contact += sums->second.of_contact;
-    for_impulses(of_present.memory, sums->second.memory,
-                 [](double& sum, double value) { sum += value; });
-    sums = impulses_of_parts_.erase(sums);
-  }
+  if (halvings > 0) impulses_of_parts_.add(state_);
 }
 
 template <int D>
@@ -657,12 +483,7 @@ void Simulation::advance_whole(double h, double next, StepReport& report) {
       state_ = *before_division_;  // copied, so that the arrays keep their places in memory
       place_planes();
     } else if (!saved_impulses_.empty()) {
-      for_pairs([&](Pair& pair) {
-        const auto saved = saved_impulses_.find(key_of(pair));
-        const auto impulses = saved == saved_impulses_.end() ? Impulses{} : saved->second;
-        pair.impulse = impulses.of_contact;
-        state_.memories.set(pair.memory, impulses.memory);
-      });
+      saved_impulses_.restore(state_);
     }
     before_division_.reset();
     saved_impulses_.clear();
@@ -690,15 +511,7 @@ StepReport Simulation::step(double end) {
   else
     advance_whole<3>(interval->h, interval->end, report);
   if (!impulses_of_parts_.empty()) {
-    if (has_other_shapes_) move_sums_to_present_contacts();
-    for_pairs([&](Pair& pair) {
-      const auto sums = impulses_of_parts_.find(key_of(pair));
-      const auto impulses = sums == impulses_of_parts_.end() ? Impulses{} : sums->second;
-      pair.impulse = impulses.of_contact;
-      auto memory = state_.memories.of(pair.memory);
-      for_impulses(memory, impulses.memory, [](double& value, double sum) { value = sum; });
-      state_.memories.set(pair.memory, memory);
-    });
+    impulses_of_parts_.give_to(state_);
     impulses_of_parts_.clear();
   }
   for (std::size_t k = 0; k < link_impulses_.size(); ++k)

@@ -1,10 +1,9 @@
-// Many rigid discs or spheres with viscous contact, without a fluid, docs/physics.md (5.2), (5.3).
+// Many rigid particles with viscous contact, without a fluid, docs/physics.md (5.2), (5.3).
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -13,6 +12,7 @@
 
 #include "viscontact/arrangement/pouring.hpp"
 #include "viscontact/common/system/thread_pool.hpp"
+#include "viscontact/contact_dynamics/pair_impulses.hpp"
 #include "viscontact/contact_solver/stages.hpp"
 #include "viscontact/membranes/membrane_shape.hpp"
 #include "viscontact/particles/setting/setting.hpp"
@@ -111,19 +111,12 @@ class Simulation : public ParticleSimulation {
   // Computes a step. If a part throws, the state becomes that before the step.
   template <int D>
   void advance_whole(double h, double next, StepReport& report);
-  // Two contacts of two shapes may have become one, or have got other numbers, in a later part of
-  // the step. The sums of the earlier parts then go to a present contact of the same shapes.
-  void move_sums_to_present_contacts();
   // Changes the state to that at the end of a part, and adds the part to the report.
   template <int D>
   void accept(const ProjectionResult& projected, double h, double next, StepReport& report);
-  // Copies impulses and memories, to restore them if a step whose projection is repeated throws.
-  void save_impulses();
   void take_impulses(const ProjectionResult& projected);
   // Updates gamma and the memory of each pair. Returns the number of glued pairs.
   std::size_t remember(const ProjectionResult& projected, double h);
-  // Makes first guesses for a part whose length is `factor` times that of the part before.
-  void scale_impulses(double factor);
   // Adds to arm_works_ the works of the arms in a part whose displacements are known.
   void add_works_of_arms(double h);
   void add_given_loads(const ProjectionResult& projected, double h);
@@ -142,11 +135,6 @@ class Simulation : public ParticleSimulation {
     double impulse = 0;
   };
   Pressing pressing(const ProjectionResult& projected, double next) const;
-  template <class Visit>
-  void for_pairs(const Visit& visit) {
-    for (auto* pairs : {&state_.pairs, &state_.walls})
-      for (auto& pair : *pairs) visit(pair);
-  }
   // Throws Error(kNotConverged) if a part that has not converged leaves an overlap of more than the
   // mean radius, or if links contradict each other.
   void examine(const ProjectionResult& projected, double next) const;
@@ -231,17 +219,10 @@ class Simulation : public ParticleSimulation {
   std::vector<Rebound> rebounds_;
   // Of the impacts in the parts of the step that are done.
   std::vector<ImpactImpulse> impact_impulses_;
-  // Impulses of a pair [M L/T], by Pair::first, second, image and place. If a step is divided,
-  // impulses_of_parts_ has the sums over the parts that are done, and before_division_ the state
-  // before the step.
-  struct Impulses {
-    double of_contact = 0;
-    PairMemory memory{};
-  };
-  using ImpulsesOfPairs = std::map<std::array<std::int32_t, 4>, Impulses>;
-  ImpulsesOfPairs impulses_of_parts_;
-  std::optional<State> before_division_;
-  ImpulsesOfPairs saved_impulses_;  // before a step whose projection is repeated
+  // Sums over the parts that are done, if the step is divided.
+  PairImpulses impulses_of_parts_;
+  std::optional<State> before_division_;  // the state before a step that is divided
+  PairImpulses saved_impulses_;           // before a step whose projection is repeated
 };
 
 }  // namespace viscontact::particles
