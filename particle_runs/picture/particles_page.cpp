@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "viscontact/common/text/base64.hpp"
@@ -173,11 +175,27 @@ std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& 
   return text;
 }
 
+/// Such as "3 discs, 1 ellipse", in the order in which the shapes come first.
+std::string counts_of_shapes(const Playback& playback) {
+  std::vector<std::pair<std::string_view, std::size_t>> counts;
+  for (const auto& shape : playback.shapes) {
+    auto found = std::ranges::find(counts, shape.name(), &decltype(counts)::value_type::first);
+    if (found == counts.end()) found = counts.insert(found, {shape.name(), 0});
+    ++found->second;
+  }
+  if (counts.empty())
+    counts.emplace_back(playback.dimension == 2 ? "disc" : "sphere", playback.radii.size());
+  std::string words;
+  for (const auto& [name, count] : counts)
+    words +=
+        fmt::format("{}{} {}{}", words.empty() ? "" : ", ", count, name, count == 1 ? "" : "s");
+  return words;
+}
+
 /// The numbers of particles and frames, the times, and what the page leaves out.
 std::string words_for(const Playback& playback, const PageData& data) {
-  const auto count = playback.radii.size(), frames = playback.frames.size();
-  std::string words = fmt::format("{} {}{}", count, playback.dimension == 2 ? "disc" : "sphere",
-                                  count == 1 ? "" : "s");
+  const auto frames = playback.frames.size();
+  std::string words = counts_of_shapes(playback);
   if (frames == 0) return words + ", no frames.";
   const auto unit = playback.units.are_said() ? " " + playback.units.time : "";
   words += fmt::format(", t = {:.4g}", playback.frames.front().time);

@@ -73,7 +73,9 @@ region = { from = [5.0, 0.0], to = [9.0, 4.0] }
   const auto table = content(out() / "final_particles.csv");
   EXPECT_THAT(table, HasSubstr("semi_axis_1,semi_axis_2"));
   EXPECT_EQ(std::ranges::count(table, '\n'), 5);
-  EXPECT_THAT(content(out() / "particles.html"), HasSubstr("semiAxes"));
+  const auto page = content(out() / "particles.html");
+  EXPECT_THAT(page, HasSubstr("semiAxes"));
+  EXPECT_THAT(page, HasSubstr("1 ellipse, 3 discs, t = 0"));
 }
 
 TEST_F(ParticlesCommand, WritesNoMessageIntoItsFilesIfItHasNoStandardStreams) {
