@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "viscontact/contact_solver/cone.hpp"
+#include "viscontact/contact_solver/problem/cone.hpp"
 
 namespace viscontact::contact_solver {
 namespace {

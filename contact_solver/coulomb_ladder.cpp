@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "viscontact/contact_solver/coulomb_path.hpp"
+#include "viscontact/contact_solver/methods/coulomb_path.hpp"
 
 namespace viscontact::contact_solver {
 namespace {

@@ -5,12 +5,12 @@
 #include <optional>
 #include <vector>
 
-#include "viscontact/contact_solver/block_factor.hpp"
-#include "viscontact/contact_solver/constraint_problem.hpp"
 #include "viscontact/contact_solver/constraint_solver.hpp"
-#include "viscontact/contact_solver/contact_sweeps.hpp"
-#include "viscontact/contact_solver/proximal_step.hpp"
-#include "viscontact/contact_solver/stages.hpp"
+#include "viscontact/contact_solver/methods/block_factor.hpp"
+#include "viscontact/contact_solver/methods/contact_sweeps.hpp"
+#include "viscontact/contact_solver/methods/proximal_step.hpp"
+#include "viscontact/contact_solver/problem/constraint_problem.hpp"
+#include "viscontact/contact_solver/stages/stages.hpp"
 
 namespace viscontact::contact_solver {
 

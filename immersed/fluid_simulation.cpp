@@ -9,11 +9,11 @@
 #include <functional>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/immersed/constrained_motion.hpp"
-#include "viscontact/immersed/constrained_solver.hpp"
-#include "viscontact/immersed/fluid_contacts.hpp"
+#include "viscontact/immersed/contacts/fluid_contacts.hpp"
+#include "viscontact/immersed/fluid/fluid_solver.hpp"
 #include "viscontact/immersed/fluid_motion.hpp"
-#include "viscontact/immersed/fluid_solver.hpp"
+#include "viscontact/immersed/links/constrained_motion.hpp"
+#include "viscontact/immersed/links/constrained_solver.hpp"
 #include "viscontact/immersed/step_equation.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"

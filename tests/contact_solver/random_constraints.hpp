@@ -10,7 +10,7 @@
 
 #include "tests/common/random.hpp"
 #include "viscontact/constraint_rows/contact_rows.hpp"
-#include "viscontact/contact_solver/constraint_problem.hpp"
+#include "viscontact/contact_solver/problem/constraint_problem.hpp"
 
 namespace viscontact::contact_solver {
 

@@ -10,7 +10,7 @@
 
 #include "tests/contact_solver/random_constraints.hpp"
 #include "viscontact/contact_solver/constraint_solver.hpp"
-#include "viscontact/contact_solver/interior_points.hpp"
+#include "viscontact/contact_solver/methods/interior_points.hpp"
 
 namespace viscontact::contact_solver {
 namespace {

@@ -1,5 +1,5 @@
 // The loop that runs a table of stages, and which stages run for problems with known solutions.
-#include "viscontact/contact_solver/stages.hpp"
+#include "viscontact/contact_solver/stages/stages.hpp"
 
 #include <gtest/gtest.h>
 
