@@ -224,8 +224,8 @@ bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
   return true;
 }
 
-/// Throws Error(kNotConverged) if a particle without sides that is not round and bears a force turns
-/// so far in the step that corrections of its gaps for the turn have no meaning.
+/// Throws Error(kNotConverged) if a particle without sides that is not round and bears a force
+/// turns so far in the step that corrections of its gaps for the turn have no meaning.
 void check_turns(const StepContacts& step, const Particles& p,
                  const ContactConditions& conditions) {
   if (!p.has_other_shapes()) return;

@@ -119,6 +119,18 @@ ConstraintProblem<D> random_constraints(const RandomConstraints& what, const Pro
   return problem;
 }
 
+/// Adds two rows of unit 0 that no motion satisfies.
+inline void add_contradicting_links(ConstraintProblem<2>& problem) {
+  ConstraintBlock block;
+  block.is_contact = false;
+  for (const double offset : {0.0, 1.0}) {
+    block.row = problem.rows.size();
+    problem.blocks.push_back(block);
+    const std::vector<RowPart<2>> parts{{0, displacement_row<2>({1, 0, 0}, {})}};
+    problem.add_row(offset, parts, 0);
+  }
+}
+
 /// Makes a problem of dry contacts in the cones of (5.9) and of contacts with films whose loads are
 /// given (5.17): a random one of them has no load.
 template <int D>

@@ -151,17 +151,9 @@ TEST(CoulombPath, FindsTheDirectionOfFrictionInSpace) {
   EXPECT_NEAR(impulses[2], -0.5 * 0.8, 1e-5);
 }
 
-/// Two rows that no motion satisfies.
 TEST(CoulombPath, EndsWhereLinksContradictEachOther) {
   auto problem = disc_on_a_floor(3, 0.5, 0);
-  ConstraintBlock block;
-  block.is_contact = false;
-  for (const double offset : {0.0, 1.0}) {
-    block.row = problem.rows.size();
-    problem.blocks.push_back(block);
-    const std::vector<RowPart<2>> parts{{0, displacement_row<2>({1, 0, 0}, {})}};
-    problem.add_row(offset, parts, 0);
-  }
+  add_contradicting_links(problem);
   for (const double impulse : end_of_path(problem)) EXPECT_TRUE(std::isfinite(impulse));
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/common/failure.hpp"
+#include "tests/immersed/contacts/shapes_in_fluid.hpp"
 #include "tests/immersed/stand_in_fluid.hpp"
 #include "tests/particles/systems.hpp"
 #include "viscontact/particles/shapes/shape_contacts.hpp"
@@ -17,19 +18,10 @@
 namespace viscontact::particles {
 namespace {
 
-constexpr double kGap = 0.02, kLong = 1, kShort = 0.5;
-
-void add_shape(InFluid& system, const Shape& shape, const Vector& at, double angle, double mass) {
-  auto& p = system.state.particles;
-  add_particle(system.state, at, shape.bounding_radius(), mass);
-  p.angles.push_back(angle);
-  p.angular_velocities.push_back(0);
-  p.shapes.push_back(shape);
-  p.inertias.push_back(shape.inertia(mass));
-}
+constexpr double kLong = 1, kShort = 0.5;
 
 void add_ellipse(InFluid& system, const Vector& at, double angle, double mass) {
-  add_shape(system, Shape::ellipse(kLong, kShort), at, angle, mass);
+  add_shape(system.state, Shape::ellipse(kLong, kShort), at, angle, mass);
 }
 
 /// Height of the centre above the lowest point at this angle.
@@ -42,28 +34,12 @@ double slope_at(double angle) {
   return (kLong * kLong - kShort * kShort) * std::sin(angle) * std::cos(angle) / height_at(angle);
 }
 
-double gap_to_floor(const FluidSimulation& simulation) {
-  return gap(PlanePosition{{0, 0, 0}, {0, 1, 0}}, simulation.state().particles.placed_shape(0));
-}
-
-double force_of_walls(const FluidSimulation& simulation, double h) {
-  double force = 0;
-  for (const auto& pair : simulation.state().walls) force += pair.impulse / h;
-  return force;
-}
-
 class Ellipses : public ::testing::TestWithParam<double> {};  // density of the fluid
 INSTANTIATE_TEST_SUITE_P(Densities, Ellipses, ::testing::Values(0.0, 1e-12));
 
-InFluid with_ellipses(double h, double density = 0) {
-  auto system = in_fluid(2, 20, h, kGap);
-  system.setting.fluid->density = density;
-  return system;
-}
-
 // The gap after a turn of more than 1 rad says nothing: the ellipse would be left in the floor.
 TEST(EllipseInALongStep, ThatTurnsTooFarOnTheFloorIsAnError) {
-  auto system = with_ellipses(0.2);
+  auto system = with_shapes(0.2);
   add_ellipse(system, {10, 1.0, 0}, 0.6, 1);
   system.setting.forces[0] = constant({0, -1000, 0});
   auto simulation = system.simulation(constant_drag(0.5));
@@ -78,27 +54,12 @@ TEST(EllipseInALongStep, ThatTurnsTooFarOnTheFloorIsAnError) {
 // more, and comes to lie flat.
 TEST_P(Ellipses, LandAndComeToLieFlat) {
   for (const double h : {0.2, 0.05}) {
-    auto system = with_ellipses(h, GetParam());
+    auto system = with_shapes(h, GetParam());
     add_ellipse(system, {10, 1.2, 0}, 1.2, 1);
     system.setting.forces[0] = constant({0, -1, 0});
     auto simulation = system.simulation(constant_drag(0.5));
     const double allowed = system.setting.solver.tolerance * kLong;
-    bool has_landed = false;
-    double largest_turn = 0;
-    while (simulation.state().time < 24 - h / 2) {
-      EXPECT_TRUE(simulation.step(100).converged);
-      const double gap = gap_to_floor(simulation);
-      EXPECT_GT(gap, kGap - allowed) << simulation.state().time;
-      has_landed = has_landed || gap < kGap + allowed;
-      // A smooth film holds the ellipse when it has landed.
-      if (has_landed) {
-        EXPECT_LT(gap, kGap + allowed) << simulation.state().time;
-      }
-      largest_turn =
-          std::max(largest_turn, h * std::abs(simulation.state().particles.angular_velocities[0]));
-    }
-    EXPECT_TRUE(has_landed);
-    EXPECT_GT(largest_turn, h / 2);
+    EXPECT_GT(largest_turn_of_landing(simulation, 24, allowed), h / 2);
     // It swings, and the swing falls by e in the time 2 I/c = 1.25, so that e^-16 is left of it.
     EXPECT_NEAR(simulation.state().particles.angles[0], 0, 2e-5);
     EXPECT_NEAR(simulation.state().particles.positions[1], kShort + kGap, 2 * allowed);
@@ -126,7 +87,7 @@ TEST(EllipseContact, TurnsOnTheFloorAsTheEquationSays) {
   const double drag = 2, start = 1.3, end = 3;
   const double exact = angle_on_floor(start, drag, end);
   const auto error = [&](double h) {
-    auto system = with_ellipses(h);
+    auto system = with_shapes(h);
     add_ellipse(system, {10, height_at(start) + kGap, 0}, start, 0);
     system.setting.forces[0] = constant({0, -1, 0});
     auto simulation = system.simulation(constant_drag(drag));
@@ -144,7 +105,7 @@ TEST(EllipseContact, TurnsOnTheFloorAsTheEquationSays) {
 TEST(EllipseContact, RollsByTheLengthOfItsOutline) {
   const double torque = -0.8, start = 0.1, end = 4;
   const auto off = [&](double h) {
-    auto system = with_ellipses(h);
+    auto system = with_shapes(h);
     system.setting.laws.film.gamma_min = 0;
     system.setting.laws.friction = FrictionLaw{50};
     add_ellipse(system, {10, height_at(start) + kGap, 0}, start, 0);
@@ -184,7 +145,7 @@ TEST(EllipseContact, RollsByTheLengthOfItsOutline) {
 /// Without mass the load is shared by the levers of force and contact, as with plates.
 TEST(EllipseContact, TurnsAtTheRateOfTheLever) {
   const double angle = 0.5;
-  auto system = with_ellipses(1e-4);
+  auto system = with_shapes(1e-4);
   add_ellipse(system, {10, height_at(angle) + kGap, 0}, angle, 0);
   system.setting.forces[0] = constant({0, -1, 0});
   auto simulation = system.simulation(constant_drag(2));
@@ -195,26 +156,19 @@ TEST(EllipseContact, TurnsAtTheRateOfTheLever) {
   EXPECT_NEAR(pair_of(simulation.state(), -3, 0).gamma, -1e-4 / (1 + slope * slope), 1e-8);
 }
 
-// Two free ellipses that are pushed together keep the momentum, which is 0, and the angular
-// momentum but for the way of a step. Drag is nearly 0.
+// Two free ellipses that are pushed together keep the momentum, and the angular momentum but
+// for the way of a step. Drag is nearly 0.
 TEST(EllipseContact, KeepsTheMomentumOfAPair) {
   for (const double friction : {0.0, 0.4}) {
     const auto change = [&](double h) {
-      auto system = with_ellipses(h);
+      auto system = with_shapes(h);
       add_ellipse(system, {10, 10, 0}, 0.3, 1);
       add_ellipse(system, {10.6, 11.6, 0}, -0.9, 2);
       auto& p = system.state.particles;
       p.velocities = {0, 1, 0, -1};
       system.setting.laws.film.gamma_min = 0;
       if (friction > 0) system.setting.laws.friction = FrictionLaw{friction};
-      const auto momentum_of = [](const Particles& of) {
-        double sum = 0;
-        for (std::size_t k = 0; k < 2; ++k)
-          sum += cross(of.position(k) - Vector{10, 10, 0}, of.masses[k] * of.velocity(k))[2] +
-                 of.inertias[k] * of.angular_velocities[k];
-        return sum;
-      };
-      const double before = momentum_of(p);
+      const double before = angular_momentum_with_spin(p);
       auto simulation = system.simulation(constant_drag(1e-9));
       bool has_met = false;
       while (simulation.state().time < 0.8 - h / 2) {
@@ -228,7 +182,7 @@ TEST(EllipseContact, KeepsTheMomentumOfAPair) {
             after.masses[0] * after.velocities[d] + after.masses[1] * after.velocities[2 + d],
             d == 0 ? 0 : -1, 1e-8);
       EXPECT_GT(std::abs(after.angular_velocities[0]), 0.1);
-      return momentum_of(after) - before;
+      return angular_momentum_with_spin(after) - before;
     };
     const double coarse = change(0.01), fine = change(0.0025);
     EXPECT_LT(std::abs(coarse), 0.02);
@@ -240,7 +194,7 @@ TEST(EllipseContact, KeepsTheMomentumOfAPair) {
 // gap afterwards is e_d times that before, wherever it touches.
 TEST_P(Ellipses, ReboundFromTheFloor) {
   for (const double angle : {0.0, 0.5, std::numbers::pi / 2}) {
-    auto system = with_ellipses(0.001, GetParam());
+    auto system = with_shapes(0.001, GetParam());
     add_ellipse(system, {10, kGap + height_at(angle) + 0.0101, 0}, angle, 1);
     system.state.particles.velocities = {0, -1};
     system.setting.laws.film.gamma_min = 0;
@@ -261,9 +215,9 @@ TEST_P(Ellipses, ReboundFromTheFloor) {
 // which differ by the square of the way across the normal; the pull of 1e-4 makes it 1e-8.
 TEST(EllipseContact, OfAnEllipseThatIsNearlyADiscIsThatOfTheDisc) {
   const auto state_with = [](const Shape& shape) {
-    auto system = with_ellipses(0.02);
-    add_shape(system, shape, {10, 1.05, 0}, 0.4, 1);
-    add_shape(system, Shape::disc(0.5), {10, 2.6, 0}, 0, 1);
+    auto system = with_shapes(0.02);
+    add_shape(system.state, shape, {10, 1.05, 0}, 0.4, 1);
+    add_shape(system.state, Shape::disc(0.5), {10, 2.6, 0}, 0, 1);
     for (const int k : {0, 1}) system.setting.forces[k] = constant({1e-4, -1, 0});
     system.setting.torques[1] = constant({0, 0, 0.02});
     system.setting.laws.film.viscosity = 0.01;
@@ -287,7 +241,7 @@ TEST(EllipseContact, OfAnEllipseThatIsNearlyADiscIsThatOfTheDisc) {
 
 // The tip is curved as a disc of the radius b^2/a: an ellipse on its tip has the film of this disc.
 TEST(EllipseContact, HasTheFilmOfItsRadiusOfCurvature) {
-  auto system = with_ellipses(0.01);
+  auto system = with_shapes(0.01);
   add_ellipse(system, {10, kGap + kLong, 0}, std::numbers::pi / 2, 1);
   system.setting.forces[0] = constant({0, -1, 0});
   system.setting.laws.film.viscosity = 1;
@@ -301,7 +255,7 @@ TEST(EllipseContact, HasTheFilmOfItsRadiusOfCurvature) {
 
 // Across a round wall both tips are held. A push along the ellipse is borne by one of them.
 TEST_P(Ellipses, MeetARoundWallWithBothTips) {
-  auto system = with_ellipses(0.02, GetParam());
+  auto system = with_shapes(0.02, GetParam());
   system.setting.domain = DiscDomain{{0, 0, 0}, kLong + 0.03};
   add_ellipse(system, {0.005, 0, 0}, 0.2, 1);
   system.setting.forces[0] = constant({0.3, -1, 0});
@@ -318,7 +272,7 @@ TEST_P(Ellipses, MeetARoundWallWithBothTips) {
 // With coupling = splitting the masses alone share the impulse.
 TEST(EllipseContact, ProjectsVelocitiesWithSplitting) {
   const double angle = 0.5, h = 1e-4;
-  auto system = with_ellipses(h);
+  auto system = with_shapes(h);
   system.setting.fluid->coupling = Coupling::kSplitting;
   add_ellipse(system, {10, height_at(angle) + kGap, 0}, angle, 1);
   system.state.particles.velocities = {0, -1};
@@ -369,7 +323,8 @@ struct Scene {
     for (std::size_t k = 0; k < order.size(); ++k) {
       const auto& body = bodies[order[k]];
       number[order[k]] = k;
-      add_shape(system, body.shape.scaled(unit), place(body.at), mirror * body.angle + turn, 1);
+      add_shape(system.state, body.shape.scaled(unit), place(body.at), mirror * body.angle + turn,
+                1);
       system.setting.forces[static_cast<std::int32_t>(k)] =
           constant(unit * direction({-0.4, -1, 0}));
     }

@@ -392,11 +392,7 @@ TEST(ConstrainedInFluid, BodiesAndHingesHoldWhereAContactStopsTheirTurn) {
   add_pushed(system, {6, 3, 0}, kRadius, 0, {0, -load, 0});
   add_rotation(system.state.particles);
   add_rigid_body(system.state.particles, {{0, 1}});
-  auto& body = system.state.particles.bodies.bodies[0];
-  Hinge hinge;
-  hinge.body = 0;
-  hinge.at = {3, 3, 0};
-  hinge.point = {0, hinge.at - body.centre};
+  const auto hinge = hinge_of_body(system.state.particles, {3, 3, 0});
   system.setting.links.hinges = {hinge};
   auto simulation = system.simulation(drag_of_discs);
   int in_contact = 0;

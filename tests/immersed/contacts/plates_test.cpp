@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 
+#include "tests/immersed/contacts/shapes_in_fluid.hpp"
 #include "tests/immersed/stand_in_fluid.hpp"
 #include "tests/particles/systems.hpp"
 #include "viscontact/common/error.hpp"
@@ -15,31 +16,15 @@
 namespace viscontact::particles {
 namespace {
 
-constexpr double kGap = 0.02, kHalf = 1, kEnd = 0.1;
-
-InFluid with_plates(double h, double density = 0) {
-  auto system = in_fluid(2, 20, h, kGap);
-  system.setting.fluid->density = density;
-  return system;
-}
+constexpr double kHalf = 1, kEnd = 0.1;
 
 void add_plate(InFluid& system, const Vector& at, double angle, double mass) {
-  auto& p = system.state.particles;
-  add_particle(system.state, at, kHalf, mass);
-  p.angles.push_back(angle);
-  p.angular_velocities.push_back(0);
-  p.shapes.push_back(Shape::plate(kHalf, kEnd));
-  p.inertias.push_back(p.shapes.back().inertia(mass));
+  add_shape(system.state, Shape::plate(kHalf, kEnd), at, angle, mass);
 }
 
 double gap_of(const FluidSimulation& simulation, std::size_t i, std::size_t j) {
   const auto& p = simulation.state().particles;
   return gap(p.placed_shape(i), p.placed_shape(j));
-}
-
-/// The gap of a plate to the floor, which is at y = 0.
-double gap_to_floor(const FluidSimulation& simulation) {
-  return gap(PlanePosition{{0, 0, 0}, {0, 1, 0}}, simulation.state().particles.placed_shape(0));
 }
 
 /// The sum of gamma of both ends of a plate at the floor.
@@ -57,33 +42,16 @@ INSTANTIATE_TEST_SUITE_P(Densities, Plates, ::testing::Values(0.0, 1e-12));
 // sink below the threshold gap by more than the tolerance, however far it turns in a step.
 TEST_P(Plates, FallOnOneEndAndTurnAboutIt) {
   for (const double h : {0.05, 0.01}) {
-    auto system = with_plates(h, GetParam());
+    auto system = with_shapes(h, GetParam());
     add_plate(system, {10, 0.8, 0}, 0.6, 1);
     system.setting.forces[0] = constant({0, -1, 0});
     auto simulation = system.simulation(constant_drag(0.5));
-    bool has_landed = false;
-    double largest_turn = 0;
-    while (simulation.state().time < 6 - h / 2) {
-      EXPECT_TRUE(simulation.step(10).converged);
-      const double gap = gap_to_floor(simulation);
-      const double allowed = system.setting.solver.tolerance * kHalf;
-      EXPECT_GT(gap, kGap - allowed) << simulation.state().time;
-      has_landed = has_landed || gap < kGap + allowed;
-      // A smooth film holds an end that has landed, and then the other one, too.
-      if (has_landed) {
-        EXPECT_LT(gap, kGap + allowed) << simulation.state().time;
-      }
-      largest_turn =
-          std::max(largest_turn, h * std::abs(simulation.state().particles.angular_velocities[0]));
-    }
-    EXPECT_TRUE(has_landed);
-    EXPECT_GT(largest_turn, h / 10);
+    const double allowed = system.setting.solver.tolerance * kHalf;
+    EXPECT_GT(largest_turn_of_landing(simulation, 6, allowed), h / 10);
     // In the end it lies flat, and the films of both ends share the weight.
     EXPECT_NEAR(simulation.state().particles.angles[0], 0, 2e-6);
     EXPECT_NEAR(simulation.state().particles.angular_velocities[0], 0, 1e-6);
-    double force = 0;
-    for (const auto& pair : simulation.state().walls) force += pair.impulse / h;
-    EXPECT_NEAR(force, 1, 1e-6);
+    EXPECT_NEAR(force_of_walls(simulation, h), 1, 1e-6);
   }
 }
 
@@ -91,7 +59,7 @@ TEST_P(Plates, FallOnOneEndAndTurnAboutIt) {
 // the drag c of each component, whose end is held at the floor, turns at w = -l cos(angle)/(c (1 +
 // (l cos(angle))^2)) under a unit force on its middle.
 TEST(PlateContact, TurnAboutAnEndAtTheRateOfTheLever) {
-  auto system = with_plates(1e-4);
+  auto system = with_shapes(1e-4);
   const double angle = 0.5, l = kHalf - kEnd;
   add_plate(system, {10, kGap + kEnd + l * std::sin(angle), 0}, angle, 0);
   system.setting.forces[0] = constant({0, -1, 0});
@@ -110,7 +78,7 @@ TEST(PlateContact, TurnAboutAnEndAtTheRateOfTheLever) {
 // the centre, and therefore the end in front has the larger load.
 TEST(PlateContact, SlidesOnBothEnds) {
   const double drag = 0.5, load = 4, pull = 2, mu_s = 0.3, h = 0.05;
-  auto system = with_plates(h);
+  auto system = with_shapes(h);
   system.setting.laws.film.gamma_min = 0;
   system.setting.laws.friction = FrictionLaw{mu_s};
   add_plate(system, {10, kEnd + kGap, 0}, 0, 0);
@@ -134,7 +102,7 @@ TEST(PlateContact, SlidesOnBothEnds) {
 // the plate falls over.
 TEST(PlateContact, TurnsAboutAnEndThatSticks) {
   const double h = 1e-4, angle = 0.7;
-  auto system = with_plates(h);
+  auto system = with_shapes(h);
   system.setting.laws.film.gamma_min = 0;
   system.setting.laws.friction = FrictionLaw{5};
   const double spine = kHalf - kEnd;
@@ -153,7 +121,7 @@ TEST(PlateContact, TurnsAboutAnEndThatSticks) {
 // Two plates of the mirrored angle that are pushed against each other meet with their ends, keep
 // their gap while they turn, and are the mirror image of each other.
 TEST_P(Plates, MeetEachOtherWithTheirEnds) {
-  auto system = with_plates(0.02, GetParam());
+  auto system = with_shapes(0.02, GetParam());
   add_plate(system, {10, 9, 0}, 0.8, 1);
   add_plate(system, {10, 11, 0}, -0.8, 1);
   system.setting.forces[0] = constant({0, 1, 0});
@@ -179,19 +147,12 @@ TEST_P(Plates, MeetEachOtherWithTheirEnds) {
 // Free plates and discs at a distance keep linear and angular momentum in a contact: each impulse
 // acts on both at one point. Drag is nearly 0.
 TEST(PlateContact, KeepTheAngularMomentumOfAPair) {
-  auto system = with_plates(0.01);
+  auto system = with_shapes(0.01);
   add_plate(system, {10, 10, 0}, 0.3, 1);
   add_plate(system, {10.6, 10.8, 0}, -0.9, 2);
   auto& p = system.state.particles;
   p.velocities = {0, 1, 0, -1};
-  const auto momentum_of = [](const Particles& of) {
-    double sum = 0;
-    for (std::size_t k = 0; k < 2; ++k)
-      sum += cross(of.position(k), of.masses[k] * of.velocity(k))[2] +
-             of.inertias[k] * of.angular_velocities[k];
-    return sum;
-  };
-  const double before = momentum_of(p);
+  const double before = angular_momentum_with_spin(p);
   system.setting.laws.film.gamma_min = 0;
   auto simulation = system.simulation(constant_drag(1e-9));
   bool has_met = false;
@@ -202,13 +163,13 @@ TEST(PlateContact, KeepTheAngularMomentumOfAPair) {
   EXPECT_TRUE(has_met);
   // The contact acts at the places of the beginning of the step, which moves the centres apart from
   // the line of the impulse by the way of a step.
-  EXPECT_NEAR(momentum_of(simulation.state().particles), before, 0.02);
+  EXPECT_NEAR(angular_momentum_with_spin(simulation.state().particles), before, 0.02);
   EXPECT_GT(std::abs(simulation.state().particles.angular_velocities[0]), 0.1);
 }
 
 // The ends are as wide as a disc of their radius: a plate on end is a disc for the film's law.
 TEST(PlateContact, HaveTheFilmsOfTheirRoundEnds) {
-  auto system = with_plates(0.01);
+  auto system = with_shapes(0.01);
   add_plate(system, {10, kGap + kHalf, 0}, std::numbers::pi / 2, 1);
   system.setting.forces[0] = constant({0, -1, 0});
   system.setting.laws.film.viscosity = 1;
@@ -221,7 +182,7 @@ TEST(PlateContact, HaveTheFilmsOfTheirRoundEnds) {
 
 // Plain contact with restitution: a plate that falls on its end without turning rebounds with e_d.
 TEST_P(Plates, ReboundFromTheFloor) {
-  auto system = with_plates(0.01, GetParam());
+  auto system = with_shapes(0.01, GetParam());
   add_plate(system, {10, kGap + kHalf + 0.101, 0}, std::numbers::pi / 2, 1);
   system.state.particles.velocities = {0, -1};
   system.setting.laws.film.gamma_min = 0;
@@ -236,7 +197,7 @@ TEST_P(Plates, ReboundFromTheFloor) {
 TEST_P(Plates, ReboundOnAHingeAndRestOnAStop) {
   const auto after = [&](double lowest_angle) {
     const double h = 0.005, angle = 0.4, l = kHalf - kEnd;
-    auto system = with_plates(h, GetParam());
+    auto system = with_shapes(h, GetParam());
     // The other end meets the floor at the angle 0.
     const Vector at = {10, kGap + kEnd, 0};
     add_plate(system, at + l * Vector{std::cos(angle), std::sin(angle), 0}, angle, 1);
@@ -273,7 +234,7 @@ TEST_P(Plates, ReboundOnAHingeAndRestOnAStop) {
 // the plate, which turns about the hinge as if the disc were not there.
 TEST_P(Plates, OnAHingeAtTheirContactTurnAsWithoutIt) {
   const auto angle_with = [&](bool has_disc) {
-    auto system = with_plates(0.01, GetParam());
+    auto system = with_shapes(0.01, GetParam());
     const double l = kHalf - kEnd;
     add_plate(system, {10 + l, 10, 0}, 0, 1);
     if (has_disc) {
@@ -299,7 +260,7 @@ TEST_P(Plates, OnAHingeAtTheirContactTurnAsWithoutIt) {
 // hinge: the stop takes the moment (1 + e_d) 0.5 0.7 of the whole impact, and the plate stays.
 TEST_P(Plates, OnAStopGiveItTheWholeImpact) {
   for (const double dry : {0.0, 0.5, 1.0}) {
-    auto system = with_plates(0.01, GetParam());
+    auto system = with_shapes(0.01, GetParam());
     const double l = kHalf - kEnd, angle = std::numbers::pi / 2;
     add_plate(system, {10, 10 + l, 0}, angle, 1);
     add_disc(system, {10 - kEnd - 0.1 - kGap - 0.055, 10.7, 0}, 0.5, {1, 0, 0});
@@ -326,7 +287,7 @@ TEST_P(Plates, OnAStopGiveItTheWholeImpact) {
 // gap.
 TEST_P(Plates, ThatLieOnEachOtherKeepBothEndsApart) {
   for (const double tilt : {0.0, 0.01, 0.3}) {
-    auto system = with_plates(0.01, GetParam());
+    auto system = with_shapes(0.01, GetParam());
     add_plate(system, {10, 10, 0}, 0, 1);
     add_plate(system, {10.1, 10 + kGap + 2 * kEnd + 0.02 + std::sin(tilt), 0}, tilt, 1);
     system.setting.forces[0] = constant({0, 20, 0});
@@ -347,7 +308,7 @@ TEST_P(Plates, ThatLieOnEachOtherKeepBothEndsApart) {
 // beam: the ends of the spines are at x = 9.1, 10.9 and 9.6, 11.4, so that the contacts are at 9.6
 // and 10.9.
 TEST_P(Plates, ShareALoadAsABeam) {
-  auto system = with_plates(0.01, GetParam());
+  auto system = with_shapes(0.01, GetParam());
   add_plate(system, {10, 10, 0}, 0, 1);
   add_plate(system, {10.5, 10 + kGap + 2 * kEnd + 0.01, 0}, 0, 1);
   system.setting.given_motions[0] = {};
@@ -367,7 +328,7 @@ TEST_P(Plates, ShareALoadAsABeam) {
 // Without its load the plate, pulled in its middle, comes off without turning, as the mirror image
 // of itself.
 TEST_P(Plates, ThatLieOnEachOtherHaveAFilmAtEachEnd) {
-  auto system = with_plates(0.01, GetParam());
+  auto system = with_shapes(0.01, GetParam());
   add_plate(system, {10, 10, 0}, 0, 1);
   add_plate(system, {10.5, 10 + kGap + 2 * kEnd + 0.01, 0}, 0, 1);
   system.setting.given_motions[0] = {};
@@ -385,7 +346,7 @@ TEST_P(Plates, ThatLieOnEachOtherHaveAFilmAtEachEnd) {
 }
 
 TEST_P(Plates, ThatAreSymmetricComeOffWithoutTurning) {
-  auto system = with_plates(0.01, GetParam());
+  auto system = with_shapes(0.01, GetParam());
   add_plate(system, {10, 10, 0}, 0, 1);
   add_plate(system, {10, 10 + kGap + 2 * kEnd + 0.01, 0}, 0, 1);
   system.setting.given_motions[0] = {};

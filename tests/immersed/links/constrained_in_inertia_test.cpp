@@ -72,10 +72,7 @@ Pendulum swinging(double h, double drag, double end) {
   add_disc(system, {51, 50, 0}, 1, {});
   auto& p = system.state.particles;
   add_rigid_body(p, {{0, 1}});
-  Hinge hinge;
-  hinge.body = 0;
-  hinge.at = {50, 50, 0};
-  hinge.point = {0, hinge.at - p.bodies.bodies[0].centre};
+  const auto hinge = hinge_of_body(p, {50, 50, 0});
   system.setting.links.hinges = {hinge};
   auto simulation = system.simulation(constant_drag(drag));
   Pendulum result;

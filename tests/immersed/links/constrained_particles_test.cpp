@@ -147,11 +147,7 @@ TEST(ConstrainedInFluid, ThePowerOfAnArmAddsUpToDissipationAndKineticEnergy) {
 TEST(ConstrainedInFluid, AHingedBodySwingsBackWithItsTorsionSpring) {
   const double stiffness = 4, drag = 2;
   auto system = body_in_fluid(0.02, 0, {});
-  auto& body = system.state.particles.bodies.bodies[0];
-  Hinge hinge;
-  hinge.body = 0;
-  hinge.at = {49, 50, 0};
-  hinge.point = {0, hinge.at - body.centre};
+  auto hinge = hinge_of_body(system.state.particles, {49, 50, 0});
   hinge.stiffness = stiffness;
   hinge.rest_angle = 0.4;
   system.setting.links.hinges = {hinge};

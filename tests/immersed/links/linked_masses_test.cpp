@@ -103,11 +103,7 @@ InFluid hinged_pair(double h, double drag) {
   auto& p = system.state.particles;
   p.angular_velocities.assign(2, 1);
   add_rigid_body(p, {{0, 1}});
-  Hinge hinge;
-  hinge.body = 0;
-  hinge.at = {50, 50, 0};
-  hinge.point = {0, hinge.at - p.bodies.bodies[0].centre};
-  system.setting.links.hinges = {hinge};
+  system.setting.links.hinges = {hinge_of_body(p, {50, 50, 0})};
   return system;
 }
 

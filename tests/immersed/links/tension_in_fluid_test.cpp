@@ -183,11 +183,7 @@ TEST(TensionInFluid, ABodyOnAHingeThatIsPulledTurnsToTheForceAtEveryStep) {
         p.angular_velocities.assign(2, 0);
         p.inertias.assign(2, homogeneous_inertia(2, mass, 0.5));
         add_rigid_body(p, {{0, 1}});
-        Hinge hinge;
-        hinge.body = 0;
-        hinge.at = hinge_at;
-        hinge.point = {0, hinge.at - p.bodies.bodies[0].centre};
-        system.setting.links.hinges = {hinge};
+        system.setting.links.hinges = {hinge_of_body(p, hinge_at)};
         auto simulation = system.simulation(constant_drag(2));
         double largest = 0;
         for (int n = 0; n < 60; ++n) {
