@@ -7,8 +7,8 @@
 #include <span>
 
 #include "viscontact/constraint_rows/solver_names.hpp"
-#include "viscontact/contact_solver/constraint_problem.hpp"
-#include "viscontact/contact_solver/dual_problem.hpp"
+#include "viscontact/contact_solver/problem/constraint_problem.hpp"
+#include "viscontact/contact_solver/problem/dual_problem.hpp"
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/state/particles.hpp"

@@ -1,12 +1,12 @@
 // The names of contact_solver that the parts about particles use.
 #pragma once
 
-#include "viscontact/contact_solver/constraint_problem.hpp"
 #include "viscontact/contact_solver/constraint_solver.hpp"
-#include "viscontact/contact_solver/contact_conditions.hpp"
 #include "viscontact/contact_solver/dense_constraints.hpp"
-#include "viscontact/contact_solver/dual_problem.hpp"
-#include "viscontact/contact_solver/mass_dual_problem.hpp"
+#include "viscontact/contact_solver/problem/constraint_problem.hpp"
+#include "viscontact/contact_solver/problem/contact_conditions.hpp"
+#include "viscontact/contact_solver/problem/dual_problem.hpp"
+#include "viscontact/contact_solver/problem/mass_dual_problem.hpp"
 #include "viscontact/contact_solver/refinement.hpp"
 
 namespace viscontact::particles {

@@ -13,7 +13,7 @@
 #include "viscontact/arrangement/pouring.hpp"
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/contact_dynamics/pair_impulses.hpp"
-#include "viscontact/contact_solver/stages.hpp"
+#include "viscontact/contact_solver/stages/stages.hpp"
 #include "viscontact/membranes/membrane_shape.hpp"
 #include "viscontact/particles/setting/setting.hpp"
 #include "viscontact/particles/state/rebound.hpp"

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "viscontact/contact_solver/constraint_problem.hpp"
-#include "viscontact/contact_solver/mass_dual_problem.hpp"
+#include "viscontact/contact_solver/problem/constraint_problem.hpp"
+#include "viscontact/contact_solver/problem/mass_dual_problem.hpp"
 
 namespace viscontact::contact_solver {
 

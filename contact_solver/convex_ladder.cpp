@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "viscontact/contact_solver/cone.hpp"
+#include "viscontact/contact_solver/problem/cone.hpp"
 
 namespace viscontact::contact_solver {
 namespace {
@@ -114,10 +114,9 @@ void ConvexLadder<D>::improve(Stage stage) {
   using Tuning = ConvexTuning;
   const auto center = at_.problem.impulses;
   const double before = at_.residual;
-  const int most = std::clamp(last_ - at_.iterations(), 1, Tuning::kMostOfStep);
-  const int taken = at_.compute_step(center, most, stage);
+  const auto taken = at_.compute_step(center, Tuning::kMostOfStep, last_, stage);
   at_.move_to(at_.proximal().impulses());
-  const bool is_solved = !at_.proximal().failed() && taken < most && std::isfinite(at_.residual);
+  const bool is_solved = taken && std::isfinite(at_.residual);
   const bool is_largest = at_.epsilon >= Tuning::kLargestEpsilon,
              is_least = at_.epsilon <= Tuning::kLeastEpsilon;
   // The projection of FrictionBound::kCone changes normal and tangential impulses together, and

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "viscontact/contact_solver/interior_points.hpp"
 #include "viscontact/contact_solver/iterate.hpp"
+#include "viscontact/contact_solver/methods/interior_points.hpp"
 
 namespace viscontact::contact_solver {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "viscontact/contact_solver/coulomb_path.hpp"
+#include "viscontact/contact_solver/methods/coulomb_path.hpp"
 
 namespace viscontact::contact_solver {
 namespace {
@@ -104,11 +104,9 @@ template <int D>
 void CoulombLadder<D>::improve(Stage stage) {
   using Tuning = CoulombTuning;
   const auto center = at_.problem.impulses;
-  const int most = std::clamp(at_.most - at_.iterations(), 1, Tuning::kMostOfStep);
-  const int taken = at_.compute_step(center, most, stage);
-  const auto& proximal = at_.proximal();
-  if (!proximal.failed() && taken < most) at_.move_to(proximal.impulses());
-  if (proximal.failed() || taken >= most || !std::isfinite(at_.residual)) {
+  const auto taken = at_.compute_step(center, Tuning::kMostOfStep, at_.most, stage);
+  if (taken) at_.move_to(at_.proximal().impulses());
+  if (!taken || !std::isfinite(at_.residual)) {
     at_.move_to(center);
     if (at_.epsilon == Tuning::kLargestEpsilon) at_.sweep();
     at_.set_epsilon(std::min(Tuning::kLargestEpsilon, Tuning::kFactor * at_.epsilon));
@@ -119,8 +117,8 @@ void CoulombLadder<D>::improve(Stage stage) {
     if (at_.close_gaps(center, at_.most)) return;
     next_try_ = steps_ + steps_ / Tuning::kPartOfSteps;
   }
-  if (proximal.followed_path()) return;
-  const double factor = taken <= Tuning::kFewIterations ? Tuning::kLargeFactor : Tuning::kFactor;
+  if (at_.proximal().followed_path()) return;
+  const double factor = *taken <= Tuning::kFewIterations ? Tuning::kLargeFactor : Tuning::kFactor;
   at_.set_epsilon(std::max(Tuning::kLeastEpsilon, at_.epsilon / factor));
 }
 

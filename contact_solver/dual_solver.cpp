@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/contact_solver/active_set_newton.hpp"
-#include "viscontact/contact_solver/mass_dual_problem.hpp"
-#include "viscontact/contact_solver/mprgp.hpp"
+#include "viscontact/contact_solver/methods/active_set_newton.hpp"
+#include "viscontact/contact_solver/methods/mprgp.hpp"
+#include "viscontact/contact_solver/problem/mass_dual_problem.hpp"
 
 namespace viscontact::contact_solver {
 namespace {

@@ -102,10 +102,13 @@ void Iterate<D>::sweep() {
 }
 
 template <int D>
-int Iterate<D>::compute_step(const std::vector<double>& center, int most_of_step, Stage stage) {
-  const int taken = proximal().solve(center, motions, most_of_step);
+std::optional<int> Iterate<D>::compute_step(const std::vector<double>& center, int most_of_step,
+                                            int last, Stage stage) {
+  const int most_taken = std::clamp(last - iterations(), 1, most_of_step);
+  const int taken = proximal().solve(center, motions, most_taken);
   count(Stage::kBranchPath, proximal().path_iterations());
   count(stage, taken - proximal().path_iterations());
+  if (proximal().failed() || taken >= most_taken) return {};
   return taken;
 }
 
@@ -137,9 +140,7 @@ bool Iterate<D>::close_gaps(std::vector<double> center, int last) {
         center[block.row + k] = problem.impulses[block.row + k];
     of_gaps = std::min(of_gaps, std::max(Tuning::kLeastEpsilon, of_gaps / Tuning::kFactor));
     proximal().set_epsilon(of_gaps, Tuning::kEpsilonOfSlips);
-    const int most_of_step = std::clamp(last - iterations(), 1, Tuning::kMostOfStep);
-    const int taken = compute_step(center, most_of_step, Stage::kClosedGaps);
-    if (proximal().failed() || taken >= most_of_step) break;
+    if (!compute_step(center, Tuning::kMostOfStep, last, Stage::kClosedGaps)) break;
     move_to(proximal().impulses());
     if (!(largest_slip() <= 1)) break;
   }

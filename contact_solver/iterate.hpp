@@ -5,12 +5,12 @@
 #include <optional>
 #include <vector>
 
-#include "viscontact/contact_solver/block_factor.hpp"
-#include "viscontact/contact_solver/constraint_problem.hpp"
 #include "viscontact/contact_solver/constraint_solver.hpp"
-#include "viscontact/contact_solver/contact_sweeps.hpp"
-#include "viscontact/contact_solver/proximal_step.hpp"
-#include "viscontact/contact_solver/stages.hpp"
+#include "viscontact/contact_solver/methods/block_factor.hpp"
+#include "viscontact/contact_solver/methods/contact_sweeps.hpp"
+#include "viscontact/contact_solver/methods/proximal_step.hpp"
+#include "viscontact/contact_solver/problem/constraint_problem.hpp"
+#include "viscontact/contact_solver/stages/stages.hpp"
 
 namespace viscontact::contact_solver {
 
@@ -73,9 +73,11 @@ class Iterate {
 
   /// IterateTuning::kSweeps of Gauss-Seidel.
   void sweep();
-  /// Computes a step (5.8) from `center` in at most `most_of_step` iterations, which it returns,
-  /// but does not move there.
-  int compute_step(const std::vector<double>& center, int most_of_step, Stage stage);
+  /// Computes a step (5.8) from `center` in at most `most_of_step` iterations, and fewer if there
+  /// would be more than `last` in all, but does not move there. Returns the number of iterations,
+  /// or nothing if the step failed or needs more.
+  std::optional<int> compute_step(const std::vector<double>& center, int most_of_step, int last,
+                                  Stage stage);
   void set_epsilon(double of_step);
   /// The largest tangential residual over its allowed one [1].
   double largest_slip() const;

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "viscontact/contact_solver/block_factor.hpp"
 #include "viscontact/contact_solver/constraint_solver.hpp"
+#include "viscontact/contact_solver/methods/block_factor.hpp"
 
 namespace viscontact::contact_solver {
 namespace {

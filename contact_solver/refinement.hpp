@@ -7,8 +7,8 @@
 #include <tuple>
 #include <vector>
 
-#include "viscontact/contact_solver/constraint_problem.hpp"
 #include "viscontact/contact_solver/constraint_solver.hpp"
+#include "viscontact/contact_solver/problem/constraint_problem.hpp"
 
 namespace viscontact::contact_solver {
 

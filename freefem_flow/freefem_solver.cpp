@@ -19,7 +19,7 @@
 #include "viscontact/freefem_flow/boundary/mesh_boundary.hpp"
 #include "viscontact/freefem_flow/membranes/membrane_process.hpp"
 #include "viscontact/freefem_flow/process/solver_units.hpp"
-#include "viscontact/immersed/fluid_solver.hpp"
+#include "viscontact/immersed/fluid/fluid_solver.hpp"
 #include "viscontact/particles/setting/fluid.hpp"
 
 namespace viscontact::freefem_flow {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "viscontact/immersed/fluid_solver.hpp"
+#include "viscontact/immersed/fluid/fluid_solver.hpp"
 #include "viscontact/particles/steps/particle_simulation.hpp"
 
 namespace viscontact::particles {

@@ -4,10 +4,10 @@
 #include <limits>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/immersed/closed_contacts.hpp"
-#include "viscontact/immersed/constrained_motion.hpp"
-#include "viscontact/immersed/fluid_contacts.hpp"
+#include "viscontact/immersed/contacts/closed_contacts.hpp"
+#include "viscontact/immersed/contacts/fluid_contacts.hpp"
 #include "viscontact/immersed/fluid_motion.hpp"
+#include "viscontact/immersed/links/constrained_motion.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 
 namespace viscontact::particles {

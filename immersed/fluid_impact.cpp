@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "viscontact/immersed/closed_contacts.hpp"
+#include "viscontact/immersed/contacts/closed_contacts.hpp"
 #include "viscontact/immersed/fluid_motion.hpp"
 #include "viscontact/particles/contact/shaped_contacts.hpp"
 

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/immersed/constrained_motion.hpp"
-#include "viscontact/immersed/fluid_contacts.hpp"
+#include "viscontact/immersed/contacts/fluid_contacts.hpp"
 #include "viscontact/immersed/fluid_motion.hpp"
 #include "viscontact/immersed/fluid_simulation.hpp"
+#include "viscontact/immersed/links/constrained_motion.hpp"
 #include "viscontact/immersed/step_equation.hpp"
 #include "viscontact/particles/contact/shaped_contacts.hpp"
 

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "viscontact/immersed/fluid_contacts.hpp"
+#include "viscontact/immersed/contacts/fluid_contacts.hpp"
 #include "viscontact/immersed/fluid_simulation.hpp"
 #include "viscontact/particles/setting/setting.hpp"
 #include "viscontact/particles/state/rebound.hpp"

@@ -9,11 +9,11 @@
 #include <functional>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/immersed/constrained_motion.hpp"
-#include "viscontact/immersed/constrained_solver.hpp"
-#include "viscontact/immersed/fluid_contacts.hpp"
+#include "viscontact/immersed/contacts/fluid_contacts.hpp"
+#include "viscontact/immersed/fluid/fluid_solver.hpp"
 #include "viscontact/immersed/fluid_motion.hpp"
-#include "viscontact/immersed/fluid_solver.hpp"
+#include "viscontact/immersed/links/constrained_motion.hpp"
+#include "viscontact/immersed/links/constrained_solver.hpp"
 #include "viscontact/immersed/step_equation.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
@@ -30,9 +30,9 @@ struct FluidStepTuning {
   // links turn.
   static constexpr int kMostTurns = 10;
   // A particle resists a force with its mass over the step plus a drag of about the viscosity, or
-  // some 1e5 times the viscosity in the narrowest gap that a mesh resolves. Over 1/(viscosity + mass
-  // over the step), least_w is therefore kShareOfW, or kAboveErrors times the relative error of
-  // velocities if this is more.
+  // some 1e5 times the viscosity in the narrowest gap that a mesh resolves. Over 1/(viscosity +
+  // mass over the step), least_w is therefore kShareOfW, or kAboveErrors times the relative error
+  // of velocities if this is more.
   static constexpr double kShareOfW = 1e-9, kAboveErrors = 10;
 };
 

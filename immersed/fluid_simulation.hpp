@@ -10,7 +10,7 @@
 
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/immersed/flow_simulation.hpp"
-#include "viscontact/immersed/fluid_solver.hpp"
+#include "viscontact/immersed/fluid/fluid_solver.hpp"
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/setting/setting.hpp"
 #include "viscontact/particles/state/rebound.hpp"

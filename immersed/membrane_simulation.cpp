@@ -10,8 +10,8 @@
 #include <functional>
 #include <utility>
 
-#include "viscontact/immersed/closed_contacts.hpp"
-#include "viscontact/immersed/fluid_contacts.hpp"
+#include "viscontact/immersed/contacts/closed_contacts.hpp"
+#include "viscontact/immersed/contacts/fluid_contacts.hpp"
 #include "viscontact/membranes/membrane_motion.hpp"
 #include "viscontact/membranes/membrane_shape.hpp"
 #include "viscontact/particles/domain/domain.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "viscontact/immersed/flow_simulation.hpp"
-#include "viscontact/immersed/fluid_solver.hpp"
+#include "viscontact/immersed/fluid/fluid_solver.hpp"
 #include "viscontact/membranes/membrane_shape.hpp"
 #include "viscontact/particles/setting/setting.hpp"
 #include "viscontact/particles/state/state.hpp"

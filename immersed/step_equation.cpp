@@ -10,7 +10,7 @@
 #include <utility>
 #include <variant>
 
-#include "viscontact/immersed/fluid_contacts.hpp"
+#include "viscontact/immersed/contacts/fluid_contacts.hpp"
 #include "viscontact/particles/state/rigid_bodies.hpp"
 
 namespace viscontact::particles {

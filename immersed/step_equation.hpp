@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "viscontact/immersed/fluid_solver.hpp"
+#include "viscontact/immersed/fluid/fluid_solver.hpp"
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/setting/setting.hpp"
 #include "viscontact/particles/state/state.hpp"

@@ -10,7 +10,7 @@
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/constraint_rows/contact_rows.hpp"
 #include "viscontact/constraint_rows/solver_names.hpp"
-#include "viscontact/contact_solver/mass_dual_problem.hpp"
+#include "viscontact/contact_solver/problem/mass_dual_problem.hpp"
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/contact/shaped_contacts.hpp"
 #include "viscontact/particles/state/particles.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "viscontact/contact_dynamics/constraints/constraint_system.hpp"
-#include "viscontact/contact_solver/stages.hpp"
+#include "viscontact/contact_solver/stages/stages.hpp"
 
 namespace viscontact::particles {
 

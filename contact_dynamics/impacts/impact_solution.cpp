@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "viscontact/contact_dynamics/impacts/impacts.hpp"
-#include "viscontact/contact_solver/constraint_problem.hpp"
 #include "viscontact/contact_solver/constraint_solver.hpp"
+#include "viscontact/contact_solver/problem/constraint_problem.hpp"
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/state/particles.hpp"
 

@@ -13,7 +13,7 @@
 
 #include "viscontact/constraint_rows/contact_rows.hpp"
 #include "viscontact/constraint_rows/solver_names.hpp"
-#include "viscontact/contact_solver/constraint_problem.hpp"
+#include "viscontact/contact_solver/problem/constraint_problem.hpp"
 #include "viscontact/particles/contact/contact_laws.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/neighbours/pairs_of_particles.hpp"

@@ -4,8 +4,8 @@
 #include <exception>
 #include <vector>
 
-#include "viscontact/contact_solver/constraint_problem.hpp"
 #include "viscontact/contact_solver/constraint_solver.hpp"
+#include "viscontact/contact_solver/problem/constraint_problem.hpp"
 
 // Exact: p_n = m g h, p_t = -min(mu m g, F) h, and the block slides by h^2 (F/m - mu g) in its
 // first step if F > mu m g. It prints

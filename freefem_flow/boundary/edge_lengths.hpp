@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "viscontact/immersed/fluid_solver.hpp"
+#include "viscontact/immersed/fluid/fluid_solver.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/setting/fluid.hpp"
 #include "viscontact/particles/shapes/distance.hpp"

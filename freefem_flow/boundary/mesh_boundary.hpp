@@ -6,7 +6,7 @@
 #include <cassert>
 #include <vector>
 
-#include "viscontact/immersed/fluid_solver.hpp"
+#include "viscontact/immersed/fluid/fluid_solver.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/setting/fluid.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "viscontact/freefem_flow/process/flow_process.hpp"
 #include "viscontact/freefem_flow/process/solver_units.hpp"
-#include "viscontact/immersed/fluid_solver.hpp"
+#include "viscontact/immersed/fluid/fluid_solver.hpp"
 
 namespace viscontact::freefem_flow {
 

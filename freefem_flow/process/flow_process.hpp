@@ -11,7 +11,7 @@
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/freefem_flow/boundary/mesh_boundary.hpp"
 #include "viscontact/freefem_flow/process/solver_command.hpp"
-#include "viscontact/immersed/fluid_solver.hpp"
+#include "viscontact/immersed/fluid/fluid_solver.hpp"
 #include "viscontact/particles/setting/fluid.hpp"
 
 namespace viscontact::freefem_flow {

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "viscontact/immersed/fluid_solver.hpp"
+#include "viscontact/immersed/fluid/fluid_solver.hpp"
 #include "viscontact/particles/setting/fluid.hpp"
 
 namespace viscontact::freefem_flow {

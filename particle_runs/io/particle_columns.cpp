@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "viscontact/immersed/fluid_solver.hpp"
+#include "viscontact/immersed/fluid/fluid_solver.hpp"
 
 namespace viscontact::particles {
 namespace {

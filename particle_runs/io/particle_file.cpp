@@ -16,7 +16,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/common/text/number.hpp"
-#include "viscontact/immersed/fluid_solver.hpp"
+#include "viscontact/immersed/fluid/fluid_solver.hpp"
 #include "viscontact/particle_runs/io/particle_columns.hpp"
 
 namespace viscontact::particles {

@@ -12,7 +12,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/hash/sha256.hpp"
-#include "viscontact/immersed/fluid_solver.hpp"
+#include "viscontact/immersed/fluid/fluid_solver.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "viscontact/common/stop_token.hpp"
-#include "viscontact/immersed/fluid_solver.hpp"
+#include "viscontact/immersed/fluid/fluid_solver.hpp"
 
 namespace viscontact::particles {
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "viscontact/common/stop_token.hpp"
-#include "viscontact/immersed/fluid_solver.hpp"
+#include "viscontact/immersed/fluid/fluid_solver.hpp"
 #include "viscontact/particle_runs/case/particles_study.hpp"
 
 namespace viscontact::particles {

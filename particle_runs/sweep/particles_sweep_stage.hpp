@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "viscontact/common/stop_token.hpp"
-#include "viscontact/immersed/fluid_solver.hpp"
+#include "viscontact/immersed/fluid/fluid_solver.hpp"
 #include "viscontact/particle_runs/case/particles_study.hpp"
 #include "viscontact/pipeline/dry_run.hpp"
 #include "viscontact/pipeline/slurm/array_job.hpp"

@@ -20,12 +20,6 @@ constexpr ShapeRule kDiscRule = {
           const Vector2 normal = {std::cos(t), std::sin(t)};
           return OutlinePoint{s[0] * normal, normal, s[0], s[0]};
         },
-    .arc_at =
-        [](const Vector2& s, const Vector2&) {
-          return Arc{{}, s};
-        },
-    .sides = 0,
-    .side = nullptr,
     .far_points =
         [](const Vector2& s, const Vector2& from) {
           const double away = norm(from);
@@ -44,9 +38,6 @@ constexpr ShapeRule kSphereRule = {
     .inner_radius = kDiscRule.inner_radius,
     .least_curvature_radius = kDiscRule.least_curvature_radius,
     .at = kDiscRule.at,
-    .arc_at = kDiscRule.arc_at,
-    .sides = 0,
-    .side = nullptr,
     .far_points = kDiscRule.far_points,
     .distance_to = kDiscRule.distance_to};
 

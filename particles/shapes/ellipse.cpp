@@ -135,12 +135,6 @@ constexpr ShapeRule kEllipseRule = {
                               speed,
                               speed * (speed / s[0]) * (speed / s[1])};
         },
-    .arc_at =
-        [](const Vector2& s, const Vector2&) {
-          return Arc{{}, s};
-        },
-    .sides = 0,
-    .side = nullptr,
     .far_points =
         [](const Vector2& s, const Vector2& from) {
           const bool turned = s[0] < s[1];

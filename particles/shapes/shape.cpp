@@ -43,7 +43,10 @@ Vector2 Shape::support_point(const Vector2& normal) const {
   const Arc arc = arc_at(normal);
   return arc.centre + arc.support_point(normal);
 }
-Arc Shape::arc_at(const Vector2& normal) const { return rule_of(kind_).arc_at(semi_axes_, normal); }
+Arc Shape::arc_at(const Vector2& normal) const {
+  const auto& rule = rule_of(kind_);
+  return rule.arc_at == nullptr ? Arc{{}, semi_axes_} : rule.arc_at(semi_axes_, normal);
+}
 int Shape::sides() const { return rule_of(kind_).sides; }
 Side Shape::side(int k) const {
   assert(k >= 0 && k < sides());

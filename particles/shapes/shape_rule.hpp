@@ -42,9 +42,10 @@ struct ShapeRule {
   double (*inner_radius)(const Vector2& s);
   double (*least_curvature_radius)(const Vector2& s);
   OutlinePoint (*at)(const Vector2& s, double t);
-  Arc (*arc_at)(const Vector2& s, const Vector2& normal);
-  int sides;
-  Side (*side)(const Vector2& s, int k);  ///< nullptr without sides
+  /// nullptr: the whole outline is one ellipse, with the semi-axes `s`.
+  Arc (*arc_at)(const Vector2& s, const Vector2& normal) = nullptr;
+  int sides = 0;
+  Side (*side)(const Vector2& s, int k) = nullptr;  ///< nullptr without sides
   FarPoints (*far_points)(const Vector2& s, const Vector2& from);
   double (*distance_to)(const Vector2& s, const Vector2& point);
 };

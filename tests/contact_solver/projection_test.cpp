@@ -11,7 +11,7 @@
 #include "tests/common/random.hpp"
 #include "tests/contact_solver/dense_problem.hpp"
 #include "tests/contact_solver/random_problem.hpp"
-#include "viscontact/contact_solver/mass_dual_problem.hpp"
+#include "viscontact/contact_solver/problem/mass_dual_problem.hpp"
 
 namespace viscontact::contact_solver {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "tests/common/random.hpp"
 #include "viscontact/constraint_rows/contact_rows.hpp"
-#include "viscontact/contact_solver/constraint_problem.hpp"
+#include "viscontact/contact_solver/problem/constraint_problem.hpp"
 
 namespace viscontact::contact_solver {
 
@@ -117,6 +117,18 @@ ConstraintProblem<D> random_constraints(const RandomConstraints& what, const Pro
     if (c == what.contacts - 1) add_block(first, second, directions, arm, other, block);
   }
   return problem;
+}
+
+/// Adds two rows of unit 0 that no motion satisfies.
+inline void add_contradicting_links(ConstraintProblem<2>& problem) {
+  ConstraintBlock block;
+  block.is_contact = false;
+  for (const double offset : {0.0, 1.0}) {
+    block.row = problem.rows.size();
+    problem.blocks.push_back(block);
+    const std::vector<RowPart<2>> parts{{0, displacement_row<2>({1, 0, 0}, {})}};
+    problem.add_row(offset, parts, 0);
+  }
 }
 
 /// Makes a problem of dry contacts in the cones of (5.9) and of contacts with films whose loads are

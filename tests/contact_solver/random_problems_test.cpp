@@ -10,7 +10,7 @@
 
 #include "tests/contact_solver/random_constraints.hpp"
 #include "viscontact/contact_solver/constraint_solver.hpp"
-#include "viscontact/contact_solver/interior_points.hpp"
+#include "viscontact/contact_solver/methods/interior_points.hpp"
 
 namespace viscontact::contact_solver {
 namespace {
@@ -198,14 +198,7 @@ TEST(ConstraintSolver, EndsWhereNothingIsGained) {
   RandomConstraints what;
   what.has_links = true;
   auto problem = random_constraints<2>(what, {}, 1);
-  ConstraintBlock block;
-  block.is_contact = false;
-  for (const double offset : {0.0, 1.0}) {
-    block.row = problem.rows.size();
-    problem.blocks.push_back(block);
-    const std::vector<RowPart<2>> parts{{0, displacement_row<2>({1, 0, 0}, {})}};
-    problem.add_row(offset, parts, 0);
-  }
+  add_contradicting_links(problem);
   allow(problem);
   auto convex = problem;
   make_convex(convex, {}, 1);

@@ -1,5 +1,5 @@
 // The loop that runs a table of stages, and which stages run for problems with known solutions.
-#include "viscontact/contact_solver/stages.hpp"
+#include "viscontact/contact_solver/stages/stages.hpp"
 
 #include <gtest/gtest.h>
 
@@ -160,14 +160,7 @@ TEST(Stages, OfAProblemWithoutASolutionReachPaths) {
   RandomConstraints what;
   what.has_links = true;
   auto problem = random_constraints<2>(what, {}, 1);
-  ConstraintBlock link;
-  link.is_contact = false;
-  for (const double offset : {0.0, 1.0}) {
-    link.row = problem.rows.size();
-    problem.blocks.push_back(link);
-    const std::vector<RowPart<2>> parts{{0, displacement_row<2>({1, 0, 0}, {})}};
-    problem.add_row(offset, parts, 0);
-  }
+  add_contradicting_links(problem);
   for (auto& block : problem.blocks) block.allowed = block.allowed_slip = 1e-9;
   const auto solved = solve_constraints(problem, 1000000).result;
   EXPECT_GT(solved.residual, 1);

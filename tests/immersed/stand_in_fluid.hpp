@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "viscontact/immersed/fluid/fluid_solver.hpp"
 #include "viscontact/immersed/fluid_simulation.hpp"
-#include "viscontact/immersed/fluid_solver.hpp"
 
 namespace viscontact::particles {
 

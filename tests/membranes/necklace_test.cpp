@@ -56,8 +56,6 @@ struct Scene {
   const Membrane& membrane() const { return setting.links.membranes.front(); }
 };
 
-void expect_converged(const StepReport& report) { EXPECT_TRUE(report.converged) << report.time; }
-
 /// Momentum, and angular momentum about the origin [M L/T, M L^2/T].
 Vector momenta(const Particles& p) {
   Vector sum{};

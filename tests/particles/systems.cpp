@@ -30,6 +30,24 @@ void add_particle(State& state, const Vector& position, double radius, double ma
   p.masses.push_back(mass);
 }
 
+void add_shape(State& state, const Shape& shape, const Vector& position, double angle, double mass,
+               const Vector& velocity, double angular_velocity) {
+  auto& p = state.particles;
+  add_particle(state, position, shape.bounding_radius(), mass, velocity);
+  p.shapes.push_back(shape);
+  p.angles.push_back(angle);
+  p.angular_velocities.push_back(angular_velocity);
+  p.inertias.push_back(shape.inertia(mass));
+}
+
+Hinge hinge_of_body(const Particles& particles, const Vector& at) {
+  Hinge hinge;
+  hinge.body = 0;
+  hinge.at = at;
+  hinge.point = {0, at - particles.bodies.bodies[0].centre};
+  return hinge;
+}
+
 Plane plane_at_rest(const Vector& point, const Vector& normal) {
   Plane plane;
   plane.start = {point, normal};
@@ -63,6 +81,10 @@ void run(Simulation& simulation, double end, const std::function<void(const Step
   while (simulation.state().time < end - 1e-6 * h) see(simulation.step(end));
 }
 
+void expect_converged(const StepReport& report) {
+  EXPECT_TRUE(report.converged) << "t = " << report.time << ", residual " << report.residual;
+}
+
 Pair pair_of(const State& state, std::int32_t first, std::int32_t second) {
   for (const auto& pair : first < 0 ? state.walls : state.pairs)
     if (pair.first == first && pair.second == second) return pair;
@@ -86,6 +108,13 @@ Vector angular_momentum(const Particles& particles) {
   Vector sum{};
   for (std::size_t k = 0; k < particles.count(); ++k)
     sum = sum + particles.masses[k] * cross(particles.position(k), particles.velocity(k));
+  return sum;
+}
+
+double angular_momentum_with_spin(const Particles& particles) {
+  double sum = angular_momentum(particles)[2];
+  for (std::size_t k = 0; k < particles.count(); ++k)
+    sum += particles.inertias[k] * particles.angular_velocities[k];
   return sum;
 }
 

@@ -34,8 +34,6 @@ State two_particles(int dimension, double apart, const Vector& velocity = {}) {
   return state;
 }
 
-void expect_converged(const StepReport& report) { EXPECT_TRUE(report.converged) << report.time; }
-
 double distance(const State& state) {
   return norm(state.particles.position(1) - state.particles.position(0));
 }

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "viscontact/freefem_flow/freefem_solver.hpp"
+#include "viscontact/immersed/fluid/fluid_solver.hpp"
 #include "viscontact/immersed/fluid_simulation.hpp"
-#include "viscontact/immersed/fluid_solver.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/setting/fluid.hpp"
 #include "viscontact/particles/shapes/shape_contacts.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "viscontact/freefem_flow/freefem_solver.hpp"
-#include "viscontact/immersed/fluid_solver.hpp"
+#include "viscontact/immersed/fluid/fluid_solver.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/setting/fluid.hpp"
 

@@ -14,7 +14,7 @@
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/immersed/fluid_solver.hpp"
+#include "viscontact/immersed/fluid/fluid_solver.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {
