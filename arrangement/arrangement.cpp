@@ -403,7 +403,7 @@ void shuffle(PlacedParticles& placed, double size, SplitMix64& random) {
 double size_of(const Arrangement& asked, int dimension) {
   assert(dimension == 2 || dimension == 3);
   double sum = 0;
-  for (const double radius : asked.radii) sum += size_of_particle(dimension, radius);
+  for (const double radius : asked.radii) sum += round_shape(dimension, radius).measure();
   return sum;
 }
 
@@ -445,7 +445,7 @@ std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
                          : dimension == 2 ? 0.9068996821171089   // pi/sqrt(12)
                                           : 0.7404804896930610;  // pi/sqrt(18)
   double covered = 0;
-  for (const double radius : radii) covered += size_of_particle(dimension, radius + gap / 2);
+  for (const double radius : radii) covered += round_shape(dimension, radius + gap / 2).measure();
   if (covered > densest * size) refuse("the densest lattice has no room for them");
 
   std::vector<FixedParticle> fixed;

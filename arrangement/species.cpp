@@ -111,7 +111,7 @@ DrawnParticle DrawnSpecies::next() {
   }
   const auto& species = species_[next];
   const double radius = radius_of(species.radius, counts_[next]++, random_);
-  return {radius, species.density > 0 ? species.density * size_of_particle(dimension_, radius)
+  return {radius, species.density > 0 ? species.density * round_shape(dimension_, radius).measure()
                                       : species.mass};
 }
 
@@ -128,7 +128,7 @@ std::vector<DrawnParticle> drawn_to_size(DrawnSpecies species, int dimension, do
   double sum = 0;
   while (particles.size() < largest_count) {
     const auto next = species.next();
-    const double more = size_of_particle(dimension, next.radius);
+    const double more = round_shape(dimension, next.radius).measure();
     // A particle is taken only if it brings the sum nearer to `size`.
     if (!particles.empty() && sum + more / 2 > size) break;
     particles.push_back(next);

@@ -61,7 +61,7 @@ void ConstraintSystem<D>::join_linked(ContactSystem<D>& system) const {
   for (const auto& link : links_)
     for (const auto& part : link.parts()) {
       system.connect(link.parts().front().particle, part.particle);
-      if (!link.is_spring()) system.hold(part.particle);
+      if (!link.is_spring()) system.mark_finite_turns(part.particle);
     }
 }
 

@@ -20,7 +20,7 @@ std::int32_t ContactSystem<D>::number(std::int32_t particle) {
   island_sizes_.push_back(1);
   const auto rigid = particles_.bodies.body_of(particle);
   const bool is_round = k >= particles_.count() || particles_.is_round(k);
-  is_held_.push_back(rigid < 0 && is_round ? 0 : 1);
+  has_finite_turns_.push_back(rigid < 0 && is_round ? 0 : 1);
   uses_distances_.push_back(0);
   if (rigid >= 0)
     for (const auto member : particles_.bodies.bodies[index_of(rigid)].members)
@@ -59,7 +59,7 @@ void ContactSystem<D>::join(std::int32_t island, std::int32_t other) {
   auto& size = island_sizes_[index_of(other)];
   size += island_sizes_[index_of(island)];
   island_of_[index_of(island)] = other;
-  is_held_[index_of(other)] |= is_held_[index_of(island)];
+  has_finite_turns_[index_of(other)] |= has_finite_turns_[index_of(island)];
   uses_distances_[index_of(other)] |= uses_distances_[index_of(island)];
   largest_island_ = std::max(largest_island_, size);
 }
@@ -73,8 +73,8 @@ bool ContactSystem<D>::has_mark(const Contact<D>& contact, const std::vector<cha
 }
 
 template <int D>
-bool ContactSystem<D>::is_held(const Contact<D>& contact) {
-  return has_mark(contact, is_held_);
+bool ContactSystem<D>::has_finite_turns(const Contact<D>& contact) {
+  return has_mark(contact, has_finite_turns_);
 }
 
 template <int D>

@@ -45,8 +45,10 @@ class ContactSystem {
 
   /// Makes two particles take part, and joins them; if `first` is -1, only `second`.
   void connect(std::int32_t first, std::int32_t second);
-  /// A rigid link holds `particle`, which must take part.
-  void hold(std::int32_t particle) { is_held_[index_of(island(body_of(particle)))] = 1; }
+  /// A rigid link, which turns by finite angles, holds `particle`, which must take part.
+  void mark_finite_turns(std::int32_t particle) {
+    has_finite_turns_[index_of(island(body_of(particle)))] = 1;
+  }
 
   /// Solves the dual problem with the impulses of `contacts` as the first guess, and sets these
   /// impulses and the displacements of the bodies. `is_rough`: only to find contacts that must be
@@ -59,12 +61,12 @@ class ContactSystem {
 
   /// True if a particle of the contact is in an island with a rigid body, a rigid link or a
   /// particle that is not round.
-  bool is_held(const Contact<D>& contact);
+  bool has_finite_turns(const Contact<D>& contact);
   /// The gap [L] of any contact after the present displacements, as uses_distance() says.
   double gap(const Contact<D>& contact);
-  /// Makes gap() the distance of the surfaces for an island for which is_held() is true. When two
-  /// particles in touch turn about each other, their linearised gap becomes negative, which would
-  /// contradict rigid bodies and links that turn with them.
+  /// Makes gap() the distance of the surfaces for an island for which has_finite_turns() is true.
+  /// When two particles in touch turn about each other, their linearised gap becomes negative,
+  /// which would contradict rigid bodies and links that turn with them.
   void use_distances(std::int32_t body) {
     assert(may_use_distances_);
     uses_distances_[index_of(island(body))] = 1;
@@ -107,8 +109,9 @@ class ContactSystem {
   // Union-find trees: the parent of each body, or the body itself if it is the root.
   std::vector<std::int32_t> island_of_;
   std::vector<std::size_t> island_sizes_;  // of each island, at its root
-  // Marks of each island, at its root: what is_held() says, and whether its gaps are distances.
-  std::vector<char> is_held_, uses_distances_;
+  // Marks of each island, at its root: what has_finite_turns() says, and whether its gaps are
+  // distances.
+  std::vector<char> has_finite_turns_, uses_distances_;
   // has_distances_ says whether uses_distances_ has a mark, which saves two searches for each gap.
   bool may_use_distances_ = true, has_distances_ = false;
   std::size_t largest_island_ = 1;

@@ -306,7 +306,8 @@ template <int D>
 bool IslandLadder<D>::can_use_distances() const {
   return system_.may_use_distances() && std::ranges::any_of(island_.contacts, [&](std::size_t c) {
            const auto& contact = system_.contacts[c];
-           return contact.first >= 0 && system_.is_held(contact) && !system_.uses_distance(contact);
+           return contact.first >= 0 && system_.has_finite_turns(contact) &&
+                  !system_.uses_distance(contact);
          });
 }
 

@@ -516,13 +516,13 @@ ResidualScale ResidualScales<D>::of(const Contact<D>& contact) {
   // 1 unit in the last place of the radii, or, where bodies or links turn, 8 units in that of the
   // radii and of the distances from the origin, because lengths of links are differences of
   // coordinates.
-  const bool is_held = system_.is_held(contact);
-  const double rounding = (is_held ? 8 : 1) * std::numeric_limits<double>::epsilon();
+  const bool has_finite_turns = system_.has_finite_turns(contact);
+  const double rounding = (has_finite_turns ? 8 : 1) * std::numeric_limits<double>::epsilon();
   double lengths = 0;
   for (const auto particle : particles)
     if (particle >= 0)
       lengths += state_.particles.radii[index_of(particle)] +
-                 (is_held ? norm(state_.particles.position(index_of(particle))) : 0);
+                 (has_finite_turns ? norm(state_.particles.position(index_of(particle))) : 0);
   scale.rounding = std::max(scale.rounding, rounding * lengths);
   return scale;
 }

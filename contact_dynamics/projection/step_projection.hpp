@@ -80,9 +80,9 @@ class ResidualScales {
   ResidualScale of(std::span<const std::int32_t> particles, double w, double length);
   /// In a step with friction, bodies or links, rounding errors are at least the last place of the
   /// radii, because smaller displacements of particles at rest are errors of the solutions. In an
-  /// island with a rigid body or link (ContactSystem::is_held()) they are larger, because finite
-  /// turns move points of the surface; there they also grow with the distance of the particles from
-  /// the origin.
+  /// island with a rigid body or link (ContactSystem::has_finite_turns()) they are larger, because
+  /// finite turns move points of the surface; there they also grow with the distance of the
+  /// particles from the origin.
   ResidualScale of(const Contact<D>& contact);
   /// Largest displacement of a particle by its impulse at work [L].
   double largest_change(std::span<const std::int32_t> particles) const;
@@ -133,8 +133,8 @@ struct ProjectionResult {
   /// are allowed, or no residual or overlap is more than kBroken mean radii.
   std::vector<std::string> unsolved_links;
   /// True if some motion satisfies the linear equations, but none was found with finite turns:
-  /// links and contacts contradict each other, or turn too far in the step. Also true of a step that
-  /// is not solved while particles that are not round turn in it.
+  /// links and contacts contradict each other, or turn too far in the step. Also true of a step
+  /// that is not solved while particles that are not round turn in it.
   bool turns_too_far = false;
   bool contact_contradicts = false;  ///< true: contacts may contradict these links
   std::vector<Pair*> pairs;
@@ -291,7 +291,8 @@ class StepProjection {
     const auto first = pair(k).first < 0 ? loaded_plane(k) : pair(k).first;
     return w(first, pair(k).second) > 0;
   }
-  // True if a particle with a contact that is not round turns, so that a shorter step may be solved.
+  // True if a particle with a contact that is not round turns, so that a shorter step may be
+  // solved.
   bool shapes_turn() const;
   // Adds the impulse of contact `c` to ProjectionResult::on_given if a motion is given.
   void take_given(std::size_t c, const PairMemory& memory, ProjectionResult& result);

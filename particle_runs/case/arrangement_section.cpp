@@ -182,7 +182,7 @@ void read_arrangement(const case_file::TomlSection& section, ParticlesCase& c) {
     if (!has_fluid) continue;
     p.angles.push_back(0);
     p.angular_velocities.push_back(0);
-    p.inertias.push_back(homogeneous_inertia(2, mass, radius));
+    p.inertias.push_back(round_shape(2, radius).inertia(mass));
   }
   add_missing_ids(p);
   c.arrangement = std::move(asked);

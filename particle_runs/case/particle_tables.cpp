@@ -274,7 +274,7 @@ void read_file_of_particles(const case_file::TomlSection& section, ParticlesCase
   auto& p = c.particles;
   if (in_fluid && p.dimension == 2)
     for (std::size_t k = 0; k < p.count(); ++k)
-      p.inertias.push_back(homogeneous_inertia(2, p.masses[k], p.radii[k]));
+      p.inertias.push_back(round_shape(2, p.radii[k]).inertia(p.masses[k]));
   if (!in_fluid && p.turn()) add_rotation(p);
 }
 

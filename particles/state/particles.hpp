@@ -17,6 +17,12 @@
 
 namespace viscontact::particles {
 
+/// A disc (dimension 2) or a sphere (1, 3) of this radius [L].
+inline Shape round_shape(int dimension, double radius) {
+  assert(dimension >= 1 && dimension <= 3);
+  return dimension == 2 ? Shape::disc(radius) : Shape::sphere(radius);
+}
+
 /// The particles as flat arrays, in any consistent units. Entry k of `radii`, `masses` and `ids`
 /// belongs to particle k, and so do the `dimension` entries from dimension * k on of `positions`
 /// and `velocities`. The restart file stores the arrays as they are (particle_runs/io/restart.cpp).
@@ -75,8 +81,7 @@ struct Particles {
   Vector position(std::size_t k) const { return point_of(positions.data(), k, dimension); }
   Shape shape(std::size_t k) const {
     assert(shapes.empty() || k < shapes.size());
-    if (!shapes.empty()) return shapes[k];
-    return dimension == 2 ? Shape::disc(radii[k]) : Shape::sphere(radii[k]);
+    return shapes.empty() ? round_shape(dimension, radii[k]) : shapes[k];
   }
   /// True if the outline of particle k is a circle, so that a turn does not change it.
   bool is_round(std::size_t k) const {
@@ -120,19 +125,6 @@ inline void add_missing_ids(Particles& particles) {
   while (particles.ids.size() < particles.count()) particles.ids.push_back(++largest);
 }
 
-/// Area of a disc (dimension 2) [L^2], or volume of a sphere (dimension 1 or 3) [L^3].
-inline double size_of_particle(int dimension, double radius) {
-  assert(dimension >= 1 && dimension <= 3);
-  constexpr double kPi = 3.141592653589793;
-  return dimension == 2 ? kPi * radius * radius : 4 * kPi / 3 * radius * radius * radius;
-}
-
-/// Moment of inertia about the centre [M L^2] of a homogeneous disc (dimension 2) of the mass m and
-/// radius r, m r^2/2, or of a sphere (dimension 3), 2 m r^2/5.
-inline double homogeneous_inertia(int dimension, double mass, double radius) {
-  return (dimension == 3 ? 0.4 : 0.5) * mass * radius * radius;
-}
-
 std::vector<Shape> shapes_of(const Particles& particles);
 
 /// Extends Particles::shapes, if it is not empty, to all particles: the others are discs.
@@ -140,7 +132,7 @@ void add_missing_shapes(Particles& particles);
 
 /// Extends the arrays of rotation to all discs or spheres, so that all can turn. Existing entries
 /// stay. The new entries say that a particle does not turn, has not turned since the start, and has
-/// its homogeneous_inertia().
+/// the moment of inertia of its homogeneous shape.
 void add_rotation(Particles& particles);
 
 /// The mean radius [L], to which residuals of solvers and overlaps are compared; 1 without

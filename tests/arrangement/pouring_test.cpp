@@ -118,7 +118,7 @@ TEST(Source, WaitsWhileItsRegionIsFull) {
   const auto& p = simulation.state().particles;
   // The region of 8 x 2 and the discs that reach out of it cover at most 8 x 3.8.
   double area = 0;
-  for (const double radius : p.radii) area += size_of_particle(2, radius);
+  for (const double radius : p.radii) area += round_shape(2, radius).measure();
   EXPECT_GT(p.count(), 6U);
   EXPECT_LT(area, 0.91 * 8 * 3.8);
   const auto poured = p.count() - 1;

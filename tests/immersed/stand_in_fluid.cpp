@@ -170,7 +170,7 @@ void add_disc(InFluid& system, const Vector& at, double mass, const Vector& velo
   auto& p = system.state.particles;
   p.angles.push_back(0);
   p.angular_velocities.push_back(0);
-  p.inertias.push_back(homogeneous_inertia(2, mass, 0.1));
+  p.inertias.push_back(round_shape(2, 0.1).inertia(mass));
 }
 
 void add_pushed(InFluid& system, const Vector& position, double radius, double mass,

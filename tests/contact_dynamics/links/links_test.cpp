@@ -125,7 +125,7 @@ State pendulum(int dimension, double angle) {
 
 TEST_P(Hinges, APendulumSwingsWithItsPeriodAndOfSecondOrder) {
   const int dimension = GetParam();
-  const double inertia = 2 * homogeneous_inertia(dimension, 1, 0.3) + 0.8 * 0.8 + 1.2 * 1.2;
+  const double inertia = 2 * round_shape(dimension, 0.3).inertia(1) + 0.8 * 0.8 + 1.2 * 1.2;
   const double g = 9.81, w = std::sqrt(2 * g / inertia), amplitude = 1e-3;
   std::vector<double> errors;
   for (const double h : {0.04, 0.02, 0.01}) {
@@ -255,7 +255,7 @@ TEST(TorsionSprings, ADiscOnAHingeTurnsAsAnOscillator) {
   setting.links.hinges = {hinge};
   Simulation simulation(setting, state, 1);
   run(simulation, 2, expect_converged);
-  const double w = std::sqrt(3 / homogeneous_inertia(2, 4, 0.5));
+  const double w = std::sqrt(3 / round_shape(2, 0.5).inertia(4));
   EXPECT_NEAR(simulation.state().particles.angles[0], 0.5 - 0.5 * std::cos(2 * w), 2e-3);
   EXPECT_NEAR(norm(simulation.state().particles.position(0) - Vector{1, 2, 0}), 0, 1e-14);
   // The torque of the spring is that of its extension.

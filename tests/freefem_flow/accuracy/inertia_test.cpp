@@ -229,7 +229,7 @@ Run one_particle(const particles::Fluid& fluid, double density, double h, int di
   p.positions.assign(static_cast<std::size_t>(dimension), 1.5);
   p.velocities.assign(static_cast<std::size_t>(dimension), 0);
   p.radii = {0.5};
-  p.masses = {density * particles::size_of_particle(dimension, 0.5)};
+  p.masses = {density * particles::round_shape(dimension, 0.5).measure()};
   p.ids = {0};
   return run;
 }
@@ -370,7 +370,7 @@ std::vector<double> velocities_of_two(bool turned, double shift, bool swapped) {
     const auto place = along(x, k == 0 ? 1.0 : 2.2);
     p.positions.insert(p.positions.end(), {place[0], place[1]});
     p.radii.push_back(k == 0 ? 0.4 : 0.5);
-    p.masses.push_back((k == 0 ? 3 : 2) * particles::size_of_particle(2, p.radii.back()));
+    p.masses.push_back((k == 0 ? 3 : 2) * particles::round_shape(2, p.radii.back()).measure());
   }
   const auto simulation = run.at(0.4);
   const auto& after = simulation->state().particles;

@@ -46,7 +46,7 @@ TEST(ConstrainedInInertia, ABodyKeepsItsMomentaButForTheDrag) {
     EXPECT_EQ(moved.angular_velocities[0], moved.angular_velocities[1]);
     return moved.bodies.bodies[0];
   };
-  const double inertia = 2 * (2 + homogeneous_inertia(2, 2, 0.1));
+  const double inertia = 2 * (2 + round_shape(2, 0.1).inertia(2));
   const double rate = kDrag / 2, of_spin = kDrag * 4 / inertia;
   expect_order_2([&](double h) { return at_end(h).velocity[0]; }, 3 * std::exp(-rate * kEnd), 0.1);
   expect_order_2([&](double h) { return at_end(h).angular_velocity[2]; },
@@ -63,7 +63,7 @@ struct Pendulum {
 };
 
 /// Its moment of inertia about the hinge.
-const double kAboutHinge = 1 + 2 * homogeneous_inertia(2, 1, 0.1);
+const double kAboutHinge = 1 + 2 * round_shape(2, 0.1).inertia(1);
 
 Pendulum swinging(double h, double drag, double end) {
   auto system = with_inertia(2, h);

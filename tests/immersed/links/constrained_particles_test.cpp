@@ -26,7 +26,7 @@ InFluid body_in_fluid(double h, double mass, const Vector& force) {
   auto& p = system.state.particles;
   p.angles.assign(3, 0);
   p.angular_velocities.assign(3, 0);
-  p.inertias.assign(3, homogeneous_inertia(2, mass, 0.5));
+  p.inertias.assign(3, round_shape(2, 0.5).inertia(mass));
   add_rigid_body(p, {{0, 1, 2}});
   return system;
 }

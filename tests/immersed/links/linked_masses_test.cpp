@@ -130,7 +130,7 @@ TEST(LinkedMasses, ABodyOnAHingeSwingsUnderGravityAndDragToSecondOrder) {
     run(simulation, 4);
     return simulation.state().particles.bodies.bodies[0].angle[2];
   };
-  const double inertia = 1 + 2 * homogeneous_inertia(2, 1, 0.1), resistance = 3 * drag;
+  const double inertia = 1 + 2 * round_shape(2, 0.1).inertia(1), resistance = 3 * drag;
   double angle = 0, w = 1;
   constexpr int kSteps = 40000;
   const double h = 4.0 / kSteps;

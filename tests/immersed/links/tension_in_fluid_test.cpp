@@ -45,7 +45,7 @@ struct Chain {
     p.angles.assign(3, 0);
     p.angular_velocities.assign(3, 0);
     if (mass > 0)
-      p.inertias.assign(3, homogeneous_inertia(2, mass, radius) * weight * length * length);
+      p.inertias.assign(3, round_shape(2, radius).inertia(mass) * weight * length * length);
     made.setting.given_motions[0] = {};
     auto& links = made.setting.links;
     for (std::int32_t k = 0; k < 2; ++k) {
@@ -181,7 +181,7 @@ TEST(TensionInFluid, ABodyOnAHingeThatIsPulledTurnsToTheForceAtEveryStep) {
         auto& p = system.state.particles;
         p.angles.assign(2, 0);
         p.angular_velocities.assign(2, 0);
-        p.inertias.assign(2, homogeneous_inertia(2, mass, 0.5));
+        p.inertias.assign(2, round_shape(2, 0.5).inertia(mass));
         add_rigid_body(p, {{0, 1}});
         system.setting.links.hinges = {hinge_of_body(p, hinge_at)};
         auto simulation = system.simulation(constant_drag(2));
@@ -235,7 +235,7 @@ double buckling_of_standing(Kind kind, double h, double mass, double density, do
   auto& p = system.state.particles;
   p.angles.assign(2, 0);
   p.angular_velocities.assign(2, 0);
-  if (mass > 0) p.inertias.assign(2, homogeneous_inertia(2, mass, 0.1));
+  if (mass > 0) p.inertias.assign(2, round_shape(2, 0.1).inertia(mass));
   system.setting.given_motions[0] = {};
   if (kind == Kind::kArms)
     system.setting.links.arms = {{0, 1, fixed_length(kLength)}};

@@ -120,7 +120,7 @@ TEST(ArrangementSection, PlacesSpheresOfSeveralSpecies) {
   EXPECT_EQ(std::ranges::count(p.radii, 1.0), 60);
   EXPECT_EQ(std::ranges::count(p.masses, 5.0), 30);
   for (std::size_t k = 0; k < p.count(); ++k)
-    EXPECT_DOUBLE_EQ(p.masses[k], p.radii[k] == 1 ? 3 * size_of_particle(3, 1) : 5.0);
+    EXPECT_DOUBLE_EQ(p.masses[k], p.radii[k] == 1 ? 3 * round_shape(3, 1).measure() : 5.0);
   const auto uniform =
       read_spheres("volume_fraction = 0.2\nradius = { uniform = [0.5, 1.0] }\ndensity = 1.0\n");
   double volume = 0;
@@ -128,7 +128,7 @@ TEST(ArrangementSection, PlacesSpheresOfSeveralSpecies) {
     EXPECT_TRUE(0.5 <= uniform.radii[k] && uniform.radii[k] < 1);
     volume += uniform.masses[k];
   }
-  EXPECT_NEAR(volume, 0.2 * 3000, size_of_particle(3, 1));
+  EXPECT_NEAR(volume, 0.2 * 3000, round_shape(3, 1).measure());
   EXPECT_THAT(read_spheres("count = 4\nradius = [0.5, 1.0]\nmass = 1.0\n").radii,
               ElementsAre(0.5, 1.0, 0.5, 1.0));
 }
