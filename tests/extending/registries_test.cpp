@@ -74,7 +74,7 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
           Found("particle_runs/case/start_checks.cpp", "plane"),
           Found("particle_runs/case/fluid_start_checks.cpp", "plane"),
           Found("particles/steps/step_report.cpp", "plane"),
-          Found("contact_dynamics/simulation.cpp", "plane"),
+          Found("contact_dynamics/given_motions.cpp", "plane"),
           // a key in the head of a file of a sweep
           Found("sweep/sphere_study.cpp", "reference"),
           // a part of the boundary, which FreeFEM's scripts print
