@@ -18,21 +18,24 @@ ConstraintSolution<D> solve_constraints(ConstraintProblem<D>& problem, int max_i
 }
 
 template <int D>
-ConstraintSolution<D> solve_with_given_loads(ConstraintProblem<D>& problem, bool without_friction) {
+ConstraintSolution<D> solve_with_given_loads(ConstraintProblem<D>& problem, bool without_friction,
+                                             ConstraintStart start) {
   give_loads(problem);
   if (without_friction) {
     for (auto& block : problem.blocks) block.given_load = 0;
     std::ranges::fill(problem.impulses, 0.0);
     problem.keeps_loads = problem.is_near = false;
   }
-  auto solution = solve_constraints(problem, kMostOfGivenLoads);
+  auto solution = solve_constraints(problem, kMostOfGivenLoads, start);
   problem.keeps_loads = true;
   return solution;
 }
 
 template ConstraintSolution<2> solve_constraints<2>(ConstraintProblem<2>&, int, ConstraintStart);
 template ConstraintSolution<3> solve_constraints<3>(ConstraintProblem<3>&, int, ConstraintStart);
-template ConstraintSolution<2> solve_with_given_loads<2>(ConstraintProblem<2>&, bool);
-template ConstraintSolution<3> solve_with_given_loads<3>(ConstraintProblem<3>&, bool);
+template ConstraintSolution<2> solve_with_given_loads<2>(ConstraintProblem<2>&, bool,
+                                                         ConstraintStart);
+template ConstraintSolution<3> solve_with_given_loads<3>(ConstraintProblem<3>&, bool,
+                                                         ConstraintStart);
 
 }  // namespace viscontact::contact_solver

@@ -25,6 +25,10 @@ enum class ConstraintStart {
   /// With a proximal step. If rows are redundant, the result is near the solution with the least
   /// sum of squares of differences from the guess, unless it takes more than 2000 iterations.
   kLeastImpulses,
+  /// With accelerated sweeps, if all blocks are contacts of round particles, otherwise as kSweeps.
+  /// They are fast where residuals of 1e-3 of the motions are allowed and the guess is good. If
+  /// rows are redundant, the result depends on the guess.
+  kAcceleratedSweeps,
 };
 
 /// Improves problem.impulses [M L/T] until the residual of each block is allowed, or until about
@@ -45,7 +49,8 @@ inline constexpr int kMostOfGivenLoads = 3000;
 /// loads are those at the present impulses, or, if `without_friction`, those of a solution without
 /// friction. They stay in the problem.
 template <int D>
-ConstraintSolution<D> solve_with_given_loads(ConstraintProblem<D>& problem, bool without_friction);
+ConstraintSolution<D> solve_with_given_loads(ConstraintProblem<D>& problem, bool without_friction,
+                                             ConstraintStart start = ConstraintStart::kSweeps);
 
 /// For each block its violation [L], or [rad] of angles, by the motion of the units with the least
 /// sum of v^2/w over the rows of rigid links and the negative gaps, with the value v and the

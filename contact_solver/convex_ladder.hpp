@@ -26,10 +26,13 @@ class ConvexLadder {
   bool is_done() const { return !needs_loads_ && at_.is_at_end(); }
 
  private:
-  static const std::array<StageRow<ConvexLadder>, 4> kTable;
+  static const std::array<StageRow<ConvexLadder>, 5> kTable;
 
   bool needs_loads() const { return needs_loads_; }
   void find_loads(Stage stage);
+
+  bool may_accelerate() const { return !has_accelerated_ && at_.can_accelerate(); }
+  void accelerate(Stage stage);
 
   bool is_near() const { return is_near_ && at_.residual > 1; }
   void begin_steps_near_guess();
@@ -53,7 +56,7 @@ class ConvexLadder {
 
   Iterate<D> at_;
   std::optional<InteriorPoints<D>> interior_;
-  bool needs_loads_, is_near_, has_interior_solution_ = false;
+  bool needs_loads_, is_near_, has_accelerated_ = false, has_interior_solution_ = false;
   bool is_rising_ = false;  // epsilon
   int last_ = 0;            // iterations in all, up to the end of the present steps
 };

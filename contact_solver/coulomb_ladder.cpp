@@ -10,6 +10,10 @@ namespace viscontact::contact_solver {
 namespace {
 
 struct CoulombTuning {
+  // Coulomb's law is not the minimum of a convex function, and long extrapolations fail in half of
+  // the steps of packings. Sweeps that cycle with one of these lengths often end with another.
+  static constexpr std::array kLongest{40, 20, 10, 5, 2};
+  static constexpr int kSweepsOfRun = 300;
   // Sweeps end if they do not reduce the residual to this part of itself. Slow progress is enough,
   // because a sweep takes a small part of the time of a factorisation.
   static constexpr double kGainOfSweeps = 0.7;
@@ -42,7 +46,10 @@ struct CoulombTuning {
 
 // Stage; when it is entered; what begins it; its step; when it is left; what ends it.
 template <int D>
-const std::array<StageRow<CoulombLadder<D>>, 4> CoulombLadder<D>::kTable{{
+const std::array<StageRow<CoulombLadder<D>>, 5> CoulombLadder<D>::kTable{{
+    // With ConstraintStart::kAcceleratedSweeps, 300 with each length of extrapolations.
+    {Stage::kAcceleratedSweeps, &CoulombLadder::may_accelerate, nullptr, &CoulombLadder::accelerate,
+     nullptr, nullptr},
     // At first, as long as 30 sweeps reduce the residual to 0.7 of itself.
     {Stage::kSweeps, &CoulombLadder::may_sweep, nullptr, &CoulombLadder::sweep,
      &CoulombLadder::do_sweeps_gain_little, nullptr},
@@ -63,6 +70,16 @@ const std::array<StageRow<CoulombLadder<D>>, 4> CoulombLadder<D>::kTable{{
     {Stage::kProximalSteps, &CoulombLadder::is_unsolved, &CoulombLadder::begin_proximal_steps,
      &CoulombLadder::take_proximal_step, &CoulombLadder::are_proximal_steps_over, nullptr},
 }};
+
+template <int D>
+bool CoulombLadder<D>::may_accelerate() const {
+  return at_.can_accelerate() && runs_ < CoulombTuning::kLongest.size();
+}
+
+template <int D>
+void CoulombLadder<D>::accelerate(Stage stage) {
+  at_.accelerate(CoulombTuning::kSweepsOfRun, CoulombTuning::kLongest[runs_++], stage);
+}
 
 template <int D>
 bool CoulombLadder<D>::may_sweep() const {

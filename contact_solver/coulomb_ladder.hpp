@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -24,7 +25,10 @@ class CoulombLadder {
   bool is_done() const { return at_.is_at_end(); }
 
  private:
-  static const std::array<StageRow<CoulombLadder>, 4> kTable;
+  static const std::array<StageRow<CoulombLadder>, 5> kTable;
+
+  bool may_accelerate() const;
+  void accelerate(Stage stage);
 
   bool may_sweep() const;
   void sweep(Stage stage);
@@ -58,6 +62,7 @@ class CoulombLadder {
 
   Iterate<D> at_;
   ConstraintStart start_;
+  std::size_t runs_ = 0;  // of accelerated sweeps
   double before_sweeps_ = std::numeric_limits<double>::infinity();
   int steps_ = 0, next_try_ = 0;  // proximal steps so far; that after which gaps are closed
   int paths_ = 0;

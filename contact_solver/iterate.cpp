@@ -32,6 +32,8 @@ Iterate<D>::Iterate(ConstraintProblem<D>& of, int max_iterations, ConstraintStar
   }
   best_.result.residual = std::numeric_limits<double>::infinity();
   update();
+  if (start == ConstraintStart::kAcceleratedSweeps)
+    accelerated_ = AcceleratedSweeps<D>::of(problem, w);
 }
 
 template <int D>
@@ -92,6 +94,12 @@ template <int D>
 bool Iterate<D>::is_stagnant() const {
   return iterations() - gained_at_ >
          (has_cones ? IterateTuning::kPatienceOfCones : IterateTuning::kPatience);
+}
+
+template <int D>
+void Iterate<D>::accelerate(int most_sweeps, int longest, Stage stage) {
+  count(stage, accelerated_->sweep(std::clamp(most - iterations(), 1, most_sweeps), longest));
+  update();
 }
 
 template <int D>

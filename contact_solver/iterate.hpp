@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "viscontact/contact_solver/constraint_solver.hpp"
+#include "viscontact/contact_solver/methods/accelerated_sweeps.hpp"
 #include "viscontact/contact_solver/methods/block_factor.hpp"
 #include "viscontact/contact_solver/methods/contact_sweeps.hpp"
 #include "viscontact/contact_solver/methods/proximal_step.hpp"
@@ -71,6 +72,10 @@ class Iterate {
   /// The last `iterations` do not count in is_at_end().
   void excuse(int iterations) { gained_at_ += iterations; }
 
+  /// True if the solution begins with accelerated sweeps.
+  bool can_accelerate() const { return accelerated_.has_value(); }
+  /// Takes at most `most_sweeps`, and extrapolates over at most `longest` of them.
+  void accelerate(int most_sweeps, int longest, Stage stage);
   /// IterateTuning::kSweeps of Gauss-Seidel.
   void sweep();
   /// Computes a step (5.8) from `center` in at most `most_of_step` iterations, and fewer if there
@@ -96,6 +101,7 @@ class Iterate {
   bool is_stagnant() const;
 
   ContactSweeps<D> sweeps_;
+  std::optional<AcceleratedSweeps<D>> accelerated_;
   std::optional<UnitMatrix<D>> matrix_;
   std::optional<ProximalStep<D>> proximal_;
   std::vector<double> best_impulses_;

@@ -93,8 +93,9 @@ class ConstraintSystem {
 
   /// The equations of all links, and then those of the stops of hinges, which bound their angles.
   const std::vector<LinkEquations>& links() const { return links_; }
-  /// Allowed residuals of links() [L], > 0; those of angles times the mean radius. The caller sets
-  /// this and the next three before solve().
+  /// How solutions begin. The caller sets this and the next four before solve().
+  ConstraintStart start = ConstraintStart::kSweeps;
+  /// Allowed residuals of links() [L], > 0; those of angles times the mean radius.
   std::vector<double> links_allowed;
   /// Errors that are asked for of the impulses of all contacts, in the order of add(), and then of
   /// all links() [M L/T], >= 0; of angles as in links_allowed.

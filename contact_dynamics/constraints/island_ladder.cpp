@@ -131,7 +131,7 @@ void IslandLadder<D>::find_solution(Stage stage) {
   int most = island_.has_given_up ? kMostOfGivenLoads : max_iterations_ - result_.iterations;
   if (corrections_ > 0) most = std::max(most, Tuning::kLeastCorrected);
   if (corrections_ > 0 && can_use_distances()) most = std::min(most, Tuning::kMostCorrected);
-  solution_ = solve_constraints(problem_, std::max(1, most));
+  solution_ = solve_constraints(problem_, std::max(1, most), constraints_.start);
   result_.iterations += solution_.result.iterations;
   result_.stages += solution_.result.stages;
   if (corrections_ > 0) ++result_.stages[stage];
@@ -148,6 +148,10 @@ void IslandLadder<D>::find_solution(Stage stage) {
 
 template <int D>
 void IslandLadder<D>::refine() {
+  // Refinement of many rows would take more time than accelerated sweeps.
+  if (constraints_.start == ConstraintStart::kAcceleratedSweeps &&
+      problem_.rows.size() > Refinement<D>::kFew)
+    return;
   refinement_.emplace(problem_, solution_);
   if (refinement_->is_done()) ++result_.stages[Stage::kRefinements];
 }
@@ -257,7 +261,8 @@ template <int D>
 bool IslandLadder<D>::give_up(bool have_diverged, Stage stage) {
   const auto with_own_loads = problem_;
   const auto is_solved = [&](bool without_friction) {
-    auto solution = contact_solver::solve_with_given_loads(problem_, without_friction);
+    auto solution =
+        contact_solver::solve_with_given_loads(problem_, without_friction, constraints_.start);
     result_.iterations += solution.result.iterations;
     result_.stages += solution.result.stages;
     if (!(solution.result.residual <= 1)) return false;

@@ -188,7 +188,9 @@ void StepProjection<D>::solve_contacts(bool is_rough, double length, int max_ite
 template <int D>
 void StepProjection<D>::allow(double length, double fraction, double of_slips) {
   auto scales = residual_scales();
-  // The other half is for rounding errors, because examine() computes residuals by other formulas.
+  // The rest is for rounding errors, because examine() computes residuals by other formulas.
+  const bool is_loose = constraints_ && constraints_->start == ConstraintStart::kAcceleratedSweeps;
+  const double share = is_loose ? 0.95 : 0.5;
   rounding_.clear();
   if (constraints_) {
     constraints_->slips_allowed.clear();
@@ -196,10 +198,10 @@ void StepProjection<D>::allow(double length, double fraction, double of_slips) {
   }
   for (auto& contact : system_.contacts) {
     const auto scale = scales.of(contact);
-    contact.allowed = scale.allowed(length, fraction) / 2;
+    contact.allowed = share * scale.allowed(length, fraction);
     rounding_.push_back(scale.rounding);
     if (constraints_) constraints_->allowed_errors.push_back(fraction * scale.impulse);
-    if (constraints_) constraints_->slips_allowed.push_back(scale.allowed(length, of_slips) / 2);
+    if (constraints_) constraints_->slips_allowed.push_back(share * scale.allowed(length, of_slips));
   }
   if (!constraints_) return;
   constraints_->links_allowed.clear();
@@ -266,6 +268,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   // An overlap up to half of the tolerance is left as it is. The other half of the tolerance is for
   // the error that this step adds.
   tolerated_ = settings.tolerance * mean_radius / 2;
+  counts_mean_load_ = settings.counts_mean_load;
   // With friction, a further solution takes more time than contacts whose gaps stay open. Therefore
   // pairs whose gaps are below kMargin mean radii are chosen early: with Coulomb's law after a
   // solution has closed further gaps, because redundant contacts would take loads from particles
@@ -293,7 +296,10 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   // impulse at work, 1, because impulses are not known yet. For bench/box2d.cpp with 1000 discs,
   // steps with 5e-4 to 2e-3 take the same time, and with 3e-3 a tenth more.
   constexpr double kRoughLength = 1e-3, kRoughImpulse = 1;
-  bool is_rough = settings.tolerance < kRoughLength && settings.impulse_tolerance < kRoughImpulse;
+  const bool suits_sweeps = constraints_ && settings.suit_sweeps();
+  if (suits_sweeps) constraints_->start = ConstraintStart::kAcceleratedSweeps;
+  bool is_rough = !suits_sweeps && settings.tolerance < kRoughLength &&
+                  settings.impulse_tolerance < kRoughImpulse;
   int rounds = 0;
   int waited = 0;
   int rounds_unsolved = 0;
@@ -408,7 +414,7 @@ template <int D>
 ResidualScales<D>::ResidualScales(const State& state, double h,
                                   std::span<const double> displacements,
                                   std::span<const double> mobilities, ContactSystem<D>& system,
-                                  const ConstraintSystem<D>* constraints)
+                                  const ConstraintSystem<D>* constraints, bool counts_mean_load)
     : state_(state),
       h_(h),
       displacements_(displacements),
@@ -434,6 +440,7 @@ ResidualScales<D>::ResidualScales(const State& state, double h,
     auto& of_island = island_impulses_[index_of(system.island(system.body_of(contact.second)))];
     of_island = std::max(of_island, std::sqrt(contact.w) * impulse);
   }
+  if (counts_mean_load) take_mean_loads();
   if (constraints == nullptr) return;
   for (std::size_t l = 0; l < constraints->links().size(); ++l) {
     const auto& link = constraints->links()[l];
@@ -445,6 +452,19 @@ ResidualScales<D>::ResidualScales(const State& state, double h,
         largest = std::max(largest, impulse);
       }
   }
+}
+
+template <int D>
+void ResidualScales<D>::take_mean_loads() {
+  mean_loads_.assign(system_.bodies().size(), 0.0);
+  std::vector<double> counts(mean_loads_.size());
+  for (const auto& contact : system_.contacts) {
+    if (!(contact.impulse > 0)) continue;
+    const auto root = index_of(system_.island(system_.body_of(contact.second)));
+    mean_loads_[root] += contact.impulse;
+    ++counts[root];
+  }
+  for (std::size_t b = 0; b < counts.size(); ++b) mean_loads_[b] /= std::max(1.0, counts[b]);
 }
 
 template <int D>
@@ -495,7 +515,10 @@ ResidualScale ResidualScales<D>::of(std::span<const std::int32_t> particles, dou
     const auto own = of_particle(particle);
     if (mobilities_[k] > 0) scale.impulse = std::min(scale.impulse, own.impulse);
     scale.rounding += mobilities_[k] * own.impulse + own.moved;
-    if (body >= 0) around = std::max(around, island_impulses_[index_of(system_.island(body))]);
+    if (body < 0) continue;
+    const auto root = index_of(system_.island(body));
+    around = std::max(around, island_impulses_[root]);
+    if (!mean_loads_.empty()) scale.impulse = std::max(scale.impulse, mean_loads_[root]);
   }
   scale.rounding += std::sqrt(scale.w) * around;
   // Solvers compute squares of displacements and products of these, which underflow below this

@@ -68,7 +68,7 @@ class ResidualScales {
   /// links. The arguments must outlive this object.
   ResidualScales(const State& state, double h, std::span<const double> displacements,
                  std::span<const double> mobilities, ContactSystem<D>& system,
-                 const ConstraintSystem<D>* constraints);
+                 const ConstraintSystem<D>* constraints, bool counts_mean_load);
 
   /// Scales of a contact or link between `particles`, which need not be in `system`; negative
   /// numbers are obstacles. `w` > 0 is the change of the gap per impulse [T/M], and `length` >= 0
@@ -93,6 +93,7 @@ class ResidualScales {
     /// Sum of h |u_d| over the components d of the velocity u before the step [L].
     double moved = 0;
   };
+  void take_mean_loads();
   // Takes no contacts into account; `moves` is the displacement without contacts and links.
   ParticleScale of_particle(std::int32_t particle, const double* moves) const;
   // Takes the contacts of a body of system_ into account.
@@ -107,6 +108,9 @@ class ResidualScales {
   // Largest w^(1/2) p of the contacts of each island, with the impulse p [L (M/T)^(1/2)], at its
   // root.
   std::vector<double> island_impulses_;
+  // The mean normal impulse of the loaded contacts of each island [M L/T], at its root; empty if it
+  // does not count.
+  std::vector<double> mean_loads_;
 };
 
 /// If a residual of a link or an overlap exceeds this fraction of the mean radius after all
@@ -261,8 +265,9 @@ class StepProjection {
     return (first < 0 ? 0.0 : mobilities_[index_of(first)]) + mobilities_[index_of(second)];
   }
   ResidualScales<D> residual_scales() {
-    return {state_,      h_,      displacements_,
-            mobilities_, system_, constraints_ ? &*constraints_ : nullptr};
+    return {state_,           h_,      displacements_,
+            mobilities_,      system_, constraints_ ? &*constraints_ : nullptr,
+            counts_mean_load_};
   }
   bool turns_too_far(const Contact<D>& contact) const {
     if constexpr (D == 2)
@@ -351,6 +356,7 @@ class StepProjection {
   std::vector<PlanePosition> tangents_;
   std::vector<std::unique_ptr<ShapedContact>> shaped_;  // those asked for, in the order of pair()
   double tolerated_ = 0;                                // [L]
+  bool counts_mean_load_ = false;
   double margin_ = 0;    // gap below which a pair is nearly closed [L]
   Selection selection_;  // of pair(); its members are the contacts of system_
   ContactSystem<D> system_;

@@ -11,6 +11,8 @@ std::string_view name_of(Stage stage) {
       return "factors";
     case Stage::kGradients:
       return "gradients";
+    case Stage::kAcceleratedSweeps:
+      return "accelerated_sweeps";
     case Stage::kSweeps:
       return "sweeps";
     case Stage::kProximalSteps:

@@ -19,16 +19,17 @@ enum class Stage : unsigned char {
   kGradients,  ///< products with W in conjugate gradients with projection
   // Coulomb's law and convex problems: coulomb_ladder.cpp, convex_ladder.cpp. Iterations of steps
   // (5.8) are factorisations and solutions with factors.
-  kSweeps,           ///< Gauss-Seidel sweeps
-  kProximalSteps,    ///< steps (5.8) with Coulomb's law
-  kBranchPath,       ///< changes of branches on the path within such a step
-  kClosedGaps,       ///< steps that close gaps while slips hardly change
-  kCoulombPath,      ///< the path (5.20); four for each point
-  kStepsFromPath,    ///< steps (5.8) from the end of a path
-  kFirstLoads,       ///< interior points that find loads to bound friction, (5.17)
-  kStepsNearGuess,   ///< steps (5.8) of a convex problem from a guess that is nearly a solution
-  kInteriorPoints,   ///< factorisations of interior points
-  kStepsFromInside,  ///< steps (5.8) of a convex problem from the end of interior points
+  kAcceleratedSweeps,  ///< Gauss-Seidel sweeps with momentum
+  kSweeps,             ///< Gauss-Seidel sweeps
+  kProximalSteps,      ///< steps (5.8) with Coulomb's law
+  kBranchPath,         ///< changes of branches on the path within such a step
+  kClosedGaps,         ///< steps that close gaps while slips hardly change
+  kCoulombPath,        ///< the path (5.20); four for each point
+  kStepsFromPath,      ///< steps (5.8) from the end of a path
+  kFirstLoads,         ///< interior points that find loads to bound friction, (5.17)
+  kStepsNearGuess,     ///< steps (5.8) of a convex problem from a guess that is nearly a solution
+  kInteriorPoints,     ///< factorisations of interior points
+  kStepsFromInside,    ///< steps (5.8) of a convex problem from the end of interior points
   // The equations of an island of particles: island_ladder.cpp. Each beginning counts.
   kCorrections,  ///< solutions with offsets corrected for finite turns
   kDistances,    ///< new beginnings with gaps that are distances

@@ -34,6 +34,11 @@ struct SolverSettings {
   /// iteration is a product of the matrix W of docs/physics.md (5.4) and a vector, or a sweep over
   /// the contacts, or a factorisation.
   int max_iterations = 10000;
+  /// True: the impulse that acts is at least the mean of the normal impulses in the particles' set,
+  /// those that contacts connect.
+  bool counts_mean_load = false;
+  /// True if sweeps from the impulses of the step before are the fastest method.
+  bool suit_sweeps() const { return tolerance >= 1e-5 && impulse_tolerance >= 1e-4; }
 };
 
 /// Largest magnitude [L] of a coordinate, and of a component of a displacement in a step. Beyond
