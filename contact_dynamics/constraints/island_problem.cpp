@@ -95,6 +95,7 @@ void ConstraintSystem<D>::add_contact(const Contact<D>& contact, std::size_t c, 
   if (problem.is_convex && rubs) {
     block.friction_bound = block.has_film() ? FrictionBound::kGiven : FrictionBound::kCone;
     block.given_load = state.first_load;
+    block.is_optional = contact.is_optional && block.is_in_cone();
   }
   problem.blocks.push_back(block);
   const auto first = side_of(contact.first_entry()), second = side_of(contact.second);

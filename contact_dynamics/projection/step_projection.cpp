@@ -155,7 +155,7 @@ std::vector<std::size_t> StepProjection<D>::nearly_closed(bool are_films_only) {
 }
 
 template <int D>
-void StepProjection<D>::choose(const std::vector<std::size_t>& pairs) {
+void StepProjection<D>::choose(const std::vector<std::size_t>& pairs, bool are_optional) {
   // With constraints one thread solves each island by itself. The order of the contacts of an
   // island must therefore not depend on other islands.
   for (const auto k : constraints_ ? pairs : interleaved(pairs)) {
@@ -164,7 +164,10 @@ void StepProjection<D>::choose(const std::vector<std::size_t>& pairs) {
       continue;
     }
     selection_.join(k);
-    system_.add(contact(k));
+    auto added = contact(k);
+    added.is_optional = are_optional;
+    if (are_optional) added.impulse = 0;
+    system_.add(added);
     if (constraints_)
       constraints_->add(system_.contacts.back(), pair(k), state_.memories.of(pair(k).memory));
   }
@@ -255,9 +258,12 @@ void StepProjection<D>::leave_touching(std::vector<std::size_t>& pairs,
   // whether the pair is chosen.
   auto scales = residual_scales();
   std::erase_if(pairs, [&](std::size_t k) {
-    if (Selection::is_bound(pair(k).gamma, pair(k).impulse) || has_film(k)) return false;
+    if (Selection::is_bound(pair(k).gamma, 0) || has_film(k)) return false;
     const auto here = contact(k);
-    return -system_.linear_gap(here) <= scales.of(here).allowed_gap(settings, mean_radius);
+    const double allowed = scales.of(here).allowed_gap(settings, mean_radius);
+    const bool is_loaded = pair(k).impulse != 0 &&
+                           !(settings.suit_sweeps() && here.w * pair(k).impulse <= allowed);
+    return !is_loaded && -system_.linear_gap(here) <= allowed;
   });
 }
 
@@ -291,6 +297,11 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   if (has_friction) {
     margin_ = kMargin * mean_radius;
     if (is_convex) choose(nearly_closed(true));
+    if (is_convex && settings.suit_sweeps()) {
+      margin_ = (getenv("MG")?atof(getenv("MG")):0.05) * mean_radius;
+      choose(nearly_closed(false), true);
+      margin_ = kMargin * mean_radius;
+    }
   }
   // Tolerances of the rough solution: of gaps in mean radii, and of impulses as a fraction of the
   // impulse at work, 1, because impulses are not known yet. For bench/box2d.cpp with 1000 discs,
@@ -343,14 +354,21 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   }
   result.turns_too_far |= !result.residuals.converged && shapes_turn();
   auto scales = residual_scales();
+  std::vector<double> impulse_errors;
   for (std::size_t c = 0; c < selection_.members().size(); ++c) {
-    result.pairs.push_back(&pair(selection_.members()[c]));
+    auto& of_contact = pair(selection_.members()[c]);
+    if (system_.contacts[c].is_optional && system_.contacts[c].impulse == 0 &&
+        of_contact.impulse == 0)
+      continue;
+    impulse_errors.push_back(result.residuals.impulse_errors[c]);
+    result.pairs.push_back(&of_contact);
     if (!shaped_.empty()) result.radii.push_back(radii_of_pair(selection_.members()[c]));
     // A pair with an impulse is chosen in the next step, too, where the convex relaxation may push
     // its particles apart. An impulse that is no larger than its allowed error must not do so.
     const auto& here = system_.contacts[c];
     const double error = scales.of(here).allowed_gap(settings, mean_radius) / here.w;
-    const bool is_error = is_convex && here.lowest == 0 && here.impulse <= error;
+    const bool is_error =
+        is_convex && !suits_sweeps && here.lowest == 0 && here.impulse <= error;
     result.impulses.push_back(is_error ? 0 : here.impulse);
     if (!constraints_) {
       take_given(c, {}, result);
@@ -366,6 +384,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     result.memories.push_back(memory);
     take_given(c, memory, result);
   }
+  result.residuals.impulse_errors = std::move(impulse_errors);
   result.bodies = system_.bodies();
   if (constraints_) constraints_->add_loads_across(result.on_given);
   result.buckling = constraints_ ? constraints_->buckling() : 0;

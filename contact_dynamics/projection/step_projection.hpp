@@ -311,7 +311,7 @@ class StepProjection {
   void leave_touching(std::vector<std::size_t>& pairs, const SolverSettings& settings,
                       double mean_radius);
   // Adds contacts of pairs that are not chosen yet. A pair that an arm keeps apart gets none.
-  void choose(const std::vector<std::size_t>& pairs);
+  void choose(const std::vector<std::size_t>& pairs, bool are_optional = false);
   void refine();
   struct Understated {
     /// The mobility of the lighter particle of a contact over the least one of its island.

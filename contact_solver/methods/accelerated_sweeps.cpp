@@ -17,6 +17,10 @@ struct SweepTuning {
   // Residuals are computed if the changes of a sweep are below kNear of those allowed. They end the
   // sweeps at kEnd, because the caller computes them from the rows, with other rounding errors.
   static constexpr double kNear = 1.5, kEnd = 0.99;
+  // Contacts that wait are looked at in every kInterval-th sweep whose changes are below kRough of
+  // those allowed. Earlier iterates would close gaps that stay open.
+  static constexpr int kInterval = 8;
+  static constexpr double kRough = 30;
 };
 
 template <std::size_t N>
@@ -155,6 +159,7 @@ bool AcceleratedSweeps<D>::add(const ConstraintBlock& block) {
 template <int D>
 void AcceleratedSweeps<D>::begin() {
   const auto& impulses = problem_->impulses;
+  waiting_.clear();
   for (std::size_t b = 0; b < contacts_.size(); ++b) {
     const auto& block = problem_->blocks[b];
     auto& contact = contacts_[b];
@@ -167,6 +172,11 @@ void AcceleratedSweeps<D>::begin() {
       for (std::size_t d = 0; d < D; ++d) p.tangential[d] += impulses[block.row + k] * tangent[d];
     }
     contact.x = contact.y = p;
+    contact.waits = block.is_optional && p.normal == 0;
+    if (contact.waits) {
+      contact.x = contact.y = {};
+      waiting_.push_back(b);
+    }
   }
   units_.assign(problem_->units.size() + 1, Unit{});
   for (std::size_t u = 0; u < problem_->units.size(); ++u) {
@@ -253,6 +263,7 @@ template <int D>
 double AcceleratedSweeps<D>::residual() const {
   double largest = 0;
   for (const auto& contact : contacts_) {
+    if (contact.waits) continue;
     const auto wanted = solution_of(contact, contact.x, values_of(contact));
     Impulse change{wanted.normal - contact.x.normal, {}};
     for (std::size_t d = 0; d < D; ++d)
@@ -261,6 +272,19 @@ double AcceleratedSweeps<D>::residual() const {
     if (!(here <= largest)) largest = here;
   }
   return std::sqrt(largest);
+}
+
+template <int D>
+bool AcceleratedSweeps<D>::end_waiting() {
+  const auto closed = std::ranges::partition(waiting_, [&](std::size_t c) {
+    auto& contact = contacts_[c];
+    const double gap = std::min(0.0, values_of(contact).normal) / contact.w_normal;
+    contact.waits = gap * gap * contact.square_of_gap <= 1;
+    return contact.waits;
+  });
+  const bool is_any = !closed.empty();
+  waiting_.erase(closed.begin(), closed.end());
+  return is_any;
 }
 
 template <int D>
@@ -277,7 +301,7 @@ void AcceleratedSweeps<D>::finish() {
 template <int D>
 int AcceleratedSweeps<D>::sweep(int most, int longest) {
   begin();
-  if (residual() <= SweepTuning::kEnd) return 0;
+  if (residual() <= SweepTuning::kEnd && !end_waiting()) return 0;
   before_ = units_;
   double theta = 1;
   int since = 0, sweeps = 0;
@@ -289,6 +313,7 @@ int AcceleratedSweeps<D>::sweep(int most, int longest) {
     double largest = 0;
     double away = 0;  // > 0 if the last extrapolation points away from the change
     for (auto& contact : contacts_) {
+      if (contact.waits) continue;
       const auto x = solution_of(contact, contact.y, values_of(contact));
       Impulse change{x.normal - contact.y.normal, {}}, step{x.normal - contact.x.normal, {}};
       for (std::size_t d = 0; d < D; ++d) {
@@ -305,7 +330,10 @@ int AcceleratedSweeps<D>::sweep(int most, int longest) {
         contact.y.tangential[d] = x.tangential[d] + beta * step.tangential[d];
     }
     ++sweeps;
-    if (largest <= SweepTuning::kNear * SweepTuning::kNear && residual() <= SweepTuning::kEnd)
+    if (largest <= SweepTuning::kRough * SweepTuning::kRough && sweeps % SweepTuning::kInterval == 0)
+      end_waiting();
+    if (largest <= SweepTuning::kNear * SweepTuning::kNear && residual() <= SweepTuning::kEnd &&
+        !end_waiting())
       break;
     if (away > 0 || beta == 0) {
       if (away > 0 || since >= longest) {

@@ -58,6 +58,7 @@ class AcceleratedSweeps {
     std::int32_t unit, other;
     FrictionBound bound;
     bool has_friction;
+    bool waits;  // it is optional and has no impulse yet
   };
 
   AcceleratedSweeps(ConstraintProblem<D>& problem, const std::vector<double>& w)
@@ -74,11 +75,14 @@ class AcceleratedSweeps {
   static double square_of(const RoundContact& contact, const Impulse& change);
   void push(const RoundContact& contact, const Impulse& change);
   double residual() const;
+  // Contacts whose gaps have closed wait no longer. Returns true if there are such contacts.
+  bool end_waiting();
   void finish();
 
   ConstraintProblem<D>* problem_;
   const std::vector<double>* w_;
   std::vector<RoundContact> contacts_;
+  std::vector<std::size_t> waiting_;  // places in contacts_
   std::vector<Unit> units_;   // and then one for all sides without a unit
   std::vector<Unit> before_;  // after the sweep before
 };

@@ -85,6 +85,10 @@ BlockResidual residual_of(const ConstraintBlock& block, const double* v, const d
           residual.normal, std::max(std::abs(v[k] + block.compliance * p[k]), least(k)));
     return residual;
   }
+  if (block.is_optional && std::ranges::all_of(p, p + block.rows, [](double q) { return q == 0; })) {
+    residual.normal = std::isnan(v[0]) ? v[0] : std::max(0.0, -v[0]);
+    return residual;
+  }
   double square = 0;
   std::array<double, 2> wanted{};
   for (std::size_t k = 1; k < block.rows; ++k) {

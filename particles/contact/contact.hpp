@@ -49,6 +49,8 @@ struct Contact {
   /// Entry of a plane under a load (PlaneLoad) in the arrays of displacements and mobilities; -1
   /// for others.
   std::int32_t loaded_plane = -1;
+  /// True: the contact takes part only if its gap would close otherwise.
+  bool is_optional = false;
   /// The surfaces, without a fluid, if one of them is not round; null for discs and spheres.
   const ShapedContact* shaped = nullptr;
 
