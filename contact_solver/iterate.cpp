@@ -23,7 +23,7 @@ std::vector<double> scales_of_rows(const ConstraintProblem<D>& problem, Constrai
 
 template <int D>
 Iterate<D>::Iterate(ConstraintProblem<D>& of, int max_iterations, ConstraintStart start)
-    : problem(of), most(max_iterations), w(scales_of_rows(of, start)), sweeps_(of) {
+    : problem(of), most(max_iterations), w(scales_of_rows(of, start)) {
   for (const auto& block : problem.blocks) {
     if (!block.is_contact) continue;
     problem.impulses[block.row] = std::max(problem.impulses[block.row], block.lowest);
@@ -104,7 +104,8 @@ void Iterate<D>::accelerate(int most_sweeps, int longest, Stage stage) {
 
 template <int D>
 void Iterate<D>::sweep() {
-  sweeps_.sweep(IterateTuning::kSweeps, w);
+  if (!sweeps_) sweeps_.emplace(problem);
+  sweeps_->sweep(IterateTuning::kSweeps, w);
   count(Stage::kSweeps, IterateTuning::kSweeps);
   update();
 }

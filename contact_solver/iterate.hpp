@@ -100,7 +100,7 @@ class Iterate {
  private:
   bool is_stagnant() const;
 
-  ContactSweeps<D> sweeps_;
+  std::optional<ContactSweeps<D>> sweeps_;
   std::optional<AcceleratedSweeps<D>> accelerated_;
   std::optional<UnitMatrix<D>> matrix_;
   std::optional<ProximalStep<D>> proximal_;

@@ -280,7 +280,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   // solution has closed further gaps, because redundant contacts would take loads from particles
   // that stand without them; with the convex relaxation, (5.9), before the first solution, but only
   // pairs with a film, because it pushes sliding particles without a film apart.
-  constexpr double kMargin = 5e-3;
+  constexpr double kMargin = 5e-3, kMarginOfSweeps = 0.1;
   const bool has_friction = step_ != nullptr && step_->laws.friction;
   const bool is_convex = has_friction && step_->laws.friction->method == FrictionMethod::kConvex;
   // The motion with links and without contacts decides which contacts are chosen. Without its hinge
@@ -298,7 +298,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     margin_ = kMargin * mean_radius;
     if (is_convex) choose(nearly_closed(true));
     if (is_convex && settings.suit_sweeps()) {
-      margin_ = (getenv("MG")?atof(getenv("MG")):0.05) * mean_radius;
+      margin_ = kMarginOfSweeps * mean_radius;
       choose(nearly_closed(false), true);
       margin_ = kMargin * mean_radius;
     }

@@ -1,7 +1,6 @@
 // Sweeps of nonlinear Gauss-Seidel with momentum, for contacts of round particles.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -32,59 +31,64 @@ class AcceleratedSweeps {
   int sweep(int most, int longest);
 
  private:
-  using Vec = std::array<double, D>;
-  using Turn = std::array<double, kTurns<D>>;
-  struct Unit {
-    Vec moved{};  // [L]
-    double mobility = 0;
-    Turn turned{};  // [rad]
-    double turn_mobility = 0;
+  // x, y, z and 0 in one register. Discs have impulses in the plane and turn about z.
+  using Vector [[gnu::vector_size(32)]] = double;
+  // Compiled for AVX, but only there, GCC takes this alignment for granted.
+  static constexpr std::size_t kAlignment = sizeof(Vector);
+  struct alignas(kAlignment) Unit {
+    Vector moved{};   // [L]
+    Vector turned{};  // [rad]
+    double mobility = 0, turn_mobility = 0;
   };
-  // Normal and tangential impulse on the first unit [M L/T].
   struct Impulse {
-    double normal = 0;
-    Vec tangential{};
+    Vector tangential{};  // [M L/T]
+    double normal = 0;    // [M L/T]
   };
-  struct RoundContact {
-    Vec normal;      // away from the second unit; the first unit moves along it if it is pushed
-    double gap = 0;  // without motions of units [L]
-    Vec slip{};      // the same of the tangential rows [L]
-    Impulse y, x;    // where the next sweep begins, and after the last sweep
-    double w_normal, w_tangential, inverse_w_normal, inverse_w_tangential;
-    double arm, other_arm;  // from the centres to the contact [L]
-    // Squares of changes of gap and slip, over those allowed, by unit impulses [(T/(M L))^2].
-    double square_of_gap, square_of_slip;
-    double lowest, friction, capacity, given_load;
-    std::int32_t unit, other;
-    FrictionBound bound;
-    bool has_friction;
-    bool waits;  // it is optional and has no impulse yet
+  struct alignas(kAlignment) RoundContact {
+    Vector normal{};  // the first unit moves along it if it is pushed
+    Vector offset{};  // gap along the normal, and slip across, if no unit moves [L]
+    Impulse x, y;     // after the last sweep, and where the next one begins
+    double w_normal = 0, w_tangential = 0;
+    double inverse_w_normal = 0, inverse_w_tangential = 0;
+    double arm = 0, other_arm = 0;         // from the centres to the contact [L]
+    double gap_share = 0, slip_share = 0;  // changes by unit impulses, over those allowed [T/M/L]
+    double lowest = 0, friction = 0, capacity = 0, given_load = 0;  // as in ConstraintBlock
+    std::size_t block = 0;                                          // its place in the problem
+    std::int32_t unit = 0, other = 0;
+    FrictionBound bound = FrictionBound::kCone;
+    bool has_friction = false;
+    bool waits = false;  // it is optional and has no impulse yet
+  };
+  struct Sweep {
+    double change = 0;  // the largest change of a component over the allowed one
+    double away = 0;    // > 0 if the extrapolation before points away from the change
   };
 
   AcceleratedSweeps(ConstraintProblem<D>& problem, const std::vector<double>& w)
       : problem_(&problem), w_(&w) {}
-  // Returns false if the block is not such a contact.
-  bool add(const ConstraintBlock& block);
+  // Returns false if block `b` is not such a contact.
+  bool add(std::size_t b);
   void begin();
-  // The gap and slip of a contact at the present motions [L].
-  Impulse values_of(const RoundContact& contact) const;
-  // The impulses that satisfy the conditions of the contact, whose impulse is `p`, alone.
-  Impulse solution_of(const RoundContact& contact, const Impulse& p, const Impulse& values) const;
-  // The square of the larger of the changes of gap and slip by this change of the impulse, over
-  // those allowed [1].
-  static double square_of(const RoundContact& contact, const Impulse& change);
+  // Returns the gap [L] at the present motions, and sets the slip [L].
+  double find_values(const RoundContact& contact, Vector& slip) const;
+  // Replaces the impulse by the one that satisfies the conditions of the contact alone.
+  void solve(const RoundContact& contact, Impulse& impulse) const;
   void push(const RoundContact& contact, const Impulse& change);
+  // `beta` [1] is the length of the extrapolation that follows.
+  Sweep sweep_once(double beta);
   double residual() const;
   // Contacts whose gaps have closed wait no longer. Returns true if there are such contacts.
   bool end_waiting();
+  void extrapolate_units(double beta);
   void finish();
+  int run(int most, int longest);  // sweep()
 
   ConstraintProblem<D>* problem_;
   const std::vector<double>* w_;
-  std::vector<RoundContact> contacts_;
-  std::vector<std::size_t> waiting_;  // places in contacts_
-  std::vector<Unit> units_;   // and then one for all sides without a unit
-  std::vector<Unit> before_;  // after the sweep before
+  std::vector<RoundContact> contacts_;  // of all blocks, in the order of the sweeps
+  std::vector<std::size_t> waiting_;    // places in contacts_
+  std::vector<Unit> units_;             // and then one for all sides without a unit
+  std::vector<Unit> before_;            // after the sweep before
 };
 
 }  // namespace viscontact::contact_solver

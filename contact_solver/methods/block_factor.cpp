@@ -12,39 +12,22 @@
 #include <type_traits>
 #include <utility>
 
+#include "viscontact/contact_solver/methods/fastest_instructions.hpp"
+
 namespace viscontact::contact_solver {
 namespace {
 
 constexpr std::size_t index(std::int32_t number) { return static_cast<std::size_t>(number); }
 
-// Products of blocks take most of the time of large packings of spheres. With wide vectors and
-// fused multiply-adds they are up to 1.7 times as fast, but the program must run on processors that
-// have neither. These functions therefore make GCC compile `work`, with all that it calls, once
-// more. Clang compiles only the first call anew. Discs, whose blocks are small, gain nothing
-// either.
-#ifdef __x86_64__
-template <class Work>
-[[gnu::target("avx512f,fma"), gnu::flatten]] bool with_avx512(const Work& work) {
-  return work();
-}
-template <class Work>
-[[gnu::target("avx2,fma"), gnu::flatten]] bool with_avx2(const Work& work) {
-  return work();
-}
-#endif
-
-/// Returns work() by the fastest instructions of this processor for blocks of K x K numbers. The
-/// results of two kinds of processor differ by rounding errors.
+/// Returns work(), which computes products of K x K blocks. They take most of the time of large
+/// packings of spheres, and are up to 1.7 times as fast with wide vectors. Discs, whose blocks are
+/// small, gain nothing.
 template <int K, class Work>
-bool by_fastest_instructions(const Work& work) {
-#ifdef __x86_64__
-  if constexpr (K == 6) {
-    const bool has_fma = __builtin_cpu_supports("fma");
-    if (has_fma && __builtin_cpu_supports("avx512f")) return with_avx512(work);
-    if (has_fma && __builtin_cpu_supports("avx2")) return with_avx2(work);
-  }
-#endif
-  return work();
+bool with_blocks(const Work& work) {
+  if constexpr (K == 6)
+    return by_fastest_instructions(work);
+  else
+    return work();
 }
 
 /// c -= a b for three different blocks.
@@ -282,7 +265,7 @@ template <int K>
 bool BlockFactor<K>::factorise() {
   std::ranges::fill(first_in_row_, -1);
   sign_ = 1;
-  return by_fastest_instructions<K>([this] {
+  return with_blocks<K>([this] {
     for (std::size_t j = 0; j < order_.size(); ++j)
       if (!factorise_column(j)) return false;
     return true;
