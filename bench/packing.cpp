@@ -23,9 +23,10 @@ namespace {
 
 using namespace viscontact::particles;
 
-constexpr double kGravity = 9.81;      // [m/s^2]
-constexpr double kDensity = 2500;      // of spheres [kg/m^3]
-constexpr double kDensityOfDiscs = 4;  // [kg/m^2]: a disc of 1.2 mm is as heavy as such a sphere
+constexpr double kGravity = 9.81;  // [m/s^2]
+
+/// In kg/m^3 or, of discs, in kg/m^2: a disc of radius 1.2 mm is as heavy as such a sphere.
+double density(const Particles& p) { return p.dimension == 2 ? 4 : 2500; }
 
 double cpu_seconds() {
   timespec t{};
@@ -43,28 +44,13 @@ double solid(const Particles& p, std::size_t k) {
   return std::numbers::pi * r * r * (p.dimension == 2 ? 1 : 4 * r / 3);
 }
 
-void set_masses(Particles& p, bool turn) {
-  p.masses.clear();
-  for (std::size_t k = 0; k < p.count(); ++k)
-    p.masses.push_back((p.dimension == 2 ? kDensityOfDiscs : kDensity) * solid(p, k));
-  p.inertias.clear();
-  if (turn) add_rotation(p);
-}
-
-/// Width of the box [m]; the largest radius is in m.
-double width_of_box(int count, int dimension, double largest) {
-  const double width =
-      dimension == 2 ? 0.074 * std::sqrt(count / 1000.0) : 0.02 * std::cbrt(count / 500.0);
-  return width * largest / 1.4e-3;
-}
-
 /// Particles at rest on a jittered lattice between the walls. Radii are uniform.
-Particles start(int count, int dimension, std::uint64_t seed, double least, double largest) {
+Particles start(int count, int dimension, std::uint64_t seed, double least, double largest,
+                double width) {
   std::mt19937_64 random(seed);
   const auto uniform = [&](double from, double to) {
     return from + (to - from) * static_cast<double>(random() >> 11) * 0x1p-53;
   };
-  const double width = width_of_box(count, dimension, largest);
   const int columns = std::max(1, static_cast<int>(width / (2.1 * largest)));
   const double spacing = width / columns;
   const double jitter = 0.98 * std::max(spacing / 2 - largest, 0.0);
@@ -72,6 +58,7 @@ Particles start(int count, int dimension, std::uint64_t seed, double least, doub
   p.dimension = dimension;
   for (int k = 0; k < count; ++k) {
     p.radii.push_back(uniform(least, largest));
+    p.masses.push_back(density(p) * solid(p, p.radii.size() - 1));
     int place = k;
     for (int d = 0; d + 1 < dimension; ++d, place /= columns)
       p.positions.push_back((place % columns + 0.5) * spacing + uniform(-jitter, jitter));
@@ -87,16 +74,14 @@ Setting box(int dimension, double width) {
   Setting setting;
   const auto up = static_cast<std::size_t>(dimension - 1);
   const auto add_plane = [&](std::size_t axis, double at, double inwards) {
-    auto& plane = setting.planes.emplace_back().start;
-    plane.point[axis] = at;
-    plane.normal = {};
-    plane.normal[axis] = inwards;
+    Vector point{}, normal{};
+    point[axis] = at;
+    normal[axis] = inwards;
+    setting.planes.emplace_back().start = {point, normal};
   };
   add_plane(up, 0, 1);
-  for (std::size_t axis = 0; axis < up; ++axis) {
-    add_plane(axis, 0, 1);
-    add_plane(axis, width, -1);
-  }
+  for (std::size_t axis = 0; axis < up; ++axis)
+    for (const double at : {0.0, width}) add_plane(axis, at, at > 0 ? -1 : 1);
   setting.gravity[up] = -kGravity;
   return setting;
 }
@@ -108,18 +93,15 @@ double sum(const Particles& p, const auto& value) {
   return result;
 }
 
-/// Mean of m g r [J], the unit of energies.
+/// The sum of m g r [J], the unit of energies.
 double unit_energy(const Particles& p) {
-  const auto energy = [&](std::size_t k) { return p.masses[k] * kGravity * p.radii[k]; };
-  return sum(p, energy) / static_cast<double>(p.count());
+  return sum(p, [&](std::size_t k) { return p.masses[k] * kGravity * p.radii[k]; });
 }
 
-/// Mean translational energy of a particle, in units of unit_energy().
-double mean_energy(const Particles& p) {
-  const auto energy = [&](std::size_t k) {
-    return p.masses[k] * dot(p.velocity(k), p.velocity(k)) / 2;
-  };
-  return sum(p, energy) / static_cast<double>(p.count()) / unit_energy(p);
+/// The translational energy, in units of unit_energy().
+double energy(const Particles& p) {
+  const auto of = [&](std::size_t k) { return p.masses[k] * std::pow(norm(p.velocity(k)), 2) / 2; };
+  return sum(p, of) / unit_energy(p);
 }
 
 /// Solids over the area of the floor and twice the height of their centre of mass.
@@ -130,25 +112,23 @@ double packing_fraction(const Particles& p, double width) {
 }
 
 /// Writes the start as LIGGGHTS reads it. The first line, a comment, has the width of the box [m]
-/// and unit_energy() [J].
+/// and the mean of m g r [J].
 void write_data(const std::string& file, const Particles& p, double width) {
   auto out = fmt::output_file(file);
   const double room = 2 * *std::ranges::max_element(p.radii);  // because atoms may overlap walls
-  double top = 0;
-  for (std::size_t k = 0; k < p.count(); ++k) top = std::max(top, height(p, k));
-  out.print("width {} energy {}\n\n{} atoms\n1 atom types\n", width, unit_energy(p), p.count());
+  const double top = height(p, p.count() - 1);
+  out.print("width {} energy {}\n\n{} atoms\n1 atom types\n", width,
+            unit_energy(p) / static_cast<double>(p.count()), p.count());
   for (int d = 0; d < 3; ++d) {
     const double end = d + 1 < p.dimension ? width : d + 1 == p.dimension ? top : 0;
     out.print("{0} {1} {2}lo {2}hi\n", -room, end + room, "xyz"[d]);
   }
   out.print("\nAtoms\n\n");
   for (std::size_t k = 0; k < p.count(); ++k)
-    out.print("{} 1 {} {} {}\n", k + 1, 2 * p.radii[k],
-              p.dimension == 2 ? kDensityOfDiscs : kDensity, fmt::join(p.position(k), " "));
+    out.print("{} 1 {} {} {}\n", k + 1, 2 * p.radii[k], density(p), fmt::join(p.position(k), " "));
 }
 
-/// Forces in the last step. Those on walls are vertical, over the weight of all particles; those on
-/// a particle are over its weight.
+/// Vertical forces over the weight of all particles; other forces are over that of their particle.
 struct Forces {
   double on_floor = 0, on_walls = 0;  // floor included
   double momentum = 0;                // rate of change of the vertical momentum of all particles
@@ -157,7 +137,7 @@ struct Forces {
   double coordination = 0;            // mean number of contacts that push, with walls
 };
 
-/// `before` are the particles before the step, whose places give the normals of its contacts.
+/// Of the last step. `before` are the particles before it, whose places give its normals.
 Forces forces(const Setting& setting, const State& state, const Particles& before) {
   const auto& p = state.particles;
   const double count = static_cast<double>(p.count());
@@ -196,23 +176,23 @@ Forces forces(const Setting& setting, const State& state, const Particles& befor
 struct Tally {  // of steps
   int steps = 0, unconverged = 0, most_iterations = 0;
   double cpu = 0, longest = 0, iterations = 0, overlap = 0;
-  void add(const StepReport& report, double took) {
+  void add(const StepReport& report, double seconds) {
     ++steps;
     unconverged += report.converged ? 0 : 1;
     iterations += report.iterations;
     most_iterations = std::max(most_iterations, report.iterations);
-    cpu += took;
-    longest = std::max(longest, took);
+    cpu += seconds;
+    longest = std::max(longest, seconds);
     overlap = std::max(overlap, report.largest_overlap);
   }
 };
 
 }  // namespace
 
-// packing [OPTION VALUE]..., with the options and values below. Units are m, kg and s. Particles
-// rest when their mean translational energy has fallen below --rest m g r. Then --settled more
-// steps are timed. After these, the first ten steps of the same packing with radii --closed times as
-// large are timed, from rest and without impulses of earlier steps. --write FILE writes the start for LIGGGHTS.
+// packing [OPTION VALUE]..., with the options and values below; units are m, kg and s. Particles rest
+// when their mean translational energy has fallen below --rest m g r. Then --settled more steps are
+// timed, and after these the first ten steps of the same packing with radii --closed times as large,
+// from rest and without impulses of earlier steps. --radii has two values. --write FILE writes the start for LIGGGHTS.
 int main(int argc, char** argv) {
   std::map<std::string, std::string> o;
   std::istringstream defaults(
@@ -222,23 +202,25 @@ int main(int argc, char** argv) {
   for (std::string name, value; defaults >> name >> value;) o[name] = value;
   for (int i = 1; i < argc; i += 2) {
     const std::string name = argv[i];
-    const bool is_pair = name == "--radii";  // --radii LEAST LARGEST
-    if (!o.contains(name) || i + (is_pair ? 2 : 1) >= argc) {
+    if (!o.contains(name) || i + (name == "--radii" ? 2 : 1) >= argc) {
       fmt::print(stderr, "packing: no option '{}', or no value\n", name);
       return 2;
     }
     o[name] = argv[i + 1];
-    if (is_pair) o["--largest"] = argv[++i + 1];
+    if (name == "--radii") o["--largest"] = argv[++i + 1];
   }
   const bool is_convex = o["--method"] == "convex";
-  if ((o["--dimension"] != "2" && o["--dimension"] != "3") ||
-      (!is_convex && o["--method"] != "coulomb")) {
+  const bool is_plane = o["--dimension"] == "2";
+  if ((!is_plane && o["--dimension"] != "3") || (!is_convex && o["--method"] != "coulomb")) {
     fmt::print(stderr, "packing: --dimension must be 2 or 3, --method convex or coulomb\n");
     return 2;
   }
   const auto number = [&](const char* option) { return std::stod(o[option]); };
-  const int dimension = std::stoi(o["--dimension"]), count = std::stoi(o["--count"]);
-  const double width = width_of_box(count, dimension, number("--largest"));
+  const int dimension = is_plane ? 2 : 3, count = std::stoi(o["--count"]);
+  const double least = number("--radii"), largest = number("--largest");
+  const double width =
+      largest / 1.4e-3 *
+      (is_plane ? 0.074 * std::sqrt(count / 1000.0) : 0.02 * std::cbrt(count / 500.0));
   auto setting = box(dimension, width);
   setting.time_step = number("--time-step");
   setting.laws.film.gamma_min = number("--gamma-min");
@@ -249,9 +231,8 @@ int main(int argc, char** argv) {
     setting.laws.friction =
         FrictionLaw{friction, is_convex ? FrictionMethod::kConvex : FrictionMethod::kCoulomb};
   State first;
-  first.particles =
-      start(count, dimension, std::stoull(o["--seed"]), number("--radii"), number("--largest"));
-  set_masses(first.particles, friction > 0);
+  first.particles = start(count, dimension, std::stoull(o["--seed"]), least, largest, width);
+  if (friction > 0) add_rotation(first.particles);
   if (o["--write"] != "-") write_data(o["--write"], first.particles, width);
 
   Simulation simulation(setting, std::move(first), 1);
@@ -275,13 +256,13 @@ int main(int argc, char** argv) {
   fmt::print("t       CPU ms/step  longest  iterations  most  not converged  overlap  energy\n");
   while (!rests && state.time < until * (1 - 1e-9)) {
     step(until);
-    const double energy = mean_energy(state.particles);
-    has_fallen = has_fallen || energy > rest;
-    rests = has_fallen && energy < rest;
+    const double now = energy(state.particles);
+    has_fallen = has_fallen || now > rest;
+    rests = has_fallen && now < rest;
     if (!rests && state.time < std::min(next, until) * (1 - 1e-9)) continue;
     fmt::print("{:.4f}  {:11.3f}  {:7.2f}  {:10.1f}  {:4}  {:13}  {:.1e}  {:.1e}\n", state.time,
                1e3 * shown.cpu / shown.steps, 1e3 * shown.longest, shown.iterations / shown.steps,
-               shown.most_iterations, shown.unconverged, shown.overlap, energy);
+               shown.most_iterations, shown.unconverged, shown.overlap, now);
     std::fflush(stdout);  // shows the line at once, because a run can be long
     shown = {};
     next += number("--print");
@@ -298,28 +279,26 @@ int main(int argc, char** argv) {
       packing_fraction(state.particles, width), last.coordination, last.on_floor, last.on_walls - 1,
       last.momentum, balance, last.net, last.largest_net, all.overlap,
       largest_overlap(setting, state), usage.ru_maxrss / 1024);
-  std::fflush(stdout);
   if (std::vector<double> took(std::stoul(o["--settled"])); rests && !took.empty()) {
     for (auto& seconds : took) seconds = step(state.time + 1);
     std::ranges::sort(took);
     fmt::print(" settled_ms={:.3f}", 1e3 * took[took.size() / 2]);
   }
   if (const double factor = number("--closed"); rests && factor > 0) {
-    State cold;
-    cold.particles = state.particles;
-    for (auto& radius : cold.particles.radii) radius *= factor;
-    set_masses(cold.particles, friction > 0);
-    std::ranges::fill(cold.particles.velocities, 0.0);
-    std::ranges::fill(cold.particles.angular_velocities, 0.0);
-    Simulation closed(setting, std::move(cold), 1);
-    Tally tally;
+    State still;
+    still.particles = state.particles;
+    for (auto& radius : still.particles.radii) radius *= factor;
+    std::ranges::fill(still.particles.velocities, 0.0);
+    std::ranges::fill(still.particles.angular_velocities, 0.0);
+    Simulation closed(setting, std::move(still), 1);
+    Tally cold;
     for (int k = 0; k < 10; ++k) {
       const double from = cpu_seconds();
-      const auto report = closed.step(until);
-      tally.add(report, cpu_seconds() - from);
+      const auto report = closed.step(10 * setting.time_step);
+      cold.add(report, cpu_seconds() - from);
     }
-    fmt::print(" closed_longest_ms={:.3f} closed_most={} closed_unconverged={}",
-               1e3 * tally.longest, tally.most_iterations, tally.unconverged);
+    fmt::print(" closed_longest_ms={:.3f} closed_most={} closed_unconverged={}", 1e3 * cold.longest,
+               cold.most_iterations, cold.unconverged);
   }
   fmt::print("\n");
 }
