@@ -140,7 +140,7 @@ struct Forces {
 /// Of the last step. `before` are the particles before it, whose places give its normals.
 Forces forces(const Setting& setting, const State& state, const Particles& before) {
   const auto& p = state.particles;
-  const double count = static_cast<double>(p.count());
+  const auto count = static_cast<double>(p.count());
   const Vector upwards = -1 / kGravity * setting.gravity;
   std::vector<Vector> left(p.count());  // net force - weight - contacts
   Forces result;
