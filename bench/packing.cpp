@@ -189,10 +189,11 @@ struct Tally {  // of steps
 
 }  // namespace
 
-// packing [OPTION VALUE]..., with the options and values below; units are m, kg and s. Particles rest
-// when their mean translational energy has fallen below --rest m g r. Then --settled more steps are
-// timed, and after these the first ten steps of the same packing with radii --closed times as large,
-// from rest and without impulses of earlier steps. --radii has two values. --write FILE writes the start for LIGGGHTS.
+// packing [OPTION VALUE]..., with the options and values below, and --radii LEAST LARGEST, in m, kg
+// and s. Particles rest when their mean translational energy has fallen below --rest m g r. Then
+// --settled more steps are timed, and after these the first ten steps of the same packing with
+// radii --closed times as large, from rest and without impulses of earlier steps. --write FILE
+// writes the start for LIGGGHTS.
 int main(int argc, char** argv) {
   std::map<std::string, std::string> o;
   std::istringstream defaults(
