@@ -18,6 +18,7 @@
 #include "viscontact/app/commands/commands.hpp"
 #include "viscontact/app/help/self_description.hpp"
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/system/memory.hpp"
 #include "viscontact/results/exit_code.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/terminal/progress.hpp"
@@ -111,6 +112,7 @@ int main(int argc, char** argv) {
   using viscontact::results::exit_code_of;
   viscontact::app::occupy_missing_streams();
   viscontact::app::catch_interrupts();
+  viscontact::keep_freed_memory();
   try {
     const int exit_code = viscontact::app::run(argc, argv);
     if (!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)

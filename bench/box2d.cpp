@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "tests/contact_dynamics/box2d/box2d_case.hpp"
+#include "viscontact/common/system/memory.hpp"
 #include "viscontact/particles/steps/current_contacts.hpp"
 
 namespace {
@@ -53,6 +54,7 @@ void add_stages(const std::string& text, std::map<std::string, double>& stages) 
 // time step is 0.05. Spheres (m = r^3) start in the same way in a cube of width 2.1 (N^(1/3)) with
 // a floor and four walls. With `--sides periodic` only the floor is there.
 int main(int argc, char** argv) {
+  viscontact::keep_freed_memory();  // as the program does
   std::map<std::string, std::string> o = {{"--count", "1000"},
                                           {"--until", "10"},
                                           {"--max-iterations", "10000"},

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "viscontact/common/system/memory.hpp"
 #include "viscontact/contact_dynamics/simulation.hpp"
 #include "viscontact/particles/steps/current_contacts.hpp"
 
@@ -195,6 +196,7 @@ struct Tally {  // of steps
 // radii --closed times as large, from rest and without impulses of earlier steps. --write FILE
 // writes the start for LIGGGHTS.
 int main(int argc, char** argv) {
+  viscontact::keep_freed_memory();  // as the program does
   std::map<std::string, std::string> o;
   std::istringstream defaults(
       "--count 500 --dimension 3 --seed 1 --time-step 1e-3 --friction 0.5 --method convex "
@@ -225,6 +227,7 @@ int main(int argc, char** argv) {
   auto setting = box(dimension, width);
   setting.time_step = number("--time-step");
   setting.laws.film.gamma_min = number("--gamma-min");
+  setting.solver = SolverSettings::for_packings();
   setting.solver.tolerance = number("--tolerance");
   setting.solver.impulse_tolerance = number("--impulse-tolerance");
   const double friction = number("--friction");

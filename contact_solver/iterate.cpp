@@ -98,7 +98,9 @@ bool Iterate<D>::is_stagnant() const {
 
 template <int D>
 void Iterate<D>::accelerate(int most_sweeps, int longest, Stage stage) {
-  count(stage, accelerated_->sweep(std::clamp(most - iterations(), 1, most_sweeps), longest));
+  const int taken = accelerated_->sweep(std::clamp(most - iterations(), 1, most_sweeps), longest);
+  count(stage, taken);
+  excuse(taken);
   update();
 }
 

@@ -233,6 +233,10 @@ class ConstraintSystem {
   UnitMotion motion_of(std::int32_t unit, std::span<const Motion<D>> motions) const;
   void move_particles(const ContactSystem<D>& system, const Island& island,
                       std::span<const Motion<D>> motions);
+  // True if the island touches something fixed and is at rest within the tolerances: if the units
+  // do not move at all, the conditions of all blocks hold with the present impulses, and the errors
+  // of the balance of forces, which move the units by `motions`, are allowed.
+  bool rests(const Island& island, std::span<const Motion<D>> motions) const;
   // Moves the particles, and shifts the offsets of the rows so that their linear values become
   // those after finite turns. Returns the largest shift over what is allowed [1].
   double correct(ContactSystem<D>& system, Island& island, std::span<const Motion<D>> motions);

@@ -131,12 +131,18 @@ void IslandLadder<D>::find_solution(Stage stage) {
   int most = island_.has_given_up ? kMostOfGivenLoads : max_iterations_ - result_.iterations;
   if (corrections_ > 0) most = std::max(most, Tuning::kLeastCorrected);
   if (corrections_ > 0 && can_use_distances()) most = std::min(most, Tuning::kMostCorrected);
-  solution_ = solve_constraints(problem_, std::max(1, most), constraints_.start);
+  const bool may_rest = constraints_.start == ConstraintStart::kAcceleratedSweeps &&
+                        corrections_ == 0 && island_.links.empty() && !island_.has_given_up;
+  bool rests = may_rest && rest(contact_solver::motions<D>(problem_, problem_.impulses));
+  if (!rests) {
+    solution_ = solve_constraints(problem_, std::max(1, most), constraints_.start);
+    rests = may_rest && solution_.result.residual <= 1 && rest(solution_.motions);
+  }
   result_.iterations += solution_.result.iterations;
   result_.stages += solution_.result.stages;
   if (corrections_ > 0) ++result_.stages[stage];
   refinement_.reset();
-  if (!is_rough_) refine();
+  if (!is_rough_ && !rests) refine();
   phase_ = Phase::kSolved;
   if (corrections_ > 0) return;
   const std::vector<double> none(problem_.rows.size());
@@ -144,6 +150,21 @@ void IslandLadder<D>::find_solution(Stage stage) {
                            energy_of<D>(problem_, contact_solver::motions<D>(problem_, none)));
   first_loads_ = sum_of_loads(problem_);
   if (constraints_.is_convex_) first_impulses_ = problem_.impulses;
+}
+
+template <int D>
+bool IslandLadder<D>::rest(std::span<const Motion<D>> motions) {
+  if (!constraints_.rests(island_, motions)) return false;
+  solution_.motions.assign(motions.size(), Motion<D>{});
+  solution_.residuals.clear();
+  double largest = 0;
+  for (const auto& block : problem_.blocks) {
+    solution_.residuals.push_back(
+        contact_solver::residual_after<D>(problem_, block, solution_.motions));
+    largest = std::max(largest, solution_.residuals.back().share(block));
+  }
+  solution_.result.residual = largest;
+  return true;
 }
 
 template <int D>

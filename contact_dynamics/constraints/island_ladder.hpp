@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "viscontact/contact_dynamics/constraints/constraint_system.hpp"
@@ -36,6 +37,8 @@ class IslandLadder {
 
   bool needs_solution() const { return phase_ == Phase::kNotSolved; }
   void find_solution(Stage stage);
+  // Takes no motion as the solution if ConstraintSystem::rests(). Returns true if it does.
+  bool rest(std::span<const Motion<D>> motions);
 
   // Friction locks a body between two contacts, and the body turns about the line through them.
   bool is_locked() const;

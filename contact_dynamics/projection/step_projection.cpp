@@ -204,7 +204,8 @@ void StepProjection<D>::allow(double length, double fraction, double of_slips) {
     contact.allowed = share * scale.allowed(length, fraction);
     rounding_.push_back(scale.rounding);
     if (constraints_) constraints_->allowed_errors.push_back(fraction * scale.impulse);
-    if (constraints_) constraints_->slips_allowed.push_back(share * scale.allowed(length, of_slips));
+    if (constraints_)
+      constraints_->slips_allowed.push_back(share * scale.allowed(length, of_slips));
   }
   if (!constraints_) return;
   constraints_->links_allowed.clear();
@@ -261,8 +262,8 @@ void StepProjection<D>::leave_touching(std::vector<std::size_t>& pairs,
     if (Selection::is_bound(pair(k).gamma, 0) || has_film(k)) return false;
     const auto here = contact(k);
     const double allowed = scales.of(here).allowed_gap(settings, mean_radius);
-    const bool is_loaded = pair(k).impulse != 0 &&
-                           !(settings.suit_sweeps() && here.w * pair(k).impulse <= allowed);
+    const bool is_loaded =
+        pair(k).impulse != 0 && !(settings.suit_sweeps() && here.w * pair(k).impulse <= allowed);
     return !is_loaded && -system_.linear_gap(here) <= allowed;
   });
 }
@@ -274,7 +275,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   // An overlap up to half of the tolerance is left as it is. The other half of the tolerance is for
   // the error that this step adds.
   tolerated_ = settings.tolerance * mean_radius / 2;
-  counts_mean_load_ = settings.counts_mean_load;
+  counts_mean_load_ = settings.accuracy == Accuracy::kPacking;
   // With friction, a further solution takes more time than contacts whose gaps stay open. Therefore
   // pairs whose gaps are below kMargin mean radii are chosen early: with Coulomb's law after a
   // solution has closed further gaps, because redundant contacts would take loads from particles
@@ -367,8 +368,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     // its particles apart. An impulse that is no larger than its allowed error must not do so.
     const auto& here = system_.contacts[c];
     const double error = scales.of(here).allowed_gap(settings, mean_radius) / here.w;
-    const bool is_error =
-        is_convex && !suits_sweeps && here.lowest == 0 && here.impulse <= error;
+    const bool is_error = is_convex && !suits_sweeps && here.lowest == 0 && here.impulse <= error;
     result.impulses.push_back(is_error ? 0 : here.impulse);
     if (!constraints_) {
       take_given(c, {}, result);

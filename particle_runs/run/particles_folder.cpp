@@ -164,6 +164,7 @@ std::string run_json(const ParticlesCase& c, const StepTotals& totals, const Sta
   json["iterations"] = totals.iterations;
   json["mean_iterations"] = static_cast<double>(totals.iterations) / steps;
   json["largest_iterations"] = totals.most_iterations;
+  json["accuracy"] = c.setting.solver.accuracy == Accuracy::kPacking ? "packing" : "full";
   json["tolerance"] = c.setting.solver.tolerance;
   json["impulse_tolerance"] = c.setting.solver.impulse_tolerance;
   json["largest_residual"] = totals.largest_residual;

@@ -21,6 +21,15 @@
 
 namespace viscontact::particles {
 
+/// What tolerances are chosen for.
+enum class Accuracy {
+  kFull,  ///< impulses to many digits
+  /// Packings of round particles: as accurate as a computation with stiff grains, and fast. The
+  /// impulse that acts on a particle is at least the mean of the normal impulses in its set, the
+  /// particles that contacts connect.
+  kPacking,
+};
+
 /// Accuracy of the projection of a step, the problem that gives its velocities and impulses.
 /// Tolerances have no dimension (docs/particles.md, "The projection").
 struct SolverSettings {
@@ -34,10 +43,11 @@ struct SolverSettings {
   /// iteration is a product of the matrix W of docs/physics.md (5.4) and a vector, or a sweep over
   /// the contacts, or a factorisation.
   int max_iterations = 10000;
-  /// True: the impulse that acts is at least the mean of the normal impulses in the particles' set,
-  /// those that contacts connect.
-  bool counts_mean_load = false;
-  /// True if sweeps from the impulses of the step before are the fastest method.
+  Accuracy accuracy = Accuracy::kFull;
+
+  static SolverSettings for_packings() { return {1e-4, 1e-3, 10000, Accuracy::kPacking}; }
+  /// True if, without a fluid, sweeps from the impulses of the step before are the fastest method.
+  /// With smaller tolerances steps of Newton's method are.
   bool suit_sweeps() const { return tolerance >= 1e-5 && impulse_tolerance >= 1e-4; }
 };
 

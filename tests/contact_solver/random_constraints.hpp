@@ -31,6 +31,7 @@ struct RandomConstraints {
   int units = 8, contacts = 20;
   double friction = 0.5, largest_mass_ratio = 1e4;
   bool has_films = false, has_links = false;
+  bool is_round = false;  ///< arms are along the normals, as of discs and spheres
 };
 
 /// Calls `test(what, seed)` for 60 kinds of random problems: with mu_s from 0 to 2, masses in the
@@ -111,8 +112,12 @@ ConstraintProblem<D> random_constraints(const RandomConstraints& what, const Pro
       block.rows = static_cast<std::size_t>(D);
       block.compliance = c == 0 ? 0 : random.uniform(0, 1) * in.time / in.mass;
     }
-    const Vector arm = random.uniform(0.3, 2) * in.length * random.direction(D);
-    const Vector other = random.uniform(0.3, 2) * in.length * random.direction(D);
+    const auto arm_towards = [&](const Vector& direction) {
+      const double length = random.uniform(0.3, 2) * in.length;
+      return length * (what.is_round ? direction : random.direction(D));
+    };
+    const Vector arm = arm_towards(normal);
+    const Vector other = arm_towards(-1 * normal);
     add_block(first, second, directions, arm, other, block);
     if (c == what.contacts - 1) add_block(first, second, directions, arm, other, block);
   }
