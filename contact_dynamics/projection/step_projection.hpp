@@ -303,13 +303,15 @@ class StepProjection {
   void take_given(std::size_t c, const PairMemory& memory, ProjectionResult& result);
   // Needs add_constraints().
   bool has_film(std::size_t k);
-  // Pairs that are not chosen and whose gaps the displacements make smaller than margin_.
-  std::vector<std::size_t> nearly_closed(bool are_films_only);
+  // Pairs that are not chosen and whose gaps the displacements make smaller than `margin` [L]: all,
+  // or those with or without films.
+  std::vector<std::size_t> nearly_closed(double margin, std::optional<bool> have_films);
   // Pairs with a film or an impulse in the last step, or whose gaps the displacements would close.
   std::vector<std::size_t> closed_by_free_motion();
-  // Removes pairs, without film or impulse, whose gaps close by no more than the allowed residual.
-  void leave_touching(std::vector<std::size_t>& pairs, const SolverSettings& settings,
-                      double mean_radius);
+  // Removes pairs, without a film, whose gaps close by no more than the allowed residual and whose
+  // impulses in the step before were 0 or, for sweeps, no more than errors. Returns the latter.
+  std::vector<std::size_t> leave_touching(std::vector<std::size_t>& pairs,
+                                          const SolverSettings& settings, double mean_radius);
   // Adds contacts of pairs that are not chosen yet. A pair that an arm keeps apart gets none.
   void choose(const std::vector<std::size_t>& pairs, bool are_optional = false);
   void refine();
