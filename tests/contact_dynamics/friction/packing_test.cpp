@@ -121,8 +121,12 @@ TEST_P(Packing, KeepsItsPromisesInEveryStep) {
       for (std::size_t k = 0; k < now.count() && report.parts == 1; ++k) {
         const Vector given = now.masses[k] * (now.velocity(k) - before.velocity(k) -
                                               setting.time_step * setting.gravity);
-        const bool rests = norm(now.velocity(k)) == 0;
-        EXPECT_LE(norm(given - impulses[k]), rests ? error : rounding) << report.time << ", " << k;
+        // A set that comes to rest loses its last, slow motion.
+        const double speed = norm(before.velocity(k));
+        const bool rests =
+            norm(now.velocity(k)) == 0 && setting.time_step * speed <= setting.solver.tolerance;
+        EXPECT_LE(norm(given - impulses[k]), rests ? error + now.masses[k] * speed : rounding)
+            << report.time << ", " << k;
       }
       // Where all overlaps of a stack are removed, the centre of mass rises by half of their sum.
       EXPECT_LE(energy_of(setting, now),
@@ -155,8 +159,9 @@ TEST_P(Packing, AtRestIsWithoutMotionUntilALoadChanges) {
       quiet = iterations == 0 && !moves ? quiet + 1 : 0;
       places = simulation.state().particles.positions;
     }
-    // A hundredth of its weight is ten times what a particle may be out of balance.
-    simulation.added_forces()[0] = 0.2 * simulation.state().particles.masses[0];
+    // Friction holds a particle that is pushed a little, but none that is lifted.
+    const auto up = static_cast<std::size_t>(GetParam() - 1);
+    simulation.added_forces()[up] = 100 * simulation.state().particles.masses[0];
     simulation.step(1000);
     EXPECT_NE(simulation.state().particles.positions, places);
   }
