@@ -97,8 +97,9 @@ bool Iterate<D>::is_stagnant() const {
 }
 
 template <int D>
-void Iterate<D>::accelerate(int most_sweeps, int longest, Stage stage) {
-  const int taken = accelerated_->sweep(std::clamp(most - iterations(), 1, most_sweeps), longest);
+void Iterate<D>::accelerate(SweepPlan plan, Stage stage) {
+  plan.most = std::clamp(most - iterations(), 1, plan.most);
+  const int taken = accelerated_->sweep(plan);
   count(stage, taken);
   excuse(taken);
   update();

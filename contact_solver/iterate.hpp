@@ -74,8 +74,7 @@ class Iterate {
 
   /// True if the solution begins with accelerated sweeps.
   bool can_accelerate() const { return accelerated_.has_value(); }
-  /// Takes at most `most_sweeps`, and extrapolates over at most `longest` of them.
-  void accelerate(int most_sweeps, int longest, Stage stage);
+  void accelerate(SweepPlan plan, Stage stage);
   /// IterateTuning::kSweeps of Gauss-Seidel.
   void sweep();
   /// Computes a step (5.8) from `center` in at most `most_of_step` iterations, and fewer if there
