@@ -83,6 +83,9 @@ template <int D>
 void ConvexLadder<D>::accelerate(Stage stage) {
   has_accelerated_ = true;
   at_.accelerate(ConvexTuning::kSweeps, stage);
+  if (at_.residual <= 1) return;
+  bind_optional(at_.problem);
+  at_.forget_best();
 }
 
 template <int D>

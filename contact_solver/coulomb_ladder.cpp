@@ -30,9 +30,12 @@ struct CoulombTuning {
        .is_shuffled = true},
   }};
   // The plans are repeated. Then problems of up to so many blocks are left to the methods below,
-  // whose factorisations would take too long for larger ones: 50 ms for 2000 spheres.
-  static constexpr int kRepeated = 3;
-  static constexpr std::size_t kMostForFactors = 500;
+  // whose factorisations would take too long for larger ones: 50 ms for 2000 spheres, but 1 ms for
+  // 1000 discs.
+  template <int D>
+  static constexpr std::size_t kRepeated = D == 2 ? 1 : 3;
+  template <int D>
+  static constexpr std::size_t kMostForFactors = D == 2 ? 20000 : 500;
   // Sweeps end if they do not reduce the residual to this part of itself. Slow progress is enough,
   // because a sweep takes a small part of the time of a factorisation.
   static constexpr double kGainOfSweeps = 0.7;
@@ -93,22 +96,24 @@ const std::array<StageRow<CoulombLadder<D>>, 5> CoulombLadder<D>::kTable{{
 template <int D>
 bool CoulombLadder<D>::is_done() const {
   return at_.is_at_end() || (at_.can_accelerate() && !may_accelerate() &&
-                             at_.problem.blocks.size() > CoulombTuning::kMostForFactors);
+                             at_.problem.blocks.size() > CoulombTuning::kMostForFactors<D>);
 }
 
 template <int D>
 bool CoulombLadder<D>::may_accelerate() const {
-  return at_.can_accelerate() && runs_ < CoulombTuning::kRepeated * CoulombTuning::kPlans.size();
+  return at_.can_accelerate() && runs_ < CoulombTuning::kRepeated<D> * CoulombTuning::kPlans.size();
 }
 
 template <int D>
 void CoulombLadder<D>::accelerate(Stage stage) {
   at_.accelerate(CoulombTuning::kPlans[runs_++ % CoulombTuning::kPlans.size()], stage);
+  if (!may_accelerate()) at_.return_to_best();
 }
 
 template <int D>
 bool CoulombLadder<D>::may_sweep() const {
-  return start_ == ConstraintStart::kSweeps && at_.iterations() == 0 && !do_sweeps_gain_little();
+  return start_ != ConstraintStart::kLeastImpulses && at_.iterations() == 0 &&
+         !do_sweeps_gain_little();
 }
 
 template <int D>

@@ -24,6 +24,9 @@ std::vector<double> scales_of_rows(const ConstraintProblem<D>& problem, Constrai
 template <int D>
 Iterate<D>::Iterate(ConstraintProblem<D>& of, int max_iterations, ConstraintStart start)
     : problem(of), most(max_iterations), w(scales_of_rows(of, start)) {
+  if (start == ConstraintStart::kAcceleratedSweeps)
+    accelerated_ = AcceleratedSweeps<D>::of(problem, w);
+  if (!accelerated_) bind_optional(problem);
   for (const auto& block : problem.blocks) {
     if (!block.is_contact) continue;
     problem.impulses[block.row] = std::max(problem.impulses[block.row], block.lowest);
@@ -32,8 +35,6 @@ Iterate<D>::Iterate(ConstraintProblem<D>& of, int max_iterations, ConstraintStar
   }
   best_.result.residual = std::numeric_limits<double>::infinity();
   update();
-  if (start == ConstraintStart::kAcceleratedSweeps)
-    accelerated_ = AcceleratedSweeps<D>::of(problem, w);
 }
 
 template <int D>
@@ -69,6 +70,11 @@ template <int D>
 void Iterate<D>::move_to(const std::vector<double>& impulses) {
   problem.impulses = impulses;
   update();
+}
+
+template <int D>
+void Iterate<D>::return_to_best() {
+  if (residual > best_.result.residual) move_to(std::vector(best_impulses_));
 }
 
 template <int D>

@@ -62,6 +62,7 @@ class Iterate {
   void update();
   /// The same with other impulses.
   void move_to(const std::vector<double>& impulses);
+  void return_to_best();
   /// The best solution so far does not count, because it belongs to another problem.
   void forget_best();
   /// Sets problem.impulses to the best ones. Nothing else may be called afterwards.

@@ -359,6 +359,7 @@ class StepProjection {
   std::vector<std::unique_ptr<ShapedContact>> shaped_;  // those asked for, in the order of pair()
   double tolerated_ = 0;                                // [L]
   bool counts_mean_load_ = false;
+  bool sweeps_ = false;  // SolverSettings::suits_sweeps(), and there are constraints
   double margin_ = 0;    // gap below which a pair is nearly closed [L]
   Selection selection_;  // of pair(); its members are the contacts of system_
   ContactSystem<D> system_;

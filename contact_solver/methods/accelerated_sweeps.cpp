@@ -122,6 +122,8 @@ template <int D>
 std::optional<AcceleratedSweeps<D>> AcceleratedSweeps<D>::of(ConstraintProblem<D>& problem,
                                                              const std::vector<double>& w) {
   assert(w.size() == problem.rows.size());
+  assert(std::ranges::all_of(problem.units,
+                             [](const auto& unit) { return unit.turn_mobility[0] > 0; }));
   if (!std::ranges::all_of(problem.units, has_same_inertia_about_all_axes<D>)) return {};
   AcceleratedSweeps sweeps(problem, w);
   sweeps.contacts_.reserve(problem.blocks.size());
@@ -143,6 +145,7 @@ bool AcceleratedSweeps<D>::add(std::size_t b) {
   if (!block.is_contact) return false;
   const auto parts = problem_->parts_of(block.row);
   assert(!parts.empty() && parts.size() <= 2);
+  assert(parts.size() == 1 || parts[0].unit != parts[1].unit);
   RoundContact contact;
   contact.block = b;
   contact.normal = along<D>(parts[0].coefficients);
@@ -277,21 +280,21 @@ double AcceleratedSweeps<D>::residual() const {
     solve<Map::kLaw>(c, {}, impulse);
     const double of_gap = contact.gap_share * std::abs(impulse.normal - contact.x.normal);
     const Vector across = contact.slip_share * (impulse.tangential - contact.x.tangential);
-    largest = largest_or_nan(largest, std::max(of_gap, std::sqrt(dot(across, across))));
+    largest = largest_or_nan(largest, largest_or_nan(of_gap, std::sqrt(dot(across, across))));
   }
   return largest;
 }
 
 template <int D>
 bool AcceleratedSweeps<D>::end_waiting() {
-  const auto closed = std::ranges::partition(waiting_, [&](std::size_t c) {
+  const auto closed = std::partition(waiting_.begin(), waiting_.end(), [&](std::size_t c) {
     auto& contact = contacts_[c];
     Vector slip;
     contact.waits = -contact.gap_share * contact.inverse_w_normal * find_values(contact, slip) <= 1;
     return contact.waits;
   });
-  const bool is_any = !closed.empty();
-  waiting_.erase(closed.begin(), closed.end());
+  const bool is_any = closed != waiting_.end();
+  waiting_.erase(closed, waiting_.end());
   return is_any;
 }
 
@@ -365,10 +368,12 @@ void AcceleratedSweeps<D>::finish() {
 
 template <int D>
 void AcceleratedSweeps<D>::shuffle() {
-  assert(waiting_.empty());
   SplitMix64 random(contacts_.size());
   for (std::size_t c = contacts_.size(); c > 1; --c)
     std::swap(contacts_[c - 1], contacts_[static_cast<std::size_t>(random.next() % c)]);
+  waiting_.clear();
+  for (std::size_t c = 0; c < contacts_.size(); ++c)
+    if (contacts_[c].waits) waiting_.push_back(c);
 }
 
 template <int D>
@@ -426,7 +431,7 @@ inline int AcceleratedSweeps<D>::run(const SweepPlan& plan) {
 
 template <int D>
 int AcceleratedSweeps<D>::sweep(const SweepPlan& plan) {
-  assert(plan.longest >= 2);
+  assert(plan.most >= 1 && plan.longest >= 2);
   const int sweeps = by_fastest_instructions([&] {
     begin();
     if (residual() <= SweepTuning::kEnd && !end_waiting()) return 0;
@@ -447,7 +452,7 @@ int AcceleratedSweeps<D>::sweep(const SweepPlan& plan) {
     }
     return plan.is_adaptive ? run<Map::kLaw, true>(plan) : run<Map::kLaw, false>(plan);
   });
-  if (sweeps > 0) finish();
+  finish();
   return sweeps;
 }
 
