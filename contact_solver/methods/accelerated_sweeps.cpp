@@ -371,6 +371,11 @@ void AcceleratedSweeps<D>::shuffle() {
   SplitMix64 random(contacts_.size());
   for (std::size_t c = contacts_.size(); c > 1; --c)
     std::swap(contacts_[c - 1], contacts_[static_cast<std::size_t>(random.next() % c)]);
+  list_waiting();
+}
+
+template <int D>
+void AcceleratedSweeps<D>::list_waiting() {
   waiting_.clear();
   for (std::size_t c = 0; c < contacts_.size(); ++c)
     if (contacts_[c].waits) waiting_.push_back(c);
@@ -409,6 +414,7 @@ inline int AcceleratedSweeps<D>::run(const SweepPlan& plan) {
       if (sum > Tuning::kMuchMore * last_sum) {
         contacts_ = last_contacts;
         units_ = last_units;
+        list_waiting();
         last_sum *= 2;
       } else {
         last_contacts = contacts_;

@@ -105,6 +105,8 @@ class AcceleratedSweeps {
   void extrapolate_units(double beta);
   void finish();
   void shuffle();
+  // Sets waiting_.
+  void list_waiting();
   // sweep() after begin()
   template <Map map, bool is_adaptive>
   int run(const SweepPlan& plan);
