@@ -199,7 +199,7 @@ int main(int argc, char** argv) {
   viscontact::keep_freed_memory();  // as the program does
   std::map<std::string, std::string> o;
   std::istringstream defaults(
-      "--count 500 --dimension 3 --seed 1 --time-step 1e-3 --friction 0.5 --method convex "
+      "--count 500 --dimension 3 --seed 1 --time-step 5e-4 --friction 0.5 --method convex "
       "--tolerance 1e-4 --impulse-tolerance 1e-3 --radii 1e-3 --largest 1.4e-3 --gamma-min 0 "
       "--until 2 --rest 1e-5 --print 0.05 --settled 0 --closed 0 --write -");
   for (std::string name, value; defaults >> name >> value;) o[name] = value;

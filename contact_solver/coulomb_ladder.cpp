@@ -10,18 +10,10 @@ namespace viscontact::contact_solver {
 namespace {
 
 struct CoulombTuning {
-  // Coulomb's law is not the minimum of a convex function, and in large packings sweeps with one map
-  // may oscillate without end where others do not. Most packings take the first plan only. With all
-  // four 13 to 16 of the first 90 steps of 2000 spheres with mu_s = 0.5, in which they collapse, are
-  // not solved. It depends on the accuracy: with twice the tolerance, ten times that of slips and
-  // twice the iterations it is 4.
-  static constexpr std::array<SweepPlan, 4> kPlans{{
+  // Coulomb's law is not the minimum of a convex function, and in large packings sweeps of one plan
+  // may oscillate where those of another do not. Most packings take the first plan only.
+  static constexpr std::array<SweepPlan, 3> kPlans{{
       {.most = 500, .longest = 40, .is_adaptive = true},
-      {.most = 800,
-       .longest = 40,
-       .is_adaptive = true,
-       .map = SweepPlan::Map::kShiftedCone,
-       .rate = 0.3},
       {.most = 800, .longest = 40, .is_adaptive = true, .is_shuffled = true},
       {.most = 800,
        .longest = 800,
@@ -34,7 +26,7 @@ struct CoulombTuning {
   // whose factorisations would take too long for larger ones: 50 ms for 2000 spheres, but 1 ms for
   // 1000 discs.
   template <int D>
-  static constexpr std::size_t kRepeated = D == 2 ? 1 : 3;
+  static constexpr std::size_t kRepeated = D == 2 ? 1 : 4;
   template <int D>
   static constexpr std::size_t kMostForFactors = D == 2 ? 20000 : 500;
   // Sweeps end if they do not reduce the residual to this part of itself. Slow progress is enough,

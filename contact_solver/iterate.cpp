@@ -86,6 +86,7 @@ void Iterate<D>::forget_best() {
 template <int D>
 ConstraintSolution<D> Iterate<D>::finish() {
   problem.impulses = best_impulses_;
+  bind_optional(problem);
   return std::move(best_);
 }
 

@@ -65,7 +65,8 @@ class Iterate {
   void return_to_best();
   /// The best solution so far does not count, because it belongs to another problem.
   void forget_best();
-  /// Sets problem.impulses to the best ones. Nothing else may be called afterwards.
+  /// Sets problem.impulses to the best ones, with which optional contacts are bound. Nothing else
+  /// may be called afterwards.
   ConstraintSolution<D> finish();
 
   /// Records the number of iterations when the best residual has been halved again.

@@ -216,20 +216,11 @@ inline double AcceleratedSweeps<D>::find_values(const RoundContact& contact, Vec
 
 template <int D>
 template <SweepPlan::Map map>
-inline typename AcceleratedSweeps<D>::Vector AcceleratedSweeps<D>::solve(std::size_t c,
-                                                                         const SweepPlan& plan,
-                                                                         Impulse& impulse) const {
+inline void AcceleratedSweeps<D>::solve(std::size_t c, const SweepPlan& plan,
+                                        Impulse& impulse) const {
   const auto& contact = contacts_[c];
   Vector slip;
-  double gap = find_values(contact, slip);
-  bool is_in_cone = contact.bound == FrictionBound::kCone;
-  if constexpr (map == Map::kShiftedCone) {
-    const bool is_dry = contact.lowest == 0 && contact.capacity <= 0;
-    if (contact.bound == FrictionBound::kCoulomb && contact.has_friction && is_dry) {
-      is_in_cone = true;
-      gap += shifts_[c];
-    }
-  }
+  const double gap = find_values(contact, slip);
   double load = impulse.normal - contact.inverse_w_normal * gap;
   impulse.tangential -= contact.inverse_w_tangential * slip;
   if constexpr (map == Map::kProximal) {
@@ -240,22 +231,21 @@ inline typename AcceleratedSweeps<D>::Vector AcceleratedSweeps<D>::solve(std::si
   impulse.normal = std::max(contact.lowest, load);
   if (!contact.has_friction) {
     impulse.tangential = Vector{};
-    return slip;
+    return;
   }
   const double square = dot(impulse.tangential, impulse.tangential);
-  if (is_in_cone) {
-    if (load >= 0 && square <= contact.friction * contact.friction * load * load) return slip;
+  if (contact.bound == FrictionBound::kCone) {
+    if (load >= 0 && square <= contact.friction * contact.friction * load * load) return;
     const auto cone = FrictionCone::nearest(contact.friction, load, std::sqrt(square),
                                             contact.w_normal, contact.w_tangential);
     impulse.normal = cone.load;
     impulse.tangential *= cone.tangential;
-    return slip;
+    return;
   }
   const double bound = contact.friction * (contact.bound == FrictionBound::kGiven
                                                ? contact.given_load
                                                : load_of_solids(impulse.normal, contact.capacity));
   if (square > bound * bound) impulse.tangential *= bound / std::sqrt(square);
-  return slip;
 }
 
 template <int D>
@@ -309,7 +299,7 @@ inline typename AcceleratedSweeps<D>::Sweep AcceleratedSweeps<D>::sweep_once(con
     auto& contact = contacts_[c];
     if (contact.waits) continue;
     Impulse x = contact.y;
-    const Vector slip = solve<map>(c, plan, x);
+    solve<map>(c, plan, x);
     const Impulse change{x.tangential - contact.y.tangential, x.normal - contact.y.normal},
         step{x.tangential - contact.x.tangential, x.normal - contact.x.normal};
     push(contact, change);
@@ -322,8 +312,6 @@ inline typename AcceleratedSweeps<D>::Sweep AcceleratedSweeps<D>::sweep_once(con
     if constexpr (is_adaptive)
       result.sum += std::min(SweepTuning::kMostOfSum, std::max(along_normal * along_normal,
                                                                square[0] + square[1] + square[2]));
-    if constexpr (map == Map::kShiftedCone)
-      shifts_[c] += plan.rate * (contact.friction * std::sqrt(dot(slip, slip)) - shifts_[c]);
     if constexpr (map == Map::kProximal) {
       const auto& center = centers_[c];
       result.left = std::max(result.left,
@@ -442,15 +430,6 @@ int AcceleratedSweeps<D>::sweep(const SweepPlan& plan) {
     begin();
     if (residual() <= SweepTuning::kEnd && !end_waiting()) return 0;
     if (plan.is_shuffled) shuffle();
-    if (plan.map == Map::kShiftedCone) {
-      shifts_.clear();
-      for (const auto& contact : contacts_) {
-        Vector slip;
-        find_values(contact, slip);
-        shifts_.push_back(contact.friction * std::sqrt(dot(slip, slip)));
-      }
-      return run<Map::kShiftedCone, true>(plan);
-    }
     if (plan.map == Map::kProximal) {
       centers_.clear();
       for (const auto& contact : contacts_) centers_.push_back(contact.x);

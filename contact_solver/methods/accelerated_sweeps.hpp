@@ -14,16 +14,14 @@ namespace viscontact::contact_solver {
 struct SweepPlan {
   /// The impulses that a contact gets in a sweep.
   enum class Map : unsigned char {
-    kLaw,          ///< those that satisfy its conditions
-    kShiftedCone,  ///< with Coulomb's law those of (5.9) with a gap that is larger by mu_s |v_t|
-    kProximal,     ///< those of a step (5.8) from a center, which follows the impulses
+    kLaw,       ///< those that satisfy its conditions
+    kProximal,  ///< those of a step (5.8) from a center, which follows the impulses
   };
   int most = 0;     ///< sweeps
   int longest = 0;  ///< most sweeps over which one extrapolation goes on, >= 2
   bool is_adaptive =
       false;  ///< `longest` grows while this reduces the changes, and falls otherwise
   Map map = Map::kLaw;
-  double rate = 0;           ///< with kShiftedCone: how fast shifts follow the slips, 0 to 1
   double epsilon = 0;        ///< with kProximal
   double longest_step = 1;   ///< of an extrapolation, times the last change, 0 to 1
   bool is_shuffled = false;  ///< contacts are taken in another order, always the same
@@ -92,9 +90,9 @@ class AcceleratedSweeps {
   void begin();
   // Returns the gap [L] at the present motions, and sets the slip [L].
   double find_values(const RoundContact& contact, Vector& slip) const;
-  // Replaces the impulse of contact `c` by the one that `map` gives it. Returns the slip [L].
+  // Replaces the impulse of contact `c` by the one that `map` gives it.
   template <Map map>
-  Vector solve(std::size_t c, const SweepPlan& plan, Impulse& impulse) const;
+  void solve(std::size_t c, const SweepPlan& plan, Impulse& impulse) const;
   void push(const RoundContact& contact, const Impulse& change);
   // `beta` [1] is the length of the extrapolation that follows.
   template <Map map, bool is_adaptive>
@@ -114,7 +112,6 @@ class AcceleratedSweeps {
   ConstraintProblem<D>* problem_;
   const std::vector<double>* w_;
   std::vector<RoundContact> contacts_;  // of all blocks, in the order of the sweeps
-  std::vector<double> shifts_;          // with kShiftedCone, of the gaps [L]
   std::vector<Impulse> centers_;        // with kProximal
   std::vector<std::size_t> waiting_;    // places in contacts_
   std::vector<Unit> units_;             // and then one for all sides without a unit

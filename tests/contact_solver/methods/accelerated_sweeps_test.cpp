@@ -158,7 +158,7 @@ TYPED_TEST(AcceleratedSweepsTest, SolveProblemsWithCoulombsLaw) {
   constexpr int kDimension = TypeParam::kNumber;
   int problems = 0, by_sweeps = 0;
   for_each_random_constraints(true, [&](RandomConstraints what, unsigned seed) {
-    if (what.has_links || what.friction > 0.5) return;
+    if (what.has_links || what.friction > 0.5 || what.largest_mass_ratio > 1) return;
     what.is_round = true;
     auto problem = random_constraints<kDimension>(what, {}, seed);
     for (auto& block : problem.blocks) block.allowed = block.allowed_slip = 1e-6;
