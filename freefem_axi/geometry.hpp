@@ -70,6 +70,8 @@ struct Geometry {
   double (*curvature)(std::span<const double> parameters) = nullptr;
   /// True: the tangential stress on the neighbour is 0. False: the fluid does not slip on it.
   bool is_shear_free = false;
+  /// Whether loads by strains are computed (pair_loads.hpp).
+  bool takes_strains = false;
 };
 
 /// All geometries, at least one.

@@ -1,0 +1,112 @@
+// Loads by motions and strains, by FreeFEM, beside exact ones.
+#include "viscontact/freefem_axi/pair_loads.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/common/failure.hpp"
+#include "tests/freefem_axi/tabulations.hpp"
+#include "tests/oracles/bispherical/pair_loads.hpp"
+
+namespace viscontact::freefem_axi {
+namespace {
+
+constexpr double kAccuracy = 1e-4;
+
+Tabulation in_unbounded_fluid(const std::string& geometry, std::vector<double> parameters) {
+  Tabulation tabulation = unit_tabulation({1}, 1, kAccuracy);
+  tabulation.container.reset();
+  tabulation.geometry = geometry;
+  tabulation.geometry_parameters = std::move(parameters);
+  return tabulation;
+}
+
+Eigen::MatrixXd exact_matrix(const viscontact::PairLoads& exact, LoadGroup group) {
+  if (group == LoadGroup::kTransverse) return exact.transverse;
+  if (group == LoadGroup::kTwofold) return exact.twofold;
+  if (group == LoadGroup::kSpin) return exact.spin;
+  const auto bodies = exact.trace.rows();
+  Eigen::MatrixXd with_traces(3 * bodies, exact.axial.cols());
+  for (Eigen::Index body = 0; body < bodies; ++body)
+    with_traces.middleRows(3 * body, 3) << exact.axial.middleRows(2 * body, 2),
+        exact.trace.row(body);
+  return with_traces;
+}
+
+void expect_exact(const Tabulation& tabulation, double gap, const viscontact::PairLoads& exact) {
+  for (const auto group :
+       {LoadGroup::kAxial, LoadGroup::kTransverse, LoadGroup::kSpin, LoadGroup::kTwofold}) {
+    SCOPED_TRACE(static_cast<int>(group));
+    const auto loads = solve_pair_loads(default_freefem(), tabulation, group, gap);
+    const auto matrix = exact_matrix(exact, group);
+    ASSERT_EQ(static_cast<std::size_t>(matrix.size()), loads.loads.size());
+    for (std::size_t of = 0; of < loads.bodies; ++of)
+      for (std::size_t source = 0; source < loads.sources_of_body; ++source)
+        for (std::size_t body = 0; body < loads.bodies; ++body)
+          for (std::size_t load = 0; load < loads.loads_of_body; ++load) {
+            const auto here = loads.place(body, load, of, source);
+            const auto row = static_cast<Eigen::Index>(body * loads.loads_of_body + load),
+                       column = static_cast<Eigen::Index>(of * loads.sources_of_body + source);
+            EXPECT_NEAR(loads.loads[here], matrix(row, column), loads.errors[here])
+                << row << " " << column;
+            // The size of the row's own load, that of the moment for a trace.
+            const auto size = [&](std::size_t of_body, std::size_t which) {
+              const auto own = std::min(which, loads.sources_of_body - 1);
+              return std::abs(loads.loads[loads.place(of_body, own, of_body, own)]);
+            };
+            EXPECT_LE(loads.errors[here],
+                      kAccuracy * std::sqrt(size(body, load) * size(of, source)));
+          }
+  }
+}
+
+TEST(PairLoadsOfFreeFem, AreThoseOfTwoSpheres) {
+  expect_exact(in_unbounded_fluid("sphere", {2, 0, 0}), 0.02, exact_pair_loads(1, 2, 0.02));
+}
+
+TEST(PairLoadsOfFreeFem, AreThoseOfASphereAboveAPlane) {
+  expect_exact(in_unbounded_fluid("plane", {}), 0.05, exact_loads_above_plane(1, 0.05));
+}
+
+TEST(PairLoadsOfFreeFem, HaveTheUnitsOfTheCase) {
+  auto unit = in_unbounded_fluid("sphere", {2, 0, 0});
+  unit.relative_accuracy = 1e-2;
+  auto other = unit;
+  other.viscosity = 3;
+  other.radius = 0.5;
+  other.geometry_parameters[0] = 1;
+  const auto one = solve_pair_loads(default_freefem(), unit, LoadGroup::kTransverse, 0.5);
+  const auto two = solve_pair_loads(default_freefem(), other, LoadGroup::kTransverse, 0.25);
+  // Powers of the length in F, T, S by U, W, E.
+  for (std::size_t load = 0; load < 3; ++load)
+    for (std::size_t source = 0; source < 3; ++source) {
+      const double unit_of = 3 * std::pow(0.5, 1 + (load > 0 ? 1 : 0) + (source > 0 ? 1 : 0));
+      const auto here = one.place(1, load, 0, source);
+      EXPECT_NEAR(two.loads[here], unit_of * one.loads[here], 1e-12 * std::abs(two.loads[here]));
+      EXPECT_NEAR(two.errors[here], unit_of * one.errors[here], 1e-6 * two.errors[here]);
+    }
+}
+
+TEST(PairLoadsOfFreeFem, HaveNoTraceInAContainer) {
+  auto enclosed = in_unbounded_fluid("plane", {});
+  enclosed.relative_accuracy = 1e-2;
+  enclosed.container = Container{4, 8};
+  const auto loads = solve_pair_loads(default_freefem(), enclosed, LoadGroup::kAxial, 0.5);
+  EXPECT_TRUE(std::isnan(loads.loads[loads.place(0, 2, 0, 0)]));
+  // The stresslet does not depend on the constant of the pressure: side and lid hardly change it.
+  const auto open = exact_loads_above_plane(1, 0.5);
+  EXPECT_NEAR(loads.loads[loads.place(0, 1, 0, 1)] / open.axial(1, 1), 1, 0.1);
+}
+
+TEST(PairLoadsOfFreeFem, AreOfASphereOrAPlane) {
+  EXPECT_THAT(bad_input([] {
+                (void)solve_pair_loads(default_freefem(), in_unbounded_fluid("free_surface", {}),
+                                       LoadGroup::kAxial, 0.5);
+              }),
+              Names("plane", "sphere"));
+}
+
+}  // namespace
+}  // namespace viscontact::freefem_axi
