@@ -1,5 +1,5 @@
 // The resistances of two spheres in unbounded Stokes flow to all motions and strains, for any gap
-// and ratios of the radii up to 10 (docs/pairs.md).
+// and ratios of the radii up to 10 (docs/physics.md (2.14) to (2.16)).
 #pragma once
 
 #include <array>
@@ -11,7 +11,8 @@ namespace viscontact::lubrication {
 /// The components of a sphere, in this order, in axes x, y, z of which z goes from sphere 1 to
 /// sphere 2: the velocity (3), the angular velocity (3), each less that of the undisturbed flow at
 /// the centre, and the strain rate E of this flow (5), which has no trace:
-///   E = e_1 (zz - 1/3) sqrt(3/2) + (e_2 (xz + zx) + e_3 (yz + zy) + e_4 (xx - yy) + e_5 (xy + yx))/sqrt(2),
+///   E = e_1 (zz - 1/3) sqrt(3/2)
+///     + (e_2 (xz + zx) + e_3 (yz + zy) + e_4 (xx - yy) + e_5 (xy + yx))/sqrt(2),
 /// so that E:E is the sum of the squares. Loads have the same order: the force and the torque about
 /// the centre of the sphere on the fluid, and Batchelor's stresslet S in the same basis.
 inline constexpr std::size_t kSphereComponents = 11, kPairComponents = 2 * kSphereComponents;
