@@ -1,6 +1,5 @@
-// Chebyshev coefficients of what is left of a pair's entries without the terms near contact, by
-// ratio of the radii and by gap (PairCoordinates), over the entries of the spheres alone. Printed
-// by pair_rest_table from exact solutions (tests/oracles/bispherical).
+// What is left of a pair's entries, over those of the spheres alone, without the terms near
+// contact. Written by pair_rest_table (tests/oracles/bispherical) from exact solutions.
 #pragma once
 
 #include <array>
@@ -10,8 +9,10 @@
 
 namespace viscontact::lubrication {
 
+/// Numbers of Chebyshev polynomials in the variables of PairCoordinates.
 inline constexpr std::size_t kRatioTerms = 9, kGapTerms = 12;
 
+/// Their coefficients.
 // clang-format off
 inline constexpr std::array<std::array<std::array<double, kPairEntries>, kGapTerms>, kRatioTerms> kPairRest = {{
 {{

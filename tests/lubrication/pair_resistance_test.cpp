@@ -4,14 +4,21 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <random>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include "tests/common/failure.hpp"
 #include "tests/oracles/bispherical/pair_matrix.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/text/number.hpp"
 #include "viscontact/lubrication/pair_near_contact.hpp"
 
 namespace viscontact::lubrication {
@@ -54,6 +61,51 @@ TEST(PairResistance, IsThatOfTheExactSolution) {
     for (const double ratio : {1.0, 3.0})
       EXPECT_LT(largest_error(resistance(1, ratio, gap), exact_pair_matrix(1, ratio, gap)), 2e-5)
           << "ratio " << ratio << ", gap " << gap;
+}
+
+TEST(PairResistance, HasTheFunctionsOfJeffreyAndOnishi) {
+  // docs/pairs.md: rows and columns of the entry, the power of s, and the factor over pi.
+  struct Function {
+    int row, column, power;
+    double factor;
+  };
+  const double g = -std::sqrt(2.0 / 3), h = -std::sqrt(2.0);
+  const std::map<std::string, Function> functions{
+      {"XA", {2, 2, 1, 3}},       {"YA", {0, 0, 1, 3}},       {"YB", {4, 0, 2, -1}},
+      {"XC", {5, 5, 3, 1}},       {"YC", {4, 4, 3, 1}},       {"XG", {6, 2, 2, g}},
+      {"YG", {7, 0, 2, h}},       {"YH", {7, 4, 3, h}},       {"XM", {6, 6, 3, 5.0 / 6}},
+      {"YM", {7, 7, 3, 5.0 / 6}}, {"ZM", {9, 9, 3, 5.0 / 6}},
+  };
+  std::istringstream lines(read_file(std::filesystem::path(VISCONTACT_SOURCE_FOLDER) /
+                                     "data/reference/two_spheres_functions.csv"));
+  int compared = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('#') || line.starts_with("size_ratio")) continue;
+    std::istringstream fields(line);
+    std::vector<std::string> words;
+    for (std::string word; std::getline(fields, word, ',');) words.push_back(word);
+    ASSERT_EQ(words.size(), 9U);
+    const auto number = [&](std::size_t i) { return parse_number(words.at(i)).value(); };
+    const std::array radii{1.0, number(0)};
+    const auto matrix = resistance(radii[0], radii[1], number(2));
+    const auto& function = functions.at(words[4]);
+    for (const int i : {0, 1})
+      for (const int j : {0, 1}) {
+        const double s =
+            radii.at(static_cast<std::size_t>(i)) + radii.at(static_cast<std::size_t>(j));
+        const auto entry = [&](int row, int column) {
+          return matrix(11 * i + row, 11 * j + column);
+        };
+        const double unit = function.factor * kPi * std::pow(s, function.power);
+        const double own = std::sqrt(matrix(11 * i + function.row, 11 * i + function.row) *
+                                     matrix(11 * j + function.column, 11 * j + function.column));
+        EXPECT_NEAR(entry(function.row, function.column),
+                    unit * number(static_cast<std::size_t>(5 + 2 * i + j)), 2e-5 * own)
+            << line;
+        ++compared;
+      }
+  }
+  EXPECT_EQ(compared, 3 * 7 * 11 * 4);
 }
 
 TEST(PairResistance, IsSymmetricToTheLastBit) {

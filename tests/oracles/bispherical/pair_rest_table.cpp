@@ -69,17 +69,16 @@ void print_table() {
           rest(b, 2 * std::sqrt(b) * to_contact / (1 - to_contact));
     }
   std::puts(
-      "// Chebyshev coefficients of what is left of a pair's entries without the terms near "
-      "contact, by\n"
-      "// ratio of the radii and by gap (PairCoordinates), over the entries of the spheres alone. "
-      "Printed\n"
-      "// by pair_rest_table from exact solutions (tests/oracles/bispherical).\n"
+      "// What is left of a pair's entries, over those of the spheres alone, without the terms "
+      "near\n"
+      "// contact. Written by pair_rest_table (tests/oracles/bispherical) from exact solutions.\n"
       "#pragma once\n\n#include <array>\n#include <cstddef>\n\n"
       "#include \"viscontact/lubrication/pair_near_contact.hpp\"\n\n"
-      "namespace viscontact::lubrication {\n");
+      "namespace viscontact::lubrication {\n\n"
+      "/// Numbers of Chebyshev polynomials in the variables of PairCoordinates.");
   std::printf("inline constexpr std::size_t kRatioTerms = %d, kGapTerms = %d;\n\n", kRatios, kGaps);
   std::puts(
-      "// clang-format off\n"
+      "/// Their coefficients.\n// clang-format off\n"
       "inline constexpr std::array<std::array<std::array<double, kPairEntries>, kGapTerms>, "
       "kRatioTerms> kPairRest = {{");
   for (int p = 0; p < kRatios; ++p) {
