@@ -171,6 +171,34 @@ void ConstraintSystem<D>::move_particles(const ContactSystem<D>& system, const I
 }
 
 template <int D>
+bool ConstraintSystem<D>::stop_units(const ContactSystem<D>& system, Island& island) const {
+  if (!particles_.bodies.empty()) return false;
+  constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);
+  const double h = times_.h;
+  for (const auto b : island.bodies) {
+    const auto particle = system.bodies()[index_of(b)];
+    if (is_given(particle)) continue;
+    const auto k = index_of(particle);
+    if (k >= particles_.count()) return false;  // a plane under a load
+    auto& free = island.problem.units[index_of(unit_of_particle_[k])].free;
+    double square = 0, square_of_turn = 0;
+    for (std::size_t i = 0; i < d; ++i) {
+      const double moved = h * particles_.velocities[k * d + i];
+      free[i] -= moved;
+      square += moved * moved;
+    }
+    for (std::size_t i = 0; i < r && particles_.turn(); ++i) {
+      const double turned = h * particles_.angular_velocities[k * r + i];
+      free[d + i] -= turned;
+      square_of_turn += turned * turned;
+    }
+    if (!(square + square_of_turn * particles_.radii[k] * particles_.radii[k] <= slow * slow))
+      return false;
+  }
+  return true;
+}
+
+template <int D>
 bool ConstraintSystem<D>::rests(const Island& island, std::span<const Motion<D>> motions) const {
   const auto& problem = island.problem;
   std::vector<double> allowed(problem.units.size(), std::numeric_limits<double>::infinity());

@@ -37,8 +37,12 @@ class IslandLadder {
 
   bool needs_solution() const { return phase_ == Phase::kNotSolved; }
   void find_solution(Stage stage);
-  // Takes no motion as the solution if ConstraintSystem::rests(). Returns true if it does.
-  bool rest(std::span<const Motion<D>> motions);
+  bool may_rest() const;
+  // Takes no motion as the solution if the island is slow and ConstraintSystem::rests(), with its
+  // impulses or those that hold it at rest, found in at most `most` iterations. Returns true if it
+  // does.
+  bool come_to_rest(int most);
+  bool take_rest(std::span<const Motion<D>> motions);
 
   // Friction locks a body between two contacts, and the body turns about the line through them.
   bool is_locked() const;

@@ -319,7 +319,10 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   // steps with 5e-4 to 2e-3 take the same time, and with 3e-3 a tenth more.
   constexpr double kRoughLength = 1e-3, kRoughImpulse = 1;
   const bool suits_sweeps = constraints_ && settings.suit_sweeps();
-  if (suits_sweeps) constraints_->start = ConstraintStart::kAcceleratedSweeps;
+  if (suits_sweeps) {
+    constraints_->start = ConstraintStart::kAcceleratedSweeps;
+    constraints_->slow = settings.tolerance * mean_radius;
+  }
   bool is_rough = !suits_sweeps && settings.tolerance < kRoughLength &&
                   settings.impulse_tolerance < kRoughImpulse;
   int rounds = 0;

@@ -112,12 +112,12 @@ ConstraintProblem<D> random_constraints(const RandomConstraints& what, const Pro
       block.rows = static_cast<std::size_t>(D);
       block.compliance = c == 0 ? 0 : random.uniform(0, 1) * in.time / in.mass;
     }
-    const auto arm_towards = [&](const Vector& direction) {
-      const double length = random.uniform(0.3, 2) * in.length;
-      return length * (what.is_round ? direction : random.direction(D));
-    };
-    const Vector arm = arm_towards(normal);
-    const Vector other = arm_towards(-1 * normal);
+    Vector arm = random.uniform(0.3, 2) * in.length * random.direction(D);
+    Vector other = random.uniform(0.3, 2) * in.length * random.direction(D);
+    if (what.is_round) {
+      arm = norm(arm) * normal;
+      other = -norm(other) * normal;
+    }
     add_block(first, second, directions, arm, other, block);
     if (c == what.contacts - 1) add_block(first, second, directions, arm, other, block);
   }
