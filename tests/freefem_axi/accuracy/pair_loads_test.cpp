@@ -23,10 +23,10 @@ Tabulation in_unbounded_fluid(const std::string& geometry, std::vector<double> p
   return tabulation;
 }
 
-Eigen::MatrixXd exact_matrix(const viscontact::PairLoads& exact, LoadGroup group) {
-  if (group == LoadGroup::kTransverse) return exact.transverse;
-  if (group == LoadGroup::kTwofold) return exact.twofold;
-  if (group == LoadGroup::kSpin) return exact.spin;
+Eigen::MatrixXd exact_matrix(const viscontact::PairLoads& exact, MotionGroup group) {
+  if (group == MotionGroup::kAcross) return exact.transverse;
+  if (group == MotionGroup::kTwofold) return exact.twofold;
+  if (group == MotionGroup::kAround) return exact.spin;
   const auto bodies = exact.trace.rows();
   Eigen::MatrixXd with_traces(3 * bodies, exact.axial.cols());
   for (Eigen::Index body = 0; body < bodies; ++body)
@@ -37,7 +37,7 @@ Eigen::MatrixXd exact_matrix(const viscontact::PairLoads& exact, LoadGroup group
 
 void expect_exact(const Tabulation& tabulation, double gap, const viscontact::PairLoads& exact) {
   for (const auto group :
-       {LoadGroup::kAxial, LoadGroup::kTransverse, LoadGroup::kSpin, LoadGroup::kTwofold}) {
+       {MotionGroup::kAlong, MotionGroup::kAcross, MotionGroup::kAround, MotionGroup::kTwofold}) {
     SCOPED_TRACE(static_cast<int>(group));
     const auto loads = solve_pair_loads(default_freefem(), tabulation, group, gap);
     const auto matrix = exact_matrix(exact, group);
@@ -77,8 +77,8 @@ TEST(PairLoadsOfFreeFem, HaveTheUnitsOfTheCase) {
   other.viscosity = 3;
   other.radius = 0.5;
   other.geometry_parameters[0] = 1;
-  const auto one = solve_pair_loads(default_freefem(), unit, LoadGroup::kTransverse, 0.5);
-  const auto two = solve_pair_loads(default_freefem(), other, LoadGroup::kTransverse, 0.25);
+  const auto one = solve_pair_loads(default_freefem(), unit, MotionGroup::kAcross, 0.5);
+  const auto two = solve_pair_loads(default_freefem(), other, MotionGroup::kAcross, 0.25);
   // Powers of the length in F, T, S by U, W, E.
   for (std::size_t load = 0; load < 3; ++load)
     for (std::size_t source = 0; source < 3; ++source) {
@@ -93,7 +93,7 @@ TEST(PairLoadsOfFreeFem, HaveNoTraceInAContainer) {
   auto enclosed = in_unbounded_fluid("plane", {});
   enclosed.relative_accuracy = 1e-2;
   enclosed.container = Container{4, 8};
-  const auto loads = solve_pair_loads(default_freefem(), enclosed, LoadGroup::kAxial, 0.5);
+  const auto loads = solve_pair_loads(default_freefem(), enclosed, MotionGroup::kAlong, 0.5);
   EXPECT_TRUE(std::isnan(loads.loads[loads.place(0, 2, 0, 0)]));
   // The stresslet does not depend on the constant of the pressure: side and lid hardly change it.
   const auto open = exact_loads_above_plane(1, 0.5);
@@ -103,7 +103,7 @@ TEST(PairLoadsOfFreeFem, HaveNoTraceInAContainer) {
 TEST(PairLoadsOfFreeFem, AreOfASphereOrAPlane) {
   EXPECT_THAT(bad_input([] {
                 (void)solve_pair_loads(default_freefem(), in_unbounded_fluid("free_surface", {}),
-                                       LoadGroup::kAxial, 0.5);
+                                       MotionGroup::kAlong, 0.5);
               }),
               Names("plane", "sphere"));
 }
