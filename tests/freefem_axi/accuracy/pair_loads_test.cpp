@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <numbers>
 
 #include "tests/common/failure.hpp"
 #include "tests/freefem_axi/tabulations.hpp"
@@ -98,6 +100,89 @@ TEST(PairLoadsOfFreeFem, HaveNoTraceInAContainer) {
   // The stresslet does not depend on the constant of the pressure: side and lid hardly change it.
   const auto open = exact_loads_above_plane(1, 0.5);
   EXPECT_NEAR(loads.loads[loads.place(0, 1, 0, 1)] / open.axial(1, 1), 1, 0.1);
+}
+
+/// The neighbour moves at -0.5 and turns at 2 times the velocity of the sphere.
+TEST(RowsOfPairLoads, AreThoseOfTwoSpheresThatMove) {
+  constexpr double kPi = std::numbers::pi, kGap = 0.3, kMoves = -0.5, kTurns = 2;
+  const auto exact = exact_pair_loads(1, 2, kGap);
+  auto pair = in_unbounded_fluid("sphere", {2, kMoves, kTurns});
+  pair.relative_accuracy = 1e-3;
+  const auto rows = [&](MotionGroup group) {
+    return rows_of(pair, solve_pair_loads(default_freefem(), pair, group, kGap), kGap);
+  };
+  // Errors of factors are relative to the sphere's own, `own`.
+  const auto expect = [](const lubrication::MotionRow& row, double own, double factor,
+                         double estimate, double load, double unit) {
+    EXPECT_NEAR(factor, load / unit, estimate * std::abs(own));
+    EXPECT_LE(row.largest_error_estimate, 1e-3);
+    EXPECT_GT(estimate, 0);
+  };
+  const auto along = rows(MotionGroup::kAlong);
+  ASSERT_EQ(along.size(), 2U);
+  const Eigen::VectorXd approach = exact.axial.col(0) + kMoves * exact.axial.col(2);
+  const Eigen::VectorXd traces = exact.trace.col(0) + kMoves * exact.trace.col(2);
+  const auto& away = along[0];
+  expect(away, away.force_factor, away.force_factor, away.relative_error_estimate, -approach(0),
+         6 * kPi);
+  expect(away, away.force_factor, away.stresslet_factor, away.stresslet_error_estimate, approach(1),
+         20 * kPi / 3);
+  expect(away, away.force_factor, away.trace_factor, away.trace_error_estimate, traces(0),
+         20 * kPi / 3);
+  expect(away, away.force_factor, away.neighbour->trace_factor,
+         away.neighbour->trace_error_estimate, traces(1), 20 * kPi / 3);
+  // E_zz = 1 is 1.5 times zz - 1/3, and the neighbour feels no strain.
+  const auto& axial = along[1];
+  expect(axial, axial.stresslet_factor, axial.neighbour->force_factor,
+         axial.neighbour->relative_error_estimate, -1.5 * exact.axial(2, 1), 6 * kPi);
+  expect(axial, axial.stresslet_factor, axial.stresslet_factor, axial.stresslet_error_estimate,
+         1.5 * exact.axial(1, 1), 20 * kPi / 3);
+  const auto across = rows(MotionGroup::kAcross);
+  ASSERT_EQ(across.size(), 3U);
+  const Eigen::VectorXd roll = exact.transverse.col(1) + kTurns * exact.transverse.col(4);
+  expect(across[1], across[1].torque_factor, across[1].force_factor,
+         across[1].relative_error_estimate, -roll(0), 6 * kPi);
+  expect(across[1], across[1].torque_factor, across[1].neighbour->torque_factor,
+         across[1].neighbour->torque_error_estimate, -roll(4), 8 * kPi);
+  expect(across[2], across[2].stresslet_factor, across[2].neighbour->stresslet_factor,
+         across[2].neighbour->stresslet_error_estimate, exact.transverse(5, 2), 20 * kPi / 3);
+  EXPECT_FALSE(across[2].has_traces);
+  const auto twofold = rows(MotionGroup::kTwofold);
+  ASSERT_EQ(twofold.size(), 1U);
+  expect(twofold[0], twofold[0].stresslet_factor, twofold[0].stresslet_factor,
+         twofold[0].stresslet_error_estimate, exact.twofold(0, 0), 20 * kPi / 3);
+  const auto spin = rows(MotionGroup::kAround);
+  ASSERT_EQ(spin.size(), 1U);
+  expect(spin[0], spin[0].torque_factor, spin[0].torque_factor, spin[0].torque_error_estimate,
+         -exact.spin(0, 0) - kTurns * exact.spin(0, 1), 8 * kPi);
+}
+
+/// The plan of a table with strains is another one, and a table without them keeps its hash.
+TEST(TablesWithStrains, AreOnePlanForEachGroup) {
+  auto plane = in_unbounded_fluid("plane", {});
+  const auto path_of = [](lubrication::MotionKind motion) {
+    return std::filesystem::path(to_string(motion));
+  };
+  const auto hash = motion_table_plan(plane, MotionGroup::kAlong, path_of).hash;
+  plane.motions = parse_motions({"approach", "slide", "spin", "roll"}, "plane");
+  EXPECT_EQ(motion_table_plan(plane, MotionGroup::kAlong, path_of).hash, hash);
+  EXPECT_EQ(motion_groups(plane).size(), 3U);
+  plane.motions = parse_motions({"all"}, "plane");
+  EXPECT_EQ(plane.motions.size(), lubrication::all_motions().size());
+  ASSERT_EQ(motion_groups(plane).size(), 4U);
+  const auto along = motion_table_plan(plane, MotionGroup::kAlong, path_of);
+  EXPECT_NE(along.hash, hash);
+  ASSERT_EQ(along.companions.size(), 1U);
+  EXPECT_EQ(along.companions[0].path, "axial_strain");
+  EXPECT_EQ(motion_table_plan(plane, MotionGroup::kAcross, path_of).companions.size(), 2U);
+  // Without the strain of its group a table has stresslets, too.
+  plane.motions = parse_motions({"slide", "twofold_strain"}, "plane");
+  const auto slide = motion_table_plan(plane, MotionGroup::kAcross, path_of);
+  EXPECT_TRUE(slide.companions.empty());
+  EXPECT_EQ(slide.hash, [&] {
+    plane.motions = parse_motions({"all"}, "plane");
+    return motion_table_plan(plane, MotionGroup::kAcross, path_of).hash;
+  }());
 }
 
 TEST(PairLoadsOfFreeFem, AreOfASphereOrAPlane) {
