@@ -302,7 +302,8 @@ z [L/T] and the angular velocities w about y, w_z about z [1/T], the fluid exert
   F_z = -squeeze u_z,            F_x = -slide u + slide_roll w,
   T_y = slide_roll u - roll w,   T_z = -spin w_z.
 
-A gap is a number or an array of any shape; the answer has the same shape. Outside the interval the
+A fit of tables with strains also has the stresslets S of the sphere, and the loads on a neighbour that
+is a sphere. A gap is a number or an array of any shape; the answer has the same shape. Outside the interval the
 formula goes on.)");
   pair.def(py::init([](const fs::path& path, const std::optional<double>& radius,
                        const std::optional<double>& viscosity) {
@@ -313,7 +314,7 @@ formula goes on.)");
            }),
            py::arg("path"), py::kw_only(), py::arg("radius") = py::none(),
            py::arg("viscosity") = py::none());
-  const std::array dimensions = {"[M/T]", "[M/T]", "[M L^2/T]", "[M L/T]", "[M L^2/T]"};
+  const std::array dimensions = {"[M/T]", "[M L/T]", "[M L^2/T]"};
   for (std::size_t e = 0; e < motions::pair_entries().size(); ++e) {
     const auto& named = motions::pair_entries()[e];
     const auto entry = static_cast<motions::PairEntry>(e);
@@ -322,7 +323,9 @@ formula goes on.)");
         [entry](const PairFit& fit, const Doubles& gap) {
           return mapped(gap, [&](double q) { return motions::entry_value(fit, entry, q); });
         },
-        fmt::format("{} {} at gaps [L].", named.description, dimensions[e]).c_str(),
+        fmt::format("{} {} at gaps [L].", named.description,
+                    dimensions.at(static_cast<std::size_t>(named.power - 1)))
+            .c_str(),
         py::arg("gap"));
   }
   pair.def(
