@@ -47,8 +47,8 @@ def tabulate(case, output, *, jobs=0, motions=None):
     output     the table to be written (CSV); for several motions a folder, in which each gets
                MOTION.csv
     jobs       number of processes of FreeFEM at once; 0: one for each core
-    motions    "approach", "slide", "roll", "spin", or "all", or a list of them; None: those of the
-               case
+    motions    "approach", "slide", "roll", "spin", "axial_strain", "shear_strain", "twofold_strain",
+               or "all", or a list of them; None: those of the case
 
     Finished rows are kept if the call is interrupted; the same call goes on. Returns the table as
     read() does, or for several motions a dictionary of tables by their motions.

@@ -234,6 +234,65 @@ TEST(PairFits, OfTwoSpheresWithStrainsAreTheFunctionsOfJeffrey) {
   }
 }
 
+/// What docs/pairs.md says of the loads on the sphere when its neighbour moves or feels a strain.
+TEST(PairFits, GiveTheLoadsByTheNeighbourByReciprocity) {
+  const auto fit = fit_pair(exact_tables(0.5), {});
+  constexpr double kGap = 0.1;
+  const auto exact = exact_pair_loads(1, 2, kGap);
+  const auto expect = [&](double load, double factor, PairEntry entry) {
+    const double value = factor * entry_value(fit, entry, kGap);
+    EXPECT_NEAR(load, value, 1e-5 * entry_value(fit, PairEntry::kSqueeze, kGap));
+    EXPECT_GT(std::abs(value), 0.1);
+  };
+  // Columns of sphere 2: U_z, zz - 1/3 (E_zz is 2/3 there), U_x, W_y, xz + zx.
+  expect(exact.axial(0, 2), -1, PairEntry::kNeighbourSqueeze);
+  expect(1.5 * exact.axial(0, 3), -1.5, PairEntry::kNeighbourSqueezeStress);
+  expect(exact.axial(1, 2), 2. / 3, PairEntry::kNeighbourAxialForce);
+  expect(1.5 * exact.axial(1, 3), 1, PairEntry::kNeighbourAxialStrain);
+  expect(exact.transverse(0, 3), -1, PairEntry::kNeighbourSlide);
+  expect(exact.transverse(0, 4), -1, PairEntry::kNeighbourSlideTorque);
+  expect(exact.transverse(0, 5), -2, PairEntry::kNeighbourSlideStress);
+  expect(exact.transverse(1, 3), -1, PairEntry::kNeighbourRollForce);
+  expect(exact.transverse(1, 4), -1, PairEntry::kNeighbourRoll);
+  expect(exact.transverse(1, 5), -2, PairEntry::kNeighbourRollStress);
+  expect(exact.transverse(2, 3), 0.5, PairEntry::kNeighbourShearForce);
+  expect(exact.transverse(2, 4), 0.5, PairEntry::kNeighbourShearTorque);
+  expect(exact.transverse(2, 5), 1, PairEntry::kNeighbourShearStrain);
+  expect(exact.spin(0, 1), -1, PairEntry::kNeighbourSpin);
+  expect(exact.twofold(0, 1), 1, PairEntry::kNeighbourTwofoldStrain);
+}
+
+/// Tables of a sphere of radius 0.5 in a fluid of viscosity 3: factors are the same at the same gap
+/// in radii. Theory's coefficients belong to radius 1, and are left out.
+TEST(PairFits, OfOtherUnitsAreTheScaledOnes) {
+  auto tables = exact_tables(0.5), scaled = tables;
+  for (auto& [motion, table] : tables) {
+    auto& other = scaled[motion];
+    for (auto* one : {&table, &other}) {
+      one->leading_coefficient.reset();
+      one->leading_force_factor = one->leading_torque_factor = one->leading_stresslet_factor =
+          one->neighbour_leading_force_factor = one->neighbour_leading_torque_factor =
+              one->neighbour_leading_stresslet_factor = std::nullopt;
+    }
+    other.radius = 0.5;
+    other.viscosity = 3;
+    const auto units = lubrication::action_units(motion, 3, 0.5);
+    for (auto& row : other.rows) {
+      row.gap *= 0.5;
+      row.force = -units.force * row.force_factor;
+    }
+  }
+  const auto fit = fit_pair(scaled, {}), expected = scaled_to(fit_pair(tables, {}), 3, 0.5);
+  for (std::size_t i = 0; i < pair_entries().size(); ++i) {
+    const auto which = static_cast<PairEntry>(i);
+    for (const double gap : {1e-3, 0.02, 0.5}) {
+      const double value = entry_value(expected, which, gap);
+      EXPECT_NEAR(entry_value(fit, which, gap), value, 1e-7 * std::abs(value))
+          << pair_entries()[i].name;
+    }
+  }
+}
+
 TEST(PairFits, OfASphereAboveAPlaneHaveItsOwnEntries) {
   const auto fit = fit_pair(exact_tables(0), {});
   expect_all_entries(fit, 13);
