@@ -85,9 +85,9 @@ const Geometry& default_geometry();
 /// Whether it is one of geometry.motions.
 bool has_motion(const Geometry& geometry, lubrication::MotionKind motion);
 
-/// The motions with these names, in the order of MotionKind; the one name "all" stands for all motions of the geometry with the name `geometry`. Throws
-/// Error(kBadInput) for an unknown name, for a name that stands twice, for a motion that the
-/// geometry lacks, and for an unknown geometry.
+/// The motions with these names, in the order of MotionKind; the one name "all" stands for all
+/// motions of the geometry with the name `geometry`. Throws Error(kBadInput) for an unknown name,
+/// for a name that stands twice, for a motion that the geometry lacks, and for an unknown geometry.
 std::vector<lubrication::MotionKind> parse_motions(const std::vector<std::string>& names,
                                                    std::string_view geometry);
 

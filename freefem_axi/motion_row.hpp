@@ -11,11 +11,12 @@ namespace viscontact::freefem_axi {
 
 /// The motions whose flows have the same matrix and are solved together: the approach along the
 /// axis (kAlong), sliding and rolling (kAcross), or spinning (kAround). Each has a strain besides
-/// (pair_loads.hpp), but spinning, and kTwofold has a strain only. The numbers are the values of the
-/// argument -motion of scripts/row.idp.
+/// (pair_loads.hpp), but spinning, and kTwofold has a strain only. The numbers are the values of
+/// the argument -motion of scripts/row.idp.
 enum class MotionGroup { kAlong = 0, kAcross = 1, kAround = 2, kTwofold = 3 };
 
-/// The motions of the group without strains, in the order in which scripts/row.idp numbers its solutions.
+/// The motions of the group without strains, in the order in which scripts/row.idp numbers its
+/// solutions.
 std::vector<lubrication::MotionKind> motions_of(MotionGroup group);
 
 /// True if the neighbour, the body beside the sphere, is a sphere outside it; force and torque on

@@ -1,5 +1,5 @@
-// Forces, torques and stresslets on a sphere and its neighbour at one gap, for all their motions and
-// for strains, by FreeFEM (docs/physics.md (2.14) to (2.16)). Numbers are in the units of the case.
+// Forces, torques and stresslets on a sphere and its neighbour at one gap, for all their motions
+// and for strains, by FreeFEM (docs/physics.md (2.14) to (2.16)), in the units of the case.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,14 @@
 namespace viscontact::freefem_axi {
 
 /// Loads of the fluid on the bodies. Body 0 is the sphere, 1 its neighbour, which is left out if it
-/// is a plane. A source is a body that moves or turns at 1, the other one being at rest, or a strain
-/// E that one body alone feels: its surface has the velocity -E.(x - centre), the other one is at
-/// rest. Its own stresslet is Batchelor's, (20/3) pi mu r^3 E of a sphere alone. A uniform strain is
-/// the sum for both bodies, if both move with the undisturbed flow at their centres without turning.
+/// is a plane. A source is a body that moves or turns at 1, the other one being at rest, or a
+/// strain E that one body alone feels: its surface has the velocity -E.(x - centre), the other one
+/// is at rest. Its own stresslet is Batchelor's, (20/3) pi mu r^3 E of a sphere alone. A uniform
+/// strain is the sum for both bodies, if both move with the undisturbed flow at their centres
+/// without turning.
 ///
-/// z is the axis from the neighbour to the sphere, x across it. F, T and S are the force, the torque
-/// about the centre, and the stresslet. The groups have
+/// z is the axis from the neighbour to the sphere, x across it. F, T and S are the force, the
+/// torque about the centre, and the stresslet. The groups have
 ///   kAlong    F_z, S_zz and the trace, for U_z and the strain E = zz - 1/3
 ///   kAcross   F_x, T_y, S_xz, for U_x, W_y and E = xz + zx
 ///   kAround   T_z, for W_z

@@ -13,8 +13,8 @@ namespace viscontact::lubrication {
 /// velocity u0 [L/T] or angular velocity w0 [1/T]: force = -6 pi mu r u0 * force_factor and torque
 /// = -8 pi mu r^2 u0 * torque_factor if the sphere moves, force = -6 pi mu r^2 w0 * force_factor
 /// and torque = -8 pi mu r^3 w0 * torque_factor if it turns, and if it feels the rate of strain w0.
-/// The stresslet is +(20/3) pi mu r^2 u0 * stresslet_factor, or r^3 w0 in place of r^2 u0, and so is
-/// the trace. Error estimates are those of a factor, divided by the sphere's force factor if it
+/// The stresslet is +(20/3) pi mu r^2 u0 * stresslet_factor, or r^3 w0 in place of r^2 u0, and so
+/// is the trace. Error estimates are those of a factor, divided by the sphere's force factor if it
 /// moves, by its torque factor if it turns, and by its stresslet factor if it feels a strain.
 struct Action {
   double force = 0;          ///< [M L/T^2]
@@ -23,8 +23,8 @@ struct Action {
   double torque_factor = 0;  ///< [1], finite
   double relative_error_estimate = 0;  ///< of the force factor [1], >= 0; 0: not known
   double torque_error_estimate = 0;    ///< of the torque factor [1], >= 0; 0: not known
-  /// Batchelor's stresslet S without trace, [M L^2/T^2]: S_zz (approach, axial strain), S_xz (slide,
-  /// roll, shear strain), S_xx = -S_yy (twofold strain); 0 in spinning.
+  /// Batchelor's stresslet S without trace, [M L^2/T^2]: S_zz (approach, axial strain), S_xz
+  /// (slide, roll, shear strain), S_xx = -S_yy (twofold strain); 0 in spinning.
   double stresslet = 0, stresslet_factor = 0, stresslet_error_estimate = 0;
   /// Of the moment of the traction about the centre, [M L^2/T^2]; 0 unless the flow is axial.
   double trace = 0, trace_factor = 0, trace_error_estimate = 0;
@@ -35,21 +35,21 @@ struct Action {
 /// along z in axial flows and along x in sliding, rolling and the shear strain. The torque is taken
 /// about the centre of the body; it is about y in sliding, rolling and the shear strain, about z in
 /// spinning, and 0 otherwise. The force on a sphere that moves, or the torque on one that turns, is
-/// opposed to its velocity, unless the neighbour moves as well; the stresslet of a sphere in a strain
-/// has the sign of the rate.
+/// opposed to its velocity, unless the neighbour moves as well; the stresslet of a sphere in a
+/// strain has the sign of the rate.
 struct MotionRow : Action {
   static constexpr bool kIsOfLine = false;
   double gap = 0;  ///< q [L], > 0
   /// u0 [L/T] of a sphere that moves, < 0 when it approaches; w0 [1/T] of one that turns; the rate
   /// of a strain [1/T] (MotionKind); not 0.
   double reference_velocity = 0;
-  /// The action on the neighbour. Nothing if the neighbour is no sphere, and in an approach that was
-  /// tabulated without strains.
+  /// The action on the neighbour. Nothing if the neighbour is no sphere, and in an approach that
+  /// was tabulated without strains.
   std::optional<Action> neighbour{};
   /// Whether the row has stresslets: it was tabulated with strains.
   bool has_stresslets = false;
-  /// Whether it has traces: the flow is axial, and the fluid unbounded, because a container leaves a
-  /// constant of the pressure open.
+  /// Whether it has traces: the flow is axial, and the fluid unbounded, because a container leaves
+  /// a constant of the pressure open.
   bool has_traces = false;
   /// With stresslets: the largest error estimate of all loads i by all motions and strains j that
   /// FreeFEM solved with this one, over sqrt(R_ii R_jj) [1]; R_ii is the load i of the motion or
@@ -73,8 +73,8 @@ void prepare(const TableHead& head, MotionRow& row);
 /// Computes a force or torque that is NaN from its factor, and a factor that is NaN from the force
 /// or torque. The neighbour is removed from the row if its force and its force factor are both NaN,
 /// or its torque and its torque factor; stresslets or traces of both bodies, if a stresslet or
-/// trace and its factor are NaN; a table of spinning has stresslets if it has largest_error_estimate.
-/// Viscosity and radius of the head must be > 0.
+/// trace and its factor are NaN; a table of spinning has stresslets if it has
+/// largest_error_estimate. Viscosity and radius of the head must be > 0.
 void complete(const TableHead& head, MotionRow& row);
 
 /// Throws Error(kBadInput) if a factor is not finite, or if the neighbour is at rest and the force
@@ -104,8 +104,9 @@ ActionUnits action_units(MotionKind motion, double viscosity, double radius);
 bool is_motion_table(const std::filesystem::path& path);
 
 /// Reads a table of any motion. A head without a line `# motion` means the approach, unless its
-/// line `# viscontact` says "motion table". The columns gap and reference_velocity are required, and
-/// the force, torque and stresslet that the motion has, the last one only in a strain. Throws the errors of read_table().
+/// line `# viscontact` says "motion table". The columns gap and reference_velocity are required,
+/// and the force, torque and stresslet that the motion has, the last one only in a strain. Throws
+/// the errors of read_table().
 MotionTable read_motion_table(const std::filesystem::path& path);
 
 /// Reads a table of the approach. Throws Error(kBadInput) for a table of another motion, too.

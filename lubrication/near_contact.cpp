@@ -110,8 +110,8 @@ LeadingLoads leading_loads(MotionKind motion, double curvature) {
   const auto block = block_of(motion);
   const auto source = component_of(motion);
   const auto units = action_units(motion, 1, 1);
-  // E of a strain at the rate 1 over the unit tensor of the table, whose E:S over the stresslet is 1
-  // (axial) or 2.
+  // E of a strain at the rate 1 over the unit tensor of the table, whose E:S over the stresslet is
+  // 1 (axial) or 2.
   const double rate = motion == MotionKind::kAxialStrain ? 1.5 : 1;
   const double contracted = block.term == 0 ? 1 : 2;
   LeadingLoads loads;

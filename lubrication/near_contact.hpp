@@ -40,8 +40,9 @@ struct ActionFactors {
 };
 
 /// Of a sphere and of its neighbour at rest, by pair_near_contact.hpp, whose term is 1/q in axial
-/// flows, ln q across the axis, and q ln q in the other ones, with q in sphere radii. `curvature` is
-/// the radius of the sphere over that of the neighbour [1], >= 0; the neighbour has none if it is 0.
+/// flows, ln q across the axis, and q ln q in the other ones, with q in sphere radii. `curvature`
+/// is the radius of the sphere over that of the neighbour [1], >= 0; the neighbour has none if it
+/// is 0.
 struct LeadingLoads {
   ActionFactors sphere, neighbour;
 };

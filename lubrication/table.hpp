@@ -31,7 +31,8 @@ enum class MotionKind {
 };
 
 bool is_strain(MotionKind motion);
-/// Whether the flow is symmetric about the axis and has no swirl: the approach and the axial strain.
+/// Whether the flow is symmetric about the axis and has no swirl: the approach and the axial
+/// strain.
 bool is_axial(MotionKind motion);
 
 struct NamedMotion {
@@ -71,8 +72,8 @@ struct TableHead {
   /// approach at a small gap q; nothing if not known.
   std::optional<double> leading_coefficient;
   /// Theory's coefficient of 1/q (axial strain), ln q (sliding, rolling, shear strain) or q ln q
-  /// (spinning) in the force factor and in the torque factor of MotionRow (motion_table.hpp), with q
-  /// in the unit of the table.
+  /// (spinning) in the force factor and in the torque factor of MotionRow (motion_table.hpp), with
+  /// q in the unit of the table.
   std::optional<double> leading_force_factor, leading_torque_factor;
   /// The same of the term 1/q (approach, axial strain), ln q (slide, roll, shear strain) or q ln q
   /// (spin, twofold strain) in the stresslet factor, and in the factors of the neighbour.

@@ -23,9 +23,9 @@ namespace viscontact::motions {
 /// [M L/T^2] and torques T [M L^2/T^2] on the sphere:
 ///   F_z = -squeeze u_z,            F_x = -slide u + slide_roll w,
 ///   T_y = slide_roll u - roll w,   T_z = -spin w_z.
-/// The other entries come from tables with stresslets (lubrication/motion_table.hpp): the stresslets
-/// and traces of the sphere, and all loads on its neighbour, by motions and strains of the sphere.
-/// The reciprocal theorem gives the other loads (docs/pairs.md).
+/// The other entries come from tables with stresslets (lubrication/motion_table.hpp): the
+/// stresslets and traces of the sphere, and all loads on its neighbour, by motions and strains of
+/// the sphere. The reciprocal theorem gives the other loads (docs/pairs.md).
 enum class PairEntry {
   kSqueeze,
   kSlide,

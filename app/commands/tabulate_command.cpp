@@ -65,8 +65,9 @@ std::vector<std::string> motion_words(const TabulateOptions& o) {
 /// Reads the cases. For one case of one motion, `output` is the file of the table; for one case of
 /// several motions it is a folder with a table MOTION.csv for each. For several cases it is a
 /// folder with CASE.csv or CASE/MOTION.csv, where CASE is the name of the case file without its
-/// ending. The names in `motions`, if any, replace the key `motion` of the cases. Throws Error(kWrongUsage) if two tables would have the same name, and
-/// Error(kBadInput) if a case has neither [tabulation] nor [swimmer].
+/// ending. The names in `motions`, if any, replace the key `motion` of the cases. Throws
+/// Error(kWrongUsage) if two tables would have the same name, and Error(kBadInput) if a case has
+/// neither [tabulation] nor [swimmer].
 std::vector<pipeline::CaseTable> read_case_tables(const std::vector<std::string>& case_files,
                                                   const std::filesystem::path& output,
                                                   const std::vector<std::string>& motions) {

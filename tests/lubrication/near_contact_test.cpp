@@ -67,8 +67,8 @@ TEST(LeadingLoads, AreThoseOfReynoldsEquation) {
       EXPECT_NEAR(loads.sphere.force.value_or(0), theory.force, 1e-15) << curvature;
       EXPECT_EQ(loads.neighbour.torque.has_value(), curvature > 0);
     }
-  // The squeezing of a film by the radius r_eff: 1/(1 + curvature)^2. Its force acts at the pole, so
-  // that S_zz = (2/3) r |F|.
+  // The squeezing of a film by the radius r_eff: 1/(1 + curvature)^2. Its force acts at the pole,
+  // so that S_zz = (2/3) r |F|.
   const auto approach = leading_loads(MotionKind::kApproach, 0.5);
   EXPECT_NEAR(approach.sphere.force.value(), 4. / 9, 1e-15);
   EXPECT_NEAR(approach.neighbour.force.value(), -4. / 9, 1e-15);

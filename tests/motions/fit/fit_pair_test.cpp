@@ -192,8 +192,8 @@ void expect_all_entries(const PairFit& fit, std::size_t count) {
     ASSERT_TRUE(entry.theory);
     for (const auto& term : entry.fit.terms) {
       if (term.name != named.leading_term) continue;
-      // Relative to the size of the entries near contact: 1/q is a thousand times larger than q ln q
-      // at the smallest gap.
+      // Relative to the size of the entries near contact: 1/q is a thousand times larger than q ln
+      // q at the smallest gap.
       const double tolerance = term.name == "q ln q" ? 0.05 : 1e-3;
       EXPECT_NEAR(term.coefficient, *entry.theory, tolerance * 6 * kPi);
     }
