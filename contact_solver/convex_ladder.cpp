@@ -20,7 +20,7 @@ struct ConvexTuning {
   static constexpr int kMostInteriorPoints = 60;
   // Accelerated sweeps: packings of 10 000 spheres took up to 2139. Extrapolations over 200 to 2000
   // sweeps are as good, over 100 take half as many sweeps more, over 30 four times as many.
-  static constexpr int kMostAccelerated = 3000, kLongest = 300;
+  static constexpr SweepPlan kSweeps{.most = 3000, .longest = 300};
   // Most solutions near their guess take two to eight iterations.
   static constexpr int kMostNearGuess = 20;
   // Epsilon begins at kFirstEpsilon. The errors of the impulses are the rounding errors of the gaps
@@ -69,7 +69,7 @@ const std::array<StageRow<ConvexLadder<D>>, 5> ConvexLadder<D>::kTable{{
 template <int D>
 void ConvexLadder<D>::find_loads(Stage stage) {
   if (at_.can_accelerate())
-    at_.accelerate(ConvexTuning::kMostAccelerated, ConvexTuning::kLongest, stage);
+    at_.accelerate(ConvexTuning::kSweeps, stage);
   else
     take_interior_points(stage);
   for (auto& block : at_.problem.blocks)
@@ -82,7 +82,10 @@ void ConvexLadder<D>::find_loads(Stage stage) {
 template <int D>
 void ConvexLadder<D>::accelerate(Stage stage) {
   has_accelerated_ = true;
-  at_.accelerate(ConvexTuning::kMostAccelerated, ConvexTuning::kLongest, stage);
+  at_.accelerate(ConvexTuning::kSweeps, stage);
+  if (at_.residual <= 1) return;
+  bind_optional(at_.problem);
+  at_.forget_best();
 }
 
 template <int D>

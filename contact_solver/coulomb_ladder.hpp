@@ -22,7 +22,7 @@ class CoulombLadder {
     run_stages(kTable, *this);
     return at_.finish();
   }
-  bool is_done() const { return at_.is_at_end(); }
+  bool is_done() const;
 
  private:
   static const std::array<StageRow<CoulombLadder>, 5> kTable;

@@ -24,6 +24,9 @@ std::vector<double> scales_of_rows(const ConstraintProblem<D>& problem, Constrai
 template <int D>
 Iterate<D>::Iterate(ConstraintProblem<D>& of, int max_iterations, ConstraintStart start)
     : problem(of), most(max_iterations), w(scales_of_rows(of, start)) {
+  if (start == ConstraintStart::kAcceleratedSweeps)
+    accelerated_ = AcceleratedSweeps<D>::of(problem, w);
+  if (!accelerated_) bind_optional(problem);
   for (const auto& block : problem.blocks) {
     if (!block.is_contact) continue;
     problem.impulses[block.row] = std::max(problem.impulses[block.row], block.lowest);
@@ -32,8 +35,6 @@ Iterate<D>::Iterate(ConstraintProblem<D>& of, int max_iterations, ConstraintStar
   }
   best_.result.residual = std::numeric_limits<double>::infinity();
   update();
-  if (start == ConstraintStart::kAcceleratedSweeps)
-    accelerated_ = AcceleratedSweeps<D>::of(problem, w);
 }
 
 template <int D>
@@ -72,6 +73,11 @@ void Iterate<D>::move_to(const std::vector<double>& impulses) {
 }
 
 template <int D>
+void Iterate<D>::return_to_best() {
+  if (residual > best_.result.residual) move_to(std::vector(best_impulses_));
+}
+
+template <int D>
 void Iterate<D>::forget_best() {
   best_.result.residual = std::numeric_limits<double>::infinity();
   update();
@@ -97,8 +103,9 @@ bool Iterate<D>::is_stagnant() const {
 }
 
 template <int D>
-void Iterate<D>::accelerate(int most_sweeps, int longest, Stage stage) {
-  const int taken = accelerated_->sweep(std::clamp(most - iterations(), 1, most_sweeps), longest);
+void Iterate<D>::accelerate(SweepPlan plan, Stage stage) {
+  plan.most = std::clamp(most - iterations(), 1, plan.most);
+  const int taken = accelerated_->sweep(plan);
   count(stage, taken);
   excuse(taken);
   update();

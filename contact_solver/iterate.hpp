@@ -62,6 +62,7 @@ class Iterate {
   void update();
   /// The same with other impulses.
   void move_to(const std::vector<double>& impulses);
+  void return_to_best();
   /// The best solution so far does not count, because it belongs to another problem.
   void forget_best();
   /// Sets problem.impulses to the best ones. Nothing else may be called afterwards.
@@ -74,8 +75,7 @@ class Iterate {
 
   /// True if the solution begins with accelerated sweeps.
   bool can_accelerate() const { return accelerated_.has_value(); }
-  /// Takes at most `most_sweeps`, and extrapolates over at most `longest` of them.
-  void accelerate(int most_sweeps, int longest, Stage stage);
+  void accelerate(SweepPlan plan, Stage stage);
   /// IterateTuning::kSweeps of Gauss-Seidel.
   void sweep();
   /// Computes a step (5.8) from `center` in at most `most_of_step` iterations, and fewer if there

@@ -171,63 +171,6 @@ void ConstraintSystem<D>::move_particles(const ContactSystem<D>& system, const I
 }
 
 template <int D>
-bool ConstraintSystem<D>::stop_units(const ContactSystem<D>& system, Island& island) const {
-  if (!particles_.bodies.empty()) return false;
-  constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);
-  const double h = times_.h;
-  for (const auto b : island.bodies) {
-    const auto particle = system.bodies()[index_of(b)];
-    if (is_given(particle)) continue;
-    const auto k = index_of(particle);
-    if (k >= particles_.count()) return false;  // a plane under a load
-    auto& free = island.problem.units[index_of(unit_of_particle_[k])].free;
-    double square = 0, square_of_turn = 0;
-    for (std::size_t i = 0; i < d; ++i) {
-      const double moved = h * particles_.velocities[k * d + i];
-      free[i] -= moved;
-      square += moved * moved;
-    }
-    for (std::size_t i = 0; i < r && particles_.turn(); ++i) {
-      const double turned = h * particles_.angular_velocities[k * r + i];
-      free[d + i] -= turned;
-      square_of_turn += turned * turned;
-    }
-    if (!(square + square_of_turn * particles_.radii[k] * particles_.radii[k] <= slow * slow))
-      return false;
-  }
-  return true;
-}
-
-template <int D>
-bool ConstraintSystem<D>::rests(const Island& island, std::span<const Motion<D>> motions) const {
-  const auto& problem = island.problem;
-  std::vector<double> allowed(problem.units.size(), std::numeric_limits<double>::infinity());
-  bool is_held = false;
-  for (const auto& block : problem.blocks) {
-    const auto parts = problem.parts_of(block.row);
-    is_held |= parts.size() == 1;
-    for (const auto& part : parts)
-      allowed[index_of(part.unit)] = std::min(allowed[index_of(part.unit)], block.allowed);
-  }
-  if (!is_held) return false;
-  constexpr auto d = static_cast<std::size_t>(D);
-  for (std::size_t u = 0; u < motions.size(); ++u) {
-    double square = 0, square_of_turn = 0;
-    for (std::size_t k = 0; k < d; ++k) square += motions[u][k] * motions[u][k];
-    for (std::size_t k = d; k < motions[u].size(); ++k)
-      square_of_turn += motions[u][k] * motions[u][k];
-    const auto& unit = problem.units[u];
-    // By a force at the radius of gyration a turn over this radius has the error of a displacement.
-    square += square_of_turn * unit.mobility / unit.turn_mobility[0];
-    if (!(square <= allowed[u] * allowed[u])) return false;
-  }
-  const std::vector<Motion<D>> none(motions.size(), Motion<D>{});
-  return std::ranges::all_of(problem.blocks, [&](const ConstraintBlock& block) {
-    return contact_solver::residual_after<D>(problem, block, none).share(block) <= 1;
-  });
-}
-
-template <int D>
 double ConstraintSystem<D>::correct(ContactSystem<D>& system, Island& island,
                                     std::span<const Motion<D>> motions) {
   move_particles(system, island, motions);

@@ -93,11 +93,8 @@ class ConstraintSystem {
 
   /// The equations of all links, and then those of the stops of hinges, which bound their angles.
   const std::vector<LinkEquations>& links() const { return links_; }
-  /// How solutions begin. The caller sets this and the next five before solve().
+  /// How solutions begin. The caller sets this and the next four before solve().
   ConstraintStart start = ConstraintStart::kSweeps;
-  /// With kAcceleratedSweeps: a set may come to rest if each particle, also by its turn, moves by
-  /// no more than this in the step before [L], >= 0.
-  double slow = 0;
   /// Allowed residuals of links() [L], > 0; those of angles times the mean radius.
   std::vector<double> links_allowed;
   /// Errors that are asked for of the impulses of all contacts, in the order of add(), and then of
@@ -236,13 +233,6 @@ class ConstraintSystem {
   UnitMotion motion_of(std::int32_t unit, std::span<const Motion<D>> motions) const;
   void move_particles(const ContactSystem<D>& system, const Island& island,
                       std::span<const Motion<D>> motions);
-  // True if the island touches something fixed and is at rest within the tolerances: if the units
-  // do not move at all, the conditions of all blocks hold with the present impulses, and the errors
-  // of the balance of forces, which move the units by `motions`, are allowed.
-  bool rests(const Island& island, std::span<const Motion<D>> motions) const;
-  // Takes what the velocities before the step add to the free motions of the units away from them.
-  // Returns false if a unit is a rigid body or not slow.
-  bool stop_units(const ContactSystem<D>& system, Island& island) const;
   // Moves the particles, and shifts the offsets of the rows so that their linear values become
   // those after finite turns. Returns the largest shift over what is allowed [1].
   double correct(ContactSystem<D>& system, Island& island, std::span<const Motion<D>> motions);

@@ -10,9 +10,6 @@ namespace viscontact::particles {
 namespace {
 
 struct IslandTuning {
-  // A set comes to rest with impulses whose residuals are this part of those allowed, because the
-  // motions that residuals leave add up in the set.
-  static constexpr double kPartOfRest = 0.1;
   // Corrections end below this part of what is allowed; the rest is left to the residual.
   static constexpr double kEnd = 0.5;
   // Each correction multiplies the error by about the turn of the bodies in the step [rad].
@@ -134,13 +131,12 @@ void IslandLadder<D>::find_solution(Stage stage) {
   int most = island_.has_given_up ? kMostOfGivenLoads : max_iterations_ - result_.iterations;
   if (corrections_ > 0) most = std::max(most, Tuning::kLeastCorrected);
   if (corrections_ > 0 && can_use_distances()) most = std::min(most, Tuning::kMostCorrected);
-  const bool rests = may_rest() && come_to_rest(std::max(1, most));
-  if (!rests) solution_ = solve_constraints(problem_, std::max(1, most), constraints_.start);
+  solution_ = solve_constraints(problem_, std::max(1, most), constraints_.start);
   result_.iterations += solution_.result.iterations;
   result_.stages += solution_.result.stages;
   if (corrections_ > 0) ++result_.stages[stage];
   refinement_.reset();
-  if (!is_rough_ && !rests) refine();
+  if (!is_rough_) refine();
   phase_ = Phase::kSolved;
   if (corrections_ > 0) return;
   const std::vector<double> none(problem_.rows.size());
@@ -148,51 +144,6 @@ void IslandLadder<D>::find_solution(Stage stage) {
                            energy_of<D>(problem_, contact_solver::motions<D>(problem_, none)));
   first_loads_ = sum_of_loads(problem_);
   if (constraints_.is_convex_) first_impulses_ = problem_.impulses;
-}
-
-template <int D>
-bool IslandLadder<D>::may_rest() const {
-  return constraints_.start == ConstraintStart::kAcceleratedSweeps && corrections_ == 0 &&
-         island_.links.empty() && !island_.has_given_up;
-}
-
-template <int D>
-bool IslandLadder<D>::come_to_rest(int most) {
-  const auto units = problem_.units;
-  const auto blocks = problem_.blocks;
-  bool rests = false;
-  if (constraints_.stop_units(system_, island_)) {
-    rests = take_rest(contact_solver::motions<D>(problem_, problem_.impulses));
-    if (!rests) {
-      for (auto& block : problem_.blocks) {
-        block.allowed *= IslandTuning::kPartOfRest;
-        block.allowed_slip *= IslandTuning::kPartOfRest;
-      }
-      solution_ = solve_constraints(problem_, most, constraints_.start);
-      problem_.blocks = blocks;
-      result_.iterations += solution_.result.iterations;
-      result_.stages += solution_.result.stages;
-      rests = take_rest(solution_.motions);
-    }
-  }
-  problem_.units = units;
-  return rests;
-}
-
-template <int D>
-bool IslandLadder<D>::take_rest(std::span<const Motion<D>> motions) {
-  if (!constraints_.rests(island_, motions)) return false;
-  solution_.result = {};
-  solution_.motions.assign(motions.size(), Motion<D>{});
-  solution_.residuals.clear();
-  double largest = 0;
-  for (const auto& block : problem_.blocks) {
-    solution_.residuals.push_back(
-        contact_solver::residual_after<D>(problem_, block, solution_.motions));
-    largest = std::max(largest, solution_.residuals.back().share(block));
-  }
-  solution_.result.residual = largest;
-  return true;
 }
 
 template <int D>

@@ -4,7 +4,6 @@
 #include <array>
 #include <limits>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "viscontact/contact_dynamics/constraints/constraint_system.hpp"
@@ -37,12 +36,6 @@ class IslandLadder {
 
   bool needs_solution() const { return phase_ == Phase::kNotSolved; }
   void find_solution(Stage stage);
-  bool may_rest() const;
-  // Takes no motion as the solution if the island is slow and ConstraintSystem::rests(), with its
-  // impulses or those that hold it at rest, found in at most `most` iterations. Returns true if it
-  // does.
-  bool come_to_rest(int most);
-  bool take_rest(std::span<const Motion<D>> motions);
 
   // Friction locks a body between two contacts, and the body turns about the line through them.
   bool is_locked() const;

@@ -95,12 +95,14 @@ void ConstraintSystem<D>::add_contact(const Contact<D>& contact, std::size_t c, 
   if (problem.is_convex && rubs) {
     block.friction_bound = block.has_film() ? FrictionBound::kGiven : FrictionBound::kCone;
     block.given_load = state.first_load;
-    block.is_optional = contact.is_optional && block.is_in_cone();
   }
+  block.is_optional = contact.is_optional && rubs;
   problem.blocks.push_back(block);
   const auto first = side_of(contact.first_entry()), second = side_of(contact.second);
   for (std::size_t k = 0; k < block.rows; ++k) {
-    const double guess = k == 0 ? contact.impulse : dot(tangents.directions[k - 1], state.friction);
+    const double guess = block.is_optional && contact.impulse == 0 ? 0
+                         : k == 0                                  ? contact.impulse
+                                  : dot(tangents.directions[k - 1], state.friction);
     add_contact_row(contact, tangents, first, second, k, guess, problem);
   }
 }

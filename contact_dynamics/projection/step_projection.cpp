@@ -9,6 +9,21 @@
 namespace viscontact::particles {
 namespace {
 
+struct ProjectionTuning {
+  // Gaps below which pairs are chosen before they close, in mean radii. A further solution with
+  // friction takes more time than contacts whose gaps stay open. With Coulomb's law pairs are chosen
+  // after a solution has closed further gaps, because redundant contacts would take loads from
+  // particles that stand without them; with the convex relaxation, (5.9), before the first solution,
+  // but only pairs with a film, because it pushes sliding particles without a film apart.
+  static constexpr double kMargin = 5e-3;
+  // The same of pairs that are optional, in sweeps with the convex relaxation. With 0.05 to 0.2
+  // steps of 2000 spheres take the same time, with 0 a third more.
+  static constexpr double kMarginOfOptional = 0.1;
+  // The part of what is allowed to which solutions are computed. The rest is for rounding errors,
+  // because examine() computes residuals by other formulas; sweeps leave residuals far above these.
+  static constexpr double kPart = 0.5, kPartOfSweeps = 0.95;
+};
+
 /// Returns `pairs` in an order in which a Gauss-Seidel sweep is fast. Neighbours in the list share
 /// particles, so that the processor would have to finish one contact before it begins the next.
 /// Contacts are therefore taken in turn from kInterleaved distant parts of each block of
@@ -193,9 +208,7 @@ void StepProjection<D>::solve_contacts(bool is_rough, double length, int max_ite
 template <int D>
 void StepProjection<D>::allow(double length, double fraction, double of_slips) {
   auto scales = residual_scales();
-  // The rest is for rounding errors, because examine() computes residuals by other formulas.
-  const bool is_loose = constraints_ && constraints_->start == ConstraintStart::kAcceleratedSweeps;
-  const double share = is_loose ? 0.95 : 0.5;
+  const double share = sweeps_ ? ProjectionTuning::kPartOfSweeps : ProjectionTuning::kPart;
   rounding_.clear();
   if (constraints_) {
     constraints_->slips_allowed.clear();
@@ -267,8 +280,7 @@ std::vector<std::size_t> StepProjection<D>::leave_touching(std::vector<std::size
     const auto here = contact(k);
     const double allowed = scales.of(here).allowed_gap(settings, mean_radius);
     const bool has_impulse = pair(k).impulse != 0;
-    const bool is_loaded =
-        has_impulse && !(settings.suit_sweeps() && here.w * pair(k).impulse <= allowed);
+    const bool is_loaded = has_impulse && !(sweeps_ && here.w * pair(k).impulse <= allowed);
     if (is_loaded || -system_.linear_gap(here) > allowed) return false;
     if (has_impulse) had_impulses.push_back(k);
     return true;
@@ -284,15 +296,8 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   // the error that this step adds.
   tolerated_ = settings.tolerance * mean_radius / 2;
   counts_mean_load_ = settings.accuracy == Accuracy::kPacking;
-  // With friction, a further solution takes more time than contacts whose gaps stay open. Therefore
-  // pairs whose gaps are below kMargin mean radii are chosen early: with Coulomb's law after a
-  // solution has closed further gaps, because redundant contacts would take loads from particles
-  // that stand without them; with the convex relaxation, (5.9), before the first solution, but only
-  // pairs with a film, because it pushes sliding particles without a film apart. Sweeps also take
-  // pairs without films whose gaps are below kMarginOfSweeps, but only from the moment at which
-  // their gaps close. With 0.05 to 0.2 steps of 2000 spheres take the same time, with 0 a third
-  // more.
-  constexpr double kMargin = 5e-3, kMarginOfSweeps = 0.1;
+  sweeps_ = constraints_ && settings.suits_sweeps();
+  if (sweeps_) constraints_->start = ConstraintStart::kAcceleratedSweeps;
   const bool has_friction = step_ != nullptr && step_->laws.friction;
   const bool is_convex = has_friction && step_->laws.friction->method == FrictionMethod::kConvex;
   // The motion with links and without contacts decides which contacts are chosen. Without its hinge
@@ -309,22 +314,17 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   choose(closed);
   choose(had_impulses, true);
   if (has_friction) {
-    margin_ = kMargin * mean_radius;
-    if (is_convex) choose(nearly_closed(margin_, true));
-    if (is_convex && settings.suit_sweeps())
-      choose(nearly_closed(kMarginOfSweeps * mean_radius, false), true);
+    margin_ = ProjectionTuning::kMargin * mean_radius;
+    if (is_convex || sweeps_) choose(nearly_closed(margin_, true));
+    if (sweeps_)
+      choose(nearly_closed(ProjectionTuning::kMarginOfOptional * mean_radius, false), true);
   }
   // Tolerances of the rough solution: of gaps in mean radii, and of impulses as a fraction of the
   // impulse at work, 1, because impulses are not known yet. For bench/box2d.cpp with 1000 discs,
   // steps with 5e-4 to 2e-3 take the same time, and with 3e-3 a tenth more.
   constexpr double kRoughLength = 1e-3, kRoughImpulse = 1;
-  const bool suits_sweeps = constraints_ && settings.suit_sweeps();
-  if (suits_sweeps) {
-    constraints_->start = ConstraintStart::kAcceleratedSweeps;
-    constraints_->slow = settings.tolerance * mean_radius;
-  }
-  bool is_rough = !suits_sweeps && settings.tolerance < kRoughLength &&
-                  settings.impulse_tolerance < kRoughImpulse;
+  bool is_rough =
+      !sweeps_ && settings.tolerance < kRoughLength && settings.impulse_tolerance < kRoughImpulse;
   int rounds = 0;
   int waited = 0;
   int rounds_unsolved = 0;
@@ -362,8 +362,9 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     // always follows; with the convex relaxation never.
     if (is_convex && more.empty()) is_rough = false;
     const bool takes_near = margin_ > 0 && !(is_convex && is_rough);
+    const bool only_films = is_convex || sweeps_;
     const auto near = takes_near
-                          ? nearly_closed(margin_, is_convex ? std::optional(true) : std::nullopt)
+                          ? nearly_closed(margin_, only_films ? std::optional(true) : std::nullopt)
                           : std::vector<std::size_t>{};
     choose(near);
     if (more.empty() && near.empty()) is_rough = false;
@@ -383,7 +384,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     // its particles apart. An impulse that is no larger than its allowed error must not do so.
     const auto& here = system_.contacts[c];
     const double error = scales.of(here).allowed_gap(settings, mean_radius) / here.w;
-    const bool is_error = is_convex && !suits_sweeps && here.lowest == 0 && here.impulse <= error;
+    const bool is_error = is_convex && !sweeps_ && here.lowest == 0 && here.impulse <= error;
     result.impulses.push_back(is_error ? 0 : here.impulse);
     if (!constraints_) {
       take_given(c, {}, result);
@@ -541,7 +542,7 @@ ResidualScale ResidualScales<D>::of(std::span<const std::int32_t> particles, dou
   // Rounding errors are taken as 128 units in the last place of the sum of the lengths below.
   constexpr double kRounding = 128 * std::numeric_limits<double>::epsilon();
   ResidualScale scale{w, std::numeric_limits<double>::infinity(), length};
-  double around = 0;
+  double around = 0, mean_load = 0;
   for (const auto particle : particles) {
     if (particle < 0) continue;
     const auto k = index_of(particle);
@@ -552,8 +553,9 @@ ResidualScale ResidualScales<D>::of(std::span<const std::int32_t> particles, dou
     if (body < 0) continue;
     const auto root = index_of(system_.island(body));
     around = std::max(around, island_impulses_[root]);
-    if (!mean_loads_.empty()) scale.impulse = std::max(scale.impulse, mean_loads_[root]);
+    if (!mean_loads_.empty()) mean_load = std::max(mean_load, mean_loads_[root]);
   }
+  scale.impulse = std::max(scale.impulse, mean_load);
   scale.rounding += std::sqrt(scale.w) * around;
   // Solvers compute squares of displacements and products of these, which underflow below this
   // length [L]. A particle that moves by less is at rest in any unit of length.

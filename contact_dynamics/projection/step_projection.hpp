@@ -157,7 +157,9 @@ struct ProjectionResult {
 /// < 0, minus the impulse that the film has absorbed [M L/T]), if it had an impulse in the last
 /// step, or if the motion without contacts, but with links, would close its gap. If the solution
 /// closes further gaps, their pairs are added and the problem is solved again. A rough solution
-/// comes first, because it finds most of these pairs with little work.
+/// comes first, because it finds most of these pairs with little work. With
+/// SolverSettings::suits_sweeps() there is none; nearby pairs are optional contacts, which take part
+/// as soon as their gaps close.
 ///
 /// The step has converged if each contact, with the gap d after the step (ContactSystem::gap()) and
 /// the impulse p, meets two conditions. The residual |min(d, w (p - gamma))|, without the tolerated
@@ -359,6 +361,7 @@ class StepProjection {
   std::vector<std::unique_ptr<ShapedContact>> shaped_;  // those asked for, in the order of pair()
   double tolerated_ = 0;                                // [L]
   bool counts_mean_load_ = false;
+  bool sweeps_ = false;  // SolverSettings::suits_sweeps(), and there are constraints
   double margin_ = 0;    // gap below which a pair is nearly closed [L]
   Selection selection_;  // of pair(); its members are the contacts of system_
   ContactSystem<D> system_;

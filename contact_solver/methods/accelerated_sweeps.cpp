@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
+#include <utility>
 
+#include "viscontact/common/splitmix.hpp"
 #include "viscontact/contact_solver/methods/fastest_instructions.hpp"
 #include "viscontact/contact_solver/problem/contact_conditions.hpp"
 
@@ -26,6 +29,15 @@ struct SweepTuning {
   // those allowed. Earlier iterates would close gaps that stay open.
   static constexpr int kInterval = 8;
   static constexpr double kRough = 30;
+  // With SweepPlan::is_adaptive: the longest extrapolation, the bound of each square in the sum that
+  // decides whether they grow, and the growth of the sum after which sweeps return to where they
+  // were.
+  static constexpr int kMostLongest = 300;
+  static constexpr double kMostOfSum = 1e4, kMuchMore = 3;
+  // With SweepPlan::Map::kProximal centers move after so many sweeps, or when the change of a sweep
+  // is below this part of what the centers keep the impulses from.
+  static constexpr int kMostWithCenters = 200;
+  static constexpr double kPartOfLeft = 0.3;
 };
 
 using Vector [[gnu::vector_size(32)]] = double;
@@ -110,6 +122,8 @@ template <int D>
 std::optional<AcceleratedSweeps<D>> AcceleratedSweeps<D>::of(ConstraintProblem<D>& problem,
                                                              const std::vector<double>& w) {
   assert(w.size() == problem.rows.size());
+  assert(std::ranges::all_of(problem.units,
+                             [](const auto& unit) { return unit.turn_mobility[0] > 0; }));
   if (!std::ranges::all_of(problem.units, has_same_inertia_about_all_axes<D>)) return {};
   AcceleratedSweeps sweeps(problem, w);
   sweeps.contacts_.reserve(problem.blocks.size());
@@ -131,6 +145,7 @@ bool AcceleratedSweeps<D>::add(std::size_t b) {
   if (!block.is_contact) return false;
   const auto parts = problem_->parts_of(block.row);
   assert(!parts.empty() && parts.size() <= 2);
+  assert(parts.size() == 1 || parts[0].unit != parts[1].unit);
   RoundContact contact;
   contact.block = b;
   contact.normal = along<D>(parts[0].coefficients);
@@ -200,26 +215,47 @@ inline double AcceleratedSweeps<D>::find_values(const RoundContact& contact, Vec
 }
 
 template <int D>
-inline void AcceleratedSweeps<D>::solve(const RoundContact& contact, Impulse& impulse) const {
+template <SweepPlan::Map map>
+inline typename AcceleratedSweeps<D>::Vector AcceleratedSweeps<D>::solve(std::size_t c,
+                                                                         const SweepPlan& plan,
+                                                                         Impulse& impulse) const {
+  const auto& contact = contacts_[c];
   Vector slip;
-  const double gap = find_values(contact, slip);
-  const double load = impulse.normal - contact.inverse_w_normal * gap;
-  impulse.normal = std::max(contact.lowest, load);
-  if (!contact.has_friction) return;
+  double gap = find_values(contact, slip);
+  bool is_in_cone = contact.bound == FrictionBound::kCone;
+  if constexpr (map == Map::kShiftedCone) {
+    const bool is_dry = contact.lowest == 0 && contact.capacity <= 0;
+    if (contact.bound == FrictionBound::kCoulomb && contact.has_friction && is_dry) {
+      is_in_cone = true;
+      gap += shifts_[c];
+    }
+  }
+  double load = impulse.normal - contact.inverse_w_normal * gap;
   impulse.tangential -= contact.inverse_w_tangential * slip;
+  if constexpr (map == Map::kProximal) {
+    const double part = 1 / (1 + plan.epsilon);
+    load = part * (load + plan.epsilon * centers_[c].normal);
+    impulse.tangential = part * (impulse.tangential + plan.epsilon * centers_[c].tangential);
+  }
+  impulse.normal = std::max(contact.lowest, load);
+  if (!contact.has_friction) {
+    impulse.tangential = Vector{};
+    return slip;
+  }
   const double square = dot(impulse.tangential, impulse.tangential);
-  if (contact.bound == FrictionBound::kCone) {
-    if (load >= 0 && square <= contact.friction * contact.friction * load * load) return;
+  if (is_in_cone) {
+    if (load >= 0 && square <= contact.friction * contact.friction * load * load) return slip;
     const auto cone = FrictionCone::nearest(contact.friction, load, std::sqrt(square),
                                             contact.w_normal, contact.w_tangential);
     impulse.normal = cone.load;
     impulse.tangential *= cone.tangential;
-    return;
+    return slip;
   }
   const double bound = contact.friction * (contact.bound == FrictionBound::kGiven
                                                ? contact.given_load
                                                : load_of_solids(impulse.normal, contact.capacity));
   if (square > bound * bound) impulse.tangential *= bound / std::sqrt(square);
+  return slip;
 }
 
 template <int D>
@@ -237,51 +273,75 @@ inline void AcceleratedSweeps<D>::push(const RoundContact& contact, const Impuls
 template <int D>
 double AcceleratedSweeps<D>::residual() const {
   double largest = 0;
-  for (const auto& contact : contacts_) {
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const auto& contact = contacts_[c];
     if (contact.waits) continue;
     Impulse impulse = contact.x;
-    solve(contact, impulse);
+    solve<Map::kLaw>(c, {}, impulse);
     const double of_gap = contact.gap_share * std::abs(impulse.normal - contact.x.normal);
     const Vector across = contact.slip_share * (impulse.tangential - contact.x.tangential);
-    largest = largest_or_nan(largest, std::max(of_gap, std::sqrt(dot(across, across))));
+    largest = largest_or_nan(largest, largest_or_nan(of_gap, std::sqrt(dot(across, across))));
   }
   return largest;
 }
 
 template <int D>
 bool AcceleratedSweeps<D>::end_waiting() {
-  const auto closed = std::ranges::partition(waiting_, [&](std::size_t c) {
+  const auto closed = std::partition(waiting_.begin(), waiting_.end(), [&](std::size_t c) {
     auto& contact = contacts_[c];
     Vector slip;
     contact.waits = -contact.gap_share * contact.inverse_w_normal * find_values(contact, slip) <= 1;
     return contact.waits;
   });
-  const bool is_any = !closed.empty();
-  waiting_.erase(closed.begin(), closed.end());
+  const bool is_any = closed != waiting_.end();
+  waiting_.erase(closed, waiting_.end());
   return is_any;
 }
 
 template <int D>
-typename AcceleratedSweeps<D>::Sweep AcceleratedSweeps<D>::sweep_once(double beta) {
+template <SweepPlan::Map map, bool is_adaptive>
+inline typename AcceleratedSweeps<D>::Sweep AcceleratedSweeps<D>::sweep_once(const SweepPlan& plan,
+                                                                             double beta) {
+  Sweep result;
   double largest = 0, away_along = 0;
-  Vector squares{}, away_across{};
-  for (auto& contact : contacts_) {
+  Vector squares{}, away_across{}, squares_left{};
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    auto& contact = contacts_[c];
     if (contact.waits) continue;
     Impulse x = contact.y;
-    solve(contact, x);
+    const Vector slip = solve<map>(c, plan, x);
     const Impulse change{x.tangential - contact.y.tangential, x.normal - contact.y.normal},
         step{x.tangential - contact.x.tangential, x.normal - contact.x.normal};
     push(contact, change);
-    largest = std::max(largest, contact.gap_share * std::abs(change.normal));
+    const double along_normal = contact.gap_share * std::abs(change.normal);
+    largest = std::max(largest, along_normal);
     const Vector across = contact.slip_share * change.tangential, square = across * across;
     squares = squares > square ? squares : square;
     away_along -= contact.w_normal * change.normal * step.normal;
     away_across -= contact.w_tangential * change.tangential * step.tangential;
+    if constexpr (is_adaptive)
+      result.sum += std::min(SweepTuning::kMostOfSum, std::max(along_normal * along_normal,
+                                                               square[0] + square[1] + square[2]));
+    if constexpr (map == Map::kShiftedCone)
+      shifts_[c] += plan.rate * (contact.friction * std::sqrt(dot(slip, slip)) - shifts_[c]);
+    if constexpr (map == Map::kProximal) {
+      const auto& center = centers_[c];
+      result.left = std::max(result.left,
+                             plan.epsilon * contact.gap_share * std::abs(x.normal - center.normal));
+      const Vector apart = (plan.epsilon * contact.slip_share) * (x.tangential - center.tangential);
+      const Vector square_left = apart * apart;
+      squares_left = squares_left > square_left ? squares_left : square_left;
+    }
     contact.x = x;
     contact.y = {x.tangential + beta * step.tangential, x.normal + beta * step.normal};
   }
-  for (int d = 0; d < 3; ++d) largest = std::max(largest, std::sqrt(squares[d]));
-  return {largest, away_along + away_across[0] + away_across[1] + away_across[2]};
+  for (int d = 0; d < 3; ++d) {
+    largest = std::max(largest, std::sqrt(squares[d]));
+    result.left = std::max(result.left, std::sqrt(squares_left[d]));
+  }
+  result.change = largest;
+  result.away = away_along + away_across[0] + away_across[1] + away_across[2];
+  return result;
 }
 
 template <int D>
@@ -307,39 +367,93 @@ void AcceleratedSweeps<D>::finish() {
 }
 
 template <int D>
-inline int AcceleratedSweeps<D>::run(int most, int longest) {
+void AcceleratedSweeps<D>::shuffle() {
+  SplitMix64 random(contacts_.size());
+  for (std::size_t c = contacts_.size(); c > 1; --c)
+    std::swap(contacts_[c - 1], contacts_[static_cast<std::size_t>(random.next() % c)]);
+  waiting_.clear();
+  for (std::size_t c = 0; c < contacts_.size(); ++c)
+    if (contacts_[c].waits) waiting_.push_back(c);
+}
+
+template <int D>
+template <SweepPlan::Map map, bool is_adaptive>
+inline int AcceleratedSweeps<D>::run(const SweepPlan& plan) {
   using Tuning = SweepTuning;
-  begin();
-  if (residual() <= Tuning::kEnd && !end_waiting()) return 0;
   double theta = 1;
-  int since = 0;  // sweeps since the extrapolation has begun
+  int since = 0;         // sweeps since the extrapolation has begun
+  int with_centers = 0;  // sweeps with the present centers
+  int longest = plan.longest;
+  // With is_adaptive what the sweeps return to.
+  double last_sum = std::numeric_limits<double>::infinity();
+  std::vector<RoundContact> last_contacts;
+  std::vector<Unit> last_units;
   int sweeps = 0;
-  while (sweeps < most) {
+  while (sweeps < plan.most) {
     const double next = (1 + std::sqrt(1 + 4 * theta * theta)) / 2;
-    const double beta = ++since < longest ? (theta - 1) / next : 0;
+    const double beta = ++since < longest ? std::min(plan.longest_step, (theta - 1) / next) : 0;
     theta = next;
-    const auto [change, away] = sweep_once(beta);
+    const auto [change, away, sum, left] = sweep_once<map, is_adaptive>(plan, beta);
     ++sweeps;
     if (change <= Tuning::kRough && sweeps % Tuning::kInterval == 0) end_waiting();
-    if (change <= Tuning::kNear && residual() <= Tuning::kEnd && !end_waiting()) break;
-    if (away > 0) {
+    if (std::max(change, left) <= Tuning::kNear && residual() <= Tuning::kEnd && !end_waiting())
+      break;
+    if constexpr (map == Map::kProximal)
+      if (++with_centers >= Tuning::kMostWithCenters || change < Tuning::kPartOfLeft * left) {
+        for (std::size_t c = 0; c < contacts_.size(); ++c) centers_[c] = contacts_[c].x;
+        with_centers = 0;
+      }
+    if (is_adaptive && since >= longest) {
+      longest = sum < last_sum ? std::min(Tuning::kMostLongest, longest + std::max(1, longest / 4))
+                               : std::max(2, longest / 2);
+      if (sum > Tuning::kMuchMore * last_sum) {
+        contacts_ = last_contacts;
+        units_ = last_units;
+        last_sum *= 2;
+      } else {
+        last_contacts = contacts_;
+        last_units = units_;
+        last_sum = sum;
+      }
+      since = longest;
+    }
+    if (away > 0 || since >= longest) {
       for (auto& contact : contacts_) contact.y = contact.x;
       before_ = units_;
+      theta = 1;
+      since = 0;
     } else {
       extrapolate_units(beta);
     }
-    if (away > 0 || since >= longest) {
-      theta = 1;
-      since = 0;
-    }
   }
-  finish();
   return sweeps;
 }
 
 template <int D>
-int AcceleratedSweeps<D>::sweep(int most, int longest) {
-  return by_fastest_instructions([&] { return run(most, longest); });
+int AcceleratedSweeps<D>::sweep(const SweepPlan& plan) {
+  assert(plan.most >= 1 && plan.longest >= 2);
+  const int sweeps = by_fastest_instructions([&] {
+    begin();
+    if (residual() <= SweepTuning::kEnd && !end_waiting()) return 0;
+    if (plan.is_shuffled) shuffle();
+    if (plan.map == Map::kShiftedCone) {
+      shifts_.clear();
+      for (const auto& contact : contacts_) {
+        Vector slip;
+        find_values(contact, slip);
+        shifts_.push_back(contact.friction * std::sqrt(dot(slip, slip)));
+      }
+      return run<Map::kShiftedCone, true>(plan);
+    }
+    if (plan.map == Map::kProximal) {
+      centers_.clear();
+      for (const auto& contact : contacts_) centers_.push_back(contact.x);
+      return run<Map::kProximal, false>(plan);
+    }
+    return plan.is_adaptive ? run<Map::kLaw, true>(plan) : run<Map::kLaw, false>(plan);
+  });
+  finish();
+  return sweeps;
 }
 
 template class AcceleratedSweeps<2>;

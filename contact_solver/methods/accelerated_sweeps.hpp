@@ -10,6 +10,25 @@
 
 namespace viscontact::contact_solver {
 
+/// How a run of accelerated sweeps goes.
+struct SweepPlan {
+  /// The impulses that a contact gets in a sweep.
+  enum class Map : unsigned char {
+    kLaw,          ///< those that satisfy its conditions
+    kShiftedCone,  ///< with Coulomb's law those of (5.9) with a gap that is larger by mu_s |v_t|
+    kProximal,     ///< those of a step (5.8) from a center, which follows the impulses
+  };
+  int most = 0;     ///< sweeps
+  int longest = 0;  ///< most sweeps over which one extrapolation goes on, >= 2
+  bool is_adaptive =
+      false;  ///< `longest` grows while this reduces the changes, and falls otherwise
+  Map map = Map::kLaw;
+  double rate = 0;           ///< with kShiftedCone: how fast shifts follow the slips, 0 to 1
+  double epsilon = 0;        ///< with kProximal
+  double longest_step = 1;   ///< of an extrapolation, times the last change, 0 to 1
+  bool is_shuffled = false;  ///< contacts are taken in another order, always the same
+};
+
 /// Sweeps give one contact after the other the impulses that satisfy its own conditions exactly.
 /// Between sweeps the impulses are extrapolated (Nesterov 1983, "A method for solving the convex
 /// programming problem with convergence rate O(1/k^2)"), until the extrapolation points away from
@@ -25,10 +44,9 @@ class AcceleratedSweeps {
   static std::optional<AcceleratedSweeps> of(ConstraintProblem<D>& problem,
                                              const std::vector<double>& w);
 
-  /// Improves problem.impulses until the residual of each block is allowed, or `most` sweeps are
-  /// done. The extrapolation begins anew after at most `longest` sweeps. Returns the number of
-  /// sweeps; 0 if all residuals are allowed at the start.
-  int sweep(int most, int longest);
+  /// Improves problem.impulses until the residual of each block is allowed, or the sweeps of `plan`
+  /// are done. Returns the number of sweeps; 0 if all residuals are allowed at the start.
+  int sweep(const SweepPlan& plan);
 
  private:
   // x, y, z and 0 in one register. Discs have impulses in the plane and turn about z.
@@ -40,7 +58,7 @@ class AcceleratedSweeps {
     Vector turned{};  // [rad]
     double mobility = 0, turn_mobility = 0;
   };
-  struct Impulse {
+  struct alignas(kAlignment) Impulse {
     Vector tangential{};  // [M L/T]
     double normal = 0;    // [M L/T]
   };
@@ -59,9 +77,12 @@ class AcceleratedSweeps {
     bool has_friction = false;
     bool waits = false;  // it is optional and has no impulse yet
   };
+  using Map = SweepPlan::Map;
   struct Sweep {
     double change = 0;  // the largest change of a component over the allowed one
     double away = 0;    // > 0 if the extrapolation before points away from the change
+    double sum = 0;     // of the squares of all changes over those allowed, if it is adaptive
+    double left = 0;    // with kProximal as `change`: what the center keeps the impulses from
   };
 
   AcceleratedSweeps(ConstraintProblem<D>& problem, const std::vector<double>& w)
@@ -71,21 +92,28 @@ class AcceleratedSweeps {
   void begin();
   // Returns the gap [L] at the present motions, and sets the slip [L].
   double find_values(const RoundContact& contact, Vector& slip) const;
-  // Replaces the impulse by the one that satisfies the conditions of the contact alone.
-  void solve(const RoundContact& contact, Impulse& impulse) const;
+  // Replaces the impulse of contact `c` by the one that `map` gives it. Returns the slip [L].
+  template <Map map>
+  Vector solve(std::size_t c, const SweepPlan& plan, Impulse& impulse) const;
   void push(const RoundContact& contact, const Impulse& change);
   // `beta` [1] is the length of the extrapolation that follows.
-  Sweep sweep_once(double beta);
+  template <Map map, bool is_adaptive>
+  Sweep sweep_once(const SweepPlan& plan, double beta);
   double residual() const;
   // Contacts whose gaps have closed wait no longer. Returns true if there are such contacts.
   bool end_waiting();
   void extrapolate_units(double beta);
   void finish();
-  int run(int most, int longest);  // sweep()
+  void shuffle();
+  // sweep() after begin()
+  template <Map map, bool is_adaptive>
+  int run(const SweepPlan& plan);
 
   ConstraintProblem<D>* problem_;
   const std::vector<double>* w_;
   std::vector<RoundContact> contacts_;  // of all blocks, in the order of the sweeps
+  std::vector<double> shifts_;          // with kShiftedCone, of the gaps [L]
+  std::vector<Impulse> centers_;        // with kProximal
   std::vector<std::size_t> waiting_;    // places in contacts_
   std::vector<Unit> units_;             // and then one for all sides without a unit
   std::vector<Unit> before_;            // after the sweep before

@@ -31,7 +31,19 @@ void give_loads(ConstraintProblem<D>& problem) {
   for (auto& block : problem.blocks) {
     if (!block.is_contact || block.rows == 1) continue;
     block.friction_bound = FrictionBound::kGiven;
+    block.is_optional = false;
     block.given_load = load_of_solids(problem.impulses[block.row], block.capacity);
+  }
+}
+
+template <int D>
+void bind_optional(ConstraintProblem<D>& problem) {
+  for (auto& block : problem.blocks) {
+    if (!block.is_optional || problem.impulses[block.row] != 0) continue;
+    block.is_optional = false;
+    if (!block.is_in_cone()) continue;
+    block.friction_bound = FrictionBound::kGiven;
+    block.given_load = 0;
   }
 }
 
@@ -85,8 +97,9 @@ BlockResidual residual_of(const ConstraintBlock& block, const double* v, const d
           residual.normal, std::max(std::abs(v[k] + block.compliance * p[k]), least(k)));
     return residual;
   }
-  if (block.is_optional && std::ranges::all_of(p, p + block.rows, [](double q) { return q == 0; })) {
-    residual.normal = std::isnan(v[0]) ? v[0] : std::max(0.0, -v[0]);
+  const auto is_zero = [](double impulse) { return impulse == 0; };
+  if (block.is_optional && std::all_of(p, p + block.rows, is_zero)) {
+    residual.normal = largest_or_nan(0, -v[0]);
     return residual;
   }
   double square = 0;
@@ -131,6 +144,8 @@ BlockResidual residual_after(const ConstraintProblem<D>& problem, const Constrai
 template std::vector<Motion<2>> motions<2>(const ConstraintProblem<2>&, std::span<const double>);
 template std::vector<Motion<3>> motions<3>(const ConstraintProblem<3>&, std::span<const double>);
 template void give_loads<2>(ConstraintProblem<2>&);
+template void bind_optional<2>(ConstraintProblem<2>&);
+template void bind_optional<3>(ConstraintProblem<3>&);
 template void give_loads<3>(ConstraintProblem<3>&);
 template std::array<double, kMostRows> block_mobilities<2>(const ConstraintProblem<2>&,
                                                            const ConstraintBlock&);

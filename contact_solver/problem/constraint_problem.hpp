@@ -107,7 +107,7 @@ struct ConstraintBlock {
   /// For blocks of more than one row. With kCone `lowest` and `capacity` must be 0.
   FrictionBound friction_bound = FrictionBound::kCoulomb;
   double given_load = 0;  ///< load that bounds the friction with kGiven [M L/T], >= 0
-  /// With kCone. True: without an impulse the contact only demands a gap >= 0. (5.9) would demand a
+  /// True: without an impulse the contact only demands a gap >= 0. With kCone (5.9) would demand a
   /// gap of at least mu_s times the slip of the surfaces, and push them apart.
   bool is_optional = false;
   bool is_in_cone() const { return rows > 1 && friction_bound == FrictionBound::kCone; }
@@ -186,6 +186,11 @@ std::vector<Motion<D>> motions(const ConstraintProblem<D>& problem,
 template <int D>
 void give_loads(ConstraintProblem<D>& problem);
 
+/// Optional contacts with kCone and without an impulse get FrictionBound::kGiven with the load 0,
+/// with which methods that solve for all blocks at once do not push them apart.
+template <int D>
+void bind_optional(ConstraintProblem<D>& problem);
+
 /// The changes of the rows of `block` by unit impulses [T/M], > 0 in rows of contacts: entries on
 /// the diagonal of J h M^-1 J^T. The tangential rows of a contact of spheres have the larger
 /// eigenvalue of their part, which does not depend on the choice of the tangents. Numbers beyond
@@ -213,8 +218,8 @@ struct BlockResidual {
 /// tangential values:
 /// - of a contact |min(gap, w (p_n - lowest))| and, with friction, w |p_t - P(p_t - v_t/w)|, where
 ///   P projects tangential impulses on those of a magnitude up to bound();
-/// - of a contact that is_optional, without an impulse, -gap or 0;
-/// - of a contact with kCone otherwise the normal and the tangential part of w |p - P(p - v/w)|, where P
+/// - of a contact that is_optional and has no impulse the overlap;
+/// - of another contact with kCone the normal and the tangential part of w |p - P(p - v/w)|, where P
 ///   projects impulses on the FrictionCone;
 /// - of a link the largest |v + compliance p|.
 /// It is at least w p times `rounding`, the relative rounding error of the impulses from which

@@ -167,13 +167,15 @@ void check_friction_in_fluid(const case_file::TomlSection& section, const Settin
 
 void solver_keys(case_file::Keys& keys, ParticlesCase& c) {
   auto& settings = c.setting.solver;
-  const bool is_chosen = keys.optional(
-      "accuracy",
-      case_file::one_of(settings.accuracy,
-                        {{"full", Accuracy::kFull}, {"packing", Accuracy::kPacking}}),
-      {"`\"packing\"`, without a fluid, sets `tolerance` to 1e-4 and `impulse_tolerance` to 1e-3 if "
-       "the case does not, and counts the [mean load](particles.md#packings) of a set as an impulse at "
-       "work"});
+  const bool is_chosen =
+      keys.optional("accuracy",
+                    case_file::one_of(settings.accuracy,
+                                      {{"full", Accuracy::kFull}, {"packing", Accuracy::kPacking}}),
+                    {"`\"packing\"`, without a fluid, sets `tolerance` to 1e-4 and "
+                     "`impulse_tolerance` to 1e-3 if "
+                     "the case does not, and counts the [mean load](particles.md#packings) of a "
+                     "set as an impulse at "
+                     "work"});
   if (is_chosen && settings.accuracy == Accuracy::kPacking) {
     keys.require(!c.setting.fluid, "accuracy",
                  "is 'packing', which is for particles without a fluid; in a fluid the key must be "
@@ -386,8 +388,7 @@ void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
   read_probes(root, c.setting.domain, c.setting.fluid);
   case_file::read_keys(root.section("viscous_contact"), contact_keys, c);
   if (root.has("friction")) read_friction(root.section("friction"), c);
-  if (root.has("solver"))
-    case_file::read_keys(root.section("solver"), solver_keys, c);
+  if (root.has("solver")) case_file::read_keys(root.section("solver"), solver_keys, c);
   c.frame_interval = c.end_time / 100;
   if (root.has("output")) case_file::read_keys(root.section("output"), output_keys, c);
   if (root.has("plane"))

@@ -45,10 +45,12 @@ struct SolverSettings {
   int max_iterations = 10000;
   Accuracy accuracy = Accuracy::kFull;
 
-  static SolverSettings for_packings() { return {1e-4, 1e-3, 10000, Accuracy::kPacking}; }
+  static SolverSettings for_packings() {
+    return {.tolerance = 1e-4, .impulse_tolerance = 1e-3, .accuracy = Accuracy::kPacking};
+  }
   /// True if, without a fluid, sweeps from the impulses of the step before are the fastest method.
   /// With smaller tolerances steps of Newton's method are.
-  bool suit_sweeps() const { return tolerance >= 1e-5 && impulse_tolerance >= 1e-4; }
+  bool suits_sweeps() const { return tolerance >= 5e-5 && impulse_tolerance >= 1e-4; }
 };
 
 /// Largest magnitude [L] of a coordinate, and of a component of a displacement in a step. Beyond

@@ -137,6 +137,48 @@ TEST(AcceleratedSweeps, LeaveAnOptionalContactAloneUnlessItsGapCloses) {
   }
 }
 
+TEST(AcceleratedSweeps, ForgetTheFrictionOfAnOptionalContactWithoutALoad) {
+  auto open = unit_over_a_floor(1.5, 4);
+  open.impulses[1] = -0.3;
+  const auto solved = solve_constraints(open, 1000, ConstraintStart::kAcceleratedSweeps);
+  EXPECT_LE(solved.result.residual, 1);
+  EXPECT_EQ(open.impulses, (std::vector<double>{0, 0, 0}));
+}
+
+TEST(AcceleratedSweeps, LeaveOptionalContactsAloneWhereTheyCannotSolve) {
+  auto open = unit_over_a_floor(1.5, 4);
+  open.units[0].turn_mobility[4] *= 2;
+  const auto solved = solve_constraints(open, 1000, ConstraintStart::kAcceleratedSweeps);
+  EXPECT_LE(solved.result.residual, 1);
+  EXPECT_FALSE(solved.result.stages.has(Stage::kAcceleratedSweeps));
+  EXPECT_EQ(open.impulses[0], 0);
+}
+
+TYPED_TEST(AcceleratedSweepsTest, SolveProblemsWithCoulombsLaw) {
+  constexpr int kDimension = TypeParam::kNumber;
+  int problems = 0, by_sweeps = 0;
+  for_each_random_constraints(true, [&](RandomConstraints what, unsigned seed) {
+    if (what.has_links || what.friction > 0.5) return;
+    what.is_round = true;
+    auto problem = random_constraints<kDimension>(what, {}, seed);
+    for (auto& block : problem.blocks) block.allowed = block.allowed_slip = 1e-6;
+    const auto solved = solve_constraints(problem, 100000, ConstraintStart::kAcceleratedSweeps);
+    EXPECT_LE(solved.result.residual, 1) << seed;
+    ++problems;
+    by_sweeps += solved.result.stages.has(Stage::kProximalSteps) ? 0 : 1;
+  });
+  EXPECT_GE(by_sweeps, 0.7 * problems);
+}
+
+TYPED_TEST(AcceleratedSweepsTest, LeaveOtherProblemsToPlainSweeps) {
+  RandomConstraints what;
+  auto problem = random_constraints<TypeParam::kNumber>(what, {}, 1);
+  for (auto& block : problem.blocks) block.allowed = block.allowed_slip = 1e-6;
+  const auto solved = solve_constraints(problem, 1000, ConstraintStart::kAcceleratedSweeps);
+  EXPECT_TRUE(solved.result.stages.has(Stage::kSweeps));
+  EXPECT_FALSE(solved.result.stages.has(Stage::kAcceleratedSweeps));
+}
+
 TEST(AcceleratedSweeps, BeginAtTheGuess) {
   auto problem = unit_over_a_floor(0.5, 4);
   ASSERT_LE(solve_constraints(problem, 1000, ConstraintStart::kAcceleratedSweeps).result.residual,
