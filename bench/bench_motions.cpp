@@ -1,6 +1,7 @@
 // Errors, error estimates and times of the motions across the axis and around it at random gaps,
 // beside a plane, a free surface, spheres, and in a cavity.
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,10 @@
 #include <vector>
 
 #include "bench/statistics.hpp"
+#include "tests/oracles/bispherical/pair_loads.hpp"
 #include "viscontact/common/splitmix.hpp"
 #include "viscontact/freefem_axi/motion_row.hpp"
+#include "viscontact/freefem_axi/pair_loads.hpp"
 
 namespace viscontact {
 namespace {
@@ -101,6 +104,83 @@ void measure_motions(int rows, std::uint64_t seed) {
       std::ranges::max(sums.cost));
 }
 
+/// Loads of a group in the order of freefem_axi::PairLoads::loads, by bispherical harmonics.
+std::vector<double> exact_loads(const PairLoads& exact, const freefem_axi::PairLoads& of) {
+  const auto& matrix = of.group == MotionGroup::kAlong    ? exact.axial
+                       : of.group == MotionGroup::kAcross ? exact.transverse
+                       : of.group == MotionGroup::kAround ? exact.spin
+                                                          : exact.twofold;
+  std::vector<double> loads(of.loads.size());
+  for (std::size_t body = 0; body < of.bodies; ++body)
+    for (std::size_t load = 0; load < of.loads_of_body; ++load)
+      for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
+        const auto source = static_cast<std::size_t>(column);
+        const bool is_trace = load >= of.sources_of_body;
+        loads.at(of.place(body, load, source / of.sources_of_body, source % of.sources_of_body)) =
+            is_trace ? exact.trace(static_cast<Eigen::Index>(body), column)
+                     : matrix(static_cast<Eigen::Index>(body * of.sources_of_body + load), column);
+      }
+  return loads;
+}
+
+/// Seconds of the processor that the ended processes of FreeFEM took. Unlike the time of a row, it
+/// hardly depends on what else the machine does.
+double cpu_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+/// Times of rows with all motions and strains over those of all motions alone, in turn plane and
+/// sphere. Both at the accuracy that shipped tables have.
+void measure_strains(int rows, std::uint64_t seed) {
+  constexpr double kOfTables = 1e-6;
+  const auto freefem = freefem_axi::default_freefem();
+  SplitMix64 random(seed);
+  std::vector<double> costs, ratios;
+  double largest_estimate = 0;
+  for (int n = 0; n < rows; ++n) {
+    auto tabulation = random_pair(random, 2 * n);
+    if (tabulation.geometry == "sphere") tabulation.geometry_parameters.resize(1);
+    tabulation.geometry_parameters.resize(tabulation.geometry == "sphere" ? 3 : 0);
+    tabulation.relative_accuracy = kOfTables;
+    const double gap = log_uniform(random, 1e-3, 5);
+    double start = cpu_seconds(), strains = 0;
+    (void)solve_row(freefem, tabulation, gap, 1);
+    for (const auto group : {MotionGroup::kAcross, MotionGroup::kAround})
+      (void)solve_motions(freefem, tabulation, group, gap);
+    const double motions = cpu_seconds() - start;
+    const auto exact = tabulation.geometry == "sphere"
+                           ? exact_pair_loads(1, tabulation.geometry_parameters.at(0), gap)
+                           : exact_loads_above_plane(1, gap);
+    std::string times;
+    for (const auto group :
+         {MotionGroup::kAlong, MotionGroup::kAcross, MotionGroup::kAround, MotionGroup::kTwofold}) {
+      start = cpu_seconds();
+      const auto loads = solve_pair_loads(freefem, tabulation, group, gap);
+      const double seconds = cpu_seconds() - start;
+      strains += seconds;
+      times += fmt::format(" {:.1f}", seconds);
+      largest_estimate = std::max(largest_estimate, loads.largest_relative_error);
+      const auto expected = exact_loads(exact, loads);
+      for (std::size_t i = 0; i < expected.size(); ++i)
+        ratios.push_back(std::abs(loads.loads[i] - expected[i]) / loads.errors[i]);
+    }
+    costs.push_back(strains / motions);
+    fmt::print("  {}, gap {:.4g}: motions {:.1f} s, with strains{} = {:.1f} s, {:.2f} times\n",
+               freefem_axi::geometry_in_words(tabulation), gap, motions, times, strains,
+               costs.back());
+  }
+  fmt::print(
+      "with strains over all motions: median {:.2f}, largest {:.2f}; {} loads: estimates over "
+      "the size at most {:.2g}, errors over their estimates: median {:.2g}, largest {:.2g}\n",
+      median(costs), std::ranges::max(costs), ratios.size(), largest_estimate, median(ratios),
+      std::ranges::max(ratios));
+}
+
 }  // namespace
 }  // namespace viscontact
 
@@ -108,7 +188,13 @@ void measure_motions(int rows, std::uint64_t seed) {
 // row whose cost is high, then sums over all entries, and the time of all motions over that of the
 // approach alone. The reference is the same row at a hundredth of the accuracy, whose own error was
 // checked above a plane against exact values (tests/freefem_axi/motions).
+// bench_motions strains [ROWS=6 [SEED=1]]: times of rows with strains.
 int main(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "strains") {
+    viscontact::measure_strains(argc > 2 ? std::atoi(argv[2]) : 6,
+                                argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1);
+    return 0;
+  }
   viscontact::measure_motions(argc > 1 ? std::atoi(argv[1]) : 12,
                               argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1);
 }

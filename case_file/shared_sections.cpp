@@ -177,10 +177,12 @@ void tabulation_keys(Keys& keys, Tabulation& tabulation) {
                  .example = "{ kind = \"plane\" }"});
   keys.optional(
       "motion",
-      custom("`\"approach\"`, `\"slide\"`, `\"roll\"`, `\"spin\"`, a list of these, or `\"all\"`",
+      custom("`\"approach\"`, `\"slide\"`, `\"roll\"`, `\"spin\"`, `\"axial_strain\"`, "
+             "`\"shear_strain\"`, `\"twofold_strain\"`, a list of these, or `\"all\"`",
              read_motions, tabulation),
       {"[motions](motions.md) that are tabulated; `\"all\"` are those that the geometry has. The "
-       "reference velocities are those of each motion, angular ones for roll and spin. `run` needs "
+       "reference velocities are those of each motion, angular ones for roll and spin, rates of "
+       "strain. `run` needs "
        "the approach alone",
        "`\"approach\"`",
        {},

@@ -54,9 +54,11 @@ RequiredSpace space_of_pair(double radius, double gap, Parameters parameters) {
   return {larger, gap + 4 * larger};
 }
 
-/// Motions about an axis have the ratio of angular velocities, the others that of velocities.
+/// Motions about an axis have the ratio of angular velocities, the others that of velocities; the
+/// neighbour feels no strain.
 double ratio_of_pair(MotionKind motion, Parameters parameters) {
   assert(parameters.size() > 2);
+  if (is_strain(motion)) return 0;
   return parameters[motion == MotionKind::kRoll || motion == MotionKind::kSpin ? 2 : 1];
 }
 
@@ -87,6 +89,10 @@ double leading_in_cavity(double radius, Parameters parameters) {
 
 constexpr std::array kAllMotions = {MotionKind::kApproach, MotionKind::kSlide, MotionKind::kRoll,
                                     MotionKind::kSpin};
+constexpr std::array kAllMotionsAndStrains = {MotionKind::kApproach,     MotionKind::kSlide,
+                                              MotionKind::kRoll,         MotionKind::kSpin,
+                                              MotionKind::kAxialStrain,  MotionKind::kShearStrain,
+                                              MotionKind::kTwofoldStrain};
 constexpr std::array kAlongAndAroundTheAxis = {MotionKind::kApproach, MotionKind::kSpin};
 
 double flat(Parameters) { return 0; }
@@ -109,7 +115,7 @@ constexpr std::array kGeometries = {
              .leading_factor = leading_of_plane,
              .required_space = space_above_floor,
              .has_exact_drag = true,
-             .motions = kAllMotions,
+             .motions = kAllMotionsAndStrains,
              .curvature = flat},
     Geometry{.name = "free_surface",
              .script = "free_surface.edp",
@@ -129,7 +135,7 @@ constexpr std::array kGeometries = {
              .leading_factor = leading_of_pair,
              .required_space = space_of_pair,
              .relative_cost = 2.5,
-             .motions = kAllMotions,
+             .motions = kAllMotionsAndStrains,
              .curvature = curvature_of_sphere},
     Geometry{.name = "cavity",
              .script = "cavity.edp",
@@ -179,9 +185,8 @@ std::vector<lubrication::MotionKind> parse_motions(const std::vector<std::string
   for (const auto& name : names) {
     const auto* known = find_named(lubrication::all_motions(), name);
     if (known == nullptr)
-      throw Error(ErrorKind::kBadInput,
-                  "is '{}'; it must be approach, slide, roll or spin, a list of these, or all",
-                  name);
+      throw Error(ErrorKind::kBadInput, "is '{}'; it must be one of {}, a list of these, or all",
+                  name, available);
     if (!has_motion(geometry, known->kind))
       throw Error(ErrorKind::kBadInput, "is {}; beside a {} a sphere has the motions {}", name,
                   geometry_name, available);

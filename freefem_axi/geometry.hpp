@@ -63,7 +63,8 @@ struct Geometry {
   double relative_cost = 1;
   /// The motions of the sphere that can be tabulated, in the order of MotionKind. The FreeFEM
   /// function that solves a motion must impose the neighbour's boundary condition: solveStokes
-  /// (approach), solveSwirl (spin) or solveSideways (slide, roll) in scripts/.
+  /// (approach), solveSwirl (spin) or solveSideways (slide, roll) in scripts/. With strains all of
+  /// them must, and solveTwofold; a neighbour that is no sphere is at rest.
   std::span<const lubrication::MotionKind> motions = kApproachAlone;
   /// 1 over the neighbour's radius [1/L]: 0 for a plane, < 0 for a cavity. Null: not known, and so
   /// are the leading coefficients of slide, roll and spin (lubrication/near_contact.hpp).
@@ -84,10 +85,9 @@ const Geometry& default_geometry();
 /// Whether it is one of geometry.motions.
 bool has_motion(const Geometry& geometry, lubrication::MotionKind motion);
 
-/// The motions with these names (approach, slide, roll, spin), in the order of MotionKind; the one
-/// name "all" stands for all motions of the geometry with the name `geometry`. Throws
-/// Error(kBadInput) for an unknown name, for a name that stands twice, for a motion that the
-/// geometry lacks, and for an unknown geometry.
+/// The motions with these names, in the order of MotionKind; the one name "all" stands for all
+/// motions of the geometry with the name `geometry`. Throws Error(kBadInput) for an unknown name,
+/// for a name that stands twice, for a motion that the geometry lacks, and for an unknown geometry.
 std::vector<lubrication::MotionKind> parse_motions(const std::vector<std::string>& names,
                                                    std::string_view geometry);
 

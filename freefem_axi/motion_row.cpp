@@ -112,6 +112,7 @@ double asymmetry(const Tabulation& tabulation, const std::vector<MotionRow>& row
 std::vector<MotionKind> motions_of(MotionGroup group) {
   if (group == MotionGroup::kAlong) return {MotionKind::kApproach};
   if (group == MotionGroup::kAround) return {MotionKind::kSpin};
+  if (group == MotionGroup::kTwofold) return {};
   return {MotionKind::kSlide, MotionKind::kRoll};
 }
 
@@ -124,7 +125,7 @@ std::vector<MotionRow> solve_motions(const FreeFem& freefem, const Tabulation& t
                                      MotionGroup group, double gap,
                                      const std::vector<std::string>& further_arguments,
                                      std::string* output) {
-  assert(group != MotionGroup::kAlong);
+  assert(group == MotionGroup::kAcross || group == MotionGroup::kAround);
   const auto start = std::chrono::steady_clock::now();
   auto scaled = tabulation;
   scaled.viscosity = 1;

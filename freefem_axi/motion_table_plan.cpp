@@ -10,6 +10,7 @@
 
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/freefem_axi/journal/make_plan.hpp"
+#include "viscontact/freefem_axi/pair_loads.hpp"
 #include "viscontact/lubrication/near_contact.hpp"
 
 namespace viscontact::freefem_axi {
@@ -18,10 +19,10 @@ namespace {
 using lubrication::MotionKind;
 using lubrication::MotionRow;
 
-// Revisions of the FreeFEM scripts for the approach and for the other motions. If a change of the
-// scripts alters results by more than their error estimates, raise the number: tables of the lower
-// number are then computed again.
-constexpr int kDragMethod = 3, kMotionMethod = 2;
+// Revisions of the FreeFEM scripts for the approach, for the other motions, and for tables with
+// strains. If a change of the scripts alters results by more than their error estimates, raise the
+// number: tables of the lower number are then computed again.
+constexpr int kDragMethod = 3, kMotionMethod = 2, kStrainMethod = 1;
 
 /// Times of rows, measured on two cores of 2.1 GHz with one row on each, at gaps of 0.01 and 0.3
 /// radii.
@@ -29,20 +30,34 @@ struct RowTimeTuning {
   // Seconds of a row in which a sphere approaches, slides and rolls, or spins, if the coarsest
   // meshes suffice.
   static constexpr double kAlong = 1.3, kAcross = 2.5, kAround = 0.6;
+  // The same with strains, whose flows have the same matrices; kTwofold has one strain.
+  static constexpr double kAlongStrained = 1.8, kAcrossStrained = 3.2, kTwofold = 2;
   // The coarsest meshes suffice for a relative accuracy of kKnee and more; for smaller values the
   // time grows as the power -kPower of the accuracy.
   static constexpr double kKnee = 1e-5, kPower = 0.45;
 };
 
+/// Whether the tables have stresslets, because strains are asked for.
+bool has_strains(const Tabulation& tabulation) {
+  return std::ranges::any_of(tabulation.motions, lubrication::is_strain);
+}
+
+/// The motions that FreeFEM solves for the group.
+std::vector<MotionKind> solved_motions(const Tabulation& tabulation, MotionGroup group) {
+  return has_strains(tabulation) ? motions_with_strains(group) : motions_of(group);
+}
+
 /// Everything that the numbers of the tables of a group depend on. With another text all tables
 /// that users have count as out of date and are computed again.
 std::string inputs_of(const Tabulation& tabulation, MotionGroup group) {
-  const bool along = group == MotionGroup::kAlong;
-  std::string text = fmt::format(
-      "{}{}; {}; {} {} {} {};", along ? "" : fmt::format("motion {}; ", static_cast<int>(group)),
-      geometry_in_words(tabulation), container_in_words(tabulation),
-      format_number(tabulation.viscosity), format_number(tabulation.radius),
-      format_number(tabulation.relative_accuracy), along ? kDragMethod : kMotionMethod);
+  const bool strains = has_strains(tabulation), along = group == MotionGroup::kAlong && !strains;
+  const int method = strains ? kStrainMethod : along ? kDragMethod : kMotionMethod;
+  std::string text =
+      fmt::format("{}{}{}; {}; {} {} {} {};", strains ? "strains; " : "",
+                  along ? "" : fmt::format("motion {}; ", static_cast<int>(group)),
+                  geometry_in_words(tabulation), container_in_words(tabulation),
+                  format_number(tabulation.viscosity), format_number(tabulation.radius),
+                  format_number(tabulation.relative_accuracy), method);
   for (const double gap : tabulation.gaps) text += " " + format_number(gap);
   text += ";";
   for (const double velocity : tabulation.reference_velocities)
@@ -52,11 +67,45 @@ std::string inputs_of(const Tabulation& tabulation, MotionGroup group) {
 
 /// The time of one row on one core [s].
 double typical_seconds(const Tabulation& tabulation, MotionGroup group) {
-  const double coarse = group == MotionGroup::kAlong    ? RowTimeTuning::kAlong
-                        : group == MotionGroup::kAcross ? RowTimeTuning::kAcross
-                                                        : RowTimeTuning::kAround;
-  return coarse * time_factor(tabulation.relative_accuracy) *
+  const bool strains = has_strains(tabulation);
+  const auto coarse = [&] {
+    switch (group) {
+      case MotionGroup::kAlong:
+        return strains ? RowTimeTuning::kAlongStrained : RowTimeTuning::kAlong;
+      case MotionGroup::kAcross:
+        return strains ? RowTimeTuning::kAcrossStrained : RowTimeTuning::kAcross;
+      case MotionGroup::kAround:
+        break;
+      case MotionGroup::kTwofold:
+        return RowTimeTuning::kTwofold;
+    }
+    return RowTimeTuning::kAround;
+  };
+  return coarse() * time_factor(tabulation.relative_accuracy) *
          find_geometry(tabulation.geometry).relative_cost;
+}
+
+/// Sets the leading factors of all loads by theory, but those that head_of() sets.
+void add_leading_loads(const Tabulation& tabulation, lubrication::TableHead& head) {
+  const auto& geometry = find_geometry(tabulation.geometry);
+  const auto [sphere, neighbour] = lubrication::leading_loads(
+      head.motion, tabulation.radius * geometry.curvature(tabulation.geometry_parameters));
+  // leading_loads() has q in sphere radii: the terms are 1/q, ln q, and q ln q (spin, twofold).
+  const bool is_axial = lubrication::is_axial(head.motion);
+  const bool is_weak =
+      head.motion == MotionKind::kSpin || head.motion == MotionKind::kTwofoldStrain;
+  const double unit = is_axial ? tabulation.radius : is_weak ? 1 / tabulation.radius : 1;
+  const auto set = [unit](std::optional<double>& member, const std::optional<double>& factor) {
+    if (factor) member = unit * *factor;
+  };
+  if (is_strain(head.motion)) {
+    set(head.leading_force_factor, sphere.force);
+    set(head.leading_torque_factor, sphere.torque);
+  }
+  set(head.leading_stresslet_factor, sphere.stresslet);
+  set(head.neighbour_leading_force_factor, neighbour.force);
+  set(head.neighbour_leading_torque_factor, neighbour.torque);
+  set(head.neighbour_leading_stresslet_factor, neighbour.stresslet);
 }
 
 /// With the leading coefficient of the resistance (approach) or the leading factors of force and
@@ -72,6 +121,8 @@ lubrication::TableHead head_of(const Tabulation& tabulation, MotionKind motion) 
   const double ratio = neighbour_ratio(tabulation, motion);
   head.neighbour_moves = ratio != 0;
   if (tabulation.motions.size() > 1) head.tabulated_motions = tabulation.motions;
+  if (has_strains(tabulation) && ratio == 0) add_leading_loads(tabulation, head);
+  if (is_strain(motion)) return head;
   if (motion == MotionKind::kApproach) {
     head.leading_coefficient = leading_coefficient(tabulation);
   } else if (geometry.curvature != nullptr) {
@@ -87,13 +138,14 @@ lubrication::TableHead head_of(const Tabulation& tabulation, MotionKind motion) 
   return head;
 }
 
-/// The row at another velocity. Its forces and torques are NaN, which complete() replaces by values
-/// from the factors.
+/// The row at another velocity. Its loads are NaN, which complete() replaces by values from the
+/// factors.
 MotionRow with_velocity(MotionRow row, double velocity) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   row.reference_velocity = velocity;
-  row.force = row.torque = kUnknown;
-  if (auto& other = row.neighbour) other->force = other->torque = kUnknown;
+  row.force = row.torque = row.stresslet = row.trace = kUnknown;
+  if (auto& other = row.neighbour)
+    other->force = other->torque = other->stresslet = other->trace = kUnknown;
   return row;
 }
 
@@ -104,7 +156,7 @@ double time_factor(double relative_accuracy) {
 }
 
 std::vector<MotionKind> asked_motions(const Tabulation& tabulation, MotionGroup group) {
-  auto asked = motions_of(group);
+  auto asked = solved_motions(tabulation, group);
   std::erase_if(asked, [&](MotionKind motion) {
     return std::ranges::find(tabulation.motions, motion) == tabulation.motions.end();
   });
@@ -113,7 +165,7 @@ std::vector<MotionKind> asked_motions(const Tabulation& tabulation, MotionGroup 
 
 std::vector<MotionGroup> motion_groups(const Tabulation& tabulation) {
   std::vector<MotionGroup> groups = {MotionGroup::kAlong, MotionGroup::kAcross,
-                                     MotionGroup::kAround};
+                                     MotionGroup::kAround, MotionGroup::kTwofold};
   std::erase_if(groups,
                 [&](MotionGroup group) { return asked_motions(tabulation, group).empty(); });
   return groups;
@@ -127,14 +179,17 @@ TablePlan motion_table_plan(const Tabulation& tabulation, MotionGroup group,
   parts.typical_seconds = typical_seconds(tabulation, group);
   const auto asked = asked_motions(tabulation, group);
   assert(!asked.empty());
-  for (const auto motion : motions_of(group)) {
+  const bool strains = has_strains(tabulation);
+  for (const auto motion : solved_motions(tabulation, group)) {
     const bool is_asked = std::ranges::find(asked, motion) != asked.end();
     auto& row = parts.rows.emplace_back(PlannedRow<MotionRow>{
         head_of(tabulation, motion), {}, is_asked, is_asked ? path_of(motion) : ""});
-    if (group != MotionGroup::kAlong && neighbour_is_sphere(tabulation))
+    if ((strains || group != MotionGroup::kAlong) && neighbour_is_sphere(tabulation))
       row.blank.neighbour.emplace();
+    row.blank.has_stresslets = strains;
+    row.blank.has_traces = strains && lubrication::is_axial(motion) && !tabulation.container;
   }
-  if (group == MotionGroup::kAlong) {
+  if (group == MotionGroup::kAlong && !strains) {
     for (const double velocity : tabulation.reference_velocities)
       for (const double gap : tabulation.gaps) parts.points.push_back({gap, velocity});
     parts.name_of = [](const RowPoint& point) {
@@ -148,8 +203,10 @@ TablePlan motion_table_plan(const Tabulation& tabulation, MotionGroup group,
   }
   for (const double gap : tabulation.gaps) parts.points.push_back({gap});
   parts.name_of = [](const RowPoint& point) { return "gap " + format_number(point.at(0)); };
-  parts.solve = [tabulation, group](const FreeFem& freefem, const RowPoint& point) {
-    return solve_motions(freefem, tabulation, group, point.at(0));
+  parts.solve = [tabulation, group, strains](const FreeFem& freefem, const RowPoint& point) {
+    const double gap = point.at(0);
+    return strains ? rows_of(tabulation, solve_pair_loads(freefem, tabulation, group, gap), gap)
+                   : solve_motions(freefem, tabulation, group, gap);
   };
   parts.arrange = [tabulation](const PlanParts<MotionRow>::Computed& computed) {
     std::vector<MotionRow> rows;

@@ -1,5 +1,5 @@
-// Plans of the tables of one sphere that approaches its neighbour, slides, rolls or spins. The
-// numbers in a table do not depend on which other tables are made with it.
+// Plans of the tables of one sphere that approaches its neighbour, slides, rolls, spins or feels a
+// strain. The numbers of a table depend on which others are made with it by their errors only.
 #pragma once
 
 #include <filesystem>
@@ -18,22 +18,23 @@ double time_factor(double relative_accuracy);
 /// The groups with at least one of tabulation.motions, in the order of MotionGroup.
 std::vector<MotionGroup> motion_groups(const Tabulation& tabulation);
 
-/// The motions of the group that are among tabulation.motions, in the order of motions_of().
+/// The motions of the group that are among tabulation.motions, in the order of MotionKind.
 std::vector<lubrication::MotionKind> asked_motions(const Tabulation& tabulation, MotionGroup group);
 
 /// The path of the table of a motion.
 using TablePath = std::function<std::filesystem::path(lubrication::MotionKind)>;
 
 /// The plan of the tables of a group that has at least one of tabulation.motions. Slide and roll
-/// form one group and are both solved, even if only one of their tables is asked for. The plan
-/// itself writes the table of the first asked motion, to the path that its caller gives. If the
-/// table of the other motion is asked for, it is a companion of the plan, with the path
-/// `path_of(motion)`. A table has for each velocity all gaps, both in the order of `tabulation`. A
-/// point is a gap and a velocity for the approach; for the other motions it is a gap alone, because
-/// force and torque are proportional to the velocity. Throws Error(kBadInput) for an unknown
+/// form one group and are both solved, even if only one of their tables is asked for. If a strain
+/// is asked for, solve_pair_loads() makes all tables, and they have stresslets. The plan itself
+/// writes the table of the first asked motion, to the path that its caller gives. If tables of
+/// other motions are asked for, they are companions of the plan, with the paths `path_of(motion)`.
+/// A table has for each velocity all gaps, both in the order of `tabulation`. A point is a gap and
+/// a velocity for the approach without strains; otherwise it is a gap alone, because loads are
+/// proportional to the velocity. Throws Error(kBadInput) for an unknown
 /// geometry, and std::out_of_range if geometry_parameters are missing. TablePlan::solve throws
 /// Error(kExternalProgram) if FreeFEM fails, Error(kBadInput) if a double cannot hold the force of
-/// an approach, and Error(kInterrupted) at a stop.
+/// an approach without strains, and Error(kInterrupted) at a stop.
 TablePlan motion_table_plan(const Tabulation& tabulation, MotionGroup group,
                             const TablePath& path_of);
 

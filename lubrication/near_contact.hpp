@@ -2,6 +2,7 @@
 // its neighbour, by lubrication theory (docs/physics.md (2.9) to (2.11)).
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "viscontact/lubrication/table.hpp"
@@ -31,5 +32,20 @@ struct LeadingFactors {
 /// The coefficients for the motions kSlide, kRoll and kSpin, with q in sphere radii (Goldman, Cox &
 /// Brenner 1967 for a plane; Jeffrey & Onishi 1984 for two spheres). The approach has no such term.
 LeadingFactors leading_factors(MotionKind motion, const NeighbourSurface& neighbour);
+
+/// The coefficients of the most singular term in the factors of a body; nothing for a load that is
+/// 0 by symmetry.
+struct ActionFactors {
+  std::optional<double> force, torque, stresslet;
+};
+
+/// Of a sphere and of its neighbour at rest, by pair_near_contact.hpp, whose term is 1/q in axial
+/// flows, ln q across the axis, and q ln q in the other ones, with q in sphere radii. `curvature`
+/// is the radius of the sphere over that of the neighbour [1], >= 0; the neighbour has none if it
+/// is 0.
+struct LeadingLoads {
+  ActionFactors sphere, neighbour;
+};
+LeadingLoads leading_loads(MotionKind motion, double curvature);
 
 }  // namespace viscontact::lubrication

@@ -13,11 +13,24 @@ namespace viscontact::lubrication {
 namespace {
 
 // The order is that of MotionKind.
-constexpr std::array kMotions = {
-    NamedMotion{"approach", MotionKind::kApproach}, NamedMotion{"slide", MotionKind::kSlide},
-    NamedMotion{"roll", MotionKind::kRoll}, NamedMotion{"spin", MotionKind::kSpin}};
+constexpr std::array kMotions = {NamedMotion{"approach", MotionKind::kApproach},
+                                 NamedMotion{"slide", MotionKind::kSlide},
+                                 NamedMotion{"roll", MotionKind::kRoll},
+                                 NamedMotion{"spin", MotionKind::kSpin},
+                                 NamedMotion{"axial_strain", MotionKind::kAxialStrain},
+                                 NamedMotion{"shear_strain", MotionKind::kShearStrain},
+                                 NamedMotion{"twofold_strain", MotionKind::kTwofoldStrain}};
 
 }  // namespace
+
+bool is_strain(MotionKind motion) {
+  return motion == MotionKind::kAxialStrain || motion == MotionKind::kShearStrain ||
+         motion == MotionKind::kTwofoldStrain;
+}
+
+bool is_axial(MotionKind motion) {
+  return motion == MotionKind::kApproach || motion == MotionKind::kAxialStrain;
+}
 
 std::span<const NamedMotion> all_motions() { return kMotions; }
 
@@ -58,7 +71,14 @@ struct OptionalNumber {
 const std::array kOptionalNumbers = {
     OptionalNumber{"leading_coefficient", &TableHead::leading_coefficient, true},
     OptionalNumber{"leading_force_factor", &TableHead::leading_force_factor, false},
-    OptionalNumber{"leading_torque_factor", &TableHead::leading_torque_factor, false}};
+    OptionalNumber{"leading_torque_factor", &TableHead::leading_torque_factor, false},
+    OptionalNumber{"leading_stresslet_factor", &TableHead::leading_stresslet_factor, false},
+    OptionalNumber{"neighbour_leading_force_factor", &TableHead::neighbour_leading_force_factor,
+                   false},
+    OptionalNumber{"neighbour_leading_torque_factor", &TableHead::neighbour_leading_torque_factor,
+                   false},
+    OptionalNumber{"neighbour_leading_stresslet_factor",
+                   &TableHead::neighbour_leading_stresslet_factor, false}};
 
 /// A line "# key: text" of the head, whose text may be empty.
 struct Text {
@@ -95,7 +115,7 @@ TableHead read_head(const std::string& text, const std::string& file, bool is_of
   auto lines = read_csv_comments(text, &contradictions);
   for (const auto& key : contradictions)
     if (key == "motion" || key == "viscosity" || key.starts_with("radi") ||
-        key.starts_with("leading_"))
+        key.starts_with("leading_") || key.starts_with("neighbour_leading_"))
       throw_bad_input({file, 0, key},
                       "# {}: stands twice with different values; it must stand once", key);
   const auto number = [&](const std::string& key, bool is_positive) {
@@ -113,8 +133,10 @@ TableHead read_head(const std::string& text, const std::string& file, bool is_of
       return with_place("# motion", [&] { return parse_motion(lines["motion"]); });
     });
   else if (lines["viscontact"] == kMotionTable)
-    throw_bad_input({file, 0, "motion"},
-                    "has no line '# motion: ...'; it must name slide, roll or spin");
+    throw_bad_input({file, 0, "motion"}, "has no line '# motion: ...'; it must name one of {}",
+                    motions_in_words({MotionKind::kSlide, MotionKind::kRoll, MotionKind::kSpin,
+                                      MotionKind::kAxialStrain, MotionKind::kShearStrain,
+                                      MotionKind::kTwofoldStrain}));
   head.viscosity = number("viscosity", true);
   if (!is_of_line) head.radius = number("radius", true);
   for (const auto& [key, member, is_positive] : kOptionalNumbers)

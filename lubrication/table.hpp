@@ -16,15 +16,31 @@ namespace viscontact::lubrication {
 
 /// The motion of a sphere. The z axis goes from the neighbour through the centre of the sphere, the
 /// axes x and y are at right angles to it. With kApproach the sphere approaches or leaves along z.
-/// With kSlide it moves along x, with kRoll it turns about y, with kSpin about z.
-enum class MotionKind { kApproach, kSlide, kRoll, kSpin };
+/// With kSlide it moves along x, with kRoll it turns about y, with kSpin about z. With a strain
+/// sphere and neighbour are at rest, and the sphere alone feels an undisturbed flow E.(x - centre):
+/// its surface has the opposite velocity. The rate of strain e [1/T] is E_zz = e, E_xx = E_yy =
+/// -e/2 (kAxialStrain), E_xz = E_zx = e (kShearStrain), or E_xx = -E_yy = e (kTwofoldStrain).
+enum class MotionKind {
+  kApproach,
+  kSlide,
+  kRoll,
+  kSpin,
+  kAxialStrain,
+  kShearStrain,
+  kTwofoldStrain
+};
+
+bool is_strain(MotionKind motion);
+/// Whether the flow is symmetric about the axis and has no swirl: the approach and the axial
+/// strain.
+bool is_axial(MotionKind motion);
 
 struct NamedMotion {
   std::string_view name;  ///< in case files and tables; the table of "slide" is slide.csv
   MotionKind kind;
 };
 
-/// The motions in the order of MotionKind: approach, slide, roll, spin.
+/// The motions in the order of MotionKind.
 std::span<const NamedMotion> all_motions();
 
 std::string_view to_string(MotionKind motion);
@@ -55,9 +71,14 @@ struct TableHead {
   /// Theory's coefficient k [M L/T] > 0 in the resistance -force/velocity = k/q + ... of the
   /// approach at a small gap q; nothing if not known.
   std::optional<double> leading_coefficient;
-  /// Theory's coefficient of ln q (sliding, rolling) or q ln q (spinning) in the force factor and
-  /// in the torque factor of MotionRow (motion_table.hpp), with q in the unit of the table.
+  /// Theory's coefficient of 1/q (axial strain), ln q (sliding, rolling, shear strain) or q ln q
+  /// (spinning) in the force factor and in the torque factor of MotionRow (motion_table.hpp), with
+  /// q in the unit of the table.
   std::optional<double> leading_force_factor, leading_torque_factor;
+  /// The same of the term 1/q (approach, axial strain), ln q (slide, roll, shear strain) or q ln q
+  /// (spin, twofold strain) in the stresslet factor, and in the factors of the neighbour.
+  std::optional<double> leading_stresslet_factor, neighbour_leading_force_factor,
+      neighbour_leading_torque_factor, neighbour_leading_stresslet_factor;
   std::string case_hash;  ///< SHA-256 of the inputs of the computation; may be empty
   std::map<std::string, std::string> versions;  ///< program name to version
   /// The motions that were asked for together, each of which has a table of its own; empty if this

@@ -38,32 +38,89 @@ const std::vector<PairBasis>& bases_of_pairs() {
 }  // namespace
 
 std::span<const NamedEntry> pair_entries() {
-  static const std::vector<NamedEntry> entries = {{"squeeze",
-                                                   "F_z = -squeeze u_z: the sphere approaches",
-                                                   {},
-                                                   lubrication::kLeadingTerm,
-                                                   lubrication::FittedShape::kDrag},
-                                                  {"slide",
-                                                   "F_x = -slide u: it moves along x",
-                                                   {"1/q"},
-                                                   "ln q",
-                                                   lubrication::FittedShape::kPositive},
-                                                  {"roll",
-                                                   "T_y = -roll w: it turns about y",
-                                                   {"1/q"},
-                                                   "ln q",
-                                                   lubrication::FittedShape::kPositive},
-                                                  {"slide_roll",
-                                                   "T_y = slide_roll u and F_x = slide_roll w",
-                                                   {"1/q"},
-                                                   "ln q",
-                                                   lubrication::FittedShape::kAny},
-                                                  {"spin",
-                                                   "T_z = -spin w_z: it turns about z",
-                                                   {"1/q", "ln q"},
-                                                   "q ln q",
-                                                   lubrication::FittedShape::kPositive}};
+  using enum lubrication::FittedShape;
+  using enum lubrication::MotionKind;
+  using enum PairLoad;
+  // The flows of an azimuthal mode have the same terms near contact.
+  const std::vector<std::string_view> kAxial = {}, kAcross = {"1/q"}, kWeak = {"1/q", "ln q"};
+  constexpr std::string_view k1 = lubrication::kLeadingTerm, kLn = "ln q", kQLn = "q ln q";
+  constexpr bool kSelf = false, kOther = true;
+  // clang-format off
+  static const std::vector<NamedEntry> entries = {
+      {"squeeze", "F_z = -squeeze u_z: the sphere approaches",
+       kAxial, k1, kDrag, kApproach, kForce, kSelf, 1, {"X^A_11", 1, 3, 1}},
+      {"slide", "F_x = -slide u: it moves along x",
+       kAcross, kLn, kPositive, kSlide, kForce, kSelf, 1, {"Y^A_11", 1, 3, 1}},
+      {"roll", "T_y = -roll w: it turns about y",
+       kAcross, kLn, kPositive, kRoll, kTorque, kSelf, 3, {"Y^C_11", 1, 1, 3}},
+      {"slide_roll", "T_y = slide_roll u and F_x = slide_roll w",
+       kAcross, kLn, kAny, kSlide, kTorque, kSelf, 2, {"Y^B_11", -1, 1, 2}},
+      {"spin", "T_z = -spin w_z: it turns about z",
+       kWeak, kQLn, kPositive, kSpin, kTorque, kSelf, 3, {"X^C_11", 1, 1, 3}},
+      {"squeeze_stress", "S_zz = squeeze_stress u_z and F_z = -3/2 squeeze_stress E_zz",
+       kAxial, k1, kAny, kApproach, kStresslet, kSelf, 2, {"X^G_11", 3, 2, 2}},
+      {"slide_stress", "S_xz = slide_stress u and F_x = -2 slide_stress E_xz",
+       kAcross, kLn, kAny, kSlide, kStresslet, kSelf, 2, {"Y^G_11", 1, 1, 2}},
+      {"roll_stress", "S_xz = roll_stress w and T_y = -2 roll_stress E_xz",
+       kAcross, kLn, kAny, kRoll, kStresslet, kSelf, 3, {"Y^H_11", -1, 1, 3}},
+      {"axial_strain", "S_zz = axial_strain E_zz, E_xx = E_yy = -E_zz/2",
+       kAxial, k1, kPositive, kAxialStrain, kStresslet, kSelf, 3, {"X^M_11", 6, 5, 3}},
+      {"shear_strain", "S_xz = shear_strain E_xz",
+       kAcross, kLn, kPositive, kShearStrain, kStresslet, kSelf, 3, {"Y^M_11", 6, 5, 3}},
+      {"twofold_strain", "S_xx = twofold_strain E_xx, S_yy = -S_xx, E_yy = -E_xx",
+       kWeak, kQLn, kPositive, kTwofoldStrain, kStresslet, kSelf, 3, {"Z^M_11", 6, 5, 3}},
+      {"squeeze_trace", "trace of the moment of the traction = squeeze_trace u_z",
+       kAxial, k1, kAny, kApproach, kTrace, kSelf, 2, {}},
+      {"axial_trace", "trace of the moment of the traction = axial_trace E_zz",
+       kAxial, k1, kAny, kAxialStrain, kTrace, kSelf, 3, {}},
+      {"neighbour_squeeze", "F_z on the neighbour = -neighbour_squeeze u_z",
+       kAxial, k1, kAny, kApproach, kForce, kOther, 1, {"X^A_21", 1, 3, 1}},
+      {"neighbour_slide", "F_x on the neighbour = -neighbour_slide u",
+       kAcross, kLn, kAny, kSlide, kForce, kOther, 1, {"Y^A_21", 1, 3, 1}},
+      {"neighbour_slide_torque", "T_y on the neighbour = -neighbour_slide_torque u",
+       kAcross, kLn, kAny, kSlide, kTorque, kOther, 2, {"Y^B_21", 1, 1, 2}},
+      {"neighbour_roll_force", "F_x on the neighbour = -neighbour_roll_force w",
+       kAcross, kLn, kAny, kRoll, kForce, kOther, 2, {"Y^B_12", 1, 1, 2}},
+      {"neighbour_roll", "T_y on the neighbour = -neighbour_roll w",
+       kAcross, kLn, kAny, kRoll, kTorque, kOther, 3, {"Y^C_21", 1, 1, 3}},
+      {"neighbour_spin", "T_z on the neighbour = -neighbour_spin w_z",
+       kWeak, kQLn, kAny, kSpin, kTorque, kOther, 3, {"X^C_21", 1, 1, 3}},
+      {"neighbour_squeeze_stress", "S_zz of the neighbour = neighbour_squeeze_stress u_z",
+       kAxial, k1, kAny, kApproach, kStresslet, kOther, 2, {"X^G_21", 3, 2, 2}},
+      {"neighbour_slide_stress", "S_xz of the neighbour = neighbour_slide_stress u",
+       kAcross, kLn, kAny, kSlide, kStresslet, kOther, 2, {"Y^G_21", 1, 1, 2}},
+      {"neighbour_roll_stress", "S_xz of the neighbour = neighbour_roll_stress w",
+       kAcross, kLn, kAny, kRoll, kStresslet, kOther, 3, {"Y^H_21", -1, 1, 3}},
+      {"neighbour_axial_force", "F_z on the neighbour = -neighbour_axial_force E_zz",
+       kAxial, k1, kAny, kAxialStrain, kForce, kOther, 2, {"X^G_12", 1, 1, 2}},
+      {"neighbour_shear_force", "F_x on the neighbour = -neighbour_shear_force E_xz",
+       kAcross, kLn, kAny, kShearStrain, kForce, kOther, 2, {"Y^G_12", 1, 2, 2}},
+      {"neighbour_shear_torque", "T_y on the neighbour = -neighbour_shear_torque E_xz",
+       kAcross, kLn, kAny, kShearStrain, kTorque, kOther, 3, {"Y^H_12", -1, 2, 3}},
+      {"neighbour_axial_strain", "S_zz of the neighbour = neighbour_axial_strain E_zz",
+       kAxial, k1, kAny, kAxialStrain, kStresslet, kOther, 3, {"X^M_21", 6, 5, 3}},
+      {"neighbour_shear_strain", "S_xz of the neighbour = neighbour_shear_strain E_xz",
+       kAcross, kLn, kAny, kShearStrain, kStresslet, kOther, 3, {"Y^M_21", 6, 5, 3}},
+      {"neighbour_twofold_strain", "S_xx of the neighbour = neighbour_twofold_strain E_xx",
+       kWeak, kQLn, kAny, kTwofoldStrain, kStresslet, kOther, 3, {"Z^M_21", 6, 5, 3}},
+      {"neighbour_squeeze_trace", "trace of the moment on the neighbour = neighbour_squeeze_trace u_z",
+       kAxial, k1, kAny, kApproach, kTrace, kOther, 2, {}},
+      {"neighbour_axial_trace", "trace of the moment on the neighbour = neighbour_axial_trace E_zz",
+       kAxial, k1, kAny, kAxialStrain, kTrace, kOther, 3, {}},
+  };
+  // clang-format on
   return entries;
+}
+
+std::string function_in_words(const NamedEntry& entry) {
+  const auto& [name, numerator, denominator, power] = entry.function;
+  if (name.empty()) return "";
+  const std::string front = numerator == 1    ? ""
+                            : numerator == -1 ? "-"
+                                              : fmt::format("{} ", numerator);
+  return fmt::format("{} = {}{}/({}pi mu s{})", name, front, entry.name,
+                     denominator == 1 ? "" : fmt::format("{} ", denominator),
+                     power == 1 ? "" : fmt::format("^{}", power));
 }
 
 std::vector<std::string_view> pair_bases() {
@@ -102,11 +159,7 @@ PairFit scaled_to(PairFit fit, double viscosity, double radius) {
   const double ratio = radius / fit.radius;
   const bool has_radius = equal_up_to_rounding(radius, fit.radius);
   for (auto& [entry, one] : fit.entries) {
-    // The power of the radius in a force per velocity (1), a torque per velocity (2), and a torque
-    // per angular velocity (3).
-    const int power = entry == PairEntry::kSqueeze || entry == PairEntry::kSlide ? 1
-                      : entry == PairEntry::kSlideRoll                           ? 2
-                                                                                 : 3;
+    const int power = pair_entries()[static_cast<std::size_t>(entry)].power;
     if (one.theory && !has_radius) {
       const auto term = pair_entries()[static_cast<std::size_t>(entry)].leading_term;
       *one.theory *= std::pow(ratio, power) * lubrication::scale_of_term(term, ratio);

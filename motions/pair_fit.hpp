@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/table.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact::motions {
@@ -22,7 +23,53 @@ namespace viscontact::motions {
 /// [M L/T^2] and torques T [M L^2/T^2] on the sphere:
 ///   F_z = -squeeze u_z,            F_x = -slide u + slide_roll w,
 ///   T_y = slide_roll u - roll w,   T_z = -spin w_z.
-enum class PairEntry { kSqueeze, kSlide, kRoll, kSlideRoll, kSpin };
+/// The other entries come from tables with stresslets (lubrication/motion_table.hpp): the
+/// stresslets and traces of the sphere, and all loads on its neighbour, by motions and strains of
+/// the sphere. The reciprocal theorem gives the other loads (docs/pairs.md).
+enum class PairEntry {
+  kSqueeze,
+  kSlide,
+  kRoll,
+  kSlideRoll,
+  kSpin,
+  kSqueezeStress,
+  kSlideStress,
+  kRollStress,
+  kAxialStrain,
+  kShearStrain,
+  kTwofoldStrain,
+  kSqueezeTrace,
+  kAxialTrace,
+  kNeighbourSqueeze,
+  kNeighbourSlide,
+  kNeighbourSlideTorque,
+  kNeighbourRollForce,
+  kNeighbourRoll,
+  kNeighbourSpin,
+  kNeighbourSqueezeStress,
+  kNeighbourSlideStress,
+  kNeighbourRollStress,
+  kNeighbourAxialForce,
+  kNeighbourShearForce,
+  kNeighbourShearTorque,
+  kNeighbourAxialStrain,
+  kNeighbourShearStrain,
+  kNeighbourTwofoldStrain,
+  kNeighbourSqueezeTrace,
+  kNeighbourAxialTrace
+};
+
+/// A load in a table of a motion or strain.
+enum class PairLoad { kForce, kTorque, kStresslet, kTrace };
+
+/// A scalar function of Jeffrey & Onishi 1984 and Jeffrey 1992, in which the sphere is sphere 1 and
+/// its neighbour sphere 2, and the unit vector of all goes from 1 to 2: it is numerator/denominator
+/// times the entry, over pi mu s^power. s is 2 r for the indices 11, and the sum of both radii for
+/// 12 and 21.
+struct JeffreyFunction {
+  std::string_view name;  ///< such as "X^A_11"; empty for a trace
+  int numerator = 1, denominator = 1, power = 1;
+};
 
 /// What the fits of a resistance may contain.
 struct NamedEntry {
@@ -33,10 +80,21 @@ struct NamedEntry {
   std::string_view leading_term;  ///< the most singular term near contact, by lubrication theory
   /// The shape that the fitted entry must have; another one gives a warning.
   lubrication::FittedShape shape;
+  /// The entry is -force/v, -torque/v, +stresslet/v or +trace/v in the table of `motion` with the
+  /// velocity or rate v, of the neighbour if `of_neighbour`. slide_roll also has -1 times this.
+  lubrication::MotionKind motion;
+  PairLoad load;
+  bool of_neighbour;
+  /// The power of the length in its unit M L^(power - 1)/T: 1 to 3.
+  int power;
+  JeffreyFunction function;
 };
 
 /// All entries, in the order of PairEntry.
 std::span<const NamedEntry> pair_entries();
+
+/// Such as "X^G_11 = 3 squeeze_stress/(2 pi mu s^2)"; empty for a trace.
+std::string function_in_words(const NamedEntry& entry);
 
 /// The basis that is fitted if the user chooses none. Another one would change the fits of all
 /// users who choose none.
@@ -55,7 +113,7 @@ lubrication::Basis basis_of_entry(const NamedEntry& entry, std::string_view name
 
 struct EntryFit {
   /// A fit at the reference velocity -1, so that its sum of coefficients times terms is the
-  /// resistance itself: [M/T] squeeze and slide, [M L/T] slide_roll, [M L^2/T] roll and spin.
+  /// resistance itself, in the unit that NamedEntry::power says.
   lubrication::Fit fit;
   /// The coefficient of NamedEntry::leading_term by lubrication theory, in the unit of the entry
   /// over that of the term; nothing if it is not known.

@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/lubrication/pair_resistance.hpp"
 #include "viscontact/lubrication/scaling.hpp"
 #include "viscontact/motions/fit/fit_pair.hpp"
 #include "viscontact/motions/job/pair_fit_stage.hpp"
@@ -299,7 +302,8 @@ z [L/T] and the angular velocities w about y, w_z about z [1/T], the fluid exert
   F_z = -squeeze u_z,            F_x = -slide u + slide_roll w,
   T_y = slide_roll u - roll w,   T_z = -spin w_z.
 
-A gap is a number or an array of any shape; the answer has the same shape. Outside the interval the
+A fit of tables with strains also has the stresslets S of the sphere, and the loads on a neighbour that
+is a sphere. A gap is a number or an array of any shape; the answer has the same shape. Outside the interval the
 formula goes on.)");
   pair.def(py::init([](const fs::path& path, const std::optional<double>& radius,
                        const std::optional<double>& viscosity) {
@@ -310,7 +314,7 @@ formula goes on.)");
            }),
            py::arg("path"), py::kw_only(), py::arg("radius") = py::none(),
            py::arg("viscosity") = py::none());
-  const std::array dimensions = {"[M/T]", "[M/T]", "[M L^2/T]", "[M L/T]", "[M L^2/T]"};
+  const std::array dimensions = {"[M/T]", "[M L/T]", "[M L^2/T]"};
   for (std::size_t e = 0; e < motions::pair_entries().size(); ++e) {
     const auto& named = motions::pair_entries()[e];
     const auto entry = static_cast<motions::PairEntry>(e);
@@ -319,7 +323,9 @@ formula goes on.)");
         [entry](const PairFit& fit, const Doubles& gap) {
           return mapped(gap, [&](double q) { return motions::entry_value(fit, entry, q); });
         },
-        fmt::format("{} {} at gaps [L].", named.description, dimensions[e]).c_str(),
+        fmt::format("{} {} at gaps [L].", named.description,
+                    dimensions.at(static_cast<std::size_t>(named.power - 1)))
+            .c_str(),
         py::arg("gap"));
   }
   pair.def(
@@ -352,6 +358,27 @@ formula goes on.)");
                            fit.geometry, fit.radius, fit.viscosity, fit.gap_interval[0],
                            fit.gap_interval[1]);
       });
+}
+
+/// The matrices of pairs in an array of the shape of the arguments, combined as NumPy does, and 22
+/// by 22.
+py::array pair_resistances(const py::object& radius1, const py::object& radius2,
+                           const py::object& gap, double viscosity) {
+  const py::sequence same =
+      py::module_::import("numpy").attr("broadcast_arrays")(radius1, radius2, gap);
+  const Doubles one = same[0].cast<Doubles>(), two = same[1].cast<Doubles>(),
+                gaps = same[2].cast<Doubles>();
+  constexpr auto kComponents = lubrication::kPairComponents;
+  std::vector<py::ssize_t> shape(gaps.shape(), gaps.shape() + gaps.ndim());
+  shape.insert(shape.end(), 2, static_cast<py::ssize_t>(kComponents));
+  Doubles matrices(shape);
+  const auto count = static_cast<std::size_t>(gaps.size());
+  const std::span<const double> of_one(one.data(), count), of_two(two.data(), count),
+      of_gap(gaps.data(), count);
+  const std::span to(matrices.mutable_data(), count * kComponents * kComponents);
+  const py::gil_scoped_release released;
+  lubrication::pair_resistances(of_one, of_two, of_gap, viscosity, to);
+  return matrices;
 }
 
 }  // namespace
@@ -387,6 +414,22 @@ Returns a PairFit.)",
              py::arg("tables"), py::kw_only(),
              py::arg("basis") = std::string(motions::kDefaultPairBasis), py::arg("loss") = "none",
              py::arg("output") = py::none());
+  module.def("pair_resistance", &pair_resistances, py::arg("radius1"), py::arg("radius2"),
+             py::arg("gap"), py::arg("viscosity") = 1.0,
+             R"(The resistance of two spheres in unbounded Stokes flow to all motions and strains.
+
+radius1, radius2  radii [L], within a factor of 10 of each other
+gap               distance of the surfaces [L], > 0
+viscosity         of the fluid [M/(L T)]
+
+Radii and gaps are numbers or arrays, whose shapes are combined as NumPy does. Returns an array with
+two further dimensions of 22: the symmetric, positive definite matrix R with loads = R components. The
+axis z goes from sphere 1 to sphere 2. The components of sphere 1, and then those of sphere 2, are
+    velocity x, y, z; angular velocity x, y, z, each less that of the undisturbed flow at the centre;
+    its strain rate E = e1 (zz - 1/3) sqrt(3/2)
+        + (e2 (xz + zx) + e3 (yz + zy) + e4 (xx - yy) + e5 (xy + yx))/sqrt(2).
+The loads are force and torque of the sphere on the fluid, and its stresslet in the basis of E. The
+error of R_ij is below 2e-5 sqrt(R_ii R_jj).)");
   module.def("_tabulate", &tabulate, py::arg("case"), py::arg("output"), py::arg("jobs"),
              py::arg("motions"));
 }

@@ -65,9 +65,9 @@ std::vector<std::string> motion_words(const TabulateOptions& o) {
 /// Reads the cases. For one case of one motion, `output` is the file of the table; for one case of
 /// several motions it is a folder with a table MOTION.csv for each. For several cases it is a
 /// folder with CASE.csv or CASE/MOTION.csv, where CASE is the name of the case file without its
-/// ending. The names in `motions` (approach, slide, roll, spin, or all), if any, replace the key
-/// `motion` of the cases. Throws Error(kWrongUsage) if two tables would have the same name, and
-/// Error(kBadInput) if a case has neither [tabulation] nor [swimmer].
+/// ending. The names in `motions`, if any, replace the key `motion` of the cases. Throws
+/// Error(kWrongUsage) if two tables would have the same name, and Error(kBadInput) if a case has
+/// neither [tabulation] nor [swimmer].
 std::vector<pipeline::CaseTable> read_case_tables(const std::vector<std::string>& case_files,
                                                   const std::filesystem::path& output,
                                                   const std::vector<std::string>& motions) {
@@ -113,6 +113,13 @@ std::vector<pipeline::CaseTable> read_case_tables(const std::vector<std::string>
   return tables;
 }
 
+/// The motions whose flows are drawn: those without strain.
+auto pictured(const pipeline::CaseTable& one) {
+  auto motions = one.motions;
+  std::erase_if(motions, [](const auto& motion) { return lubrication::is_strain(motion.first); });
+  return motions;
+}
+
 /// If only some rows fail, their error is thrown when all other work is done.
 void tabulate_cases(const TabulateOptions& o) {
   check_array_options(o.array);
@@ -134,7 +141,7 @@ void tabulate_cases(const TabulateOptions& o) {
                     one.case_path.string());
       pictures.push_back(
           with_place("--plot", [&] { return pipeline::gaps_to_picture(*one.tabulation, gaps); }));
-      for (const auto& [motion, table] : one.motions)
+      for (const auto& [motion, table] : pictured(one))
         pipeline::check_pictures(pictures.back(), pipeline::picture_folder(table));
     }
   if (o.dry_run) {
@@ -158,7 +165,7 @@ void tabulate_cases(const TabulateOptions& o) {
   else
     failure = pipeline::tabulate_stage(tables, o.jobs, interrupt_token());
   for (std::size_t i = 0; i < pictures.size(); ++i)
-    for (const auto& [motion, table] : tables[i].motions)
+    for (const auto& [motion, table] : pictured(tables[i]))
       pipeline::picture_stage(*tables[i].tabulation, motion, pictures[i],
                               pipeline::picture_folder(table), tables[i].case_path,
                               interrupt_token());
@@ -176,8 +183,10 @@ void add_tabulate(CLI::App& app) {
             "table to write (CSV); for several motions, a folder in which each gets MOTION.csv; "
             "for several cases, a folder in which each gets CASE.csv or CASE/MOTION.csv")
       ->required();
-  add_value(*command, "--motion", o->motions, "MOTION,...",
-            "approach, slide, roll, spin, or all: motions in place of the cases' own")
+  add_value(
+      *command, "--motion", o->motions, "MOTION,...",
+      "approach, slide, roll, spin, axial_strain, shear_strain, twofold_strain, or all: motions "
+      "in place of the cases' own")
       ->delimiter(',');
   o->jobs_option = add_jobs(*command, o->jobs,
                             "number of FreeFEM processes at once; default in each Slurm task: 1");

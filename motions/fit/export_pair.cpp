@@ -42,6 +42,13 @@ std::vector<std::string> facts_of_pair(const PairFit& fit, std::string_view sour
                     "the table at most {:.3g}.",
                     named(entry).name, one.fit.basis, one.fit.largest_relative_residual,
                     one.fit.diagnostics ? one.fit.diagnostics->largest_error_estimate : 0));
+  lines.emplace_back(
+      "Functions of Jeffrey & Onishi 1984 and Jeffrey 1992: the sphere is sphere 1, its");
+  lines.emplace_back("neighbour sphere 2, and the unit vector of all goes from 1 to 2. With the");
+  lines.emplace_back("radii r and r_2, s is 2 r for the indices 11, and r + r_2 for 12 and 21.");
+  for (const auto& [entry, one] : fit.entries)
+    if (const auto words = function_in_words(named(entry)); !words.empty())
+      lines.push_back(words + ".");
   if (!source.empty()) lines.push_back(fmt::format("Exported from the fit in {}.", source));
   return fitting::on_lines_of_comments(std::move(lines));
 }

@@ -168,6 +168,64 @@ EntryTable coupling_entry(const MotionTable& pair, const PairTables& tables) {
   return entry;
 }
 
+/// The entry that motions without strains determine.
+bool is_of_motions(PairEntry which) { return which <= PairEntry::kSpin; }
+
+double own_factor(const MotionTable& table, const MotionRow& row) {
+  if (is_strain(table.motion)) return row.stresslet_factor;
+  const bool turns = table.motion == MotionKind::kRoll || table.motion == MotionKind::kSpin;
+  return turns ? row.torque_factor : row.force_factor;
+}
+
+/// Whether all rows have the load of the entry.
+bool has_load(const NamedEntry& entry, const MotionTable& table) {
+  return std::ranges::all_of(table.rows, [&](const MotionRow& row) {
+    return row.has_stresslets && (!entry.of_neighbour || row.neighbour) &&
+           (entry.load != PairLoad::kTrace || row.has_traces);
+  });
+}
+
+/// The table of an entry by one load of one motion. Residuals are relative to the diagonal entry of
+/// the motion, times that power of the radius which gives the unit.
+EntryTable entry_by_load(const NamedEntry& named, const MotionTable& table) {
+  EntryTable entry = empty_table(table, table);
+  const auto units = lubrication::action_units(table.motion, table.viscosity, table.radius);
+  const bool strained = is_strain(table.motion);
+  const bool turns = table.motion == MotionKind::kRoll || table.motion == MotionKind::kSpin;
+  const double own_unit = strained ? units.stresslet : turns ? units.torque : units.force;
+  const double length = std::pow(table.radius, named.power - (strained || turns ? 3 : 1));
+  double unit = units.stresslet;
+  double lubrication::Action::*factor = &lubrication::Action::stresslet_factor;
+  double lubrication::Action::*error = &lubrication::Action::stresslet_error_estimate;
+  auto leading = named.of_neighbour ? table.neighbour_leading_stresslet_factor
+                                    : table.leading_stresslet_factor;
+  if (named.load == PairLoad::kForce) {
+    unit = units.force;
+    factor = &lubrication::Action::force_factor;
+    error = &lubrication::Action::relative_error_estimate;
+    leading =
+        named.of_neighbour ? table.neighbour_leading_force_factor : table.leading_force_factor;
+  } else if (named.load == PairLoad::kTorque) {
+    unit = units.torque;
+    factor = &lubrication::Action::torque_factor;
+    error = &lubrication::Action::torque_error_estimate;
+    leading =
+        named.of_neighbour ? table.neighbour_leading_torque_factor : table.leading_torque_factor;
+  } else if (named.load == PairLoad::kTrace) {
+    factor = &lubrication::Action::trace_factor;
+    error = &lubrication::Action::trace_error_estimate;
+    // Near contact the traction acts at the pole along the axis: S_zz is 2/3 of its moment.
+    if (leading) *leading *= 1.5;
+  }
+  for (const auto& row : table.rows) {
+    const lubrication::Action& on = named.of_neighbour ? *row.neighbour : row;
+    const double own = own_factor(table, row), scale = own_unit * own * length;
+    add_row(entry, row.gap, unit * on.*factor, scale, unit * on.*error * own / scale);
+  }
+  if (leading) entry.theory = unit * *leading;
+  return entry;
+}
+
 /// Errors of the fit get the name of the resistance `which`.
 EntryFit fit_entry(PairEntry which, const EntryTable& entry, const PairFitSettings& settings,
                    const StopToken& stop) {
@@ -192,9 +250,17 @@ PairFit fit_pair(const PairTables& tables, const PairFitSettings& settings, cons
                                                     {MotionKind::kRoll, PairEntry::kRoll},
                                                     {MotionKind::kSpin, PairEntry::kSpin}};
   for (const auto& [motion, table] : tables)
-    entries.emplace(diagonal.at(motion), diagonal_entry(pair, table));
+    if (const auto which = diagonal.find(motion); which != diagonal.end())
+      entries.emplace(which->second, diagonal_entry(pair, table));
   if (tables.contains(MotionKind::kSlide) || tables.contains(MotionKind::kRoll))
     entries.emplace(PairEntry::kSlideRoll, coupling_entry(pair, tables));
+  for (std::size_t i = 0; i < pair_entries().size(); ++i) {
+    const auto which = static_cast<PairEntry>(i);
+    const auto& named = pair_entries()[i];
+    const auto table = tables.find(named.motion);
+    if (!is_of_motions(which) && table != tables.end() && has_load(named, table->second))
+      entries.emplace(which, entry_by_load(named, table->second));
+  }
 
   PairFit fit;
   fit.viscosity = pair.viscosity;

@@ -21,11 +21,14 @@ struct PairFitSettings {
 };
 
 /// Fits the resistances, called entries, that the tables determine: squeeze by the approach, slide,
-/// roll and spin by the tables of these names, slide_roll by those of sliding or rolling. Residuals
-/// are relative to the entry. Those of slide_roll, which can be 0, are relative to sqrt(slide
-/// roll). If there is no table of rolling, they are relative to slide r, and if there is none of
-/// sliding, to roll/r, with the radius r of the sphere. The interval of gaps of the result is the
-/// one that all tables have in common, its units are those of the tables, and `versions` is empty.
+/// roll and spin by the tables of these names, slide_roll by those of sliding or rolling, and all
+/// other entries by tables with stresslets, as NamedEntry says; those of the neighbour, if it is a
+/// sphere, and traces, if the fluid is unbounded. Residuals are relative to the entry; those of the
+/// other entries are relative to the diagonal entry of their motion times a power of the radius.
+/// Those of slide_roll, which can be 0, are relative to sqrt(slide roll). If there is no table of
+/// rolling, they are relative to slide r, and if there is none of sliding, to roll/r, with the
+/// radius r of the sphere. The interval of gaps of the result is the one that all tables have in
+/// common, its units are those of the tables, and `versions` is empty.
 ///
 /// Throws Error(kBadInput) if there is no table; if viscosity, radius, geometry or container of two
 /// tables differ, or their intervals of gaps do not overlap; if the neighbour moves; if the table

@@ -97,8 +97,7 @@ std::vector<fs::path> pair_table_files(const std::vector<std::string>& paths) {
     for (const auto& motion : lubrication::all_motions())
       if (const auto file = table_of(path, motion.kind); fs::exists(file)) tables.push_back(file);
     if (tables.empty())
-      throw_bad_input({path},
-                      "has none of the tables approach.csv, slide.csv, roll.csv and spin.csv");
+      throw_bad_input({path}, "has none of the tables approach.csv, slide.csv, ... of a pair");
     check_complete(path, tables);
     files.insert(files.end(), tables.begin(), tables.end());
   }

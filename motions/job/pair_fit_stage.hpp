@@ -11,8 +11,8 @@
 
 namespace viscontact::motions {
 
-/// The paths of the tables that `paths` names, each of which is a file or a folder with some of
-/// approach.csv, slide.csv, roll.csv and spin.csv. Throws Error(kBadInput) for a folder with none
+/// The paths of the tables that `paths` names, each of which is a file or a folder with some of the
+/// tables MOTION.csv of lubrication::all_motions(). Throws Error(kBadInput) for a folder with none
 /// of these tables, and for a folder that lacks a table which, by the head of another table, was
 /// computed together with it.
 std::vector<std::filesystem::path> pair_table_files(const std::vector<std::string>& paths);

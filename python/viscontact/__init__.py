@@ -2,6 +2,7 @@
 
 Fit, PairFit                      fitted lubrication forces, on arrays
 tabulate, fit, fit_pair           tables by FreeFEM, and fits of tables
+pair_resistance                   two spheres: all motions and strains, on arrays
 simulate, rolling, swimmer        motions of single spheres, as arrays
 Particles                         many discs or spheres, step by step
 read                              files and folders that Viscontact wrote, as arrays
@@ -18,8 +19,8 @@ import sys as _sys
 
 try:
     from ._core import (Error, ExternalProgramError, Fit, InputError, NotConvergedError, PairFit,
-                        StepReport, __version__, _tabulate, fit, fit_pair, rolling, simulate,
-                        swimmer)
+                        StepReport, __version__, _tabulate, fit, fit_pair, pair_resistance, rolling,
+                        simulate, swimmer)
 except ModuleNotFoundError as problem:
     if problem.name != f"{__name__}._core":
         raise
@@ -35,8 +36,8 @@ from .particles import Particles
 from .results import Folder, Frames, read
 
 __all__ = ["Columns", "Error", "ExternalProgramError", "Fit", "Folder", "Frames", "InputError",
-           "NotConvergedError", "PairFit", "Particles", "StepReport", "fit", "fit_pair", "read",
-           "rolling", "simulate", "swimmer", "tabulate", "__version__"]
+           "NotConvergedError", "PairFit", "Particles", "StepReport", "fit", "fit_pair",
+           "pair_resistance", "read", "rolling", "simulate", "swimmer", "tabulate", "__version__"]
 
 
 def tabulate(case, output, *, jobs=0, motions=None):
@@ -46,8 +47,8 @@ def tabulate(case, output, *, jobs=0, motions=None):
     output     the table to be written (CSV); for several motions a folder, in which each gets
                MOTION.csv
     jobs       number of processes of FreeFEM at once; 0: one for each core
-    motions    "approach", "slide", "roll", "spin", or "all", or a list of them; None: those of the
-               case
+    motions    "approach", "slide", "roll", "spin", "axial_strain", "shear_strain", "twofold_strain",
+               or "all", or a list of them; None: those of the case
 
     Finished rows are kept if the call is interrupted; the same call goes on. Returns the table as
     read() does, or for several motions a dictionary of tables by their motions.

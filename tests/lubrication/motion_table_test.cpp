@@ -273,6 +273,80 @@ TEST_F(MotionTableFile, OfOthersNeedsFourColumns) {
   EXPECT_FALSE(table.rows[0].neighbour);
 }
 
+/// A row whose loads are all different, with every column that the motion has.
+MotionTable table_with_strains(MotionKind motion, bool in_container) {
+  auto table = table_of_a_pair();
+  table.motion = motion;
+  table.neighbour_leading_stresslet_factor = 0.3;
+  constexpr double kFromFactor = std::numeric_limits<double>::quiet_NaN();
+  for (auto& row : table.rows) {
+    static_cast<Action&>(row) = {kFromFactor,
+                                 kFromFactor,
+                                 0.1,
+                                 2. / 3,
+                                 1e-7,
+                                 2e-7,
+                                 kFromFactor,
+                                 0.7,
+                                 3e-7,
+                                 kFromFactor,
+                                 in_container ? 0 : 0.9,
+                                 4e-7};
+    row.has_stresslets = true;
+    row.has_traces = is_axial(motion) && !in_container;
+    row.largest_error_estimate = 5e-7;
+    if (motion == MotionKind::kSpin) row.stresslet = row.stresslet_factor = 0;
+  }
+  return table;
+}
+
+TEST_F(MotionTableFile, WithStressletsIsReadAsItWasWritten) {
+  for (const auto& [name, motion] : all_motions())
+    for (const bool in_container : {false, true}) {
+      SCOPED_TRACE(name);
+      const auto table = table_with_strains(motion, in_container);
+      const auto text = write_motion_table(table);
+      const auto again = read(text);
+      EXPECT_EQ(write_motion_table(again), text);
+      EXPECT_EQ(again.neighbour_leading_stresslet_factor, 0.3);
+      const auto& row = again.rows.at(1);
+      EXPECT_TRUE(row.has_stresslets);
+      EXPECT_EQ(row.has_traces, is_axial(motion) && !in_container);
+      EXPECT_EQ(largest_estimate(row), 5e-7);
+      ASSERT_TRUE(row.neighbour);
+      if (motion == MotionKind::kSpin) continue;
+      EXPECT_EQ(row.stresslet_factor, 0.7);
+      // +(20/3) pi mu r^2 u0 factor, r^3 for angular velocities and rates.
+      const bool moves = motion == MotionKind::kApproach || motion == MotionKind::kSlide;
+      EXPECT_NEAR(row.stresslet, 20. / 3 * std::numbers::pi * 0.3 * (moves ? 4 : 8) * -3 * 0.7,
+                  1e-12);
+    }
+}
+
+TEST_F(MotionTableFile, OfAStrainNeedsItsLoadsAlone) {
+  const auto twofold = read(
+      "# motion: twofold_strain\n# viscosity: 1\n# radius: 1\n"
+      "gap,reference_velocity,stresslet\n0.1,-2,-44\n");
+  EXPECT_NEAR(twofold.rows[0].stresslet_factor, 22 / (20. / 3 * std::numbers::pi), 1e-15);
+  EXPECT_FALSE(twofold.rows[0].neighbour);
+  const std::string axial =
+      "# motion: axial_strain\n# viscosity: 1\n# radius: 1\n"
+      "gap,reference_velocity,force,stresslet\n0.1,1,-3,";
+  EXPECT_EQ(read(axial + "22\n").rows[0].force, -3);
+  EXPECT_THAT(bad_input([&] { (void)read(axial + "-22\n"); }), IsAt("table.csv:5", "stresslet"));
+}
+
+/// Tables of earlier versions have neither stresslets nor, in the approach, a neighbour.
+TEST_F(MotionTableFile, OfAnEarlierVersionHasNoStresslets) {
+  const auto spin =
+      "# motion: spin\n# viscosity: 1\n# radius: 1\ngap,reference_velocity,force,torque\n"
+      "0.1,1,0,-2\n";
+  for (const auto& text : {changed("slide", "approach"), changed("", ""), std::string(spin)}) {
+    const auto row = read(text).rows.at(0);
+    EXPECT_FALSE(row.has_stresslets || row.has_traces || row.neighbour);
+  }
+}
+
 TEST_F(MotionTableFile, IsRefusedWithLineAndValue) {
   const auto failure = [&](const std::string& from, const std::string& to) {
     return bad_input([&] { (void)read(changed(from, to)); });

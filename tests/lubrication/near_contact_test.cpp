@@ -57,5 +57,40 @@ TEST(NearContact, OfAFreeSurfaceIsThatOfASphereAndItsMirrorImage) {
   EXPECT_NEAR(roll.torque, -3. / 20, 1e-15);
 }
 
+/// The sphere's own factors are those of Reynolds' equation, from which leading_factors() comes.
+TEST(LeadingLoads, AreThoseOfReynoldsEquation) {
+  for (const double curvature : {0.0, 0.2, 1.0, 2.5})
+    for (const auto motion : {MotionKind::kSlide, MotionKind::kRoll, MotionKind::kSpin}) {
+      const auto theory = leading_factors(motion, {curvature});
+      const auto loads = leading_loads(motion, curvature);
+      EXPECT_NEAR(loads.sphere.torque.value(), theory.torque, 1e-15) << curvature;
+      EXPECT_NEAR(loads.sphere.force.value_or(0), theory.force, 1e-15) << curvature;
+      EXPECT_EQ(loads.neighbour.torque.has_value(), curvature > 0);
+    }
+  // The squeezing of a film by the radius r_eff: 1/(1 + curvature)^2. Its force acts at the pole,
+  // so that S_zz = (2/3) r |F|.
+  const auto approach = leading_loads(MotionKind::kApproach, 0.5);
+  EXPECT_NEAR(approach.sphere.force.value(), 4. / 9, 1e-15);
+  EXPECT_NEAR(approach.neighbour.force.value(), -4. / 9, 1e-15);
+  EXPECT_NEAR(20. / 3 * approach.sphere.stresslet.value(), 2. / 3 * 6 * 4. / 9, 1e-14);
+  EXPECT_NEAR(20. / 3 * approach.neighbour.stresslet.value(), 2 * 2. / 3 * 6 * 4. / 9, 1e-14);
+  EXPECT_FALSE(approach.sphere.torque);
+  EXPECT_FALSE(leading_loads(MotionKind::kSpin, 1).sphere.force);
+}
+
+/// By the reciprocal theorem the force by a strain e is -E:S/e of the motion at velocity 1.
+TEST(LeadingLoads, OfStrainsAreThoseOfMotionsByReciprocity) {
+  for (const double curvature : {0.0, 0.2, 1.0, 2.5}) {
+    const auto approach = leading_loads(MotionKind::kApproach, curvature).sphere,
+               axial = leading_loads(MotionKind::kAxialStrain, curvature).sphere;
+    EXPECT_NEAR(6 * axial.force.value(), 1.5 * 20 / 3 * approach.stresslet.value(), 1e-14);
+    const auto slide = leading_loads(MotionKind::kSlide, curvature).sphere,
+               roll = leading_loads(MotionKind::kRoll, curvature).sphere,
+               shear = leading_loads(MotionKind::kShearStrain, curvature).sphere;
+    EXPECT_NEAR(6 * shear.force.value(), 2. * 20 / 3 * slide.stresslet.value(), 1e-14);
+    EXPECT_NEAR(8 * shear.torque.value(), 2. * 20 / 3 * roll.stresslet.value(), 1e-14);
+  }
+}
+
 }  // namespace
 }  // namespace viscontact::lubrication

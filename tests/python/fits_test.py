@@ -149,5 +149,29 @@ class PairFitTest(unittest.TestCase):
             viscontact.fit_pair([])
 
 
+class PairResistanceTest(unittest.TestCase):
+    def test_is_symmetric_and_combines_shapes(self):
+        one = viscontact.pair_resistance(1, 2, 0.1)
+        self.assertEqual(one.shape, (22, 22))
+        np.testing.assert_array_equal(one, one.T)
+        many = viscontact.pair_resistance(1, [[1.0], [2.0]], [0.1, 0.2, 0.3], viscosity=3)
+        self.assertEqual(many.shape, (2, 3, 22, 22))
+        # The same numbers but for the order in which they are multiplied by the viscosity.
+        np.testing.assert_allclose(many[1, 0], 3 * one, rtol=1e-14)
+
+    def test_far_apart_is_that_of_each_sphere(self):
+        matrix = viscontact.pair_resistance(2.0, 1.0, 1e6, 1.5)
+        # The other sphere changes them by about the radius over the distance.
+        self.assertAlmostEqual(matrix[0, 0] / (6 * np.pi * 1.5 * 2), 1, delta=1e-5)
+        self.assertAlmostEqual(matrix[16, 16] / (8 * np.pi * 1.5), 1, delta=1e-5)
+        self.assertAlmostEqual(matrix[6, 6] / (20 / 3 * np.pi * 1.5 * 8), 1, delta=1e-5)
+
+    def test_refuses_what_is_no_pair(self):
+        with self.assertRaisesRegex(viscontact.InputError, "gap"):
+            viscontact.pair_resistance(1, 1, [0.1, 0.0])
+        with self.assertRaisesRegex(viscontact.InputError, "factor"):
+            viscontact.pair_resistance(1, 20, 0.1)
+
+
 if __name__ == "__main__":
     unittest.main()

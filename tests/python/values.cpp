@@ -43,8 +43,8 @@ void print_values(const std::vector<std::string>& words) {
     const auto fit = motions::read_pair_fit(file);
     for (std::size_t i = 2; i < words.size(); ++i) {
       for (std::size_t e = 0; e < motions::pair_entries().size(); ++e)
-        std::printf("%a ",
-                    motions::entry_value(fit, static_cast<motions::PairEntry>(e), number(i)));
+        if (const auto entry = static_cast<motions::PairEntry>(e); fit.entries.contains(entry))
+          std::printf("%a ", motions::entry_value(fit, entry, number(i)));
       std::printf("\n");
     }
   } else if (what == "simulate") {

@@ -79,7 +79,7 @@ TEST_F(RollingCaseFile, TablesAreMadeOfTheMotionsThatItNeeds) {
                    "container = \"unbounded\"\nrelative_accuracy = 1e-4\n" +
                        keys);
   };
-  EXPECT_EQ(with_tabulation("motion = \"all\"").tabulation->motions.size(), 4U);
+  EXPECT_EQ(with_tabulation("motion = \"all\"").tabulation->motions.size(), 7U);
   EXPECT_THAT(bad_input([&] { (void)with_tabulation("motion = [\"approach\", \"slide\"]"); }),
               IsAt("case.toml:20", "tabulation.motion"));
   EXPECT_THAT(bad_input([&] {

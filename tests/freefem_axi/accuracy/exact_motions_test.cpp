@@ -154,7 +154,8 @@ TEST(MotionsOfAPair, AddUpFromThoseOfEachSphere) {
 TEST(Motions, OfAGeometry) {
   EXPECT_THAT(
       parse_motions({"all"}, "plane"),
-      ElementsAre(MotionKind::kApproach, MotionKind::kSlide, MotionKind::kRoll, MotionKind::kSpin));
+      ElementsAre(MotionKind::kApproach, MotionKind::kSlide, MotionKind::kRoll, MotionKind::kSpin,
+                  MotionKind::kAxialStrain, MotionKind::kShearStrain, MotionKind::kTwofoldStrain));
   EXPECT_THAT(parse_motions({"all"}, "rough_plane"),
               ElementsAre(MotionKind::kApproach, MotionKind::kSpin));
   EXPECT_THAT(parse_motions({"spin", "approach"}, "cavity"),

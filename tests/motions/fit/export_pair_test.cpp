@@ -17,17 +17,34 @@ namespace {
 
 constexpr std::array<double, 4> kGaps = {1e-3, 0.01, 0.3, 1};
 
+/// The shipped fit of a plane, and for each entry that it lacks some multiple of another one.
+PairFit fit_with_all_entries() {
+  auto fit = read_pair_fit(std::string(VISCONTACT_SOURCE_FOLDER) + "/data/fits/pairs/plane.json");
+  for (std::size_t i = fit.entries.size(); i < pair_entries().size(); ++i) {
+    auto entry = fit.entries.at(PairEntry::kSqueeze);
+    for (auto& term : entry.fit.terms) term.coefficient *= static_cast<double>(i);
+    fit.entries[static_cast<PairEntry>(i)] = entry;
+  }
+  return fit;
+}
+
+std::vector<std::string> entry_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : pair_entries()) names.emplace_back(entry.name);
+  return names;
+}
+
 class ExportOfAPair : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
-  /// Runs a command and compares the numbers that it prints, five for each gap.
+  /// Runs a command and compares the numbers that it prints, one for each entry and gap.
   void expect_values(const std::vector<std::string>& command) const {
     const auto result = run_process(command);
     ASSERT_EQ(result.exit_status, 0) << result.output;
     std::istringstream numbers(result.output);
     for (const double gap : kGaps)
-      for (std::size_t i = 0; i < 5; ++i) {
+      for (std::size_t i = 0; i < pair_entries().size(); ++i) {
         double value = 0;
         ASSERT_TRUE(numbers >> value) << result.output;
         const double expected = entry_value(fit_, static_cast<PairEntry>(i), gap);
@@ -36,8 +53,7 @@ class ExportOfAPair : public ::testing::Test {
       }
   }
 
-  PairFit fit_ =
-      read_pair_fit(std::string(VISCONTACT_SOURCE_FOLDER) + "/data/fits/pairs/plane.json");
+  PairFit fit_ = fit_with_all_entries();
   TemporaryFolder folder_;
 };
 
@@ -45,7 +61,7 @@ TEST_F(ExportOfAPair, CHeaderHasAllFunctions) {
   put_text(path("pair.h"), export_pair(fit_, "c-header", "plane.json"));
   std::string calls;
   for (const double gap : kGaps)
-    for (const char* name : {"squeeze", "slide", "roll", "slide_roll", "spin"})
+    for (const auto& name : entry_names())
       calls += fmt::format("  printf(\"%.17g\\n\", viscontact_{}({:.17e}));\n", name, gap);
   put_text(path("main.c"), "#include <stdio.h>\n#include \"pair.h\"\nint main(void) {\n" + calls +
                                "  return !isnan(viscontact_roll(2.0));\n}\n");
@@ -63,7 +79,7 @@ TEST_F(ExportOfAPair, FortranModuleHasAllFunctions) {
   put_text(path("pair.f90"), export_pair(fit_, "fortran", ""));
   std::string calls;
   for (const double gap : kGaps)
-    for (const char* name : {"squeeze", "slide", "roll", "slide_roll", "spin"}) {
+    for (const auto& name : entry_names()) {
       auto text = fmt::format("{:.17e}", gap);
       text[text.find('e')] = 'd';
       calls += fmt::format("  print '(es25.16e3)', viscontact_{}({})\n", name, text);
@@ -82,7 +98,7 @@ TEST_F(ExportOfAPair, PythonModuleHasAllFunctions) {
   std::string calls =
       "import sys\nsys.path.insert(0, '" + folder_.path().string() + "')\nfrom pair import *\n";
   for (const double gap : kGaps)
-    for (const char* name : {"squeeze", "slide", "roll", "slide_roll", "spin"})
+    for (const auto& name : entry_names())
       calls += fmt::format("print(repr({}({:.17e})))\n", name, gap);
   calls += "try:\n    roll(2.0)\nexcept ValueError:\n    sys.exit(0)\nsys.exit(1)\n";
   put_text(path("main.py"), calls);
@@ -92,19 +108,27 @@ TEST_F(ExportOfAPair, PythonModuleHasAllFunctions) {
 TEST_F(ExportOfAPair, PythonAndOctaveTakeArrays) {
   const std::string gaps = fmt::format("[{:.17e}]", fmt::join(kGaps, ", "));
   put_text(path("pair.py"), export_pair(fit_, "python", ""));
-  put_text(path("main.py"),
-           "import numpy, pair\ngaps = numpy.array(" + gaps +
-               ")\nfor row in zip(pair.squeeze(gaps), pair.slide(gaps), pair.roll(gaps),\n"
-               "               pair.slide_roll(gaps), pair.spin(gaps)):\n"
-               "    print(*(repr(float(value)) for value in row))\n");
+  put_text(path("main.py"), "import numpy, pair\ngaps = numpy.array(" + gaps +
+                                ")\nfor row in zip(*[getattr(pair, name)(gaps) for name in '" +
+                                fmt::format("{}", fmt::join(entry_names(), " ")) +
+                                "'.split()]):\n"
+                                "    print(*(repr(float(value)) for value in row))\n");
   expect_values({"/usr/bin/python3", path("main.py")});  // Debian's, which has NumPy
   put_text(path("viscontact_pair.m"), export_pair(fit_, "matlab", "plane.json"));
   put_text(path("main.m"),
            "f = viscontact_pair();\ngaps = " + gaps +
-               ";\nprintf('%.17g\\n', [f.squeeze(gaps); f.slide(gaps); f.roll(gaps); "
-               "f.slide_roll(gaps); f.spin(gaps)]);\nassert(isnan(f.roll(2)));\n");
+               fmt::format(";\nprintf('%.17g\\n', [f.{}(gaps)]);\nassert(isnan(f.roll(2)));\n",
+                           fmt::join(entry_names(), "(gaps); f.")));
   expect_values(
       {"octave-cli", "--norc", "--no-history", "--path", folder_.path().string(), path("main.m")});
+}
+
+TEST_F(ExportOfAPair, SaysWhichFunctionsTheEntriesAre) {
+  for (const auto* target : {"c-header", "fortran", "python", "matlab", "json", "csv"}) {
+    const auto text = export_pair(fit_, target, "");
+    EXPECT_THAT(text, ::testing::HasSubstr("X^G_11 = 3 squeeze_stress/(2 pi mu s^2)")) << target;
+    EXPECT_THAT(text, ::testing::HasSubstr("Y^B_11 = -slide_roll/(pi mu s^2)")) << target;
+  }
 }
 
 TEST_F(ExportOfAPair, JsonAndCsvHaveSamplesOfAllFunctions) {
@@ -114,7 +138,7 @@ TEST_F(ExportOfAPair, JsonAndCsvHaveSamplesOfAllFunctions) {
     EXPECT_EQ(json["samples"][std::string(entry.name)].size(), json["samples"]["gap"].size());
   }
   EXPECT_THAT(export_pair(fit_, "csv", ""),
-              ::testing::HasSubstr("\ngap,squeeze,slide,roll,slide_roll,spin\n0.001,"));
+              ::testing::HasSubstr("\ngap,squeeze,slide,roll,slide_roll,spin,squeeze_stress,"));
 }
 
 }  // namespace

@@ -59,6 +59,8 @@ class MotionsCommand : public ::testing::Test {
   TemporaryFolder scratch_;
 };
 
+const std::string kFourMotions = "motion = [\"approach\", \"slide\", \"roll\", \"spin\"]";
+
 /// A shell script in FreeFEM's place beside a plane, which answers every motion at once: forces and
 /// torques are sums of the leading terms of theory and constants, and the matrix is symmetric.
 /// `before` is shell text that runs before a row is answered, with $gap and $motion (empty for the
@@ -67,14 +69,19 @@ std::string fake_motions(const TemporaryFolder& folder, const std::string& befor
   const auto file = folder.file("freefem", R"sh(#!/bin/sh
 case $4 in *version.edp) echo "viscontact-version 0-fake"; exit 0 ;; esac
 for word in "$@"; do
-  case $previous in -gap) gap=$word ;; -velocity) velocity=$word ;; -motion) motion=$word ;; esac
+  case $previous in -gap) gap=$word ;; -velocity) velocity=$word ;; -motion) motion=$word ;;
+    -strains) strains=$word ;; esac
   previous=$word
 done
 [ -e ')sh" + (folder.path() / "mended").string() +
                                                "' ] || {\n" + before + R"sh(
 :; }
 awk "BEGIN { l = log($gap)
-  if (\"$motion\" == \"1\") {
+  if (\"$strains\" == \"1\") {
+    kinds = \"$motion\" < 2 ? 3 : 1; solutions = \"$motion\" == 0 ? 2 : kinds
+    for (m = 0; m < solutions; m++) for (k = 0; k < kinds; k++)
+      printf \"viscontact-entry %d 0 %d %.17g 1e-6 4\\n\", m, k, k == m ? -20 + l : 1
+  } else if (\"$motion\" == \"1\") {
     printf \"viscontact-action 0 0 %.17g %.17g 1e-6 1e-6 4\\n\", -20 + 10 * l, 3 + 2 * l
     printf \"viscontact-action 1 0 %.17g %.17g 1e-6 1e-6 4\\n\", 3 + 2 * l, -20 + 10 * l
   } else if (\"$motion\" == \"2\")
@@ -89,23 +96,25 @@ TEST_F(MotionsCommand, TabulateWritesATableForEachMotionAndKeepsThem) {
   const auto file = small_case("motion = \"all\"");
   put_text(file, std::regex_replace(read_file(file), std::regex("gaps = .*"), "gaps = [0.1]"));
   expect_done(run_viscontact({"tabulate", file, "-o", path("out")}));
-  for (const char* motion : {"slide", "roll", "spin"}) {
+  for (const auto& [name, kind] : lubrication::all_motions()) {
+    const std::string motion(name);
     SCOPED_TRACE(motion);
     const auto table = lubrication::read_motion_table(path("out/") + motion + ".csv");
-    EXPECT_EQ(to_string(table.motion), motion);
+    EXPECT_EQ(table.motion, kind);
+    EXPECT_TRUE(table.rows.at(0).has_stresslets);
     ASSERT_EQ(table.rows.size(), 2U);
     EXPECT_EQ(table.rows[1].gap, 0.1);
     EXPECT_EQ(table.rows[1].reference_velocity, -3);
     EXPECT_EQ(table.rows[1].torque_factor, table.rows[0].torque_factor);
+    EXPECT_DOUBLE_EQ(table.rows[1].stresslet, -3 * table.rows[0].stresslet);
     EXPECT_FALSE(fs::exists(path("out/") + motion + ".csv.rows"));
   }
-  EXPECT_TRUE(fs::exists(path("out/approach.csv")));
   // A second call computes nothing, not even with FreeFEM out of reach.
   const auto before = files_below(path("out"));
   const auto again = run_viscontact({"tabulate", file, "-o", path("out")},
                                     {"VISCONTACT_FREEFEM=no-freefem-is-needed"});
   expect_done(again);
-  EXPECT_THAT(again.errors, AllOf(IsUpToDate("slide.csv"), IsUpToDate("spin.csv")));
+  EXPECT_THAT(again.errors, AllOf(IsUpToDate("slide.csv"), IsUpToDate("twofold_strain.csv")));
   EXPECT_EQ(files_below(path("out")), before);
   // The tables can be fitted and exported as one pair, with coarse errors and few terms.
   const auto fit = run_viscontact({"fit", path("out/slide.csv"), path("out/roll.csv"), "--basis",
@@ -114,7 +123,7 @@ TEST_F(MotionsCommand, TabulateWritesATableForEachMotionAndKeepsThem) {
 }
 
 TEST_F(MotionsCommand, OneMotionIsAFileAndTheOptionReplacesThatOfTheCase) {
-  const auto file = small_case("motion = \"all\"");
+  const auto file = small_case(kFourMotions);
   expect_done(run_viscontact({"tabulate", file, "--motion", "spin", "-o", path("spin.csv")},
                              {fake_motions(scratch_, "")}));
   const auto table = lubrication::read_motion_table(path("spin.csv"));
@@ -142,7 +151,7 @@ TEST_F(MotionsCommand, SharesOfTasksAreGatheredIntoTheTablesOfAllMotions) {
 }
 
 TEST_F(MotionsCommand, RunNeedsTheApproachAlone) {
-  expect_refusal(run_viscontact({"run", small_case("motion = \"all\""), "-o", path("run")}),
+  expect_refusal(run_viscontact({"run", small_case(kFourMotions), "-o", path("run")}),
                  ErrorKind::kBadInput, Names("small.toml"));
 }
 
@@ -180,7 +189,7 @@ TEST_F(MotionsCommand, FitsAndExportsAPair) {
 // An interrupted tabulation leaves the tables of some motions: the user types Ctrl-C during the
 // second table.
 TEST_F(MotionsCommand, FitOfAFolderNamesTheTablesThatAnInterruptedTabulationLeftOut) {
-  const auto file = small_case("motion = \"all\"");
+  const auto file = small_case(kFourMotions);
   const auto freefem =
       fake_motions(scratch_, "[ \"$motion\" ] && { kill -INT $PPID; exec sleep 60; }");
   const auto interrupted = run_viscontact({"tabulate", file, "-o", path("out")}, {freefem});
@@ -198,9 +207,28 @@ TEST_F(MotionsCommand, FitOfAFolderNamesTheTablesThatAnInterruptedTabulationLeft
                 HasSubstr("# motions: approach, slide, roll, spin\n"));
 }
 
+// All motions and strains of a group are one row of the journal, which is not computed again.
+TEST_F(MotionsCommand, AnInterruptedTabulationOfStrainsGoesOnWithTheRowsThatItHas) {
+  const auto file = small_case("motion = \"all\"");
+  const auto interrupted = run_viscontact(
+      {"tabulate", file, "-o", path("out"), "--jobs", "1"},
+      {fake_motions(scratch_,
+                    "[ \"$motion $gap\" = '1 0.1' ] && { kill -INT $PPID; exec sleep 60; }")});
+  EXPECT_EQ(interrupted.exit_status, 130) << interrupted.errors;
+  EXPECT_TRUE(fs::exists(path("out/axial_strain.csv")));
+  EXPECT_FALSE(fs::exists(path("out/slide.csv")));
+  const auto rest = run_viscontact(
+      {"tabulate", file, "-o", path("out"), "--jobs", "1"},
+      {fake_motions(scratch_, "case \"$motion $gap\" in '0 '*|'1 0.05') exit 5 ;; esac")});
+  expect_done(rest);
+  for (const auto& [name, kind] : lubrication::all_motions())
+    EXPECT_EQ(lubrication::read_motion_table(path("out/") + std::string(name) + ".csv").rows.size(),
+              6U);
+}
+
 // The tables of some motions were copied into another folder.
 TEST_F(MotionsCommand, FitOfAFolderNamesTheTablesThatWereNotCopiedIntoIt) {
-  const auto file = small_case("motion = \"all\"");
+  const auto file = small_case(kFourMotions);
   const auto freefem = fake_motions(scratch_, "");
   expect_done(run_viscontact({"tabulate", file, "-o", path("out")}, {freefem}));
   fs::create_directory(path("part"));

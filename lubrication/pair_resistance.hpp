@@ -1,0 +1,39 @@
+// The resistances of two spheres in unbounded Stokes flow to all motions and strains, for any gap
+// and ratios of the radii up to 10 (docs/physics.md (2.14) to (2.16)).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace viscontact::lubrication {
+
+/// The components of a sphere, in this order, in axes x, y, z of which z goes from sphere 1 to
+/// sphere 2: the velocity (3), the angular velocity (3), each less that of the undisturbed flow at
+/// the centre, and the strain rate E of this flow (5), which has no trace:
+///   E = e_1 (zz - 1/3) sqrt(3/2)
+///     + (e_2 (xz + zx) + e_3 (yz + zy) + e_4 (xx - yy) + e_5 (xy + yx))/sqrt(2),
+/// so that E:E is the sum of the squares. Loads have the same order: the force and the torque about
+/// the centre of the sphere on the fluid, and Batchelor's stresslet S in the same basis.
+inline constexpr std::size_t kSphereComponents = 11, kPairComponents = 2 * kSphereComponents;
+
+/// Row-major, symmetric, positive definite: loads = matrix * components, the rows and columns of
+/// sphere 1 first.
+using PairMatrix = std::array<double, kPairComponents * kPairComponents>;
+
+inline constexpr double kLargestRadiusRatio = 10;
+
+/// What is left after the terms 1/q, ln q and q ln q of lubrication theory, whose coefficients are
+/// known for every ratio of the radii (Jeffrey & Onishi 1984; Jeffrey 1992), is interpolated by
+/// Chebyshev polynomials between exact solutions. The error of an entry (i, j) is below 2e-5
+/// sqrt(R_ii R_jj) at every gap. Lengths are in one unit [L], the viscosity in [M/(L T)]. Exchanged
+/// spheres give the same numbers in exchanged places. Throws Error(kBadInput) unless radii, gap and
+/// viscosity are positive and finite, and the radii are within kLargestRadiusRatio.
+PairMatrix pair_resistance(double radius1, double radius2, double gap, double viscosity);
+
+/// For each pair i of spheres with the radii radius1[i] and radius2[i]; `matrices` has room for as
+/// many matrices, one after the other. All spans must have equally many pairs.
+void pair_resistances(std::span<const double> radius1, std::span<const double> radius2,
+                      std::span<const double> gap, double viscosity, std::span<double> matrices);
+
+}  // namespace viscontact::lubrication

@@ -1,0 +1,214 @@
+#include "viscontact/lubrication/pair_resistance.hpp"
+
+#include <gmock/gmock.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/common/failure.hpp"
+#include "tests/oracles/bispherical/pair_matrix.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/text/number.hpp"
+#include "viscontact/lubrication/pair_near_contact.hpp"
+
+namespace viscontact::lubrication {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+using Matrix = Eigen::Matrix<double, 22, 22, Eigen::RowMajor>;
+
+Matrix resistance(double radius1, double radius2, double gap, double viscosity = 1) {
+  const auto matrix = pair_resistance(radius1, radius2, gap, viscosity);
+  return Eigen::Map<const Matrix>(matrix.data());
+}
+
+/// The largest difference over the mean of the diagonal entries.
+double largest_error(const Matrix& matrix, const Matrix& exact) {
+  const Eigen::VectorXd own = exact.diagonal().cwiseSqrt().cwiseInverse();
+  return (own.asDiagonal() * (matrix - exact) * own.asDiagonal()).cwiseAbs().maxCoeff();
+}
+
+/// Draws ratios from 1 to 10 and gaps between two numbers, both uniform in the logarithm.
+class Draws {
+ public:
+  double ratio() { return std::pow(10, share_(generator_)); }
+  double gap(double from, double to) { return from * std::pow(to / from, share_(generator_)); }
+
+ private:
+  std::mt19937 generator_{7};
+  std::uniform_real_distribution<double> share_{0, 1};
+};
+
+TEST(PairResistance, IsThatOfTheExactSolution) {
+  Draws draws;
+  // The header promises 2e-5; the draws have at most 1.2e-5.
+  for (int i = 0; i < 40; ++i) {
+    const double ratio = draws.ratio(), gap = draws.gap(1e-3, 5);
+    EXPECT_LT(largest_error(resistance(1, ratio, gap), exact_pair_matrix(1, ratio, gap)), 2e-5)
+        << "ratio " << ratio << ", gap " << gap;
+  }
+  for (const double gap : {1e-5, 1e-4, 20.0, 1e3})
+    for (const double ratio : {1.0, 3.0})
+      EXPECT_LT(largest_error(resistance(1, ratio, gap), exact_pair_matrix(1, ratio, gap)), 2e-5)
+          << "ratio " << ratio << ", gap " << gap;
+}
+
+TEST(PairResistance, HasTheFunctionsOfJeffreyAndOnishi) {
+  // docs/pairs.md: rows and columns of the entry, the power of s, and the factor over pi.
+  struct Function {
+    int row, column, power;
+    double factor;
+  };
+  const double g = -std::sqrt(2.0 / 3), h = -std::sqrt(2.0);
+  const std::map<std::string, Function> functions{
+      {"XA", {2, 2, 1, 3}},       {"YA", {0, 0, 1, 3}},       {"YB", {4, 0, 2, -1}},
+      {"XC", {5, 5, 3, 1}},       {"YC", {4, 4, 3, 1}},       {"XG", {6, 2, 2, g}},
+      {"YG", {7, 0, 2, h}},       {"YH", {7, 4, 3, h}},       {"XM", {6, 6, 3, 5.0 / 6}},
+      {"YM", {7, 7, 3, 5.0 / 6}}, {"ZM", {9, 9, 3, 5.0 / 6}},
+  };
+  std::istringstream lines(read_file(std::filesystem::path(VISCONTACT_SOURCE_FOLDER) /
+                                     "data/reference/two_spheres_functions.csv"));
+  int compared = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('#') || line.starts_with("size_ratio")) continue;
+    std::istringstream fields(line);
+    std::vector<std::string> words;
+    for (std::string word; std::getline(fields, word, ',');) words.push_back(word);
+    ASSERT_EQ(words.size(), 9U);
+    const auto number = [&](std::size_t i) { return parse_number(words.at(i)).value(); };
+    const std::array radii{1.0, number(0)};
+    const auto matrix = resistance(radii[0], radii[1], number(2));
+    const auto& function = functions.at(words[4]);
+    for (const int i : {0, 1})
+      for (const int j : {0, 1}) {
+        const double s =
+            radii.at(static_cast<std::size_t>(i)) + radii.at(static_cast<std::size_t>(j));
+        const auto entry = [&](int row, int column) {
+          return matrix(11 * i + row, 11 * j + column);
+        };
+        const double unit = function.factor * kPi * std::pow(s, function.power);
+        const double own = std::sqrt(matrix(11 * i + function.row, 11 * i + function.row) *
+                                     matrix(11 * j + function.column, 11 * j + function.column));
+        EXPECT_NEAR(entry(function.row, function.column),
+                    unit * number(static_cast<std::size_t>(5 + 2 * i + j)), 2e-5 * own)
+            << line;
+        ++compared;
+      }
+  }
+  EXPECT_EQ(compared, 3 * 7 * 11 * 4);
+}
+
+TEST(PairResistance, IsSymmetricToTheLastBit) {
+  const auto matrix = resistance(0.7, 3, 0.02, 1.3);
+  EXPECT_EQ(matrix, Matrix(matrix.transpose()));
+}
+
+TEST(PairResistance, IsPositiveDefiniteAtEveryGapAndRatio) {
+  Draws draws;
+  double least = 1;
+  for (int i = 0; i < 100000; ++i) {
+    const double ratio = draws.ratio(), gap = draws.gap(1e-9, 100);
+    const auto matrix = resistance(1, ratio, gap);
+    // Blocks of the components U_z, E_1; U_x, W_y, E_2; E_4; W_z of both spheres.
+    for (const auto& block :
+         std::vector<std::vector<int>>{{2, 6, 13, 17}, {0, 4, 7, 11, 15, 18}, {9, 20}, {5, 16}}) {
+      const Eigen::MatrixXd part = matrix(block, block);
+      Eigen::VectorXd alone(part.rows());
+      for (Eigen::Index k = 0; k < part.rows(); ++k) {
+        const int which = block[static_cast<std::size_t>(k)] % 11;
+        const double a = block[static_cast<std::size_t>(k)] < 11 ? 1 : ratio;
+        alone(k) = which < 3 ? 6 * kPi * a : (which < 6 ? 8 : 20.0 / 3) * kPi * a * a * a;
+      }
+      const Eigen::VectorXd scale = alone.cwiseSqrt().cwiseInverse();
+      const Eigen::MatrixXd scaled = scale.asDiagonal() * part * scale.asDiagonal();
+      least = std::min(
+          least, Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly)
+                     .eigenvalues()(0));
+    }
+  }
+  // Two spheres that move together have the drag 0.645 of two alone (Cooley & O'Neill 1969); other
+  // motions of the pair have a little less.
+  EXPECT_GT(least, 0.55);
+}
+
+TEST(PairResistance, ExchangedSpheresHaveTheSameNumbers) {
+  const auto one = resistance(1, 3, 0.1), other = resistance(3, 1, 0.1);
+  // A turn by 180 degrees about y exchanges the spheres: x and z change sign, and so do components
+  // with an odd number of them.
+  const std::array<double, 11> sign{-1, 1, -1, -1, 1, -1, 1, 1, -1, 1, -1};
+  for (int i = 0; i < 22; ++i)
+    for (int j = 0; j < 22; ++j)
+      EXPECT_EQ(other(i, j), sign.at(static_cast<std::size_t>(i % 11)) *
+                                 sign.at(static_cast<std::size_t>(j % 11)) *
+                                 one((i + 11) % 22, (j + 11) % 22))
+          << i << " " << j;
+}
+
+TEST(PairResistance, HasTheUnitsOfItsArguments) {
+  const double length = 0.4, viscosity = 3;
+  const auto one = resistance(1, 3, 0.1), other = resistance(0.4, 1.2, 0.04, viscosity);
+  for (int i = 0; i < 22; ++i)
+    for (int j = 0; j < 22; ++j) {
+      const int power = 1 + (i % 11 > 2 ? 1 : 0) + (j % 11 > 2 ? 1 : 0);
+      const double unit = viscosity * std::pow(length, power);
+      EXPECT_NEAR(other(i, j), unit * one(i, j), 1e-12 * unit * std::sqrt(one(i, i) * one(j, j)));
+    }
+}
+
+TEST(PairResistance, TermsNearContactLeaveRigidMotionsFree) {
+  // 1/xi and ln xi multiply matrices that resist no rigid motion of the pair: translations, and a
+  // turn about y, in which the centre of sphere 2 moves at the distance 1 + b. The polynomials are
+  // integers, so that this holds exactly for integer b.
+  for (const int b : {1, 2, 7}) {
+    const auto polynomial = [&](std::size_t entry, std::size_t term) {
+      const auto& numbers = kPairEntryTerms[entry].terms[term];
+      double value = 0;
+      for (std::size_t p = 7; p-- > 0;) value = value * b + numbers.numerator[p];
+      return value / numbers.denominator;
+    };
+    // Rows U1 of the axial block, U1, W1, E1 of the transverse one.
+    for (const std::size_t term : {0U, 1U}) {
+      EXPECT_NEAR(polynomial(0, term) + polynomial(2, term), 0, 1e-12);
+      EXPECT_NEAR(polynomial(1, term) + polynomial(5, term), 0, 1e-12);
+    }
+    const double size = std::abs(polynomial(16, 1));
+    EXPECT_NEAR(polynomial(10, 1) + polynomial(13, 1), 0, 1e-12 * size);
+    EXPECT_NEAR(polynomial(11, 1) + (1 + b) * polynomial(13, 1) + polynomial(14, 1), 0,
+                1e-12 * size);
+    EXPECT_NEAR(polynomial(16, 1) + (1 + b) * polynomial(18, 1) + polynomial(19, 1), 0,
+                1e-12 * size);
+  }
+}
+
+TEST(PairResistance, OfManyPairsIsThatOfEach) {
+  const std::vector<double> radius1{1, 2, 0.3}, radius2{1, 5, 0.1}, gap{0.1, 0.01, 2};
+  std::vector<double> matrices(3 * kPairComponents * kPairComponents);
+  pair_resistances(radius1, radius2, gap, 2, matrices);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto one = pair_resistance(radius1[i], radius2[i], gap[i], 2);
+    EXPECT_TRUE(std::ranges::equal(one, std::span(matrices).subspan(i * one.size(), one.size())));
+  }
+}
+
+TEST(PairResistance, RefusesWhatIsNoPair) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(bad_input([] { (void)pair_resistance(1, 1, 0, 1); }), Names("gap"));
+  EXPECT_THAT(bad_input([] { (void)pair_resistance(-1, 1, 1, 1); }), Names("sphere 1"));
+  EXPECT_THAT(bad_input([] { (void)pair_resistance(1, 0, 1, 1); }), Names("sphere 2"));
+  EXPECT_THAT(bad_input([&] { (void)pair_resistance(1, 1, 1, nan); }), Names("viscosity"));
+  EXPECT_THAT(bad_input([] { (void)pair_resistance(1, 10.1, 1, 1); }), Names("10.1"));
+  EXPECT_NO_THROW((void)pair_resistance(0.7, 7, 1, 1));
+}
+
+}  // namespace
+}  // namespace viscontact::lubrication

@@ -1,0 +1,11 @@
+// The exact matrix of a pair in the order of lubrication/pair_resistance.hpp.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace viscontact {
+
+/// Viscosity 1. From the loads of pair_loads.hpp, whose axis has the other direction.
+Eigen::MatrixXd exact_pair_matrix(double radius1, double radius2, double gap);
+
+}  // namespace viscontact
