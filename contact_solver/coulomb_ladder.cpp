@@ -22,11 +22,9 @@ struct CoulombTuning {
        .longest_step = 0.82,
        .is_shuffled = true},
   }};
-  // The plans are repeated. Then problems of up to so many blocks are left to the methods below,
-  // whose factorisations would take too long for larger ones: 50 ms for 2000 spheres, but 1 ms for
-  // 1000 discs.
-  template <int D>
-  static constexpr std::size_t kRepeated = D == 2 ? 1 : 4;
+  // In problems of more blocks the plans are repeated, and the methods below are not tried, whose
+  // factorisations would take too long: 50 ms for 2000 spheres, but 1 ms for 1000 discs.
+  static constexpr std::size_t kRepeated = 4;
   template <int D>
   static constexpr std::size_t kMostForFactors = D == 2 ? 20000 : 500;
   // Sweeps end if they do not reduce the residual to this part of itself. Slow progress is enough,
@@ -87,14 +85,20 @@ const std::array<StageRow<CoulombLadder<D>>, 5> CoulombLadder<D>::kTable{{
 }};
 
 template <int D>
+bool CoulombLadder<D>::is_too_large_for_factors() const {
+  return at_.problem.blocks.size() > CoulombTuning::kMostForFactors<D>;
+}
+
+template <int D>
 bool CoulombLadder<D>::is_done() const {
-  return at_.is_at_end() || (at_.can_accelerate() && !may_accelerate() &&
-                             at_.problem.blocks.size() > CoulombTuning::kMostForFactors<D>);
+  return at_.is_at_end() ||
+         (at_.can_accelerate() && !may_accelerate() && is_too_large_for_factors());
 }
 
 template <int D>
 bool CoulombLadder<D>::may_accelerate() const {
-  return at_.can_accelerate() && runs_ < CoulombTuning::kRepeated<D> * CoulombTuning::kPlans.size();
+  const std::size_t repeated = is_too_large_for_factors() ? CoulombTuning::kRepeated : 1;
+  return at_.can_accelerate() && runs_ < repeated * CoulombTuning::kPlans.size();
 }
 
 template <int D>

@@ -27,6 +27,7 @@ class CoulombLadder {
  private:
   static const std::array<StageRow<CoulombLadder>, 5> kTable;
 
+  bool is_too_large_for_factors() const;
   bool may_accelerate() const;
   void accelerate(Stage stage);
 

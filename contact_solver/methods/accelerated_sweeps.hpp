@@ -17,10 +17,9 @@ struct SweepPlan {
     kLaw,       ///< those that satisfy its conditions
     kProximal,  ///< those of a step (5.8) from a center, which follows the impulses
   };
-  int most = 0;     ///< sweeps
-  int longest = 0;  ///< most sweeps over which one extrapolation goes on, >= 2
-  bool is_adaptive =
-      false;  ///< `longest` grows while this reduces the changes, and falls otherwise
+  int most = 0;              ///< sweeps
+  int longest = 0;           ///< most sweeps over which one extrapolation goes on, >= 2
+  bool is_adaptive = false;  ///< `longest` grows while changes fall by it, and falls otherwise
   Map map = Map::kLaw;
   double epsilon = 0;        ///< with kProximal
   double longest_step = 1;   ///< of an extrapolation, times the last change, 0 to 1
