@@ -302,8 +302,10 @@ z [L/T] and the angular velocities w about y, w_z about z [1/T], the fluid exert
   F_z = -squeeze u_z,            F_x = -slide u + slide_roll w,
   T_y = slide_roll u - roll w,   T_z = -spin w_z.
 
-A fit of tables with strains also has the stresslets S of the sphere, and the loads on a neighbour that
-is a sphere. A gap is a number or an array of any shape; the answer has the same shape. Outside the interval the
+A fit of tables with strains also has the stresslets S of the sphere, and the loads on a neighbour
+that is a sphere.
+
+A gap is a number or an array of any shape; the answer has the same shape. Outside the interval the
 formula goes on.)");
   pair.def(py::init([](const fs::path& path, const std::optional<double>& radius,
                        const std::optional<double>& viscosity) {
