@@ -10,14 +10,15 @@ namespace viscontact::particles {
 namespace {
 
 struct ProjectionTuning {
-  // Gaps below which pairs are chosen before they close, in mean radii. A further solution with
-  // friction takes more time than contacts whose gaps stay open. With Coulomb's law pairs are chosen
-  // after a solution has closed further gaps, because redundant contacts would take loads from
-  // particles that stand without them; with the convex relaxation, (5.9), before the first solution,
-  // but only pairs with a film, because it pushes sliding particles without a film apart.
+  // Gaps below which pairs are chosen before they close, in mean radii, because a further solution
+  // with friction takes more time than contacts whose gaps stay open. With Coulomb's law pairs are
+  // chosen after a solution has closed further gaps, because redundant contacts would take loads
+  // from particles that stand without them; with the convex relaxation, (5.9), before the first
+  // solution, but only pairs with a film, because it pushes sliding particles without a film apart.
+  // With sweeps these are the only ones, with either law.
   static constexpr double kMargin = 5e-3;
-  // The same of pairs that are optional, in sweeps with the convex relaxation. With 0.05 to 0.2
-  // steps of 2000 spheres take the same time, with 0 a third more.
+  // The same of optional contacts, which in sweeps are those without a film. With 0.05 to 0.2 steps
+  // of 2000 spheres with the convex relaxation take the same time, with 0 a third more.
   static constexpr double kMarginOfOptional = 0.1;
   // The part of what is allowed to which solutions are computed. The rest is for rounding errors,
   // because examine() computes residuals by other formulas; sweeps leave residuals far above these.

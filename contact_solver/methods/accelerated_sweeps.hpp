@@ -48,7 +48,8 @@ class AcceleratedSweeps {
  private:
   // x, y, z and 0 in one register. Discs have impulses in the plane and turn about z.
   using Vector [[gnu::vector_size(32)]] = double;
-  // Compiled for AVX, but only there, GCC takes this alignment for granted.
+  // GCC's alignof(Vector), by which memory is allocated, is less without AVX; its code for AVX, in
+  // by_fastest_instructions(), takes this alignment for granted.
   static constexpr std::size_t kAlignment = sizeof(Vector);
   struct alignas(kAlignment) Unit {
     Vector moved{};   // [L]
