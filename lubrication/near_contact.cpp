@@ -9,7 +9,7 @@
 #include <span>
 
 #include "viscontact/lubrication/motion_table.hpp"
-#include "viscontact/lubrication/pair_near_contact.hpp"
+#include "viscontact/lubrication/pairs/pair_near_contact.hpp"
 
 namespace viscontact::lubrication {
 namespace {

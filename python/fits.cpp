@@ -13,7 +13,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
-#include "viscontact/lubrication/pair_resistance.hpp"
+#include "viscontact/lubrication/pairs/pair_resistance.hpp"
 #include "viscontact/lubrication/scaling.hpp"
 #include "viscontact/motions/fit/fit_pair.hpp"
 #include "viscontact/motions/job/pair_fit_stage.hpp"

@@ -1,4 +1,4 @@
-#include "viscontact/lubrication/pair_resistance.hpp"
+#include "viscontact/lubrication/pairs/pair_resistance.hpp"
 
 #include <gmock/gmock.h>
 
@@ -19,7 +19,7 @@
 #include "tests/oracles/bispherical/pair_matrix.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/number.hpp"
-#include "viscontact/lubrication/pair_near_contact.hpp"
+#include "viscontact/lubrication/pairs/pair_near_contact.hpp"
 
 namespace viscontact::lubrication {
 namespace {

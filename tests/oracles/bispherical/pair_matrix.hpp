@@ -1,4 +1,4 @@
-// The exact matrix of a pair in the order of lubrication/pair_resistance.hpp.
+// The exact matrix of a pair in the order of lubrication/pairs/pair_resistance.hpp.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
-// Prints lubrication/pair_rest.hpp, computed anew in some seconds:
-//     build/release/pair_rest_table > lubrication/pair_rest.hpp
+// Prints lubrication/pairs/pair_rest.hpp, computed anew in some seconds:
+//     build/release/pair_rest_table > lubrication/pairs/pair_rest.hpp
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tests/oracles/bispherical/pair_matrix.hpp"
-#include "viscontact/lubrication/pair_near_contact.hpp"
+#include "viscontact/lubrication/pairs/pair_near_contact.hpp"
 
 namespace viscontact {
 namespace {
@@ -73,7 +73,7 @@ void print_table() {
       "near\n"
       "// contact. Written by pair_rest_table (tests/oracles/bispherical) from exact solutions.\n"
       "#pragma once\n\n#include <array>\n#include <cstddef>\n\n"
-      "#include \"viscontact/lubrication/pair_near_contact.hpp\"\n\n"
+      "#include \"viscontact/lubrication/pairs/pair_near_contact.hpp\"\n\n"
       "namespace viscontact::lubrication {\n\n"
       "/// Numbers of Chebyshev polynomials in the variables of PairCoordinates.");
   std::printf("inline constexpr std::size_t kRatioTerms = %d, kGapTerms = %d;\n\n", kRatios, kGaps);

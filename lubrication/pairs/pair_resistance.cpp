@@ -1,5 +1,5 @@
 // Chebyshev sums of the rest, terms near contact, and the places of the entries in the matrix.
-#include "viscontact/lubrication/pair_resistance.hpp"
+#include "viscontact/lubrication/pairs/pair_resistance.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -9,8 +9,8 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/text/number.hpp"
-#include "viscontact/lubrication/pair_near_contact.hpp"
-#include "viscontact/lubrication/pair_rest.hpp"
+#include "viscontact/lubrication/pairs/pair_near_contact.hpp"
+#include "viscontact/lubrication/pairs/pair_rest.hpp"
 
 namespace viscontact::lubrication {
 namespace {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include "viscontact/lubrication/pair_near_contact.hpp"
+#include "viscontact/lubrication/pairs/pair_near_contact.hpp"
 
 namespace viscontact::lubrication {
 
