@@ -290,7 +290,8 @@ std::vector<std::size_t> StepProjection<D>::leave_touching(std::vector<std::size
 }
 
 template <int D>
-ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double mean_radius) {
+ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double mean_radius,
+                                          bool can_be_divided) {
   assert(selection_.members().empty() && mean_radius > 0);
   ProjectionResult result;
   // An overlap up to half of the tolerance is left as it is. The other half of the tolerance is for
@@ -301,6 +302,8 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   if (sweeps_) constraints_->start = ConstraintStart::kAcceleratedSweeps;
   const bool has_friction = step_ != nullptr && step_->laws.friction;
   const bool is_convex = has_friction && step_->laws.friction->method == FrictionMethod::kConvex;
+  if (constraints_)
+    constraints_->can_be_divided = can_be_divided && sweeps_ && has_friction && !is_convex;
   // The motion with links and without contacts decides which contacts are chosen. Without its hinge
   // or arm, a particle would meet walls from which the hinge or arm keeps it away.
   if (constraints_ && !constraints_->links().empty()) {
@@ -340,7 +343,11 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     solve_contacts(is_rough, length, most, result);
     const bool is_last = result.iterations >= settings.max_iterations;
     auto more = examine(settings, mean_radius, !is_rough || is_last, result);
-    if (result.residuals.converged) break;
+    if (constraints_ && constraints_->needs_shorter_step()) {
+      result.needs_shorter_step = true;
+      result.residuals.converged = false;
+    }
+    if (result.residuals.converged || result.needs_shorter_step) break;
     if (is_last || (constraints_ && constraints_->has_given_up() && !is_convex)) {
       // An island is not solved, or given loads bound its friction in place of Coulomb's law. Pairs
       // that solutions close are still added, also to other islands, in at most kMostRounds rounds,
