@@ -20,6 +20,11 @@ struct ProjectionTuning {
   // The same of optional contacts, which in sweeps are those without a film. With 0.05 to 0.2 steps
   // of 2000 spheres with the convex relaxation take the same time, with 0 a third more.
   static constexpr double kMarginOfOptional = 0.1;
+  // Optional contacts follow each other from particle to particle, because impulses go on through
+  // pairs that motion without contacts leaves open. While 10 000 spheres fall on each other, a step
+  // takes 3.5 solutions with 1 layer of such contacts, 1.5 with 3, and 1 with 6 or 12; the time is
+  // 41, 26, 20 and 20 ms.
+  static constexpr int kLayersOfOptional = 6;
   // The part of what is allowed to which solutions are computed. The rest is for rounding errors,
   // because examine() computes residuals by other formulas; sweeps leave residuals far above these.
   static constexpr double kPart = 0.5, kPartOfSweeps = 0.95;
@@ -192,6 +197,15 @@ void StepProjection<D>::choose(const std::vector<std::size_t>& pairs, bool are_o
 }
 
 template <int D>
+void StepProjection<D>::choose_optional(double mean_radius) {
+  for (int layer = 0; layer < ProjectionTuning::kLayersOfOptional; ++layer) {
+    const auto near = nearly_closed(ProjectionTuning::kMarginOfOptional * mean_radius, false);
+    if (near.empty()) return;
+    choose(near, true);
+  }
+}
+
+template <int D>
 void StepProjection<D>::solve_contacts(bool is_rough, double length, int max_iterations,
                                        ProjectionResult& result) {
   if (constraints_) {
@@ -320,8 +334,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   if (has_friction) {
     margin_ = ProjectionTuning::kMargin * mean_radius;
     if (is_convex || sweeps_) choose(nearly_closed(margin_, true));
-    if (sweeps_)
-      choose(nearly_closed(ProjectionTuning::kMarginOfOptional * mean_radius, false), true);
+    if (sweeps_) choose_optional(mean_radius);
   }
   // Tolerances of the rough solution: of gaps in mean radii, and of impulses as a fraction of the
   // impulse at work, 1, because impulses are not known yet. For bench/box2d.cpp with 1000 discs,
@@ -375,6 +388,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
                           ? nearly_closed(margin_, only_films ? std::optional(true) : std::nullopt)
                           : std::vector<std::size_t>{};
     choose(near);
+    if (sweeps_ && has_friction && !more.empty()) choose_optional(mean_radius);
     if (more.empty() && near.empty()) is_rough = false;
   }
   result.turns_too_far |= !result.residuals.converged && shapes_turn();

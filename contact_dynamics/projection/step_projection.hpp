@@ -321,6 +321,8 @@ class StepProjection {
                                           const SolverSettings& settings, double mean_radius);
   // Adds contacts of pairs that are not chosen yet. A pair that an arm keeps apart gets none.
   void choose(const std::vector<std::size_t>& pairs, bool are_optional = false);
+  // Adds pairs without films that are nearly closed, as optional contacts, and those next to them.
+  void choose_optional(double mean_radius);
   void refine();
   struct Understated {
     /// The mobility of the lighter particle of a contact over the least one of its island.
