@@ -143,6 +143,7 @@ class ConstraintSystem {
     memory[Remembered::kSolidLoad] = contact_states_[c].solid_load;
     memory.set_across(contact_states_[c].across);
   }
+  const Vector& friction(std::size_t c) const { return contact_states_[c].friction; }  ///< [M L/T]
   const BlockResidual& residual(std::size_t c) const { return contact_states_[c].residual; }
   /// Residual of link `l` of links() [L]; that of angles is multiplied by the mean radius.
   double link_residual(std::size_t l) const { return link_residuals_[l]; }

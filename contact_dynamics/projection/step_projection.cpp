@@ -396,8 +396,9 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   std::vector<double> impulse_errors;
   for (std::size_t c = 0; c < selection_.members().size(); ++c) {
     auto& of_contact = pair(selection_.members()[c]);
+    // Friction that given loads bound needs no normal impulse.
     if (system_.contacts[c].is_optional && system_.contacts[c].impulse == 0 &&
-        of_contact.impulse == 0)
+        of_contact.impulse == 0 && norm(constraints_->friction(c)) == 0)
       continue;
     impulse_errors.push_back(result.residuals.impulse_errors[c]);
     result.pairs.push_back(&of_contact);
