@@ -272,12 +272,12 @@ TEST_P(Packing, KeepsMomentumAndContinuesBitForBitWhereStepsAreDivided) {
     given += report.has_given_loads ? 1 : 0;
     // Impulses of all parts on the walls, whose normals stay, and of gravity. Forces are impulses
     // over the whole step.
-    Vector given = (setting.time_step * mass) * setting.gravity;
+    Vector change = (setting.time_step * mass) * setting.gravity;
     for (const auto& contact : contacts_of(setting, state))
       if (contact.first < 0)
-        given = given + setting.time_step *
-                            (contact.normal_force * contact.normal + contact.tangential_force);
-    EXPECT_LE(norm(momentum() - before - given), 1e-12) << n;
+        change = change + setting.time_step *
+                              (contact.normal_force * contact.normal + contact.tangential_force);
+    EXPECT_LE(norm(momentum() - before - change), 1e-12) << n;
   }
   EXPECT_GT(divided, 10);
   EXPECT_GT(given, 3);
