@@ -175,11 +175,12 @@ Forces forces(const Setting& setting, const State& state, const Particles& befor
 }
 
 struct Tally {  // of steps
-  int steps = 0, unconverged = 0, most_iterations = 0;
+  int steps = 0, unconverged = 0, divided = 0, most_iterations = 0;
   double cpu = 0, longest = 0, iterations = 0, overlap = 0;
   void add(const StepReport& report, double seconds) {
     ++steps;
     unconverged += report.converged ? 0 : 1;
+    divided += report.parts > 1 ? 1 : 0;
     iterations += report.iterations;
     most_iterations = std::max(most_iterations, report.iterations);
     cpu += seconds;
@@ -275,11 +276,11 @@ int main(int argc, char** argv) {
   getrusage(RUSAGE_SELF, &usage);
   fmt::print(
       "count={} seed={} rests={} t={:.4f} cpu_s={:.3f} steps={} iterations={:.1f} most={} "
-      "unconverged={} longest_s={:.4f} fraction={:.5f} coordination={:.3f} floor={:.5f} "
+      "unconverged={} divided={} longest_s={:.4f} fraction={:.5f} coordination={:.3f} floor={:.5f} "
       "walls-1={:.1e} momentum={:.1e} balance={:.1e} net={:.1e} largest_net={:.1e} "
       "overlap={:.1e} overlap_at_end={:.1e} MiB={}",
       count, o["--seed"], rests ? "yes" : "no", state.time, all.cpu, all.steps,
-      all.iterations / all.steps, all.most_iterations, all.unconverged, all.longest,
+      all.iterations / all.steps, all.most_iterations, all.unconverged, all.divided, all.longest,
       packing_fraction(state.particles, width), last.coordination, last.on_floor, last.on_walls - 1,
       last.momentum, balance, last.net, last.largest_net, all.overlap,
       largest_overlap(setting, state), usage.ru_maxrss / 1024);

@@ -28,6 +28,13 @@ namespace viscontact::particles {
 
 namespace {
 
+struct DivisionTuning {
+  // How often a step may be halved because its friction is not solved, and the iterations of the
+  // step after which no part is divided further. The last parts take their own iterations.
+  static constexpr int kMostOfFriction = 4;
+  static constexpr int kMostIterations = 20000;
+};
+
 struct OverlapTuning {
   // The overlap of a step that jams, in mean radii. Steps that fail for another reason, such as
   // their friction, leave overlaps of up to 3e-3 in data/cases/particles/shear_under_pressure.toml.
@@ -176,7 +183,7 @@ void Simulation::move(double h) {
 }
 
 template <int D>
-ProjectionResult Simulation::project(double h, double next) {
+ProjectionResult Simulation::project(double h, double next, bool can_be_divided) {
   const auto planes_before = positions_of(obstacles_, state_.time);
   const auto planes = positions_of(obstacles_, next);
   const double largest = largest_resolved_distance(setting_.solver.tolerance, mean_radius_);
@@ -250,7 +257,7 @@ ProjectionResult Simulation::project(double h, double next) {
     if (is_constrained) projection.add_constraints(constraints);
     if (impacts<D>()) projection.follow(*impacts<D>());
     const bool was_constrained = is_constrained;
-    auto projected = projection.solve(setting_.solver, mean_radius_);
+    auto projected = projection.solve(setting_.solver, mean_radius_, can_be_divided);
     // A chain that is squeezed until it buckles may have a solution without springs only.
     const bool springs_fail =
         is_constrained && !has_constraints() && !projected.residuals.converged;
@@ -273,7 +280,8 @@ ProjectionResult Simulation::project(double h, double next) {
       for (const auto body : impacts<D>()->touched())
         gone = std::max(gone, length_of(index_of(body)));
     gone += gone_planes();
-    if (gone <= margin && neighbour_list_is_valid(state_, displacements_, *pool_)) {
+    if (projected.needs_shorter_step ||
+        (gone <= margin && neighbour_list_is_valid(state_, displacements_, *pool_))) {
       projected.lacks_springs = !can_have_springs;
       projected.iterations += discarded.iterations;
       projected.stages += discarded.stages;
@@ -445,11 +453,14 @@ template <int D>
 void Simulation::advance(double h, double next, int halvings, StepReport& report) {
   assert(h > 0 && halvings <= kMostHalvings);
   move_freely<D>(h, next);
-  const auto projected = project<D>(h, next);
+  const bool may_divide_friction = halvings < DivisionTuning::kMostOfFriction &&
+                                   report.iterations < DivisionTuning::kMostIterations;
+  const auto projected = project<D>(h, next, may_divide_friction);
   // Links that only seem to contradict each other because they turn too far hold in shorter steps.
   const bool is_divided =
-      halvings < kMostHalvings &&
-      (projected.residuals.converged ? projected.unresolved > 0 : projected.turns_too_far);
+      projected.needs_shorter_step ||
+      (halvings < kMostHalvings &&
+       (projected.residuals.converged ? projected.unresolved > 0 : projected.turns_too_far));
   if (!is_divided) examine(projected, next);
   if (is_divided) {
     undo_impacts();

@@ -66,6 +66,8 @@ class Simulation : public ParticleSimulation {
   /// A step in which two touching particles pass each other by more than half the sum of their
   /// radii (kLargestTurn in contact.hpp), or links turn so far that their equations are not solved,
   /// is computed in two halves, and these again. The report then has the contacts of the last part.
+  /// With SolverSettings::suits_sweeps() this also happens, up to four times, to a step whose sweeps
+  /// do not solve Coulomb's law, because those of shorter steps do.
   ///
   /// Throws Error(kNotConverged) if a position or displacement exceeds largest_resolved_distance(),
   /// if a displacement is longer than a periodic domain allows (rebuild_neighbour_list()), if the
@@ -160,8 +162,9 @@ class Simulation : public ParticleSimulation {
   std::vector<char> free_particles() const;
   // Solves the projection for the velocities v: the displacements h u* become h v. Rebuilds the
   // lists of pairs where needed.
+  // If `can_be_divided`, see StepProjection::solve().
   template <int D>
-  ProjectionResult project(double h, double next);
+  ProjectionResult project(double h, double next, bool can_be_divided);
   void move(double h);
   // The impacts of the part of a step that is being computed; null without restitution.
   template <int D>

@@ -24,7 +24,7 @@ struct CoulombTuning {
   }};
   // In problems of more blocks the plans are repeated, and the methods below are not tried, whose
   // factorisations would take too long: 50 ms for 2000 spheres, but 1 ms for 1000 discs.
-  static constexpr std::size_t kRepeated = 4;
+  static constexpr std::size_t kRepeated = 2;
   template <int D>
   static constexpr std::size_t kMostForFactors = D == 2 ? 20000 : 500;
   // Sweeps end if they do not reduce the residual to this part of itself. Slow progress is enough,

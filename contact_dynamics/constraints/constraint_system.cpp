@@ -346,7 +346,7 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
   find_islands(system);
   progress_.resize(system.bodies().size());
   SolverResult result;
-  has_given_up_ = false;
+  has_given_up_ = needs_shorter_step_ = false;
   for (auto& island : islands_) {
     Progress progress;
     for (const auto b : island.bodies)
@@ -368,6 +368,7 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
     }
     result.iterations = std::max(result.iterations, progress.iterations);
     has_given_up_ |= island.has_given_up;
+    needs_shorter_step_ |= island.needs_shorter_step;
   }
   known_contacts_ = system.contacts.size();
   std::ranges::copy(link_forces_, step_.link_forces.begin());

@@ -93,8 +93,11 @@ class ConstraintSystem {
 
   /// The equations of all links, and then those of the stops of hinges, which bound their angles.
   const std::vector<LinkEquations>& links() const { return links_; }
-  /// How solutions begin. The caller sets this and the next four before solve().
+  /// How solutions begin. The caller sets this and the next five before solve().
   ConstraintStart start = ConstraintStart::kSweeps;
+  /// True if the caller takes the step anew, in shorter parts, if needs_shorter_step(). Islands do
+  /// not give up then.
+  bool can_be_divided = false;
   /// Allowed residuals of links() [L], > 0; those of angles times the mean radius.
   std::vector<double> links_allowed;
   /// Errors that are asked for of the impulses of all contacts, in the order of add(), and then of
@@ -124,6 +127,9 @@ class ConstraintSystem {
   SolverResult solve(ContactSystem<D>& system, bool is_rough, double roughly_allowed,
                      int max_iterations);
 
+  /// True if the last solve() did not solve an island with friction, and the step can_be_divided.
+  bool needs_shorter_step() const { return needs_shorter_step_; }
+
   /// True if given loads bound the friction of an island, because solve() could not solve its
   /// problem with the friction law that was asked for.
   bool has_given_up() const { return has_given_up_; }
@@ -137,6 +143,7 @@ class ConstraintSystem {
     memory[Remembered::kSolidLoad] = contact_states_[c].solid_load;
     memory.set_across(contact_states_[c].across);
   }
+  const Vector& friction(std::size_t c) const { return contact_states_[c].friction; }  ///< [M L/T]
   const BlockResidual& residual(std::size_t c) const { return contact_states_[c].residual; }
   /// Residual of link `l` of links() [L]; that of angles is multiplied by the mean radius.
   double link_residual(std::size_t l) const { return link_residuals_[l]; }
@@ -188,6 +195,7 @@ class ConstraintSystem {
     bool loads_may_drift = false;
     // can_give_up is false if the problem had no solution with given loads either.
     bool has_given_up = false, can_give_up = true;
+    bool needs_shorter_step = false;
   };
   struct Progress {
     enum class Solved : unsigned char { kNot, kRoughly, kAccurately } solved = Solved::kNot;
@@ -296,7 +304,7 @@ class ConstraintSystem {
   std::vector<Island> islands_;     // of the last solve()
   std::vector<Progress> progress_;  // of all bodies of the ContactSystem
   std::size_t known_contacts_ = 0;  // number of contacts in the last solve()
-  bool has_given_up_ = false;
+  bool has_given_up_ = false, needs_shorter_step_ = false;
 };
 
 }  // namespace viscontact::particles

@@ -111,6 +111,8 @@ template <int D>
 SolverResult IslandLadder<D>::solve() {
   restart();
   contact_solver::run_stages(kTable, *this);
+  island_.needs_shorter_step =
+      constraints_.can_be_divided && !(result_.residual <= 1) && could_give_up();
   take_over();
   return result_;
 }
@@ -249,7 +251,7 @@ void IslandLadder<D>::prepare_correction(bool is_fast) {
 }
 
 template <int D>
-bool IslandLadder<D>::may_give_up() const {
+bool IslandLadder<D>::could_give_up() const {
   const auto has_own_load = [](const ConstraintBlock& block) {
     return block.is_contact && block.rows > 1 && block.friction_bound != FrictionBound::kGiven;
   };

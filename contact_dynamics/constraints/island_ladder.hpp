@@ -62,7 +62,8 @@ class IslandLadder {
   bool is_unsolved_after_corrections() const { return corrections_ > 0 && is_unsolved(); }
   bool is_exhausted() const;
   // True if the island has not given up yet, and a load of its own could be given.
-  bool may_give_up() const;
+  bool could_give_up() const;
+  bool may_give_up() const { return !constraints_.can_be_divided && could_give_up(); }
   // Solves with the loads of the present impulses or, if they fail or `have_diverged`, of a
   // solution without friction. If this fails, too, returns false and changes nothing but the
   // iterations.

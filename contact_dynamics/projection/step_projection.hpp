@@ -130,6 +130,9 @@ struct ProjectionResult {
   /// True if given loads bound the friction, because the problem with the loads of this step was
   /// not solved, or its corrections for finite turns diverged (ConstraintSystem::has_given_up()).
   bool has_given_loads = false;
+  /// True if Coulomb's law was not solved and the step can be divided. Then the solution and all
+  /// residuals are rough.
+  bool needs_shorter_step = false;
   bool lacks_springs = false;  ///< StepReport::lacks_springs of this part
   double buckling = 0;         ///< StepReport::buckling of this part
   double link_residual = 0;    ///< largest [L]
@@ -198,8 +201,10 @@ class StepProjection {
   }
   /// Solves the projection and sets the displacements, but changes neither pairs nor memories of
   /// the state. SolverSettings::tolerance is in units of `mean_radius` > 0 [L]. May be called once.
-  /// If the step is not solved, the result is the last solution.
-  ProjectionResult solve(const SolverSettings& settings, double mean_radius);
+  /// If the step is not solved, the result is the last solution. If `can_be_divided`, sweeps that
+  /// do not solve Coulomb's law end at once with ProjectionResult::needs_shorter_step.
+  ProjectionResult solve(const SolverSettings& settings, double mean_radius,
+                         bool can_be_divided = false);
 
  private:
   // Pairs are numbered as in state.pairs; those of state.walls follow after them.
@@ -316,6 +321,8 @@ class StepProjection {
                                           const SolverSettings& settings, double mean_radius);
   // Adds contacts of pairs that are not chosen yet. A pair that an arm keeps apart gets none.
   void choose(const std::vector<std::size_t>& pairs, bool are_optional = false);
+  // Adds pairs without films that are nearly closed, as optional contacts, and those next to them.
+  void choose_optional(double mean_radius);
   void refine();
   struct Understated {
     /// The mobility of the lighter particle of a contact over the least one of its island.

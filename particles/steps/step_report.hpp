@@ -83,8 +83,8 @@ struct StepReport {
   double excess = 0;
   /// Largest overlap -d, divided by the mean radius [1]. No true gap is smaller than d.
   double largest_overlap = 0;
-  /// Parts into which the step was divided where particles move fast, 1 to 256; 1 if no time was
-  /// left.
+  /// Parts into which the step was divided because particles move fast or sweeps did not solve
+  /// Coulomb's law, 1 to 256; 1 if no time was left.
   int parts = 0;
   /// Contacts whose particles pass each other by more than half the sum of their radii even in the
   /// smallest parts of the step (kLargestTurn in contact.hpp), too far for linearised gaps.

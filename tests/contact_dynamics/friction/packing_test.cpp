@@ -211,6 +211,82 @@ TEST_P(Packing, ContinuesFromItsStateBitForBit) {
   }
 }
 
+/// With Coulomb's law, and so few iterations that steps of poured() are divided.
+Setting with_few_iterations(int dimension, int most) {
+  auto setting = setting_of({1, 0, FrictionMethod::kCoulomb}, dimension);
+  setting.solver.max_iterations = most;
+  return setting;
+}
+
+TEST_P(Packing, DividesAStepAsIfShorterStepsWereAskedFor) {
+  const auto setting = with_few_iterations(GetParam(), 100);
+  auto in_halves = setting;
+  in_halves.time_step /= 2;
+  Simulation simulation(setting, poured({}, GetParam()), 1);
+  int halved = 0;
+  for (int n = 0; n < 150; ++n) {
+    State start = no_particles(GetParam());
+    start.particles = simulation.state().particles;
+    simulation.step(100);
+    // The first guesses of a state without impulses are the same in each step.
+    Simulation whole(setting, start, 1);
+    const auto report = whole.step(100);
+    if (report.parts != 2) continue;
+    ++halved;
+    Simulation half(in_halves, start, 1);
+    bool is_solved = true;
+    for (int part = 0; part < 2; ++part) {
+      const auto of_half = half.step(100);
+      EXPECT_EQ(of_half.parts, 1) << n;
+      is_solved = is_solved && of_half.converged;
+    }
+    EXPECT_EQ(report.converged, is_solved) << n;
+    EXPECT_EQ(whole.state().particles.positions, half.state().particles.positions) << n;
+    EXPECT_EQ(whole.state().particles.velocities, half.state().particles.velocities) << n;
+    EXPECT_EQ(whole.state().particles.angular_velocities, half.state().particles.angular_velocities)
+        << n;
+  }
+  EXPECT_GT(halved, 3);
+}
+
+TEST_P(Packing, KeepsMomentumAndContinuesBitForBitWhereStepsAreDivided) {
+  // Some steps are not solved in parts either.
+  const auto setting = with_few_iterations(GetParam(), 40);
+  Simulation simulation(setting, poured({}, GetParam()), 1);
+  const auto& state = simulation.state();
+  double mass = 0;
+  for (const double m : state.particles.masses) mass += m;
+  const auto momentum = [&] {
+    Vector sum{};
+    for (std::size_t k = 0; k < state.particles.count(); ++k)
+      sum = sum + state.particles.masses[k] * state.particles.velocity(k);
+    return sum;
+  };
+  int divided = 0, given = 0;
+  State middle;
+  for (int n = 0; n < 150; ++n) {
+    if (n == 100) middle = state;
+    const Vector before = momentum();
+    const auto report = simulation.step(100);
+    divided += report.parts > 1 ? 1 : 0;
+    given += report.has_given_loads ? 1 : 0;
+    // Impulses of all parts on the walls, whose normals stay, and of gravity. Forces are impulses
+    // over the whole step.
+    Vector change = (setting.time_step * mass) * setting.gravity;
+    for (const auto& contact : contacts_of(setting, state))
+      if (contact.first < 0)
+        change = change + setting.time_step *
+                              (contact.normal_force * contact.normal + contact.tangential_force);
+    EXPECT_LE(norm(momentum() - before - change), 1e-12) << n;
+  }
+  EXPECT_GT(divided, 10);
+  EXPECT_GT(given, 3);
+  Simulation continued(setting, middle, 1);
+  for (int n = 100; n < 150; ++n) continued.step(100);
+  EXPECT_EQ(continued.state().particles.positions, state.particles.positions);
+  EXPECT_EQ(continued.state().particles.velocities, state.particles.velocities);
+}
+
 TEST_P(Packing, IsTheSameInOtherUnits) {
   const auto setting = setting_of({}, GetParam());
   State start = no_particles(GetParam());
