@@ -9,6 +9,11 @@
 #include <utility>
 
 namespace viscontact::particles {
+namespace {
+
+constexpr double kLargestFactor = 1.001;  // of close_to()
+
+}  // namespace
 
 double edge_of(double size, std::size_t dimension) {
   assert(size > 0);
@@ -23,7 +28,11 @@ double edge_of(double size, std::size_t dimension) {
 
 PlacedParticles::PlacedParticles(const std::vector<Places>& places, std::vector<double> radii,
                                  double gap, std::vector<FixedParticle> fixed)
-    : places_(places), radii_(std::move(radii)), gap_(gap), fixed_(std::move(fixed)) {
+    : places_(places),
+      radii_(std::move(radii)),
+      gap_(gap),
+      fixed_(std::move(fixed)),
+      slack_(ArrangementTuning::kSlack * (2 * radii_.back() + gap_)) {
   assert(std::ranges::is_sorted(radii_, std::greater<>()));
   assert(places_.size() == 1 || places_.size() == radii_.size());
   level_of_.resize(count());
@@ -72,6 +81,7 @@ void PlacedParticles::add(const Vector& x) {
   cell_of_[k] = cell_of(level, x);
   insert(level, cell_of_[k], {x, radii_[k], k});
   centres_.push_back(x);
+  has_lists_ = false;
   place_of_.push_back(place_of(x));
   came_.push_back(comings_++);
 }
@@ -88,6 +98,7 @@ void PlacedParticles::move(std::size_t k, const Vector& x) {
     cell_of_[k] = now;
   }
   centres_[k] = x;
+  if (has_lists_ && !is_near_listed(x, k)) has_lists_ = false;
   const auto place = place_of(x);
   if (place == place_of_[k]) return;
   place_of_[k] = place;
@@ -127,45 +138,56 @@ PlacedParticles::Range PlacedParticles::range(const Level& level, std::size_t d,
   const auto n = static_cast<std::int64_t>(level.cells[d]);
   const double at = (x - widest_places().from(d)) * level.per_length[d];
   const double half = reach * level.per_length[d];
-  // A reach over the whole length is cut, because it might not be a 64-bit number.
-  if (!(2 * half < static_cast<double>(n))) return {0, level.cells[d]};
-  auto first = static_cast<std::int64_t>(std::floor(at - half)),
-       last = static_cast<std::int64_t>(std::floor(at + half));
+  const Range all{.count = n, .cells = n};
+  // A reach over the whole length may be too large for a 64-bit number.
+  if (!(2 * half < static_cast<double>(n))) return all;
+  // The sum is positive, so that the cast is the floor.
+  const double shift = static_cast<double>(2 * n);
+  auto first = static_cast<std::int64_t>(at - half + shift) - 2 * n,
+       last = static_cast<std::int64_t>(at + half + shift) - 2 * n;
+  auto home = static_cast<std::int64_t>(at);
   if (widest_places().period(d) == 0) {
     first = std::clamp<std::int64_t>(first, 0, n - 1);
     last = std::clamp<std::int64_t>(last, 0, n - 1);
+    home = std::clamp<std::int64_t>(home, 0, n - 1);
   } else if (last - first + 1 >= n) {
-    return {0, level.cells[d]};
+    return all;
   }
-  return {static_cast<std::size_t>(first < 0 ? first + n : first),
-          static_cast<std::size_t>(last - first + 1)};
+  return {first, last - first + 1, n, home - first, at, 1 / level.per_length[d]};
 }
 
 template <class Visit>
-bool PlacedParticles::any_close(const Vector& x, std::size_t self, double factor,
-                                const Visit& visit) const {
+bool PlacedParticles::any_in_cells(const Vector& x, std::size_t self, double factor, double further,
+                                   const Visit& visit) const {
   // Slightly more than the rounding errors of the places of cells.
   constexpr double kWider = 1 + 1e-9;
   const auto& everywhere = widest_places();
   const double radius = radii_[self];
   for (const auto& level : levels_) {
-    const double reach = kWider * factor * (radius + level.largest + gap_);
-    std::array<Range, 3> ranges{{{0, 1}, {0, 1}, {0, 1}}};
+    const double reach = kWider * (factor * (radius + level.largest + gap_) + further),
+                 reach2 = reach * reach;
+    std::array<Range, 3> ranges{};
     for (std::size_t d = 0; d < dimension(); ++d) ranges[d] = range(level, d, x[d], reach);
-    std::size_t i = ranges[0].first;
-    for (std::size_t a = 0; a < ranges[0].count; ++a, i = i + 1 == level.cells[0] ? 0 : i + 1) {
-      std::size_t j = ranges[1].first;
-      for (std::size_t b = 0; b < ranges[1].count; ++b, j = j + 1 == level.cells[1] ? 0 : j + 1) {
-        const std::size_t row = (i * level.cells[1] + j) * level.cells[2];
-        std::size_t l = ranges[2].first;
-        for (std::size_t c = 0; c < ranges[2].count; ++c, l = l + 1 == level.cells[2] ? 0 : l + 1) {
-          const Entry* entry = &level.entries[(row + l) * level.capacity];
-          for (const Entry* end = entry + level.counts[row + l]; entry != end; ++entry) {
+    for (std::int64_t i = 0; i < ranges[0].count; ++i) {
+      const auto i0 = ranges[0].visited(i);
+      const double d0 = ranges[0].distance2(i0);
+      for (std::int64_t j = 0; j < ranges[1].count; ++j) {
+        const auto j0 = ranges[1].visited(j);
+        const double d1 = d0 + ranges[1].distance2(j0);
+        if (d1 > reach2) continue;
+        const std::size_t row =
+            (ranges[0].cell(i0) * level.cells[1] + ranges[1].cell(j0)) * level.cells[2];
+        for (std::int64_t l = 0; l < ranges[2].count; ++l) {
+          const auto l0 = ranges[2].visited(l);
+          const std::size_t cell = row + ranges[2].cell(l0);
+          const Entry* entry = &level.entries[cell * level.capacity];
+          for (const Entry* end = entry + level.counts[cell]; entry != end; ++entry) {
             if (entry->number == self) continue;
             const Vector apart = everywhere.difference(x, entry->centre);
-            const double distance = entry->radius + radius + gap_, least = factor * distance;
+            const double distance = entry->radius + radius + gap_,
+                         least = factor * distance + further;
             if (apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2] < least * least &&
-                visit(apart, distance, *entry))
+                visit(apart, distance, entry->number))
               return true;
           }
         }
@@ -173,6 +195,59 @@ bool PlacedParticles::any_close(const Vector& x, std::size_t self, double factor
     }
   }
   return false;
+}
+
+template <class Visit>
+bool PlacedParticles::any_listed(const Vector& x, std::size_t self, double factor,
+                                 const Visit& visit) const {
+  const auto& everywhere = widest_places();
+  const double radius = radii_[self];
+  for (std::size_t i = first_neighbour_[self]; i < first_neighbour_[self + 1]; ++i) {
+    const std::size_t k = neighbours_[i];
+    const Vector apart = everywhere.difference(x, centres_[k]);
+    const double distance = radii_[k] + radius + gap_, least = factor * distance;
+    if (apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2] < least * least &&
+        visit(apart, distance, k))
+      return true;
+  }
+  return false;
+}
+
+bool PlacedParticles::is_near_listed(const Vector& x, std::size_t k) const {
+  const Vector apart = widest_places().difference(listed_[k], x);
+  return apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2] <= slack_ * slack_;
+}
+
+bool PlacedParticles::are_listed(const Vector& x, std::size_t self) {
+  ++queries_;
+  if (has_lists_ && is_near_listed(x, self)) return true;
+  if (queries_ < first_query_ || centres_.size() < count()) return false;
+  // Lists that are of use for a few queries of each particle cost more than they save. The next
+  // ones are made later.
+  first_query_ =
+      queries_ < ArrangementTuning::kUses * count() ? ArrangementTuning::kPause * count() : 0;
+  queries_ = 0;
+  if (first_query_ > 0) {
+    has_lists_ = false;
+    return false;
+  }
+  make_lists();
+  return is_near_listed(x, self);
+}
+
+void PlacedParticles::make_lists() {
+  neighbours_.clear();
+  first_neighbour_.assign(1, 0);
+  listed_ = centres_;
+  for (std::size_t k = 0; k < count(); ++k) {
+    any_in_cells(centres_[k], k, kLargestFactor, 2 * slack_,
+                 [&](const auto&, double, std::size_t other) {
+                   neighbours_.push_back(static_cast<std::uint32_t>(other));
+                   return false;
+                 });
+    first_neighbour_.push_back(neighbours_.size());
+  }
+  has_lists_ = true;
 }
 
 bool PlacedParticles::is_free(const Vector& x, std::size_t self) const {
@@ -183,7 +258,7 @@ bool PlacedParticles::is_free(const Vector& x, std::size_t self) const {
     if (apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2] < least * least)
       return false;
   }
-  return !any_close(x, self, 1, [](const auto&...) { return true; });
+  return !any_in_cells(x, self, 1, 0, [](const auto&...) { return true; });
 }
 
 bool PlacedParticles::are_all_free() const {
@@ -211,9 +286,8 @@ std::uint32_t PlacedParticles::rank(std::uint32_t home, std::uint32_t other, std
   return 3;
 }
 
-void PlacedParticles::close_to(std::size_t self, double factor,
-                               std::vector<CloseParticle>& close) const {
-  assert(1 <= factor && factor <= 1.001);
+void PlacedParticles::close_to(std::size_t self, double factor, std::vector<CloseParticle>& close) {
+  assert(1 <= factor && factor <= kLargestFactor);
   close.clear();
   const Vector& x = centres_[self];
   for (const auto& fixed : fixed_) {
@@ -224,17 +298,21 @@ void PlacedParticles::close_to(std::size_t self, double factor,
   }
   const std::size_t begin = close.size();
   const Place home = place_of_[self];
-  any_close(x, self, factor, [&](const Vector& apart, double distance, const Entry& entry) {
-    const Place& place = place_of_[entry.number];
+  const auto visit = [&](const Vector& apart, double distance, std::size_t k) {
+    const Place& place = place_of_[k];
     std::uint64_t cell = 0;
     for (const std::size_t d : {0U, 1U, 2U}) {
       const auto at = rank(home[d], place[d], d);
       if (at > 2) return false;  // beyond the cells beside: between distance and factor * distance
       cell = 3 * cell + at;
     }
-    close.push_back({apart, distance, false, (cell << 58U) | came_[entry.number]});
+    close.push_back({apart, distance, false, (cell << 58U) | came_[k]});
     return false;
-  });
+  };
+  if (are_listed(x, self))
+    any_listed(x, self, factor, visit);
+  else
+    any_in_cells(x, self, factor, 0, visit);
   // A few entries: insertion is faster than std::sort.
   for (std::size_t i = begin + 1; i < close.size(); ++i)
     for (std::size_t j = i; j > begin && close[j].key < close[j - 1].key; --j)

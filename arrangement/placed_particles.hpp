@@ -61,7 +61,7 @@ class PlacedParticles {
   /// sums and so the bits of arrangements: fixed particles; then particles in the same cell of a
   /// grid of cells that are as wide as the largest distance; then those in the cells beside it;
   /// within a cell in the order in which they came into it.
-  void close_to(std::size_t self, double factor, std::vector<CloseParticle>& close) const;
+  void close_to(std::size_t self, double factor, std::vector<CloseParticle>& close);
 
  private:
   using Place = std::array<std::uint32_t, 3>;
@@ -79,9 +79,25 @@ class PlacedParticles {
     std::vector<std::uint32_t> counts;          // of the entries of each cell
     std::vector<Entry> entries;                 // those of cell i begin at i * capacity
   };
-  /// Cells along an axis: `count` of them, from `first` on, across the side if it is periodic.
+  /// The cells along an axis that a point reaches: `count` of them, from `first` on, which is < 0
+  /// or beyond the last one across a periodic side.
   struct Range {
-    std::size_t first, count;
+    std::int64_t first = 0, count = 1, cells = 1;
+    std::int64_t home = 0;  // cell of the point, counted from `first`
+    double at = 0;          // place of the point in widths of cells
+    double width = 0;       // of a cell [L]; 0 if the point reaches all cells
+    /// Counted from `first`, the i-th of the cells that are visited, the one of the point first.
+    std::int64_t visited(std::int64_t i) const { return i == 0 ? home : i <= home ? i - 1 : i; }
+    std::size_t cell(std::int64_t k) const {
+      const std::int64_t c = first + k;
+      return static_cast<std::size_t>(c < 0 ? c + cells : c >= cells ? c - cells : c);
+    }
+    /// Square of the distance along the axis between the point and cell `k` from `first` [L^2].
+    double distance2(std::int64_t k) const {
+      const double below = static_cast<double>(first + k) - at, above = -below - 1;
+      const double outside = width * (below > 0 ? below : above > 0 ? above : 0);
+      return outside * outside;
+    }
   };
 
   Level make_level(double largest, std::size_t count) const;
@@ -94,10 +110,20 @@ class PlacedParticles {
   /// 0, 1 or 2 if `other` is `home`, the cell before or the cell after it along axis d, each only
   /// once, also across a periodic side; otherwise 3.
   std::uint32_t rank(std::uint32_t home, std::uint32_t other, std::size_t d) const;
-  /// Calls visit(apart, distance, entry) for each placed particle but `self` that is closer to `x`
-  /// than factor * distance. Stops and returns true as soon as `visit` returns true.
+  /// Calls visit(apart, distance, number) for each placed particle but `self` that is closer to `x`
+  /// than factor * distance + further. Stops and returns true as soon as `visit` returns true.
   template <class Visit>
-  bool any_close(const Vector& x, std::size_t self, double factor, const Visit& visit) const;
+  bool any_in_cells(const Vector& x, std::size_t self, double factor, double further,
+                    const Visit& visit) const;
+  /// As any_in_cells() with further = 0, if the lists of neighbours have all particles that are
+  /// close to `x`.
+  template <class Visit>
+  bool any_listed(const Vector& x, std::size_t self, double factor, const Visit& visit) const;
+  /// True if the lists of neighbours have all particles that are close to `x`. Makes lists if they
+  /// pay.
+  bool are_listed(const Vector& x, std::size_t self);
+  bool is_near_listed(const Vector& x, std::size_t k) const;
+  void make_lists();
 
   const std::vector<Places>& places_;
   std::vector<double> radii_;
@@ -110,6 +136,14 @@ class PlacedParticles {
   std::vector<std::uint64_t> came_;              // number of its coming into that cell
   std::uint64_t comings_ = 0;                    // into any cell of that grid
   std::vector<Vector> centres_;                  // of the particles that are placed [L]
+  // Lists of neighbours, which have all particles that are close as long as none has moved by more
+  // than slack_ [L] from listed_, its centre when they were made.
+  bool has_lists_ = false;
+  double slack_;
+  std::vector<std::uint32_t> neighbours_;
+  std::vector<std::size_t> first_neighbour_;
+  std::vector<Vector> listed_;
+  std::size_t queries_ = 0, first_query_ = 0;  // since lists were made; before they are made
 };
 
 }  // namespace viscontact::particles
