@@ -15,6 +15,7 @@
 #include "viscontact/arrangement/arrangement_tuning.hpp"
 #include "viscontact/arrangement/placed_particles.hpp"
 #include "viscontact/arrangement/places.hpp"
+#include "viscontact/arrangement/relaxation.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/splitmix.hpp"
 #include "viscontact/particles/domain/region.hpp"
@@ -91,6 +92,58 @@ void shuffle(PlacedParticles& placed, double size, SplitMix64& random) {
   }
 }
 
+/// Particles that are to be placed, the largest first.
+struct Asked {
+  const Domain& domain;
+  std::span<const PlanePosition> planes;
+  std::vector<double> radii;
+  double gap;
+  std::vector<FixedParticle> fixed;
+
+  /// The regions for particles that are smaller by `scale`, with smaller gaps, or one for all if
+  /// their radii are equal.
+  std::vector<Places> places(double scale = 1) const {
+    std::vector<Places> all;
+    for (std::size_t k = 0; k < (radii.front() == radii.back() ? 1 : radii.size()); ++k)
+      all.emplace_back(domain, planes, scale * (radii[k] + gap));
+    return all;
+  }
+};
+
+/// Puts all particles at random places where their gaps are large enough or, after `tries` tries,
+/// at any random place.
+void put_at_random(PlacedParticles& placed, int tries, SplitMix64& random) {
+  for (std::size_t k = 0; k < placed.count(); ++k) {
+    Vector x = placed.places(k).random(random);
+    for (int i = 1; i < tries && !placed.is_free(x, k); ++i) x = placed.places(k).random(random);
+    placed.add(x);
+  }
+}
+
+/// The factor by which all particles and their gaps must be smaller so that these particles, which
+/// are jammed with such a mean overlap, get gaps that are large enough; 0 if none is found.
+double reached_scale(const Asked& asked, const PlacedParticles& jammed, double overlap) {
+  auto centres = jammed.centres();
+  double scale = 1;
+  const auto steps = static_cast<int>(
+      std::min<std::size_t>(ArrangementTuning::kMostSteps,
+                            ArrangementTuning::kMostStepsOfAll / (4 * centres.size()) + 1));
+  for (int i = 0; i < ArrangementTuning::kShrinkings; ++i) {
+    scale *= 1 - std::min(0.5, overlap + ArrangementTuning::kShrinkFurther);
+    const auto places = asked.places(scale);
+    auto radii = asked.radii;
+    for (double& radius : radii) radius *= scale;
+    PlacedParticles smaller(places, std::move(radii), scale * asked.gap, asked.fixed);
+    for (std::size_t k = 0; k < centres.size(); ++k)
+      smaller.add(smaller.places(k).nearest(centres[k]));
+    const auto result = relax(smaller, steps);
+    if (result.is_free) return scale;
+    centres = smaller.centres();
+    overlap = result.overlap;
+  }
+  return 0;
+}
+
 }  // namespace
 
 double size_of(const Arrangement& asked, int dimension) {
@@ -111,23 +164,23 @@ std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
   const int dimension = box == nullptr ? 2 : static_cast<int>(box->dimension());
   const auto refuse = [&](const std::string& why) {
     throw Error(ErrorKind::kBadInput,
-                "{} {} of {} with gaps of at least {} do not fit ({}); they take {:.4g} of the {} "
-                "of the {}; use fewer or smaller ones, or a smaller gap",
+                "{} {} of {} with gaps of at least {} do not fit; they take {:.4g} of the {} "
+                "of the {} ({}); use fewer or smaller ones, or a smaller gap",
                 radii.size(), dimension == 2 ? "discs" : "spheres",
                 are_equal ? fmt::format("radius {}", largest)
                           : fmt::format("radii {:.6g} to {:.6g}", smallest, largest),
-                gap, why, size_of(asked, dimension) / size, dimension == 2 ? "area" : "volume",
-                planes.empty() ? "domain" : "domain that the planes leave free");
+                gap, size_of(asked, dimension) / size, dimension == 2 ? "area" : "volume",
+                planes.empty() ? "domain" : "domain that the planes leave free", why);
   };
   // The largest particles are placed first. Particles of equal radius keep their order.
   std::vector<std::size_t> order(radii.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, [&](auto i, auto j) { return radii[i] > radii[j]; });
-  std::vector<double> falling;
-  for (const auto k : order) falling.push_back(radii[k]);
-  std::vector<Places> places;  // only one entry if all radii are equal
-  for (std::size_t k = 0; k < (are_equal ? 1 : radii.size()); ++k)
-    places.emplace_back(domain, planes, falling[k] + gap);
+  Asked falling{.domain = domain, .planes = planes, .radii = {}, .gap = gap, .fixed = {}};
+  for (const auto k : order) falling.radii.push_back(radii[k]);
+  for (std::size_t k = 0; k < present.count(); ++k)
+    falling.fixed.push_back({present.position(k), present.radii[k]});
+  const auto places = falling.places();
   if (places.front().are_empty()) refuse("the domain is narrower than one of them with its gaps");
   for (std::size_t d = 0; d < places.front().dimension(); ++d)
     if (places.front().period(d) > 0 && places.front().period(d) < 2 * largest + gap)
@@ -141,31 +194,43 @@ std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
   for (const double radius : radii) covered += round_shape(dimension, radius + gap / 2).measure();
   if (covered > densest * size) refuse("the densest lattice has no room for them");
 
-  std::vector<FixedParticle> fixed;
-  for (std::size_t k = 0; k < present.count(); ++k)
-    fixed.push_back({present.position(k), present.radii[k]});
   SplitMix64 random(asked.seed);
-  // push_apart() can fail although an arrangement exists. All particles then get new random places.
-  for (int beginning = 0; beginning < ArrangementTuning::kBeginnings; ++beginning) {
-    PlacedParticles placed(places, falling, gap, fixed);
-    for (std::size_t k = 0; k < radii.size(); ++k) {
-      Vector x = placed.places(k).random(random);
-      for (int i = 1; i < ArrangementTuning::kTries && !placed.is_free(x, k); ++i)
-        x = placed.places(k).random(random);
-      placed.add(x);
-    }
-    if (!push_apart(placed, ArrangementTuning::kRounds)) continue;
-    shuffle(placed, size, random);
-    const auto axes = static_cast<std::size_t>(dimension);
-    std::vector<double> positions(axes * radii.size());
-    for (std::size_t i = 0; i < order.size(); ++i)
-      for (std::size_t d = 0; d < axes; ++d)
-        positions[axes * order[i] + d] = placed.centres()[i][d];
-    return positions;
+  std::optional<PlacedParticles> placed;
+  const auto begin = [&](int tries) {
+    placed.emplace(places, falling.radii, gap, falling.fixed);
+    put_at_random(*placed, tries, random);
+  };
+  bool is_free = false;
+  // Pushes can fail although an arrangement exists. All particles then get new random places.
+  auto rounds = static_cast<int>(ArrangementTuning::kMostPushes / radii.size());
+  for (int i = 0; i < ArrangementTuning::kBeginnings && rounds > 0 && !is_free; ++i) {
+    begin(ArrangementTuning::kTries);
+    is_free = push_apart(*placed, std::min(rounds, ArrangementTuning::kRounds));
+    rounds -= ArrangementTuning::kRounds;
   }
-  refuse(fmt::format("{} random beginnings did not lead to an arrangement",
-                     ArrangementTuning::kBeginnings));
-  return {};
+  auto steps = static_cast<int>(std::min<std::size_t>(
+      ArrangementTuning::kMostStepsOfAll / radii.size(),
+      std::size_t{ArrangementTuning::kPackings} * ArrangementTuning::kMostSteps));
+  Relaxation packing{};
+  for (int i = 0; i < ArrangementTuning::kPackings && steps > 0 && !is_free; ++i) {
+    begin(ArrangementTuning::kTriesBeforeRepulsion);
+    packing = relax(*placed, std::min(steps, ArrangementTuning::kMostSteps));
+    is_free = packing.is_free;
+    steps -= packing.steps;
+  }
+  if (!is_free) {
+    const double scale = reached_scale(falling, *placed, packing.overlap);
+    const double fraction =
+        size_of(asked, dimension) / size * scale * scale * (dimension == 2 ? 1 : scale);
+    refuse(fmt::format("random packings of them jam{}",
+                       scale > 0 ? fmt::format(" above {:.4g} of it", fraction) : ""));
+  }
+  shuffle(*placed, size, random);
+  const auto axes = static_cast<std::size_t>(dimension);
+  std::vector<double> positions(axes * radii.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    for (std::size_t d = 0; d < axes; ++d) positions[axes * order[i] + d] = placed->centres()[i][d];
+  return positions;
 }
 
 }  // namespace viscontact::particles

@@ -35,6 +35,34 @@ struct ArrangementTuning {
   // 1000 spheres at 0.61 and change no bits.
   static constexpr double kSlack = 0.1;
   static constexpr std::size_t kUses = 5, kPause = 10;
+
+  // If pushes fail. Pushes of all particles, in all beginnings; 1000 particles have ten beginnings.
+  // 10 000 spheres at 0.61 need 15 million, 100 000 spheres at 0.55 18 million; more would take
+  // longer than 10 s.
+  static constexpr std::size_t kMostPushes = 20000000;
+  // Tries for a free place of a particle before the repulsion; it decides little.
+  static constexpr int kTriesBeforeRepulsion = 20;
+  // Random beginnings, and steps in one of them and in all of them times the particles. 1000 equal
+  // spheres at 0.635 take 10 000 steps, 10 000 at 0.62 less than 1000; 4e8 steps take about 20 s.
+  static constexpr int kPackings = 10, kMostSteps = 20000;
+  static constexpr std::size_t kMostStepsOfAll = 400000000;
+  // Distance at which particles stop to repel each other, over their least distance: close to 1,
+  // because packings are less dense by the cube of it, but beyond rounding errors.
+  static constexpr double kAim = 1 + 1e-4;
+  // Way of a particle until pairs are listed anew, and longest move in a step, over the mean least
+  // distance.
+  static constexpr double kRelaxationSlack = 0.1, kLongestMove = 0.1;
+  // FIRE as Bitzek et al. (2006) have it. A step of 0.8 is unstable, and 0.3 takes twice as many.
+  static constexpr double kFirstStep = 0.1, kLongestStep = 0.5, kMixing = 0.1, kLessMixing = 0.99,
+                          kFaster = 1.1, kSlower = 0.5;
+  static constexpr int kDownhill = 5;
+  // Particles are jammed if so many steps leave more than this part of the energy.
+  static constexpr int kStepsOfCheck = 250;
+  static constexpr double kJammed = 0.99;
+  // How often jammed particles are made smaller, to say which fraction can be reached, and by how
+  // much beyond their mean overlap.
+  static constexpr int kShrinkings = 12;
+  static constexpr double kShrinkFurther = 2e-4;
 };
 
 }  // namespace viscontact::particles

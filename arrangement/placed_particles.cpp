@@ -213,6 +213,24 @@ bool PlacedParticles::any_listed(const Vector& x, std::size_t self, double facto
   return false;
 }
 
+std::vector<ClosePair> PlacedParticles::pairs(double further) const {
+  std::vector<ClosePair> all;
+  for (std::size_t k = 0; k < centres_.size(); ++k) {
+    const auto first = static_cast<std::uint32_t>(k);
+    any_in_cells(centres_[k], k, 1, further, [&](const auto&, double distance, std::size_t other) {
+      if (other > k) all.push_back({first, static_cast<std::uint32_t>(other), false, distance});
+      return false;
+    });
+    for (std::size_t j = 0; j < fixed_.size(); ++j) {
+      const Vector apart = widest_places().difference(centres_[k], fixed_[j].centre);
+      const double distance = fixed_[j].radius + radii_[k] + gap_, least = distance + further;
+      if (apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2] < least * least)
+        all.push_back({first, static_cast<std::uint32_t>(j), true, distance});
+    }
+  }
+  return all;
+}
+
 bool PlacedParticles::is_near_listed(const Vector& x, std::size_t k) const {
   const Vector apart = widest_places().difference(listed_[k], x);
   return apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2] <= slack_ * slack_;

@@ -28,6 +28,13 @@ struct CloseParticle {
   std::uint64_t key;  ///< its place in the order of close_to()
 };
 
+struct ClosePair {
+  std::uint32_t first;   ///< number of a placed particle
+  std::uint32_t second;  ///< number of another one, or of a fixed one
+  bool is_fixed;         ///< the second one is a FixedParticle
+  double distance;       ///< least distance that the two centres must have [L]
+};
+
 /// The particles that are placed so far, in the order of falling radii. Particles of similar radii
 /// are in one grid of cells, so that few small particles are near a small one however large the
 /// largest particle is.
@@ -46,6 +53,13 @@ class PlacedParticles {
   const Places& widest_places() const { return places_.back(); }
   /// Least distance of the centres of two particles of the mean radius [L].
   double distance() const;
+
+  /// Radius of particle `k` and half of the least gap [L].
+  double reach(std::size_t k) const { return radii_[k] + gap_ / 2; }
+  const std::vector<FixedParticle>& fixed() const { return fixed_; }
+  /// The pairs of placed particles, and of a placed and a fixed one, whose centres are closer than
+  /// their least distance + further [L].
+  std::vector<ClosePair> pairs(double further) const;
 
   /// Adds the next particle, in the order of the radii, with its centre at `x`.
   void add(const Vector& x);

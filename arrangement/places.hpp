@@ -78,6 +78,12 @@ class Places {
       if (!(dot(plane.normal, x - plane.point) >= 0)) return false;
     return is_in_domain(x);
   }
+  /// True if the region has neither walls nor planes.
+  bool are_unbounded() const {
+    for (std::size_t d = 0; d < dimension_; ++d)
+      if (periods_[d] == 0) return false;
+    return planes_.empty();
+  }
   bool has_planes() const { return !planes_.empty(); }
 
   bool is_in_domain(const Vector& x) const {
