@@ -44,7 +44,7 @@ struct ArrangementTuning {
   static constexpr int kTriesBeforeRepulsion = 20;
   // Random beginnings, and steps in one of them and in all of them times the particles. 1000 equal
   // spheres at 0.635 take 10 000 steps, 10 000 at 0.62 less than 1000; 4e8 steps take about 20 s.
-  static constexpr int kPackings = 10, kMostSteps = 20000;
+  static constexpr int kPackings = 30, kMostSteps = 20000;
   static constexpr std::size_t kMostStepsOfAll = 400000000;
   // Distance at which particles stop to repel each other, over their least distance: close to 1,
   // because packings are less dense by the cube of it, but beyond rounding errors.
