@@ -172,6 +172,28 @@ TEST(Arrangement, OfSpheresHasTheSameBitsOnEveryMachine) {
             "ccb48cd13deaa444664b26d251939807acea6a6c137edacd21627a74276fb909");
 }
 
+BoxDomain periodic_cube(double length) {
+  return {{0, 0, 0}, {length, length, length}, {true, true, true}};
+}
+
+// Pushes do not find these arrangements.
+TEST(Arrangement, OfDenseSpheresHasItsGapsAndTheSameBitsOnEveryMachine) {
+  const auto dense = periodic_cube(9.967);  // a fraction of 0.6346
+  const auto x = arrange({equal(150), 0, 1}, dense, {});
+  EXPECT_GE(smallest_gap_in_box(x, equal(150), dense), -1e-13);
+  EXPECT_EQ(sha256({reinterpret_cast<const char*>(x.data()), x.size() * sizeof(double)}),
+            "d515311828d49007d2e3396a9ac738bf5c9102892e0329076a9c5398d2d677f6");
+  // The gap makes spheres of 0.62 as dense as ones without gaps of 0.63.
+  const auto looser = periodic_cube(10.045);
+  EXPECT_GE(smallest_gap_in_box(arrange({equal(150), 0.01, 1}, looser, {}), equal(150), looser),
+            0.01 - 1e-13);
+}
+
+TEST(Arrangement, OfTooManySpheresNamesTheFractionThatIsReached) {
+  const auto error = bad_input([] { arrange({equal(100), 0, 1}, periodic_cube(8.425), {}); });
+  EXPECT_THAT(error, AllOf(Names("0.7005"), Names("0.6362")));
+}
+
 TEST(Arrangement, IsUniformInAPeriodicBox) {
   // Each quarter of a periodic box has a quarter of all centres on average. The number of 64 discs
   // in a quarter varies by less than that of independent points, sqrt(64 * 3/16) = 3.5; the mean
