@@ -22,27 +22,37 @@ constexpr std::size_t kGroup = 8, kGroups = (kPairEntries + kGroup - 1) / kGroup
 using Group = Eigen::Array<double, kGroup, 1>;
 using Entries = std::array<double, kGroup * kGroups>;
 
-/// The numbers by group of entries; those of entries that do not exist are 0.
-struct Tables {
-  std::array<std::array<Group, kRatioTerms * kGapTerms>, kGroups> rest;
-  std::array<std::array<std::array<Group, 7>, 3>, kGroups> contact;
+/// A table of pair_rest.hpp by groups of entries; those of entries that do not exist are 0.
+template <std::size_t products>
+struct RestTable {
+  std::array<std::array<std::size_t, 2>, products> orders{};
+  std::array<std::array<Group, products>, kGroups> coefficients;
 
-  Tables() {
-    for (auto& group : rest) group.fill(Group::Zero());
-    for (auto& group : contact)
+  explicit RestTable(const std::array<PairProduct, products>& table) {
+    for (auto& group : coefficients) group.fill(Group::Zero());
+    for (std::size_t k = 0; k < products; ++k) {
+      orders[k] = {table[k].ratio_order, table[k].gap_order};
+      for (std::size_t e = 0; e < kPairEntries; ++e)
+        coefficients[e / kGroup][k](static_cast<Eigen::Index>(e % kGroup)) =
+            table[k].coefficients[e];
+    }
+  }
+};
+
+/// The numerators over denominators of the terms near contact.
+struct ContactTable {
+  std::array<std::array<std::array<Group, 7>, 3>, kGroups> coefficients;
+
+  ContactTable() {
+    for (auto& group : coefficients)
       for (auto& term : group) term.fill(Group::Zero());
-    for (std::size_t e = 0; e < kPairEntries; ++e) {
-      const auto group = e / kGroup;
-      const auto member = static_cast<Eigen::Index>(e % kGroup);
-      for (std::size_t i = 0; i < kRatioTerms; ++i)
-        for (std::size_t j = 0; j < kGapTerms; ++j)
-          rest[group][i * kGapTerms + j](member) = kPairRest[i][j][e];
+    for (std::size_t e = 0; e < kPairEntries; ++e)
       for (std::size_t k = 0; k < 3; ++k) {
         const auto& term = kPairEntryTerms[e].terms[k];
         for (std::size_t p = 0; p < 7; ++p)
-          contact[group][k][p](member) = static_cast<double>(term.numerator[p]) / term.denominator;
+          coefficients[e / kGroup][k][p](static_cast<Eigen::Index>(e % kGroup)) =
+              static_cast<double>(term.numerator[p]) / term.denominator;
       }
-    }
   }
 };
 
@@ -70,30 +80,78 @@ struct Scales {
 /// E:E of the unit tensor of an entry in PairEntryTerms.
 constexpr double square_of_strain(std::size_t entry) { return entry < 10 ? 2.0 / 3 : 2; }
 
-/// The entries for viscosity 1, the radii 1 and b, 1 <= b <= kLargestRadiusRatio. Strains have the
-/// basis of PairMatrix.
-Entries entries_of(double b, double gap) {
-  static const Tables tables;
-  const PairCoordinates at(b, gap);
+/// The sums of a table.
+template <std::size_t products>
+Entries sums(const RestTable<products>& table, const PairCoordinates& at) {
   const auto of_ratio = chebyshev<kRatioTerms>(at.ratio);
   const auto of_gap = chebyshev<kGapTerms>(at.gap);
-  std::array<double, kRatioTerms * kGapTerms> products{};
-  for (std::size_t i = 0; i < kRatioTerms; ++i)
-    for (std::size_t j = 0; j < kGapTerms; ++j)
-      products[i * kGapTerms + j] = of_ratio[i] * of_gap[j];
-  const auto weights = at.contact_weights();
-  Entries rest{}, contact{};
+  std::array<double, products> factors;
+  for (std::size_t k = 0; k < products; ++k)
+    factors[k] = of_ratio[table.orders[k][0]] * of_gap[table.orders[k][1]];
+  Entries rest;
   for (std::size_t group = 0; group < kGroups; ++group) {
-    Group sum = Group::Zero(), near = Group::Zero();
-    for (std::size_t i = 0; i < products.size(); ++i) sum += products[i] * tables.rest[group][i];
-    const auto& terms = tables.contact[group];
-    for (std::size_t p = 7; p-- > 0;)
-      near = near * b +
-             (weights[0] * terms[0][p] + weights[1] * terms[1][p] + weights[2] * terms[2][p]);
+    Group sum = Group::Zero();
+    for (std::size_t k = 0; k < products; ++k) sum += factors[k] * table.coefficients[group][k];
     Group::Map(&rest[group * kGroup]) = sum;
-    Group::Map(&contact[group * kGroup]) = near;
   }
-  const std::array scales{Scales(1), Scales(b)};
+  return rest;
+}
+
+/// The first entry of the block of azimuthal flows that has this entry.
+std::size_t block_of(std::size_t entry) {
+  return entry < 10 ? 0 : entry < 31 ? 10 : entry < 34 ? 31 : 34;
+}
+
+/// Of sphere 1, the entry of a component and its velocity in the same block.
+std::size_t entry_with_velocity(std::size_t entry) {
+  const auto block = block_of(entry);
+  const auto row = kPairEntryTerms[entry].row;
+  return block + (row == kMove ? 0 : row == kTurn || block == 0 ? 1 : 2);
+}
+
+/// The rest for b > kFarRatio. In units of the small sphere 1 the entries of sphere 1 are those of a
+/// plane but for terms like 1/b. A motion of the large sphere 2 is that of its surface near sphere 1,
+/// which is that of sphere 1 with the opposite sign; and its own entries are those of a sphere alone.
+Entries far_rest(const PairCoordinates& at, double b) {
+  static const RestTable far(kFarPairRest), plane(kPlaneRest);
+  constexpr double kRatio = PairCoordinates::kFarRatio;
+  const auto of_plane = sums(plane, at);
+  if (std::isinf(b)) return of_plane;
+  const double share = kRatio / b;
+  const Scales one(1), two(b), two_in_table(kRatio);
+  auto rest = sums(far, at);
+  for (std::size_t e = 0; e < kPairEntries; ++e) {
+    const auto& terms = kPairEntryTerms[e];
+    if (terms.column_sphere == 0) {
+      rest[e] = share * rest[e] + (1 - share) * of_plane[e];
+    } else if (terms.row_sphere == 1) {
+      rest[e] = share * rest[e] + (1 - share) * (terms.row == terms.column ? 1 : 0);
+    } else {
+      // The velocity of sphere 2 at its pole that is next to sphere 1, over b for turns and strains.
+      const auto block = block_of(e);
+      double velocity = 0, arms = 1;
+      if (block <= 10) {
+        if (terms.column == kMove) velocity = 1;
+        if (terms.column == kTurn) velocity = -1;
+        if (terms.column == kStrain) velocity = block == 0 ? std::sqrt(2.0 / 3) : std::sqrt(0.5);
+        const double limit = -velocity * of_plane[entry_with_velocity(e)] * one.move;
+        if (terms.column != kMove) arms = b;
+        const double in_table =
+            rest[e] * two_in_table.of(terms.column) / (terms.column == kMove ? 1 : kRatio);
+        rest[e] = (share * in_table + (1 - share) * limit) * arms / two.of(terms.column);
+      } else {
+        rest[e] = share * rest[e] * two_in_table.of(terms.column) / two.of(terms.column);
+      }
+    }
+  }
+  return rest;
+}
+
+/// The entries for viscosity 1, the radii 1 and b >= 1. Strains have the basis of PairMatrix. Only
+/// the entries of sphere 1 have a meaning if b is infinite.
+Entries entries_of(double b, double gap) {
+  static const RestTable near(kPairRest), far(kFarPairRest);
+  static const ContactTable contact_table;
   static const auto kStrainFactors = [] {
     std::array<double, kPairEntries> factors{};
     for (std::size_t e = 0; e < kPairEntries; ++e) {
@@ -103,6 +161,24 @@ Entries entries_of(double b, double gap) {
     }
     return factors;
   }();
+  // At this ratio 1 + b is b, and the entries of sphere 1 have the numbers of a plane.
+  constexpr double kFlat = 1e17;
+  const double ratio = std::min(b, kFlat);
+  const PairCoordinates at(ratio, gap);
+  auto rest = b <= PairCoordinates::kNearRatio  ? sums(near, at)
+              : b <= PairCoordinates::kFarRatio ? sums(far, at)
+                                                : far_rest(at, b);
+  const auto weights = at.contact_weights();
+  Entries contact;
+  for (std::size_t group = 0; group < kGroups; ++group) {
+    Group near_contact = Group::Zero();
+    const auto& terms = contact_table.coefficients[group];
+    for (std::size_t p = 7; p-- > 0;)
+      near_contact = near_contact * ratio + (weights[0] * terms[0][p] + weights[1] * terms[1][p] +
+                                             weights[2] * terms[2][p]);
+    Group::Map(&contact[group * kGroup]) = near_contact;
+  }
+  const std::array scales{Scales(1), Scales(ratio)};
   for (std::size_t e = 0; e < kPairEntries; ++e) {
     const auto& terms = kPairEntryTerms[e];
     rest[e] = rest[e] * scales[static_cast<std::size_t>(terms.row_sphere)].of(terms.row) *
@@ -110,6 +186,56 @@ Entries entries_of(double b, double gap) {
               contact[e] * kStrainFactors[e];
   }
   return rest;
+}
+
+/// Replaces the K of a block by P^T (K_rr - K_rn K_nn^-1 K_nr) P. N are the rigid motions of the
+/// pair (columns), R motions of sphere 1 and strains alone, K_rn = R^T K N; and P are the numbers of
+/// motions R of which, with a rigid motion, any motion consists, so that P N = 0. This is K - K N
+/// (N^T K N)^-1 N^T K, without differences of large numbers if sphere 2 is large.
+template <int size, int rigid>
+void balance(double* upper_triangle, const Eigen::Matrix<double, size, rigid>& n,
+             const Eigen::Matrix<double, size - rigid, size>& p,
+             const Eigen::Matrix<double, size, size - rigid>& r) {
+  Eigen::Matrix<double, size, size> k;
+  for (int i = 0, next = 0; i < size; ++i)
+    for (int j = i; j < size; ++j) k(i, j) = k(j, i) = upper_triangle[next++];
+  const Eigen::Matrix<double, size, rigid> kn = k * n;
+  const Eigen::Matrix<double, rigid, rigid> nn = n.transpose() * kn;
+  const Eigen::Matrix<double, size - rigid, rigid> rn = r.transpose() * kn;
+  const Eigen::Matrix<double, size - rigid, size - rigid> reduced =
+      r.transpose() * k * r - rn * nn.inverse() * rn.transpose();
+  const Eigen::Matrix<double, size, size> balanced = p.transpose() * reduced * p;
+  for (int i = 0, next = 0; i < size; ++i)
+    for (int j = i; j < size; ++j) upper_triangle[next++] = balanced(i, j);
+}
+
+/// The entries of the balanced form, with the distance of the centres.
+void balance(Entries& entries, double distance) {
+  {  // U_z, E_1 of sphere 1, of sphere 2.
+    Eigen::Matrix<double, 4, 1> n{1, 0, 1, 0};
+    Eigen::Matrix<double, 3, 4> p;
+    p << 1, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1;
+    Eigen::Matrix<double, 4, 3> r;
+    r << 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1;
+    balance<4, 1>(entries.data(), n, p, r);
+  }
+  {  // U_x, W_y, E_2; rotations are about the centre of sphere 2.
+    Eigen::Matrix<double, 6, 2> n;
+    n << 1, -distance, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0;
+    Eigen::Matrix<double, 4, 6> p;
+    p << 1, 0, 0, -1, distance, 0,  //
+        0, 1, 0, 0, -1, 0,          //
+        0, 0, 1, 0, 0, 0,           //
+        0, 0, 0, 0, 0, 1;
+    Eigen::Matrix<double, 6, 4> r = Eigen::Matrix<double, 6, 4>::Zero();
+    r(0, 0) = r(1, 1) = r(2, 2) = r(5, 3) = 1;
+    balance<6, 2>(&entries[10], n, p, r);
+  }
+  // W_z.
+  const double one = entries[34], mixed = entries[35], two = entries[36];
+  const double relative = one - (one + mixed) * (one + mixed) / (one + 2 * mixed + two);
+  entries[34] = entries[36] = relative;
+  entries[35] = -relative;
 }
 
 /// Where an entry stands in the matrix: twice if its block has a second plane. If the smaller
@@ -161,34 +287,44 @@ Places make_places() {
 }
 
 void require_pair(double radius1, double radius2, double gap, double viscosity) {
-  const auto require_positive = [](double value, const char* name) {
-    if (!(value > 0 && std::isfinite(value)))
-      throw Error(ErrorKind::kBadInput, "the {} is {}; it must be positive and finite", name,
-                  format_number(value));
+  const auto require = [](bool is_right, double value, const char* name, const char* what) {
+    if (!is_right)
+      throw Error(ErrorKind::kBadInput, "the {} is {}; it must be {}", name, format_number(value),
+                  what);
   };
-  require_positive(radius1, "radius of sphere 1");
-  require_positive(radius2, "radius of sphere 2");
+  const auto require_positive = [&](double value, const char* name) {
+    require(value > 0 && std::isfinite(value), value, name, "positive and finite");
+  };
+  const bool has_plane = std::isinf(radius1) != std::isinf(radius2);
+  if (!(has_plane && radius1 > 0)) require_positive(radius1, "radius of sphere 1");
+  if (!(has_plane && radius2 > 0)) require_positive(radius2, "radius of sphere 2");
   require_positive(gap, "gap");
   require_positive(viscosity, "viscosity");
   const double ratio = std::max(radius1, radius2) / std::min(radius1, radius2);
-  // The quotient of radii such as 0.7 and 7 may be above 10 by rounding.
-  if (ratio > kLargestRadiusRatio * (1 + 1e-12))
-    throw Error(ErrorKind::kBadInput, "the radii {} and {} differ by more than a factor of {}",
+  if (!has_plane && ratio > kLargestRadiusRatio)
+    throw Error(ErrorKind::kBadInput,
+                "the radii {} and {} differ by more than a factor of {}; a plane has an infinite "
+                "radius",
                 format_number(radius1), format_number(radius2), kLargestRadiusRatio);
 }
 
-void fill(double radius1, double radius2, double gap, double viscosity, std::span<double> matrix) {
+void fill(double radius1, double radius2, double gap, double viscosity, PairForm form,
+          std::span<double> matrix) {
   static const Places places = make_places();
   require_pair(radius1, radius2, gap, viscosity);
   assert(matrix.size() == kPairComponents * kPairComponents);
   const bool exchanged = radius1 > radius2;
   const double unit = std::min(radius1, radius2);
-  const auto entries = entries_of(std::max(radius1, radius2) / unit, gap / unit);
+  const double b = std::max(radius1, radius2) / unit;
+  const bool has_plane = std::isinf(b);
+  auto entries = entries_of(b, gap / unit);
+  if (form == PairForm::kBalanced && !has_plane) balance(entries, 1 + b + gap / unit);
   // The unit of an entry has a power of the length for each angular velocity or strain.
   const std::array units{viscosity * unit, viscosity * unit * unit, viscosity * unit * unit * unit};
   std::ranges::fill(matrix, 0);
   for (std::size_t e = 0; e < kPairEntries; ++e) {
     const auto& terms = kPairEntryTerms[e];
+    if (has_plane && terms.column_sphere == 1) continue;
     const double value =
         entries[e] * units[(terms.row == kMove ? 0U : 1U) + (terms.column == kMove ? 0U : 1U)];
     for (const auto& place : places[e]) {
@@ -207,19 +343,21 @@ void fill(double radius1, double radius2, double gap, double viscosity, std::spa
 
 }  // namespace
 
-PairMatrix pair_resistance(double radius1, double radius2, double gap, double viscosity) {
+PairMatrix pair_resistance(double radius1, double radius2, double gap, double viscosity,
+                           PairForm form) {
   PairMatrix matrix;
-  fill(radius1, radius2, gap, viscosity, matrix);
+  fill(radius1, radius2, gap, viscosity, form, matrix);
   return matrix;
 }
 
 void pair_resistances(std::span<const double> radius1, std::span<const double> radius2,
-                      std::span<const double> gap, double viscosity, std::span<double> matrices) {
+                      std::span<const double> gap, double viscosity, std::span<double> matrices,
+                      PairForm form) {
   constexpr std::size_t kSize = kPairComponents * kPairComponents;
   assert(radius1.size() == radius2.size() && radius1.size() == gap.size());
   assert(matrices.size() == kSize * gap.size());
   for (std::size_t i = 0; i < gap.size(); ++i)
-    fill(radius1[i], radius2[i], gap[i], viscosity, matrices.subspan(kSize * i, kSize));
+    fill(radius1[i], radius2[i], gap[i], viscosity, form, matrices.subspan(kSize * i, kSize));
 }
 
 }  // namespace viscontact::lubrication

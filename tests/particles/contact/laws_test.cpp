@@ -143,9 +143,9 @@ TEST(ContactLaws, UseTheRadiiOfBothSurfaces) {
     const double r_eff = lubrication::effective_radius(r, neighbour);
     return -lubrication::sphere_squeeze_integral(r, neighbour, 0.02, r_eff);
   };
-  EXPECT_EQ(gamma_min(0, 1), expected(2, 1));
-  EXPECT_EQ(gamma_min(-1, 1), expected(2, std::numeric_limits<double>::infinity()));
-  EXPECT_EQ(gamma_min(-2, 0), expected(1, -7));
+  EXPECT_DOUBLE_EQ(gamma_min(0, 1), expected(2, 1));
+  EXPECT_DOUBLE_EQ(gamma_min(-1, 1), expected(2, std::numeric_limits<double>::infinity()));
+  EXPECT_DOUBLE_EQ(gamma_min(-2, 0), expected(1, -7));
 }
 
 }  // namespace
