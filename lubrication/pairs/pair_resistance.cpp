@@ -1,7 +1,7 @@
 // Chebyshev sums of the rest, terms near contact, and the places of the entries in the matrix.
 #include "viscontact/lubrication/pairs/pair_resistance.hpp"
 
-#include <Eigen/Core>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -102,58 +102,34 @@ std::size_t block_of(std::size_t entry) {
   return entry < 10 ? 0 : entry < 31 ? 10 : entry < 34 ? 31 : 34;
 }
 
-/// Of sphere 1, the entry of a component and its velocity in the same block.
-std::size_t entry_with_velocity(std::size_t entry) {
+/// For an entry of sphere 1 and a component of the large sphere 2: the entry of sphere 1 and the
+/// motion of its neighbour's surface there, and this motion for a component 1. Turns and strains
+/// across move the surface, at the distance b from the centre of sphere 2, by b times this number.
+struct SurfaceMotion {
+  std::size_t entry;
+  PairComponent component;
+  double motion;
+  bool has_arm;
+};
+
+SurfaceMotion surface_motion(std::size_t entry) {
   const auto block = block_of(entry);
-  const auto row = kPairEntryTerms[entry].row;
-  return block + (row == kMove ? 0 : row == kTurn || block == 0 ? 1 : 2);
+  const auto& terms = kPairEntryTerms[entry];
+  if (block > 10) return {block, terms.column, 1, false};
+  const std::size_t with_velocity = block + (terms.row == kMove                 ? 0
+                                             : terms.row == kTurn || block == 0 ? 1
+                                                                                : 2);
+  const double motion = terms.column == kMove   ? 1
+                        : terms.column == kTurn ? -1
+                                                : std::sqrt(block == 0 ? 2.0 / 3 : 0.5);
+  return {with_velocity, kMove, motion, terms.column != kMove};
 }
 
-/// The rest for b > kFarRatio. In units of the small sphere 1 the entries of sphere 1 are those of a
-/// plane but for terms like 1/b. A motion of the large sphere 2 is that of its surface near sphere 1,
-/// which is that of sphere 1 with the opposite sign; and its own entries are those of a sphere alone.
-Entries far_rest(const PairCoordinates& at, double b) {
-  static const RestTable far(kFarPairRest), plane(kPlaneRest);
-  constexpr double kRatio = PairCoordinates::kFarRatio;
-  const auto of_plane = sums(plane, at);
-  if (std::isinf(b)) return of_plane;
-  const double share = kRatio / b;
-  const Scales one(1), two(b), two_in_table(kRatio);
-  auto rest = sums(far, at);
-  for (std::size_t e = 0; e < kPairEntries; ++e) {
-    const auto& terms = kPairEntryTerms[e];
-    if (terms.column_sphere == 0) {
-      rest[e] = share * rest[e] + (1 - share) * of_plane[e];
-    } else if (terms.row_sphere == 1) {
-      rest[e] = share * rest[e] + (1 - share) * (terms.row == terms.column ? 1 : 0);
-    } else {
-      // The velocity of sphere 2 at its pole that is next to sphere 1, over b for turns and strains.
-      const auto block = block_of(e);
-      double velocity = 0, arms = 1;
-      if (block <= 10) {
-        if (terms.column == kMove) velocity = 1;
-        if (terms.column == kTurn) velocity = -1;
-        if (terms.column == kStrain) velocity = block == 0 ? std::sqrt(2.0 / 3) : std::sqrt(0.5);
-        const double limit = -velocity * of_plane[entry_with_velocity(e)] * one.move;
-        if (terms.column != kMove) arms = b;
-        const double in_table =
-            rest[e] * two_in_table.of(terms.column) / (terms.column == kMove ? 1 : kRatio);
-        rest[e] = (share * in_table + (1 - share) * limit) * arms / two.of(terms.column);
-      } else {
-        rest[e] = share * rest[e] * two_in_table.of(terms.column) / two.of(terms.column);
-      }
-    }
-  }
-  return rest;
-}
-
-/// The entries for viscosity 1, the radii 1 and b >= 1. Strains have the basis of PairMatrix. Only
-/// the entries of sphere 1 have a meaning if b is infinite.
-Entries entries_of(double b, double gap) {
-  static const RestTable near(kPairRest), far(kFarPairRest);
-  static const ContactTable contact_table;
+/// The terms near contact, with strains in the basis of PairMatrix.
+Entries contact_entries(double b, double gap) {
+  static const ContactTable table;
   static const auto kStrainFactors = [] {
-    std::array<double, kPairEntries> factors{};
+    Entries factors{};
     for (std::size_t e = 0; e < kPairEntries; ++e) {
       const auto& terms = kPairEntryTerms[e];
       const double one = 1 / std::sqrt(square_of_strain(e));
@@ -161,31 +137,89 @@ Entries entries_of(double b, double gap) {
     }
     return factors;
   }();
-  // At this ratio 1 + b is b, and the entries of sphere 1 have the numbers of a plane.
-  constexpr double kFlat = 1e17;
-  const double ratio = std::min(b, kFlat);
-  const PairCoordinates at(ratio, gap);
-  auto rest = b <= PairCoordinates::kNearRatio  ? sums(near, at)
-              : b <= PairCoordinates::kFarRatio ? sums(far, at)
-                                                : far_rest(at, b);
-  const auto weights = at.contact_weights();
+  const auto weights = PairCoordinates(b, gap).contact_weights();
   Entries contact;
   for (std::size_t group = 0; group < kGroups; ++group) {
-    Group near_contact = Group::Zero();
-    const auto& terms = contact_table.coefficients[group];
+    Group sum = Group::Zero();
+    const auto& terms = table.coefficients[group];
     for (std::size_t p = 7; p-- > 0;)
-      near_contact = near_contact * ratio + (weights[0] * terms[0][p] + weights[1] * terms[1][p] +
-                                             weights[2] * terms[2][p]);
-    Group::Map(&contact[group * kGroup]) = near_contact;
+      sum = sum * b +
+            (weights[0] * terms[0][p] + weights[1] * terms[1][p] + weights[2] * terms[2][p]);
+    Group::Map(&contact[group * kGroup]) = sum * Group::Map(&kStrainFactors[group * kGroup]);
   }
-  const std::array scales{Scales(1), Scales(ratio)};
+  return contact;
+}
+
+/// The entries of a table.
+template <std::size_t products>
+Entries entries_by(const RestTable<products>& table, double b, double gap) {
+  auto entries = sums(table, PairCoordinates(b, gap));
+  const auto contact = contact_entries(b, gap);
+  const std::array scales{Scales(1), Scales(b)};
   for (std::size_t e = 0; e < kPairEntries; ++e) {
     const auto& terms = kPairEntryTerms[e];
-    rest[e] = rest[e] * scales[static_cast<std::size_t>(terms.row_sphere)].of(terms.row) *
-                  scales[static_cast<std::size_t>(terms.column_sphere)].of(terms.column) +
-              contact[e] * kStrainFactors[e];
+    entries[e] = entries[e] * scales[static_cast<std::size_t>(terms.row_sphere)].of(terms.row) *
+                     scales[static_cast<std::size_t>(terms.column_sphere)].of(terms.column) +
+                 contact[e];
   }
-  return rest;
+  return entries;
+}
+
+/// At this ratio 1 + b is b, and the entries of sphere 1 are those beside a plane.
+constexpr double kFlat = 1e17;
+
+/// For b > kFarRatio, by matching. Where the gap q is not large, a large sphere 2 is a plane but for
+/// terms like 1/b, which the table at kFarRatio has at the same gap; its motion is that of its
+/// surface, which has the loads of sphere 1 with the opposite sign; and its own entries are those of
+/// a sphere alone. Where the gap is not small beside b, sphere 1 is a point, and the terms depend on
+/// q/b, so that the table has them at the gap q kFarRatio/b. Between both they are constant.
+Entries far_entries(double b, double gap) {
+  static const RestTable far(kFarPairRest);
+  static const RestTable plane(kPlaneRest);
+  constexpr double kRatio = PairCoordinates::kFarRatio;
+  // Free choices: where the one gap goes over into the other one, and where the exact coefficients
+  // of the terms near contact go over into those of the matching.
+  constexpr double kBetween = 10, kContact = 0.2;
+  const double share = kRatio / b, cube = std::pow(gap / kContact, 3), near = 1 / (1 + cube);
+  const double there = gap * (1 + share * gap / kBetween) / (1 + gap / kBetween);
+  // Each with its terms near contact.
+  const std::array planes{entries_by(plane, kFlat, gap), contact_entries(kFlat, gap)};
+  const std::array planes_there{entries_by(plane, kFlat, there), contact_entries(kFlat, there)};
+  const std::array tables{entries_by(far, kRatio, there), contact_entries(kRatio, there)};
+  const auto contact = contact_entries(b, gap);
+  const std::array scales{Scales(1), Scales(b)}, scales_there{Scales(1), Scales(kRatio)};
+  Entries entries{};
+  for (std::size_t e = 0; e < kPairEntries; ++e) {
+    const auto& terms = kPairEntryTerms[e];
+    const auto matched = [&](std::size_t part) {
+      if (terms.column_sphere == 0)
+        return planes[part][e] + share * (tables[part][e] - planes_there[part][e]);
+      if (terms.row_sphere == 1) {
+        const double alone = part == 0 && terms.row == terms.column ? 1 : 0;
+        const double unit = scales_there[1].of(terms.row) * scales_there[1].of(terms.column);
+        return (alone + share * (tables[part][e] / unit - alone)) * scales[1].of(terms.row) *
+               scales[1].of(terms.column);
+      }
+      const auto of = surface_motion(e);
+      const double in_table = tables[part][e] / (of.has_arm ? kRatio : 1);
+      return (share * gap / there * (in_table + of.motion * planes_there[part][of.entry]) -
+              of.motion * planes[part][of.entry]) *
+             (of.has_arm ? b : 1);
+    };
+    entries[e] = matched(0) + near * (contact[e] - matched(1));
+  }
+  return entries;
+}
+
+/// The entries for viscosity 1, the radii 1 and b >= 1. Only those of sphere 1 have a meaning if b is
+/// infinite.
+Entries entries_of(double b, double gap) {
+  static const RestTable near(kPairRest);
+  static const RestTable far(kFarPairRest);
+  static const RestTable plane(kPlaneRest);
+  if (b <= PairCoordinates::kNearRatio) return entries_by(near, b, gap);
+  if (b <= PairCoordinates::kFarRatio) return entries_by(far, b, gap);
+  return std::isinf(b) ? entries_by(plane, kFlat, gap) : far_entries(b, gap);
 }
 
 /// Replaces the K of a block by P^T (K_rr - K_rn K_nn^-1 K_nr) P. N are the rigid motions of the

@@ -37,9 +37,9 @@ enum class PairForm {
 /// What is left after the terms 1/q, ln q and q ln q of lubrication theory, whose coefficients are
 /// known for every ratio of the radii (Jeffrey & Onishi 1984; Jeffrey 1992), is interpolated by
 /// Chebyshev polynomials between exact solutions. At every gap the error of an entry (i, j), over
-/// sqrt(R_ii R_jj), is below 3e-6 for ratios up to 10, @B@ up to 100, and @C@ above.
+/// sqrt(R_ii R_jj), is below 3e-6 for ratios of the radii up to 10, 3e-5 up to 100, and 3e-3 above.
 /// One radius may be infinite, which is a plane at rest: the 11 rows and columns of the sphere have
-/// an error below 3e-6, and those of the plane are 0.
+/// an error below 4e-6, and those of the plane are 0.
 ///
 /// Lengths are in one unit [L], the viscosity in [M/(L T)]. Exchanged spheres give the same numbers
 /// in exchanged places. Throws Error(kBadInput) unless radii, gap and viscosity are positive and

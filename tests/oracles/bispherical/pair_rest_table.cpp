@@ -56,14 +56,14 @@ bool is_of_sphere1(const PairEntryTerms& terms) {
 /// What is left of the normalised entries without the terms near contact; at a plane of the entries
 /// of sphere 1, and 0 of the others.
 std::vector<double> rest(double b, double gap) {
-  if (b > PairCoordinates::kNearRatio && gap < kLinear) {
+  const bool plane = b == kPlane;
+  if (b > PairCoordinates::kNearRatio && !plane && gap < kLinear) {
     const auto here = rest(b, kLinear), there = rest(b, 2 * kLinear);
     std::vector<double> extrapolated;
     for (std::size_t e = 0; e < here.size(); ++e)
       extrapolated.push_back(here[e] + (here[e] - there[e]) * (1 - gap / kLinear));
     return extrapolated;
   }
-  const bool plane = b == kPlane;
   const auto matrix = plane ? exact_plane_matrix(1, gap) : exact_pair_matrix(1, b, gap);
   const auto weights = PairCoordinates(b, gap).contact_weights();
   std::vector<double> rest;
