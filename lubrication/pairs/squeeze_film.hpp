@@ -16,9 +16,10 @@ namespace viscontact::lubrication {
 // wall gaps are at most the difference of the radii; larger ones count as this one. Results are in
 // units of the viscosity.
 
-/// r_eff = 1/(1/radius + 1/neighbour) [L].
+/// r_eff = 1/(1/radius + 1/neighbour) [L]; two bodies have the same bits in either order.
 inline double effective_radius(double radius, double neighbour) {
-  return radius / (1 + radius / neighbour);
+  return neighbour > 0 && neighbour < radius ? neighbour / (1 + neighbour / radius)
+                                             : radius / (1 + radius / neighbour);
 }
 
 /// The integral of R over the gap, from `from` to `to` [L^2]; < 0 if to < from. At a plane it is

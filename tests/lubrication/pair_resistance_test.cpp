@@ -277,7 +277,7 @@ TEST(PairResistance, RefusesWhatIsNoPair) {
   EXPECT_THAT(bad_input([] { (void)pair_resistance(-1, 1, 1, 1); }), Names("sphere 1"));
   EXPECT_THAT(bad_input([] { (void)pair_resistance(1, 0, 1, 1); }), Names("sphere 2"));
   EXPECT_THAT(bad_input([&] { (void)pair_resistance(1, 1, 1, nan); }), Names("viscosity"));
-  EXPECT_THAT(bad_input([] { (void)pair_resistance(1, 1.1e9, 1, 1); }), Names("1100000000"));
+  EXPECT_THAT(bad_input([] { (void)pair_resistance(1, 1.1e9, 1, 1); }), Names("1.1e+09"));
   const double plane = std::numeric_limits<double>::infinity();
   EXPECT_THAT(bad_input([&] { (void)pair_resistance(plane, plane, 1, 1); }), Names("sphere 1"));
   EXPECT_THAT(bad_input([&] { (void)pair_resistance(1, -plane, 1, 1); }), Names("sphere 2"));
