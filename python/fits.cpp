@@ -2,6 +2,8 @@
 // (docs/python.md).
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,6 +16,7 @@
 #include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/lubrication/pairs/pair_resistance.hpp"
+#include "viscontact/lubrication/pairs/squeeze_film.hpp"
 #include "viscontact/lubrication/scaling.hpp"
 #include "viscontact/motions/fit/fit_pair.hpp"
 #include "viscontact/motions/job/pair_fit_stage.hpp"
@@ -365,7 +368,7 @@ formula goes on.)");
 /// The matrices of pairs in an array of the shape of the arguments, combined as NumPy does, and 22
 /// by 22.
 py::array pair_resistances(const py::object& radius1, const py::object& radius2,
-                           const py::object& gap, double viscosity) {
+                           const py::object& gap, double viscosity, bool balanced) {
   const py::sequence same =
       py::module_::import("numpy").attr("broadcast_arrays")(radius1, radius2, gap);
   const Doubles one = same[0].cast<Doubles>(), two = same[1].cast<Doubles>(),
@@ -379,8 +382,43 @@ py::array pair_resistances(const py::object& radius1, const py::object& radius2,
       of_gap(gaps.data(), count);
   const std::span to(matrices.mutable_data(), count * kComponents * kComponents);
   const py::gil_scoped_release released;
-  lubrication::pair_resistances(of_one, of_two, of_gap, viscosity, to);
+  lubrication::pair_resistances(
+      of_one, of_two, of_gap, viscosity, to,
+      balanced ? lubrication::PairForm::kBalanced : lubrication::PairForm::kComplete);
   return matrices;
+}
+
+void require_film(double radius, double neighbour, double gap, double viscosity) {
+  const auto is_positive = [](double x) { return x > 0 && std::isfinite(x); };
+  if (!is_positive(radius) || !is_positive(gap) || !is_positive(viscosity))
+    refuse(fmt::format(
+        "a film needs a radius, gaps and a viscosity that are positive and finite; they "
+        "are {}, {} and {}",
+        radius, gap, viscosity));
+  if (!(neighbour > 0 || neighbour < -radius))
+    refuse(
+        fmt::format("the radius of the neighbour is {}; it must be positive, infinite for a plane, "
+                    "or minus the radius of a round wall that is larger than {}",
+                    neighbour, radius));
+}
+
+lubrication::SqueezeIntegral squeeze(bool discs) {
+  return discs ? lubrication::disc_squeeze_integral : lubrication::sphere_squeeze_integral;
+}
+
+double film_gamma(double radius, double neighbour, double begins_at, double gap, double viscosity,
+                  bool discs) {
+  require_film(radius, neighbour, std::min(begins_at, gap), viscosity);
+  if (!(gap <= begins_at)) refuse("a film is not thicker than the gap at which it begins");
+  return -viscosity * squeeze(discs)(radius, neighbour, gap, begins_at);
+}
+
+double film_gap(double radius, double neighbour, double begins_at, double gamma, double viscosity,
+                bool discs) {
+  require_film(radius, neighbour, begins_at, viscosity);
+  if (!(gamma <= 0 && std::isfinite(gamma))) refuse("gamma must be finite and at most 0");
+  return lubrication::gap_of_squeeze(squeeze(discs), radius, neighbour, begins_at,
+                                     -gamma / viscosity);
 }
 
 }  // namespace
@@ -417,12 +455,15 @@ Returns a PairFit.)",
              py::arg("basis") = std::string(motions::kDefaultPairBasis), py::arg("loss") = "none",
              py::arg("output") = py::none());
   module.def("pair_resistance", &pair_resistances, py::arg("radius1"), py::arg("radius2"),
-             py::arg("gap"), py::arg("viscosity") = 1.0,
+             py::arg("gap"), py::arg("viscosity") = 1.0, py::kw_only(), py::arg("balanced") = false,
              R"(The resistance of two spheres in unbounded Stokes flow to all motions and strains.
 
-radius1, radius2  radii [L], within a factor of 10 of each other
+radius1, radius2  radii [L], within a factor of 1e9 of each other; infinite: a plane at rest, whose
+                  rows and columns are 0
 gap               distance of the surfaces [L], > 0
 viscosity         of the fluid [M/(L T)]
+balanced          True: the form without the resistance of the pair as a whole, K - K N (N^T K N)^-1
+                  N^T K with its rigid motions N, whose forces and torques add up to 0
 
 Radii and gaps are numbers or arrays, whose shapes are combined as NumPy does. Returns an array with
 two further dimensions of 22: the symmetric, positive definite matrix R with loads = R components. The
@@ -431,7 +472,25 @@ axis z goes from sphere 1 to sphere 2. The components of sphere 1, and then thos
     its strain rate E = e1 (zz - 1/3) sqrt(3/2)
         + (e2 (xz + zx) + e3 (yz + zy) + e4 (xx - yy) + e5 (xy + yx))/sqrt(2).
 The loads are force and torque of the sphere on the fluid, and its stresslet in the basis of E. The
-error of R_ij is below 2e-5 sqrt(R_ii R_jj).)");
+error of R_ij over sqrt(R_ii R_jj) is below 3e-6 for ratios of the radii up to 10 and at a plane;
+docs/pairs.md has it for other ratios.)");
+  module.def("film_gamma", py::vectorize(film_gamma), py::arg("radius"), py::arg("neighbour"),
+             py::arg("begins_at"), py::arg("gap"), py::arg("viscosity") = 1.0,
+             py::arg("discs") = false,
+             R"(gamma of a film: minus the impulse that presses it from a gap to a smaller one.
+
+radius      of the sphere or disc [L]
+neighbour   its radius [L]; infinite for a plane, minus the radius of a round wall around the sphere
+begins_at   gap at which the film begins [L]: the threshold gap in a fluid, r_eff without one
+gap         to which it is pressed [L], at most begins_at; 2 s gives gamma_min of the roughness s
+viscosity   [M/(L T)]
+discs       True: of cylinders per length
+
+Arguments are numbers or arrays. Returns gamma [M L/T], of discs [M/T]. docs/physics.md, (6.8).)");
+  module.def("film_gap", py::vectorize(film_gap), py::arg("radius"), py::arg("neighbour"),
+             py::arg("begins_at"), py::arg("gamma"), py::arg("viscosity") = 1.0,
+             py::arg("discs") = false,
+             R"(The gap [L] of a film from gamma <= 0, the inverse of film_gamma().)");
   module.def("_tabulate", &tabulate, py::arg("case"), py::arg("output"), py::arg("jobs"),
              py::arg("motions"));
 }

@@ -80,19 +80,29 @@ inline constexpr std::array<PairEntryTerms, kPairEntries> kPairEntryTerms = {{
 // clang-format on
 
 /// The variables in which the rest of the entries is interpolated, for the radii 1 and b >= 1 and
-/// the gap q > 0. With u = sqrt(b) and x = 1/(1 + q/(2 u)), which is 1 at contact and 0 far away, the
-/// rest has terms like (1 - x)^2 ln(1 - x). In 1 - sqrt(1 - x) it is smoother: twelve polynomials
-/// have the accuracy 1e-5 there, and sixteen have 1e-3 in x.
+/// the gap q > 0. With u = sqrt(b), at most 10, and x = 1/(1 + q/(2 u)), which is 1 at contact and 0
+/// far away, the rest has terms like (1 - x)^2 ln(1 - x). In 1 - sqrt(1 - x) it is smoother: twelve
+/// polynomials have the accuracy 1e-5 there, and sixteen have 1e-3 in x.
 struct PairCoordinates {
-  double ratio = 0, gap = 0;  ///< ln b and 1 - sqrt(1 - x), each mapped to [-1, 1]
+  static constexpr double kNearRatio = 10, kFarRatio = 100;
 
-  PairCoordinates(double b, double q, double largest_ratio = 10)
-      : ratio(std::min(2 * std::log(b) / std::log(largest_ratio) - 1, 1.0)), b_(b) {
+  /// ln b in a decade and 1 - sqrt(1 - x), each mapped to [-1, 1].
+  double ratio = 0, gap = 0;
+
+  PairCoordinates(double b, double q) : b_(b) {
     assert(b >= 1 && q > 0);
-    const double u = std::sqrt(b), to_contact = q / (2 * u + q);  // 1 - x
+    const double decade = std::log(b) / std::numbers::ln10 - (b > kNearRatio ? 1 : 0);
+    ratio = std::min(2 * decade - 1, 1.0);
+    const double u = std::sqrt(std::min(b, kFarRatio)), to_contact = q / (2 * u + q);  // 1 - x
     gap = 1 - 2 * std::sqrt(to_contact);
     width_ = to_contact * (2 - to_contact);  // 1 - x^2 = q/u + ...
     scale_ = u / ((1 + b) / 2);              // xi u/q
+  }
+
+  /// The gap at a place of the variable.
+  static double gap_at(double b, double place) {
+    const double root = (1 - place) / 2, to_contact = root * root;
+    return 2 * std::sqrt(std::min(b, kFarRatio)) * to_contact / (1 - to_contact);
   }
 
   /// Times the numerators over denominators of PairEntryTerms, the terms near contact.

@@ -1,5 +1,5 @@
-// The resistances of two spheres in unbounded Stokes flow to all motions and strains, for any gap
-// and ratios of the radii up to 10 (docs/physics.md (2.14) to (2.16)).
+// The resistances of two spheres, or of a sphere beside a plane, in unbounded Stokes flow to all
+// motions and strains, for any gap (docs/physics.md (2.14) to (2.16)).
 #pragma once
 
 #include <array>
@@ -21,19 +21,36 @@ inline constexpr std::size_t kSphereComponents = 11, kPairComponents = 2 * kSphe
 /// sphere 1 first.
 using PairMatrix = std::array<double, kPairComponents * kPairComponents>;
 
-inline constexpr double kLargestRadiusRatio = 10;
+/// Of the radii of two spheres.
+inline constexpr double kLargestRadiusRatio = 1e9;
+
+enum class PairForm {
+  kComplete,  ///< the matrix K of all loads
+  /// K - K N (N^T K N)^-1 N^T K, where N are the six rigid motions of the pair: a rigid motion has
+  /// no loads, and the forces of the pair and their torques, F_1 + F_2 and T_1 + T_2 + (x_2 - x_1)
+  /// x F_2, add up to 0, both to rounding errors. These are the loads of a pair on which no net
+  /// force and torque act. Positive semi-definite; the null space are the rigid motions. Of a sphere
+  /// and a plane it is K.
+  kBalanced,
+};
 
 /// What is left after the terms 1/q, ln q and q ln q of lubrication theory, whose coefficients are
 /// known for every ratio of the radii (Jeffrey & Onishi 1984; Jeffrey 1992), is interpolated by
-/// Chebyshev polynomials between exact solutions. The error of an entry (i, j) is below 2e-5
-/// sqrt(R_ii R_jj) at every gap. Lengths are in one unit [L], the viscosity in [M/(L T)]. Exchanged
-/// spheres give the same numbers in exchanged places. Throws Error(kBadInput) unless radii, gap and
-/// viscosity are positive and finite, and the radii are within kLargestRadiusRatio.
-PairMatrix pair_resistance(double radius1, double radius2, double gap, double viscosity);
+/// Chebyshev polynomials between exact solutions. At every gap the error of an entry (i, j), over
+/// sqrt(R_ii R_jj), is below 3e-6 for ratios of the radii up to 10, 3e-5 up to 100, and 3e-3 above.
+/// One radius may be infinite, which is a plane at rest: the 11 rows and columns of the sphere have
+/// an error below 4e-6, and those of the plane are 0.
+///
+/// Lengths are in one unit [L], the viscosity in [M/(L T)]. Exchanged spheres give the same numbers
+/// in exchanged places. Throws Error(kBadInput) unless radii, gap and viscosity are positive and
+/// finite, but for one radius, and the radii are within kLargestRadiusRatio.
+PairMatrix pair_resistance(double radius1, double radius2, double gap, double viscosity,
+                           PairForm form = PairForm::kComplete);
 
 /// For each pair i of spheres with the radii radius1[i] and radius2[i]; `matrices` has room for as
 /// many matrices, one after the other. All spans must have equally many pairs.
 void pair_resistances(std::span<const double> radius1, std::span<const double> radius2,
-                      std::span<const double> gap, double viscosity, std::span<double> matrices);
+                      std::span<const double> gap, double viscosity, std::span<double> matrices,
+                      PairForm form = PairForm::kComplete);
 
 }  // namespace viscontact::lubrication

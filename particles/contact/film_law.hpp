@@ -6,33 +6,43 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
+#include "viscontact/lubrication/pairs/squeeze_film.hpp"
 #include "viscontact/particles/state/state.hpp"
 
 namespace viscontact::particles {
 
-/// The formula for the resistance R of a film, force over velocity of approach, to leading order at
-/// small gaps q [L] by Reynolds' equation, with the viscosity mu [M/(L T)] and the effective radius
-/// r_eff [L].
+/// The bodies whose exact resistance R to an approach, force over velocity, a film has at every gap
+/// (lubrication/pairs/squeeze_film.hpp). The effective radius is r_eff [L].
 enum class FilmShape {
-  /// R = 6 pi mu r_eff^2/q [M/T]. Without a fluid discs also have this film, because they are
+  /// R = 6 pi mu r_eff^2/q + ... [M/T]. Without a fluid discs also have this film, because they are
   /// spheres whose centres stay in a plane.
   kSpheres,
-  /// Cylinders: R = 3 sqrt(2) pi mu (r_eff/q)^(3/2) per length [M/(L T)] (Jeffrey & Onishi 1981).
+  /// Cylinders: R = 3 sqrt(2) pi mu (r_eff/q)^(3/2) + ... per length [M/(L T)].
   kDiscs,
 };
 
+inline lubrication::SqueezeIntegral squeeze_integral(FilmShape shape) {
+  return shape == FilmShape::kSpheres ? lubrication::sphere_squeeze_integral
+                                      : lubrication::disc_squeeze_integral;
+}
+
 /// Integral of the resistance R over the gap, from `from` to `to` > 0 [L]: an impulse [M L/T], of
-/// kDiscs per length [M/T]; < 0 if to < from.
-inline double impulse_of_film(FilmShape shape, double viscosity, double r_eff, double from,
-                              double to) {
-  assert(viscosity > 0 && r_eff > 0 && from > 0 && to > 0);
-  using std::numbers::pi;
-  if (shape == FilmShape::kSpheres) return 6 * pi * viscosity * r_eff * r_eff * std::log(to / from);
-  return 6 * std::numbers::sqrt2 * pi * viscosity * r_eff *
-         (std::sqrt(r_eff / from) - std::sqrt(r_eff / to));
+/// kDiscs per length [M/T]; < 0 if to < from. `r_j` is that of FilmLaw::lowest_gamma().
+inline double impulse_of_film(FilmShape shape, double viscosity, double r_i, double r_j,
+                              double from, double to) {
+  assert(viscosity > 0);
+  return viscosity * squeeze_integral(shape)(r_i, r_j, from, to);
+}
+
+/// The gap [L] to which a film that begins at the gap `begins_at` is pressed when it has absorbed
+/// the impulse -gamma >= 0: Gamma^-1(Gamma(begins_at) + gamma).
+inline double gap_of_film(FilmShape shape, double viscosity, double r_i, double r_j,
+                          double begins_at, double gamma) {
+  assert(viscosity > 0 && gamma <= 0);
+  return lubrication::gap_of_squeeze(squeeze_integral(shape), r_i, r_j, begins_at,
+                                     -gamma / viscosity);
 }
 
 /// gamma <= 0 is minus the impulse that the film has absorbed while it was pressed; the film holds
@@ -55,21 +65,17 @@ struct FilmLaw {
   /// gap at which contact is made; at larger gaps the computed flow acts as the film.
   std::optional<double> begins_at{};
 
-  /// r_eff = r_i r_j/(r_i + r_j) [L]. `r_j` is the radius of another particle, infinite for a
-  /// plane, or minus the radius of a round wall around the particle of radius `r_i`; infinite if
-  /// both are the same.
-  static double effective_radius(double r_i, double r_j) { return r_i / (1 + r_i / r_j); }
-
-  /// gamma_min of a pair with these radii; minus infinity for smooth particles. With the roughness
-  /// s it is impulse_of_film() from the gap at which the film begins to the gap 2 s, at which two
-  /// rough surfaces touch, or 0 if 2 s is the larger gap.
+  /// gamma_min of a pair with these radii; minus infinity for smooth particles. `r_j` is the radius
+  /// of another particle, infinite for a plane, or minus the radius of a round wall around the
+  /// particle of radius `r_i`. With the roughness s it is impulse_of_film() from the gap at which
+  /// the film begins to the gap 2 s, at which two rough surfaces touch, or 0 if 2 s is the larger
+  /// gap.
   double lowest_gamma(double r_i, double r_j) const {
     if (gamma_min) return *gamma_min;
     if (!viscosity) return -std::numeric_limits<double>::infinity();
     assert(roughness);
-    const double r_eff = effective_radius(r_i, r_j);
-    return std::min(
-        0.0, impulse_of_film(shape, *viscosity, r_eff, begins_at.value_or(r_eff), 2 * *roughness));
+    const double begin = begins_at ? *begins_at : std::abs(lubrication::effective_radius(r_i, r_j));
+    return std::min(0.0, impulse_of_film(shape, *viscosity, r_i, r_j, begin, 2 * *roughness));
   }
 
   /// The film takes up the impulse p = Pair::impulse: gamma becomes gamma - p, within [`lowest`, 0]

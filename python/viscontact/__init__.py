@@ -3,6 +3,7 @@
 Fit, PairFit                      fitted lubrication forces, on arrays
 tabulate, fit, fit_pair           tables by FreeFEM, and fits of tables
 pair_resistance                   two spheres: all motions and strains, on arrays
+film_gamma, film_gap              the impulse of a film, and its gap
 simulate, rolling, swimmer        motions of single spheres, as arrays
 Particles                         many discs or spheres, step by step
 read                              files and folders that Viscontact wrote, as arrays
@@ -19,8 +20,8 @@ import sys as _sys
 
 try:
     from ._core import (Error, ExternalProgramError, Fit, InputError, NotConvergedError, PairFit,
-                        StepReport, __version__, _tabulate, fit, fit_pair, pair_resistance, rolling,
-                        simulate, swimmer)
+                        StepReport, __version__, _tabulate, film_gamma, film_gap, fit, fit_pair,
+                        pair_resistance, rolling, simulate, swimmer)
 except ModuleNotFoundError as problem:
     if problem.name != f"{__name__}._core":
         raise
@@ -36,8 +37,8 @@ from .particles import Particles
 from .results import Folder, Frames, read
 
 __all__ = ["Columns", "Error", "ExternalProgramError", "Fit", "Folder", "Frames", "InputError",
-           "NotConvergedError", "PairFit", "Particles", "StepReport", "fit", "fit_pair",
-           "pair_resistance", "read", "rolling", "simulate", "swimmer", "tabulate", "__version__"]
+           "NotConvergedError", "PairFit", "Particles", "StepReport", "film_gamma", "film_gap", "fit",
+           "fit_pair", "pair_resistance", "read", "rolling", "simulate", "swimmer", "tabulate", "__version__"]
 
 
 def tabulate(case, output, *, jobs=0, motions=None):

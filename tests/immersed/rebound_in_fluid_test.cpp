@@ -24,14 +24,13 @@ struct Units {
 };
 
 /// A sphere of radius 1 with the velocity -1 and the gap `gap` to the floor, around which the drag
-/// is that of a film at all gaps, k/q with k = 1, so that its mass is its Stokes number. Contact is
-/// made at the gap 0.1, and the solids touch at 0.01.
+/// is k/q at all gaps with k = 1, so that its mass is its Stokes number. Contact is made at the gap
+/// 0.1, and the solids touch where k/q has absorbed ln 10 more, at 0.01.
 InFluid sphere_in_film(double stokes, double gap, double h, const Units& units = {}) {
   auto system = in_fluid(1, 50 * units.length, h * units.time, 0.1 * units.length);
   const double viscosity = units.mass / (units.length * units.time) / (6 * kPi);
   system.setting.fluid->viscosity = viscosity;
-  system.setting.laws.film.viscosity = viscosity;
-  system.setting.laws.film.roughness = 0.005 * units.length;
+  system.setting.laws.film.gamma_min = -std::log(10.0) * units.mass * units.length / units.time;
   system.setting.laws.restitution.coefficient = kDry;
   add_particle(system.state, {(1 + gap) * units.length, 0, 0}, units.length, stokes * units.mass,
                {-units.length / units.time, 0, 0});

@@ -170,7 +170,36 @@ class PairResistanceTest(unittest.TestCase):
         with self.assertRaisesRegex(viscontact.InputError, "gap"):
             viscontact.pair_resistance(1, 1, [0.1, 0.0])
         with self.assertRaisesRegex(viscontact.InputError, "factor"):
-            viscontact.pair_resistance(1, 20, 0.1)
+            viscontact.pair_resistance(1, 2e9, 0.1)
+
+    def test_a_plane_and_the_balanced_form(self):
+        matrix = viscontact.pair_resistance([1.0, 1.0], [np.inf, 1e8], 0.1)
+        self.assertEqual(np.abs(matrix[0, 11:]).max(), 0)
+        # Drag of a sphere at the gap 0.1 above a plane, Brenner 1961.
+        self.assertAlmostEqual(matrix[0, 2, 2] / (6 * np.pi), 11.459157, delta=1e-4)
+        np.testing.assert_allclose(matrix[1, :11, :11], matrix[0, :11, :11], rtol=1e-3, atol=1e-3)
+        balanced = viscontact.pair_resistance(1, 3, 0.1, balanced=True)
+        np.testing.assert_array_equal(balanced[:3], -balanced[11:14])
+
+
+class FilmTest(unittest.TestCase):
+    def test_is_that_of_the_exact_drag(self):
+        # A sphere of roughness 0.005 above a plane with the threshold gap 0.1.
+        self.assertAlmostEqual(viscontact.film_gamma(1, np.inf, 0.1, 0.01, viscosity=3), -138.3,
+                               delta=0.05)
+        gaps = np.array([0.001, 0.01, 0.1])
+        for radius, neighbour in (1, np.inf), (1, 0.5), (1, -3):
+            for discs in False, True:
+                gamma = viscontact.film_gamma(radius, neighbour, 0.1, gaps, 2, discs)
+                np.testing.assert_allclose(
+                    viscontact.film_gap(radius, neighbour, 0.1, gamma, 2, discs), gaps, rtol=1e-12)
+
+    def test_refuses_what_is_no_film(self):
+        for arguments in (1, -0.9, 0.1, 0.01), (0, 1, 0.1, 0.01), (1, 1, 0.1, 0.2), (1, 1, 0.1, 0):
+            with self.assertRaises(viscontact.Error):
+                viscontact.film_gamma(*arguments)
+        with self.assertRaises(viscontact.Error):
+            viscontact.film_gap(1, 1, 0.1, 0.5)
 
 
 if __name__ == "__main__":

@@ -12,6 +12,8 @@
 #include "tests/immersed/stand_in_fluid.hpp"
 #include "tests/particles/systems.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/lubrication/pairs/squeeze_film.hpp"
+#include "viscontact/lubrication/plane_drag.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
 
 namespace viscontact::particles {
@@ -31,18 +33,21 @@ struct Contact {
 };
 
 TEST(RoughContactInFluid, OfASphereIsThatOfTheThresholdModel) {
-  // Both have R = k/q above D_c.
+  // Both have R = k (1/q - ln(q)/5 + 0.97128) above D_c, which is that of a plane but for terms like
+  // q ln q.
   const double mass = 20, viscosity = 3, k = 6 * kPi * viscosity, threshold = 0.1;
+  constexpr double kConstant = 0.9712799310357215;
   const Resistance drag = [k](const Particles& p) -> Eigen::MatrixXd {
-    return Eigen::MatrixXd::Constant(1, 1, k / (p.positions[0] - 1));
+    const double q = p.positions[0] - 1;
+    return Eigen::MatrixXd::Constant(1, 1, k * (1 / q - std::log(q) / 5 + kConstant));
   };
   lubrication::Fit fit;
   fit.basis = lubrication::kOwnTerms;
   fit.reference_velocity = -1;
   fit.viscosity = viscosity;
   fit.radius = 1;
-  fit.gap_interval = {1e-200, 1e20};
-  fit.terms = {{"1/q", k, 0}};
+  fit.gap_interval = {1e-200, 50};
+  fit.terms = {{"1/q", k, 0}, {"ln q", -k / 5, 0}, {"1", k * kConstant, 0}};
   const lubrication::LubricationForce force(fit);
   for (const double h : {0.02, 0.01}) {
     reduced_model::Motion motion{mass, 1, 0, 4,
@@ -65,9 +70,11 @@ TEST(RoughContactInFluid, OfASphereIsThatOfTheThresholdModel) {
       direct.see(simulation.state().time, pair_of(simulation.state(), -2, 0).gamma);
       expected.see(reduced.rows[row].time, *reduced.rows[row].gamma);
     }
-    // The solids touch at the film 2 s: k ln(0.01/0.1).
-    EXPECT_NEAR(direct.lowest_gamma, k * std::log(0.1), 1e-10 * k);
-    EXPECT_NEAR(direct.lowest_gamma, expected.lowest_gamma, 1e-10 * k);
+    // The solids touch at the film 2 s. From 0.01 to 0.1 the terms like q ln q add up to 1.2e-3.
+    const double exact =
+        lubrication::plane_drag_integral(0.01) - lubrication::plane_drag_integral(0.1);
+    EXPECT_NEAR(direct.lowest_gamma, k * exact, 1e-10 * k);
+    EXPECT_NEAR(direct.lowest_gamma, expected.lowest_gamma, 2e-3 * k);
     // A landing is of first order in the step, and each may be a row earlier or later.
     EXPECT_NEAR(direct.from, expected.from, 3 * h);
     EXPECT_NEAR(direct.to, expected.to, 3 * h);
@@ -78,24 +85,21 @@ TEST(RoughContactInFluid, GammaMinIsWhereTheFilmIsTwiceTheRoughness) {
   Random random(5);
   for (int i = 0; i < 100; ++i) {
     const double mu = random.decades(-5, 5), r = random.decades(-5, 5);
+    constexpr double kPlane = std::numeric_limits<double>::infinity();
     FilmLaw law;
-    const auto lowest = [&](FilmShape shape, double begins_at) {
-      law.shape = shape;
-      law.begins_at = begins_at;
-      return law.lowest_gamma(r, std::numeric_limits<double>::infinity());
-    };
     law.viscosity = mu;
     law.roughness = r * random.decades(-6, -2);
-    const double from = 2 * *law.roughness * random.decades(0.1, 3);
-    const double k = 6 * kPi * mu * r * r;
-    const double of_sphere = lowest(FilmShape::kSpheres, from);
-    EXPECT_NEAR(from * std::exp(of_sphere / k) / (2 * *law.roughness), 1, 1e-12);
-    // Of discs Gamma(q) = -c/sqrt(q).
-    const double c = 6 * std::sqrt(2.0) * kPi * mu * std::pow(r, 1.5);
-    const double of_disc = lowest(FilmShape::kDiscs, from);
-    EXPECT_NEAR(std::pow(c / (c / std::sqrt(from) - of_disc), 2) / (2 * *law.roughness), 1, 1e-12);
-    EXPECT_EQ(lowest(FilmShape::kDiscs, 2 * *law.roughness), 0);
-    EXPECT_EQ(lowest(FilmShape::kSpheres, *law.roughness), 0);
+    for (const auto shape : {FilmShape::kSpheres, FilmShape::kDiscs}) {
+      law.shape = shape;
+      law.begins_at = 2 * *law.roughness * random.decades(0.1, 3);
+      const double gamma = law.lowest_gamma(r, kPlane);
+      EXPECT_NEAR(gap_of_film(shape, mu, r, kPlane, *law.begins_at, gamma) / (2 * *law.roughness),
+                  1, 1e-12);
+      law.begins_at = 2 * *law.roughness;
+      EXPECT_EQ(law.lowest_gamma(r, kPlane), 0);
+      law.begins_at = *law.roughness;
+      EXPECT_EQ(law.lowest_gamma(r, kPlane), 0);
+    }
   }
 }
 
@@ -129,16 +133,14 @@ std::array<double, 3> gammas(double length, double mass, double time) {
 }
 
 TEST(RoughContactInFluid, OfDiscsHasTheirFilmInAnyUnits) {
-  // -6 sqrt(2) pi mu r_eff^(3/2) (1/sqrt(2 s) - 1/sqrt(D_c)), with r_eff of a floor, of discs of
-  // radii 1 and 0.5, and of a disc of radius 1 inside a circle of radius 3.
-  const double film = 1 / std::sqrt(0.01) - 1 / std::sqrt(0.05);
-  const auto expected = [&](double r_eff) {
-    return -6 * std::sqrt(2.0) * kPi * 0.5 * std::pow(r_eff, 1.5) * film;
+  // At a floor, of discs of radii 1 and 0.5, and of a disc of radius 1 inside a circle of radius 3.
+  const auto expected = [&](double neighbour) {
+    return -0.5 * lubrication::disc_squeeze_integral(1, neighbour, 0.01, 0.05);
   };
   const auto expect_films = [&](const std::array<double, 3>& found) {
-    EXPECT_NEAR(found[0] / expected(1), 1, 1e-9);
-    EXPECT_NEAR(found[1] / expected(1 / (1 + 2.0)), 1, 1e-9);
-    EXPECT_NEAR(found[2] / expected(1 / (1 - 1 / 3.0)), 1, 1e-9);
+    EXPECT_NEAR(found[0] / expected(std::numeric_limits<double>::infinity()), 1, 1e-9);
+    EXPECT_NEAR(found[1] / expected(0.5), 1, 1e-9);
+    EXPECT_NEAR(found[2] / expected(-3), 1, 1e-9);
   };
   expect_films(gammas(1, 1, 1));
   Random random(6);

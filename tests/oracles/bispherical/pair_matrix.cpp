@@ -26,11 +26,8 @@ void add(const Eigen::MatrixXd& loads, const std::vector<Component>& block, Eige
     }
 }
 
-}  // namespace
-
-Eigen::MatrixXd exact_pair_matrix(double radius1, double radius2, double gap) {
-  const auto loads = exact_pair_loads(radius1, radius2, gap);
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(22, 22);
+Eigen::MatrixXd in_components(const PairLoads& loads) {
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(11 * loads.spin.rows(), 11 * loads.spin.cols());
   // In the basis tensor B = t E of each strain a unit source is t E, and the load is B:S, with E:S =
   // S_zz, 2 S_xz or 2 S_xx. Forces and torques are those on the fluid.
   const double axial = std::sqrt(1.5), shear = std::sqrt(2.0);
@@ -42,6 +39,16 @@ Eigen::MatrixXd exact_pair_matrix(double radius1, double radius2, double gap) {
   add(loads.twofold, {{10, shear, 1 / shear, 1}}, all);
   add(loads.spin, {{5, -1, 1, 1}}, all);
   return all;
+}
+
+}  // namespace
+
+Eigen::MatrixXd exact_pair_matrix(double radius1, double radius2, double gap) {
+  return in_components(exact_pair_loads(radius1, radius2, gap));
+}
+
+Eigen::MatrixXd exact_plane_matrix(double radius, double gap) {
+  return in_components(exact_loads_above_plane(radius, gap));
 }
 
 }  // namespace viscontact

@@ -1,9 +1,14 @@
 // Prints lubrication/pairs/pair_rest.hpp, computed anew in some seconds:
 //     build/release/pair_rest_table > lubrication/pairs/pair_rest.hpp
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "tests/oracles/bispherical/pair_matrix.hpp"
@@ -14,10 +19,20 @@ namespace {
 
 using namespace lubrication;  // NOLINT
 
-// Measured at random ratios and gaps from 1e-3 to 5: 12 and 9 polynomials have the largest error
-// 1.3e-5 of the mean of the diagonal entries, 12 and 7 1.2e-4, 16 and 11 2e-6.
-constexpr int kGaps = 12, kRatios = 9;
-constexpr double kLargestRatio = 10;
+// Measured at random ratios and gaps from 1e-3 to 5: 18 polynomials in the gap and 10 in ln b have
+// the largest error 1.5e-6 of the mean of the diagonal entries for b <= 10. Products whose
+// coefficients are below kLeast are left out, which are a third of them. 12 and 9 have 1.3e-5, 12 and
+// 7 1.2e-4, 16 and 11 2e-6.
+constexpr int kGaps = 18, kRatios = 10;
+constexpr double kLeast = 3e-7;
+// For 10 < b <= 100, where an exact solution takes seconds.
+constexpr int kFarGaps = 16, kFarRatios = 8;
+constexpr double kFarLeast = 1e-6;
+// Below this gap the rest for b > 10 is linear in the gap, to 1e-5; exact solutions there take
+// gigabytes.
+constexpr double kLinear = 1.5e-3;
+// A small ratio stands for the plane.
+constexpr double kPlane = 1e9;
 
 double node(int i, int count) { return -std::cos(std::numbers::pi * (i + 0.5) / count); }
 
@@ -34,13 +49,30 @@ double entry_alone(PairComponent which, double radius) {
   return (which == kTurn ? 8 : 20.0 / 3) * kPi * radius * radius * radius;
 }
 
-/// What is left of the normalised entries without the terms near contact.
+bool is_of_sphere1(const PairEntryTerms& terms) {
+  return terms.row_sphere == 0 && terms.column_sphere == 0;
+}
+
+/// What is left of the normalised entries without the terms near contact; at a plane of the entries
+/// of sphere 1, and 0 of the others.
 std::vector<double> rest(double b, double gap) {
-  const auto matrix = exact_pair_matrix(1, b, gap);
+  const bool plane = b == kPlane;
+  if (b > PairCoordinates::kNearRatio && !plane && gap < kLinear) {
+    const auto here = rest(b, kLinear), there = rest(b, 2 * kLinear);
+    std::vector<double> extrapolated;
+    for (std::size_t e = 0; e < here.size(); ++e)
+      extrapolated.push_back(here[e] + (here[e] - there[e]) * (1 - gap / kLinear));
+    return extrapolated;
+  }
+  const auto matrix = plane ? exact_plane_matrix(1, gap) : exact_pair_matrix(1, b, gap);
   const auto weights = PairCoordinates(b, gap).contact_weights();
   std::vector<double> rest;
   for (std::size_t e = 0; e < kPairEntries; ++e) {
     const auto& terms = kPairEntryTerms[e];
+    if (plane && !is_of_sphere1(terms)) {
+      rest.push_back(0);
+      continue;
+    }
     double contact = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       double polynomial = 0;
@@ -59,15 +91,50 @@ std::vector<double> rest(double b, double gap) {
   return rest;
 }
 
-void print_table() {
-  std::array<std::array<std::vector<double>, kGaps>, kRatios> at_nodes;
-  for (int i = 0; i < kRatios; ++i)
-    for (int j = 0; j < kGaps; ++j) {
-      const double b = std::pow(kLargestRatio, (node(i, kRatios) + 1) / 2);
-      const double to_contact = std::pow((1 - node(j, kGaps)) / 2, 2);
-      at_nodes[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] =
-          rest(b, 2 * std::sqrt(b) * to_contact / (1 - to_contact));
+/// A table of the radii 1 and b in [lowest, highest], with one polynomial if these are equal.
+void print_table(const char* name, double lowest, double highest, int ratios, int gaps,
+                 double least) {
+  std::vector<std::vector<double>> at_nodes;
+  for (int i = 0; i < ratios; ++i)
+    for (int j = 0; j < gaps; ++j) {
+      const double b =
+          ratios == 1 ? lowest : lowest * std::pow(highest / lowest, (node(i, ratios) + 1) / 2);
+      at_nodes.push_back(rest(b, PairCoordinates::gap_at(b, node(j, gaps))));
     }
+  std::vector<std::string> products;
+  for (int p = 0; p < ratios; ++p)
+    for (int q = 0; q < gaps; ++q) {
+      std::array<double, kPairEntries> sums{};
+      double largest = 0;
+      for (std::size_t e = 0; e < kPairEntries; ++e) {
+        for (int i = 0; i < ratios; ++i)
+          for (int j = 0; j < gaps; ++j)
+            sums[e] += at_nodes[static_cast<std::size_t>(i * gaps + j)][e] *
+                       std::cos(p * std::acos(node(i, ratios))) *
+                       std::cos(q * std::acos(node(j, gaps)));
+        sums[e] *= (p == 0 ? 1.0 : 2) * (q == 0 ? 1 : 2) / (ratios * gaps);
+        largest = std::max(largest, std::abs(sums[e]));
+      }
+      if (largest < least) continue;
+      std::string text = fmt::format("    {{{}, {}, {{{{", p, q);
+      for (std::size_t e = 0; e < kPairEntries; ++e)
+        text += fmt::format("{}{:.9g}",
+                            e == 0       ? ""
+                            : e % 9 == 0 ? ",\n      "
+                                         : ", ",
+                            std::abs(sums[e]) < 1e-9 ? 0 : sums[e]);
+      products.push_back(text + "}}},\n");
+    }
+  fmt::print("inline constexpr std::array<PairProduct, {}> {} = {{{{\n", products.size(), name);
+  for (const auto& product : products) fmt::print("{}", product);
+  fmt::print("}}}};\n\n");
+}
+
+}  // namespace
+}  // namespace viscontact
+
+int main() {
+  using namespace viscontact;  // NOLINT
   std::puts(
       "// What is left of a pair's entries, over those of the spheres alone, without the terms "
       "near\n"
@@ -75,37 +142,18 @@ void print_table() {
       "#pragma once\n\n#include <array>\n#include <cstddef>\n\n"
       "#include \"viscontact/lubrication/pairs/pair_near_contact.hpp\"\n\n"
       "namespace viscontact::lubrication {\n\n"
-      "/// Numbers of Chebyshev polynomials in the variables of PairCoordinates.");
-  std::printf("inline constexpr std::size_t kRatioTerms = %d, kGapTerms = %d;\n\n", kRatios, kGaps);
-  std::puts(
-      "/// Their coefficients.\n// clang-format off\n"
-      "inline constexpr std::array<std::array<std::array<double, kPairEntries>, kGapTerms>, "
-      "kRatioTerms> kPairRest = {{");
-  for (int p = 0; p < kRatios; ++p) {
-    std::puts("{{");
-    for (int q = 0; q < kGaps; ++q) {
-      std::printf("{{");
-      for (std::size_t e = 0; e < kPairEntries; ++e) {
-        double sum = 0;
-        for (int i = 0; i < kRatios; ++i)
-          for (int j = 0; j < kGaps; ++j)
-            sum += at_nodes[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)][e] *
-                   std::cos(p * std::acos(node(i, kRatios))) *
-                   std::cos(q * std::acos(node(j, kGaps)));
-        std::printf("%s%.10g",
-                    e == 0       ? ""
-                    : e % 8 == 0 ? ",\n  "
-                                 : ", ",
-                    sum * (p == 0 ? 1 : 2) * (q == 0 ? 1 : 2) / (kRatios * kGaps));
-      }
-      std::puts("}},");
-    }
-    std::puts("}},");
-  }
-  std::puts("}};\n// clang-format on\n\n}  // namespace viscontact::lubrication");
+      "/// A product of two Chebyshev polynomials, of these orders, in the variables of\n"
+      "/// PairCoordinates, and its coefficients in the sums of all entries.\n"
+      "struct PairProduct {\n  std::size_t ratio_order, gap_order;\n"
+      "  std::array<double, kPairEntries> coefficients;\n};\n\n"
+      "/// Numbers of polynomials.");
+  fmt::print("inline constexpr std::size_t kRatioTerms = {}, kGapTerms = {};\n\n", kRatios, kGaps);
+  std::puts("// clang-format off\n/// For b <= PairCoordinates::kNearRatio.");
+  print_table("kPairRest", 1, PairCoordinates::kNearRatio, kRatios, kGaps, kLeast);
+  std::puts("/// Up to kFarRatio.");
+  print_table("kFarPairRest", PairCoordinates::kNearRatio * (1 + 1e-15), PairCoordinates::kFarRatio,
+              kFarRatios, kFarGaps, kFarLeast);
+  std::puts("/// Of a plane; 0 for what is not of sphere 1.");
+  print_table("kPlaneRest", kPlane, kPlane, 1, kGaps, kLeast);
+  std::puts("// clang-format on\n\n}  // namespace viscontact::lubrication");
 }
-
-}  // namespace
-}  // namespace viscontact
-
-int main() { viscontact::print_table(); }

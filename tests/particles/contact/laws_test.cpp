@@ -8,6 +8,8 @@
 #include <numbers>
 #include <utility>
 
+#include "viscontact/lubrication/pairs/squeeze_film.hpp"
+#include "viscontact/lubrication/plane_drag.hpp"
 #include "viscontact/particles/contact/contact_laws.hpp"
 
 namespace viscontact::particles {
@@ -29,11 +31,11 @@ double integral(const F& f, double a, double b) {
 }
 
 TEST(FilmLaw, GivesWayAfterTheIntegralOfTheResistance) {
-  // Two particles, one at a plane, one inside a circle; the film begins at q0 or at r_eff.
+  // Beside another particle, at a plane, inside a circle; the film begins at q0 or at r_eff.
   const double mu = 0.7, r = 1.3;
   for (const double other : {0.4, std::numeric_limits<double>::infinity(), -5.0})
     for (const auto shape : {FilmShape::kSpheres, FilmShape::kDiscs})
-      for (const double q0 : {0.0, 0.1 * r, 10 * r}) {
+      for (const double q0 : {0.0, 0.1 * r, 2 * r}) {
         FilmLaw law;
         law.viscosity = mu;
         law.roughness = 1e-3;
@@ -41,12 +43,20 @@ TEST(FilmLaw, GivesWayAfterTheIntegralOfTheResistance) {
         if (q0 > 0) law.begins_at = q0;
         const double r_eff = 1 / (1 / r + 1 / other);
         const auto resistance = [&](double q) {
-          return shape == FilmShape::kSpheres
-                     ? 6 * pi * mu * r_eff * r_eff / q
-                     : 3 * std::numbers::sqrt2 * pi * mu * std::pow(r_eff / q, 1.5);
+          if (shape == FilmShape::kSpheres)
+            return 6 * pi * mu * r * lubrication::plane_drag_factor(q / r);
+          const double s = std::acosh(1 + q / r_eff + q * q / (2 * r * other));
+          return 4 * pi * mu / (s - std::tanh(s));
         };
-        const double expected = -integral(resistance, 2e-3, q0 > 0 ? q0 : r_eff);
+        const double begin = q0 > 0 ? q0 : r_eff;
+        // The oracles of spheres beside spheres are in tests/lubrication.
+        const double expected =
+            shape == FilmShape::kSpheres && std::isfinite(other)
+                ? -mu * lubrication::sphere_squeeze_integral(r, other, 2e-3, begin)
+                : -integral(resistance, 2e-3, begin);
         EXPECT_NEAR(law.lowest_gamma(r, other), expected, 1e-8 * std::abs(expected));
+        EXPECT_NEAR(gap_of_film(shape, mu, r, other, begin, law.lowest_gamma(r, other)), 2e-3,
+                    1e-14);
       }
   // A film thinner than the roughness does not exist.
   FilmLaw thin, given;
@@ -129,12 +139,13 @@ TEST(ContactLaws, UseTheRadiiOfBothSurfaces) {
   const auto gamma_min = [&](std::int32_t first, std::int32_t second) {
     return laws.lowest_gamma({}, {}, radii_of({first, second}, particles, obstacles));
   };
-  const auto expected = [](double r_eff) {
-    return -6 * pi * r_eff * r_eff * std::log(r_eff / 0.02);
+  const auto expected = [](double r, double neighbour) {
+    const double r_eff = lubrication::effective_radius(r, neighbour);
+    return -lubrication::sphere_squeeze_integral(r, neighbour, 0.02, r_eff);
   };
-  EXPECT_NEAR(gamma_min(0, 1), expected(2.0 / 3), 1e-12);
-  EXPECT_NEAR(gamma_min(-1, 1), expected(2), 1e-12);
-  EXPECT_NEAR(gamma_min(-2, 0), expected(7.0 / 6), 1e-12);
+  EXPECT_DOUBLE_EQ(gamma_min(0, 1), expected(2, 1));
+  EXPECT_DOUBLE_EQ(gamma_min(-1, 1), expected(2, std::numeric_limits<double>::infinity()));
+  EXPECT_DOUBLE_EQ(gamma_min(-2, 0), expected(1, -7));
 }
 
 }  // namespace
