@@ -96,7 +96,7 @@ TEST(WrongScriptOfStrains, IsFoundByTheTraction) {
   const auto wrong = [](const Change& change) { return solve_with({change}, "3"); };
   for (const auto& result :
        {wrong({"", "fluid_mesh.idp", "real scale = circleRadius[c] /",
-               "real scale = (i % 3 == 0 ? 1.05 : 1.) * circleRadius[c] /"}),
+               "real scale = (i % 3 == 0 ? 1.02 : 1.) * circleRadius[c] /"}),
         wrong({"", "twofold_stokes.idp", "      2 * ((dRho(us)", "      2.2 * ((dRho(us)"})}) {
     EXPECT_EQ(result.exit_status, 4) << result.output;
     EXPECT_THAT(line_after(result.output, "viscontact-error"), HasSubstr("traction"));
