@@ -182,7 +182,7 @@ void measure_strains(int rows, std::uint64_t seed) {
       std::ranges::max(ratios));
 }
 
-/// The largest |load| of a kind of load (force, torque, stresslet, trace) by any source of the group.
+/// The largest |load| of a kind (force, torque, stresslet, trace) by any source of the group.
 double largest_of_kind(const freefem_axi::PairLoads& loads, std::size_t load) {
   double largest = 0;
   for (std::size_t body = 0; body < loads.bodies; ++body)

@@ -37,8 +37,8 @@ struct PairLoads {
   double largest_relative_error = 0;
   /// The largest |R_ij - R_ji| over sqrt(R_ii R_jj), which is part of `errors`.
   double asymmetry = 0;
-  /// The largest difference over sqrt(R_ii R_jj) between a load, but for the traces, and the boundary
-  /// integral of the traction on the finest mesh.
+  /// The largest difference over sqrt(R_ii R_jj) between a load, but for the traces, and the
+  /// boundary integral of the traction, both on the finest mesh.
   double traction_mismatch = 0;
   double degrees_of_freedom = 0, seconds = 0;
 
@@ -55,10 +55,10 @@ struct PairLoads {
 /// stop.
 ///
 /// The discrete flows obey the theorem up to rounding, because loads are residuals of a symmetric
-/// matrix: the asymmetry tells the error of the solver, and nothing of the meshes. These are checked
-/// by the boundary integral of the traction, which obeys the theorem only up to its own error, 1e-5
-/// to 1e-2: a load i by source j by the traction must be the load j by source i by the residual.
-/// FreeFEM fails if they differ by more than row.idp allows.
+/// matrix: the asymmetry tells the error of the solver, and nothing of the meshes. The boundary
+/// integral of the traction obeys the theorem only as far as the meshes are right: the load i by
+/// source j from the traction must be the load j by source i from the residual. FreeFEM fails if
+/// they differ by more than row.idp allows.
 PairLoads solve_pair_loads(const FreeFem& freefem, const Tabulation& tabulation, MotionGroup group,
                            double gap);
 
