@@ -73,21 +73,22 @@ bool read_entries(const std::string& output, PairLoads& loads) {
   return count == loads.loads.size();
 }
 
-/// Adds |R_ij - R_ji| to the errors of R_ij and R_ji. Returns the largest of these differences over
-/// sqrt(R_ii R_jj).
-double add_asymmetry(PairLoads& loads) {
+/// Gives R_ij and R_ji, which are one number, the same error: the larger one of their estimates plus
+/// |R_ij - R_ji|. Returns the largest of these differences over sqrt(R_ii R_jj).
+double make_errors_symmetric(PairLoads& loads) {
   const auto size = [&](std::size_t body, std::size_t kind) {
     return std::abs(loads.loads[loads.place(body, kind, body, kind)]);
   };
+  const auto estimates = loads.errors;
   double largest = 0;
   for (std::size_t body = 0; body < loads.bodies; ++body)
     for (std::size_t load = 0; load < loads.sources_of_body; ++load)
       for (std::size_t of = 0; of < loads.bodies; ++of)
         for (std::size_t source = 0; source < loads.sources_of_body; ++source) {
-          const auto one = loads.place(body, load, of, source);
-          const double difference =
-              std::abs(loads.loads[one] - loads.loads[loads.place(of, source, body, load)]);
-          loads.errors[one] += difference;
+          const auto one = loads.place(body, load, of, source),
+                     other = loads.place(of, source, body, load);
+          const double difference = std::abs(loads.loads[one] - loads.loads[other]);
+          loads.errors[one] = std::max(estimates[one], estimates[other]) + difference;
           // Without this case, 0/0 would refuse numbers that are all exact.
           if (difference > 0)
             largest =
@@ -160,7 +161,7 @@ PairLoads solve_pair_loads(const FreeFem& freefem, const Tabulation& tabulation,
     throw Error(ErrorKind::kExternalProgram, "FreeFEM failed at gap {} (exit status {}): {}",
                 format_number(gap), result.exit_status,
                 failure_in_words(result, freefem.row_limit));
-  loads.asymmetry = add_asymmetry(loads);
+  loads.asymmetry = make_errors_symmetric(loads);
   // The condition also refuses NaN.
   if (!(loads.asymmetry <= kMostAsymmetry))
     throw Error(ErrorKind::kExternalProgram,

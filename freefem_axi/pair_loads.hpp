@@ -27,7 +27,8 @@ struct PairLoads {
   std::size_t bodies = 1;
   /// 3 and 2, 3 and 3, 1 and 1, 1 and 1.
   std::size_t loads_of_body = 1, sources_of_body = 1;
-  /// Indexed by place(). Errors are estimates in the unit of the load. The trace of the traction's
+  /// Indexed by place(). Errors are estimates in the unit of the load; two loads that are equal by the
+  /// reciprocal theorem have the larger one of their estimates. The trace of the traction's
   /// moment is NaN in a container, where the pressure has an arbitrary constant.
   std::vector<double> loads, errors;
   /// Of each source (of_body * sources_of_body + source): the order of convergence of its own load,
