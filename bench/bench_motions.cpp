@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <vector>
@@ -181,6 +182,82 @@ void measure_strains(int rows, std::uint64_t seed) {
       std::ranges::max(ratios));
 }
 
+/// The largest |load| of a kind (force, torque, stresslet, trace) by any source of the group.
+double largest_of_kind(const freefem_axi::PairLoads& loads, std::size_t load) {
+  double largest = 0;
+  for (std::size_t body = 0; body < loads.bodies; ++body)
+    for (std::size_t of = 0; of < loads.bodies; ++of)
+      for (std::size_t source = 0; source < loads.sources_of_body; ++source)
+        largest = std::max(largest, std::abs(loads.loads[loads.place(body, load, of, source)]));
+  return largest;
+}
+
+struct ExactSums {
+  std::vector<double> ratios;  ///< error over its estimate
+  std::vector<double> errors;  ///< error over the largest load of its kind
+  double largest_estimate = 0, asymmetry = 0, traction_mismatch = 0;
+
+  void add(const freefem_axi::PairLoads& loads, const std::vector<double>& expected) {
+    for (std::size_t load = 0; load < loads.loads_of_body; ++load)
+      for (std::size_t body = 0; body < loads.bodies; ++body)
+        for (std::size_t of = 0; of < loads.bodies; ++of)
+          for (std::size_t source = 0; source < loads.sources_of_body; ++source) {
+            const auto i = loads.place(body, load, of, source);
+            const double error = std::abs(loads.loads[i] - expected[i]);
+            ratios.push_back(error / loads.errors[i]);
+            errors.push_back(error / largest_of_kind(loads, load));
+          }
+    largest_estimate = std::max(largest_estimate, loads.largest_relative_error);
+    asymmetry = std::max(asymmetry, loads.asymmetry);
+    traction_mismatch = std::max(traction_mismatch, loads.traction_mismatch);
+  }
+};
+
+/// Rows with everything at 1e-6 beside exact ones; every fifth is above a plane.
+void measure_exact(int rows, std::uint64_t seed) {
+  constexpr double kOfTables = 1e-6;
+  const auto freefem = freefem_axi::default_freefem();
+  SplitMix64 random(seed);
+  ExactSums sums;
+  int true_rows = 0;
+  for (int n = 0; n < rows; ++n) {
+    freefem_axi::Tabulation tabulation;
+    tabulation.viscosity = tabulation.radius = 1;
+    tabulation.relative_accuracy = kOfTables;
+    const double ratio = log_uniform(random, 0.2, 5), gap = log_uniform(random, 1e-3, 5);
+    const bool plane = n % 5 == 4;
+    tabulation.geometry = plane ? "plane" : "sphere";
+    if (!plane) tabulation.geometry_parameters = {ratio, 0, 0};
+    const auto exact = plane ? exact_loads_above_plane(1, gap) : exact_pair_loads(1, ratio, gap);
+    ExactSums row;
+    const double start = cpu_seconds();
+    for (const auto group :
+         {MotionGroup::kAlong, MotionGroup::kAcross, MotionGroup::kAround, MotionGroup::kTwofold}) {
+      const auto loads = solve_pair_loads(freefem, tabulation, group, gap);
+      row.add(loads, exact_loads(exact, loads));
+      sums.add(loads, exact_loads(exact, loads));
+    }
+    const double worst = std::ranges::max(row.ratios);
+    if (worst <= 1) ++true_rows;
+    fmt::print(
+        "{} {}, gap {:.4g}: {} loads, error at most {:.2g} of the largest of its kind and {:.2g} "
+        "of its "
+        "estimate, estimate at most {:.2g}, traction {:.1e}, {:.1f} CPU s\n",
+        n + 1, freefem_axi::geometry_in_words(tabulation), gap, row.ratios.size(),
+        std::ranges::max(row.errors), worst, row.largest_estimate, row.traction_mismatch,
+        cpu_seconds() - start);
+    std::fflush(stdout);
+  }
+  fmt::print(
+      "{} loads of {} rows: errors over the largest of their kind median {:.2g}, largest {:.2g}; "
+      "over "
+      "their estimates median {:.2g}, largest {:.2g}; all estimates true in {} rows; estimates at "
+      "most {:.2g}; asymmetry at most {:.1e}, difference from tractions {:.1e}\n",
+      sums.errors.size(), rows, median(sums.errors), std::ranges::max(sums.errors),
+      median(sums.ratios), std::ranges::max(sums.ratios), true_rows, sums.largest_estimate,
+      sums.asymmetry, sums.traction_mismatch);
+}
+
 }  // namespace
 }  // namespace viscontact
 
@@ -189,7 +266,13 @@ void measure_strains(int rows, std::uint64_t seed) {
 // approach alone. The reference is the same row at a hundredth of the accuracy, whose own error was
 // checked above a plane against exact values (tests/freefem_axi/motions).
 // bench_motions strains [ROWS=6 [SEED=1]]: times of rows with strains.
+// bench_motions exact [ROWS=60 [SEED=1]]: errors and estimates of rows with strains.
 int main(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "exact") {
+    viscontact::measure_exact(argc > 2 ? std::atoi(argv[2]) : 60,
+                              argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1);
+    return 0;
+  }
   if (argc > 1 && std::string(argv[1]) == "strains") {
     viscontact::measure_strains(argc > 2 ? std::atoi(argv[2]) : 6,
                                 argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1);

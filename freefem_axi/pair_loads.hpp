@@ -27,7 +27,8 @@ struct PairLoads {
   std::size_t bodies = 1;
   /// 3 and 2, 3 and 3, 1 and 1, 1 and 1.
   std::size_t loads_of_body = 1, sources_of_body = 1;
-  /// Indexed by place(). Errors are estimates in the unit of the load. The trace of the traction's
+  /// Indexed by place(). Errors are estimates in the unit of the load; two loads that are equal by the
+  /// reciprocal theorem have the larger one of their estimates. The trace of the traction's
   /// moment is NaN in a container, where the pressure has an arbitrary constant.
   std::vector<double> loads, errors;
   /// Of each source (of_body * sources_of_body + source): the order of convergence of its own load,
@@ -35,6 +36,11 @@ struct PairLoads {
   std::vector<double> observed_orders;
   /// The largest error over the size sqrt(R_ii R_jj) that solve_pair_loads() names.
   double largest_relative_error = 0;
+  /// The largest |R_ij - R_ji| over sqrt(R_ii R_jj), which is part of `errors`.
+  double asymmetry = 0;
+  /// The largest difference over sqrt(R_ii R_jj) between a load, but for the traces, and the
+  /// boundary integral of the traction, both on the finest mesh.
+  double traction_mismatch = 0;
   double degrees_of_freedom = 0, seconds = 0;
 
   std::size_t place(std::size_t body, std::size_t load, std::size_t of_body,
@@ -45,10 +51,15 @@ struct PairLoads {
 /// has strains; velocity_ratio and rotation_ratio are not used. Errors are at most
 /// relative_accuracy times sqrt(R_ii R_jj), where R_ii is the load i by the source i of the same
 /// body (for the strains without the ambient stress), unless FreeFEM cannot reach that. Throws
-/// Error(kBadInput) if the geometry has no strains, Error(kExternalProgram) if FreeFEM fails or
-/// if loads contradict the reciprocal theorem by more than their errors, and Error(kInterrupted) at
-/// a stop. The discrete flows obey the theorem up to rounding: this checks solver and signs, and
-/// not the meshes.
+/// Error(kBadInput) if the geometry has no strains, Error(kExternalProgram) if FreeFEM fails or if
+/// loads contradict the reciprocal theorem by more than rounding, and Error(kInterrupted) at a
+/// stop.
+///
+/// The discrete flows obey the theorem up to rounding, because loads are residuals of a symmetric
+/// matrix: the asymmetry tells the error of the solver, and nothing of the meshes. The boundary
+/// integral of the traction obeys the theorem only as far as the meshes are right: the load i by
+/// source j from the traction must be the load j by source i from the residual. FreeFEM fails if
+/// they differ by more than row.idp allows.
 PairLoads solve_pair_loads(const FreeFem& freefem, const Tabulation& tabulation, MotionGroup group,
                            double gap);
 

@@ -50,18 +50,22 @@ void check_rolling_files(const RollingFolder& folder) {
   (void)report::Report(folder.path, kRollingPictures);  // throws for a file of the user
 }
 
-/// Computes the tables in the folder and fits them, unless the case names a fit. If rows of a table
+/// Computes the tables in the folder and fits them, unless the case names a fit. Strains are left
+/// out, because they take as much time as all motions, and no model uses them. If rows of a table
 /// fail, `failure` becomes the error that names them.
 void make_fit(const RollingCase& c, const RollingFolder& folder, const RollingRequest& request,
               pipeline::RowFailure& failure) {
   if (c.fit) return;
+  auto tabulation = c.tabulation.value();
+  std::erase_if(tabulation.motions, lubrication::is_strain);
   const auto path_of = [folder](lubrication::MotionKind motion) { return folder.table(motion); };
-  failure =
-      pipeline::tabulate_stage(pipeline::case_tables(c.path, c.text, c.tabulation.value(), path_of),
-                               request.jobs, request.stop);
+  failure = pipeline::tabulate_stage(pipeline::case_tables(c.path, c.text, tabulation, path_of),
+                                     request.jobs, request.stop);
   pipeline::with_failure(failure, [&] {
-    motions::fit_pair_stage(motions::pair_table_files({(folder.path / "tables").string()}),
-                            folder.fit(), {}, request.stop);
+    // Not all tables of the folder: strains of an earlier run may be there.
+    std::vector<fs::path> files;
+    for (const auto motion : tabulation.motions) files.push_back(folder.table(motion));
+    motions::fit_pair_stage(files, folder.fit(), {}, request.stop);
   });
 }
 

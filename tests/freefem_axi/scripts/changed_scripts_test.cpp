@@ -25,8 +25,8 @@ struct Change {
 // What GoogleTest shows of the parameter.
 std::ostream& operator<<(std::ostream& out, const Change& change) { return out << change.name; }
 
-/// Solves a sphere that slides along a free surface (motion 1), or that approaches it (0), with the
-/// changed scripts.
+/// Solves a sphere that slides along a free surface (motion 1), or that approaches it (0), or the
+/// strain across the axis (3), with the changed scripts.
 ProcessResult solve_with(const std::vector<Change>& changes, const std::string& motion = "1") {
   const TemporaryFolder scratch;
   auto freefem = default_freefem();
@@ -59,6 +59,8 @@ ProcessResult solve_with(const std::vector<Change>& changes, const std::string& 
                       "3",
                       "-motion",
                       motion,
+                      "-strains",
+                      motion == "3" ? "1" : "0",
                       "-containerRadius",
                       "0",
                       "-containerHeight",
@@ -88,6 +90,19 @@ INSTANTIATE_TEST_SUITE_P(
         Change{"Viscosity", "sideways_stokes.idp", "      2 * ((dRho(us)",
                "      2.2 * ((dRho(us)"}),
     [](const auto& test) { return test.param.name; });
+
+// The only flows of motion 3 are those of strains.
+TEST(WrongScriptOfStrains, IsFoundByTheTraction) {
+  const auto wrong = [](const Change& change) { return solve_with({change}, "3"); };
+  for (const auto& result :
+       {wrong({"", "fluid_mesh.idp", "real scale = circleRadius[c] /",
+               "real scale = (i % 3 == 0 ? 1.02 : 1.) * circleRadius[c] /"}),
+        wrong({"", "twofold_stokes.idp", "      2 * ((dRho(us)", "      2.2 * ((dRho(us)"})}) {
+    EXPECT_EQ(result.exit_status, 4) << result.output;
+    EXPECT_THAT(line_after(result.output, "viscontact-error"), HasSubstr("traction"));
+  }
+  EXPECT_EQ(solve_with({}, "3").exit_status, 0);
+}
 
 TEST(FailedSolve, IsFollowedByASequenceWithOtherNumbersOfCells) {
   const auto right = solve_with({}, "0");

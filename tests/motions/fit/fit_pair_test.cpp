@@ -26,21 +26,22 @@ using ::testing::HasSubstr;
 constexpr double kPi = std::numbers::pi;
 const std::string kData = std::string(VISCONTACT_SOURCE_FOLDER) + "/data/";
 
-PairTables shipped_tables(const std::string& pair) {
+PairTables shipped_tables(const std::string& pair, bool strains = false) {
   const std::string folder = kData + "tables/pairs/" + pair + "/";
   PairTables tables;
   for (const auto& [name, motion] : lubrication::all_motions()) {
-    if (is_strain(motion)) continue;
+    if (is_strain(motion) && !strains) continue;
     tables[motion] = lubrication::read_motion_table(folder + std::string(name) + ".csv");
   }
   return tables;
 }
 
-/// The expansions beside a free surface are those of two spheres at twice the gap, so that they
-/// need more terms.
+/// The expansions beside a free surface are those of two spheres at twice the gap, and strains are
+/// tabulated up to the gap 2, so that they need more terms.
 PairFitSettings settings_of(const std::string& pair) {
   PairFitSettings settings;
-  if (pair == "free_surface") settings.basis = "asymptotic_quartic";
+  if (pair == "free_surface" || pair.starts_with("strained_"))
+    settings.basis = "asymptotic_quartic";
   return settings;
 }
 
@@ -117,7 +118,14 @@ TEST(PairFits, OfAPlaneAreTheExactResistances) {
 
 /// Tables with stresslets of a sphere of radius 1 in a fluid of viscosity 1, whose neighbour is a
 /// sphere of radius 1/curvature, or a plane: exact values, and the leading factors of theory.
-PairTables exact_tables(double curvature) {
+std::vector<double> log_spaced_gaps(double from, double to, int count) {
+  std::vector<double> gaps;
+  for (int i = 0; i < count; ++i) gaps.push_back(from * std::pow(to / from, i / (count - 1.0)));
+  return gaps;
+}
+
+PairTables exact_tables(double curvature,
+                        const std::vector<double>& gaps = log_spaced_gaps(1e-3, 1, 31)) {
   const std::string geometry =
       curvature > 0 ? fmt::format("sphere, radius {}, velocity_ratio 0", 1 / curvature) : "plane";
   PairTables tables;
@@ -137,9 +145,7 @@ PairTables exact_tables(double curvature) {
     table.neighbour_leading_torque_factor = neighbour.torque;
     table.neighbour_leading_stresslet_factor = neighbour.stresslet;
   }
-  constexpr int kGaps = 31;
-  for (int i = 0; i < kGaps; ++i) {
-    const double gap = 1e-3 * std::pow(1e3, i / (kGaps - 1.0));
+  for (const double gap : gaps) {
     const auto exact =
         curvature > 0 ? exact_pair_loads(1, 1 / curvature, gap) : exact_loads_above_plane(1, gap);
     const auto add = [&](MotionKind motion, const auto& set) {
@@ -199,6 +205,128 @@ void expect_all_entries(const PairFit& fit, std::size_t count) {
     }
   }
 }
+
+const lubrication::Action& action_of(const NamedEntry& named, const lubrication::MotionRow& row) {
+  return named.of_neighbour ? row.neighbour.value() : row;
+}
+
+/// The entry in a row of the table of its motion, of the velocity or rate 1, and its error estimate
+/// over the sphere's own entry of the motion.
+std::pair<double, double> entry_in(PairEntry which, const lubrication::MotionRow& row) {
+  const auto& named = pair_entries()[static_cast<std::size_t>(which)];
+  const auto& on = action_of(named, row);
+  switch (named.load) {
+    case PairLoad::kForce:
+      return {-on.force, on.relative_error_estimate};
+    case PairLoad::kTorque:
+      return {which == PairEntry::kSlideRoll ? on.torque : -on.torque, on.torque_error_estimate};
+    case PairLoad::kStresslet:
+      return {on.stresslet, on.stresslet_error_estimate};
+    case PairLoad::kTrace:
+      break;
+  }
+  return {on.trace, on.trace_error_estimate};
+}
+
+/// The sphere's own entry of a motion.
+PairEntry diagonal_entry(MotionKind motion) {
+  switch (motion) {
+    case MotionKind::kApproach:
+      return PairEntry::kSqueeze;
+    case MotionKind::kSlide:
+      return PairEntry::kSlide;
+    case MotionKind::kRoll:
+      return PairEntry::kRoll;
+    case MotionKind::kSpin:
+      return PairEntry::kSpin;
+    case MotionKind::kAxialStrain:
+      return PairEntry::kAxialStrain;
+    case MotionKind::kShearStrain:
+      return PairEntry::kShearStrain;
+    case MotionKind::kTwofoldStrain:
+      break;
+  }
+  return PairEntry::kTwofoldStrain;
+}
+
+struct ShippedStrains {
+  const char* pair;
+  double curvature;     ///< of the neighbour
+  std::size_t entries;  ///< of the fit
+};
+std::ostream& operator<<(std::ostream& out, const ShippedStrains& shipped) {
+  return out << shipped.pair;
+}
+
+class StrainedPair : public ::testing::TestWithParam<ShippedStrains> {};
+
+TEST_P(StrainedPair, IsTabulatedAsExactlyAsItSays) {
+  const auto& [pair, curvature, entries] = GetParam();
+  const auto tables = shipped_tables(pair, true);
+  std::vector<double> gaps;
+  for (const auto& row : tables.at(MotionKind::kSlide).rows) gaps.push_back(row.gap);
+  ASSERT_EQ(gaps.size(), 25U);
+  EXPECT_NEAR(gaps.front(), 1e-3, 1e-18);
+  EXPECT_EQ(gaps.back(), 2);
+  const auto exact = exact_tables(curvature, gaps);
+  for (std::size_t i = 0; i < pair_entries().size(); ++i) {
+    const auto which = static_cast<PairEntry>(i);
+    const auto& named = pair_entries()[i];
+    if (named.of_neighbour && curvature == 0) continue;
+    SCOPED_TRACE(named.name);
+    const auto& rows = tables.at(named.motion).rows;
+    ASSERT_EQ(rows.size(), gaps.size());
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      EXPECT_LE(rows[k].largest_error_estimate, 1e-6);
+      const auto [value, estimate] = entry_in(which, rows[k]);
+      const double own = entry_in(diagonal_entry(named.motion), rows[k]).first;
+      EXPECT_NEAR(value, entry_in(which, exact.at(named.motion).rows[k]).first, estimate * own)
+          << gaps[k];
+    }
+  }
+}
+
+/// At the gaps of the table, and at three between each two of them.
+TEST_P(StrainedPair, HasAShippedFitWithin1e5OfTheExactEntries) {
+  const auto& [pair, curvature, entries] = GetParam();
+  const auto fit = read_pair_fit(kData + "fits/pairs/" + pair + ".json");
+  ASSERT_EQ(fit.entries.size(), entries);
+  EXPECT_NEAR(fit.gap_interval[0], 1e-3, 1e-18);
+  EXPECT_EQ(fit.gap_interval[1], 2);
+  const auto gaps = log_spaced_gaps(1e-3, 2, 97);
+  const auto exact = exact_tables(curvature, gaps);
+  for (const auto& [which, entry] : fit.entries) {
+    const auto& named = pair_entries()[static_cast<std::size_t>(which)];
+    SCOPED_TRACE(named.name);
+    const auto& rows = exact.at(named.motion).rows;
+    for (std::size_t k = 0; k < gaps.size(); ++k) {
+      const double own = entry_in(diagonal_entry(named.motion), rows[k]).first;
+      EXPECT_NEAR(entry_value(fit, which, gaps[k]), entry_in(which, rows[k]).first, 1e-5 * own)
+          << gaps[k];
+    }
+  }
+}
+
+TEST_P(StrainedPair, FitThatIsShippedIsThatOfItsTables) {
+  const std::string pair = GetParam().pair;
+  const auto fit = fit_pair(shipped_tables(pair, true), settings_of(pair));
+  const auto shipped = read_pair_fit(kData + "fits/pairs/" + pair + ".json");
+  ASSERT_EQ(fit.entries.size(), shipped.entries.size());
+  for (const auto& [which, entry] : fit.entries) {
+    const auto& named = pair_entries()[static_cast<std::size_t>(which)];
+    for (const double gap : {1e-3, 0.02, 1.5}) {
+      const double own = entry_value(fit, diagonal_entry(named.motion), gap);
+      EXPECT_NEAR(entry_value(shipped, which, gap), entry_value(fit, which, gap), 1e-9 * own)
+          << named.name;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Pairs, StrainedPair,
+                         ::testing::Values(ShippedStrains{"strained_plane", 0, 13},
+                                           ShippedStrains{"strained_equal_spheres", 1,
+                                                          pair_entries().size()}),
+                         [](const auto& test) { return std::string(test.param.pair); });
 
 /// The functions of Jeffrey & Onishi and Jeffrey with 20 digits, by another method.
 TEST(PairFits, OfTwoSpheresWithStrainsAreTheFunctionsOfJeffrey) {

@@ -86,7 +86,7 @@ awk "BEGIN { l = log($gap)
     printf \"viscontact-action 1 0 %.17g %.17g 1e-6 1e-6 4\\n\", 3 + 2 * l, -20 + 10 * l
   } else if (\"$motion\" == \"2\")
     printf \"viscontact-action 0 0 0 %.17g 1e-6 1e-6 4\\n\", -25 + 6 * $gap * l
-  printf \"viscontact-result %.17g 1e-6 1000 4\\n\", -($velocity) * (1 / $gap + 1) }"
+  printf \"viscontact-result %.17g 1e-6 1000 4 1e-4\\n\", -($velocity) * (1 / $gap + 1) }"
 )sh");
   make_executable(file);
   return "VISCONTACT_FREEFEM=" + file.string();
@@ -323,6 +323,23 @@ TEST_F(MotionsCommand, TheReportOfARollingSphereHasTheUnitsOfItsCase) {
                     HasSubstr("torque [g mm<sup>2</sup>/s<sup>2</sup>]")));
   EXPECT_THAT(read_file(path("out/plots/velocity.svg")),
               AllOf(HasSubstr("time [s]"), HasSubstr("velocity [mm/s]")));
+}
+
+TEST_F(MotionsCommand, RollingTabulatesMotionsAndNoStrains) {
+  const auto with_tables =
+      incline("[fit]\nfile = \"" + kData + "fits/pairs/plane.json\"",
+              "[tabulation]\nmotion = \"all\"\ncontainer = \"unbounded\"\n"
+              "gaps = { from = 1e-3, to = 1.0, count = 12, spacing = \"log\" }\n"
+              "reference_velocities = [1.0]\nrelative_accuracy = 1e-2\n");
+  expect_done(
+      run_viscontact({"rolling", with_tables, "-o", path("out")}, {fake_motions(scratch_, "")}));
+  for (const auto& [name, kind] : lubrication::all_motions()) {
+    const auto table = path("out/tables/") + std::string(name) + ".csv";
+    ASSERT_EQ(fs::exists(table), !lubrication::is_strain(kind)) << table;
+    if (fs::exists(table)) {
+      EXPECT_FALSE(lubrication::read_motion_table(table).rows.at(0).has_stresslets);
+    }
+  }
 }
 
 TEST_F(MotionsCommand, RollingSaysWhereItContinuesTheFit) {
