@@ -41,11 +41,11 @@ double size_of(const Arrangement& asked, int dimension);
 ///    than 40 000 particles. A move is kept if the gaps stay large enough (Metropolis et al. 1953).
 ///
 /// Where the particles move freely the arrangement is a sample of the equilibrium of hard discs or
-/// spheres with this gap. Dense particles keep their neighbours in step 4: above a volume fraction
-/// of 0.55 (spheres that are larger by half of the gap; discs of several sizes above 0.78) the
-/// arrangement is a random packing. Its equilibrium would be a crystal, if the particles are equal.
-/// Random packings have no order and no direction: of 1000 equal spheres at 0.63 fewer than 1 % are
-/// in crystals. Equal discs crystallise in step 4, above 0.7.
+/// spheres with this gap, of equal spheres above 0.49 of the fluid that has not crystallised. Dense
+/// particles keep their neighbours in step 4: above a volume fraction of about 0.55 (of spheres
+/// that are larger by half of the gap; discs of several sizes: 0.78) the arrangement is a random
+/// packing and no sample of an equilibrium. Packings of spheres are isotropic, and of 1000 equal
+/// spheres at 0.63 fewer than 1 % are in crystals. Equal discs crystallise in step 4 above 0.7.
 ///
 /// Step 2 ends up to volume fractions of 0.6 to 0.62, step 3 up to 0.635 (equal spheres), 0.64
 /// (radii 1 and 1.4, half of the volume each) or 0.835 (such discs) in periodic boxes. 10 000
