@@ -20,8 +20,8 @@ enum class PairTerms : std::uint8_t {
   kNone,  ///< drag and contact alone
 };
 
-/// Repulsive force between two spheres, amplitude 2 r_i r_j/(r_i + r_j) exp(-q/length) along the
-/// normal, as Mari et al. 2014 have it.
+/// Repulsive force between two spheres, amplitude r_i r_j/(r_i + r_j) exp(-q/length) along the
+/// normal, where q is the gap (Mari et al. 2014).
 struct Repulsion {
   double amplitude = 0;  ///< [M/T^2]
   double length = 0;     ///< [L], > 0
