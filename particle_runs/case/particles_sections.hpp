@@ -80,6 +80,21 @@ inline constexpr double kLeastGapToImage = 0.01;
 /// dimension.
 Domain read_domain(const case_file::TomlSection& section, int dimension);
 
+/// Reads [lubrication], which only spheres in space can have. `compares` becomes true if the case is
+/// to be run a second time with contact alone. Also throws if the case has sections that cannot
+/// stand beside it, or a domain that the spheres cannot be in.
+PairLubrication read_lubrication(const case_file::TomlSection& root, const ParticlesCase& c,
+                                 bool& compares);
+/// Declares the keys of [viscous_contact] in a case with [lubrication]: the end and the step, in
+/// units of time or of strain, and the contact of the solids.
+void lubricated_contact_keys(case_file::Keys& keys, ParticlesCase& c);
+std::vector<case_file::KeyTable> lubrication_tables();
+
+/// Whether particles may have no mass: in a fluid, and with lubrication without inertia.
+inline bool may_lack_mass(const Setting& setting) {
+  return setting.fluid || (setting.lubrication && !setting.lubrication->has_inertia);
+}
+
 /// Reads [fluid], which the walls or periods of `domain` hold. If the section does not give
 /// threshold_gap, it is 0 in the result, and set_default_threshold_gap() must set its default. Also
 /// throws for keys of a fluid with inertia if the density is 0, and for keys that exclude each
