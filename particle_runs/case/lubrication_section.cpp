@@ -13,10 +13,11 @@ constexpr Allowed kRelativeLength = {[](double v) { return v == 0 || (v >= 1e-12
                                      "0, or from 1e-12 to 0.1"};
 constexpr Allowed kDrag = {[](double v) { return v >= 1e-12 && v <= 1e6; }, "from 1e-12 to 1e6"};
 
-/// The flow around the spheres, one of three.
+/// The flow around the spheres, of which one number is given.
 struct FlowKeys {
   std::optional<double> shear_rate, strain_rate;  // [1/T]
   std::optional<std::array<Vector, 3>> gradient;  // [1/T]
+  std::optional<double> stress;                   // [M/(L T^2)]
 };
 
 /// Throws Error(kBadInput) unless there are three rows, and if the trace is not 0.
@@ -41,32 +42,62 @@ void flow_keys(case_file::Keys& keys, FlowKeys& flow) {
   keys.optional("shear_rate", case_file::number(flow.shear_rate, kModerate),
                 {"s: the velocity of the fluid is (s y, 0, 0)", "one of these keys is required"});
   keys.optional("strain_rate", case_file::number(flow.strain_rate, kModerate),
-                {"s: the velocity of the fluid is (s x, -s y, 0)", "likewise"});
+                {"s: the velocity of the fluid is (s x, -s y, 0). Not in a periodic box, whose "
+                 "images it would carry away",
+                 "likewise"});
   keys.optional(
       "gradient",
       case_file::custom("`[[..], [..], [..]]`, without a trace", read_gradient, flow.gradient),
-      {"row i has the derivatives of component i of the velocity along x, y and z", "likewise"});
-  const int count = int(flow.shear_rate.has_value()) + int(flow.strain_rate.has_value()) +
-                    int(flow.gradient.has_value());
-  keys.require(count == 1,
-               flow.gradient      ? "gradient"
-               : flow.strain_rate ? "strain_rate"
-                                  : "shear_rate",
-               "is one of shear_rate, strain_rate and gradient, of which the table must have "
-               "exactly one; it has {}",
-               count);
+      {"row i has the derivatives of component i of the velocity along x, y and z. In a periodic "
+       "box only that of the first along y may differ from 0",
+       "likewise"});
+  keys.optional("stress", case_file::number(flow.stress, kModerate),
+                {"mean shear stress of the suspension in a box, component xy: the flow is that of "
+                 "`shear_rate`, and the rate a result",
+                 "likewise"});
+  const char* given = nullptr;
+  for (const auto* key : {"shear_rate", "strain_rate", "gradient", "stress"}) {
+    if (!keys.has(key)) continue;
+    keys.require(given == nullptr, key, "must be left out, because {} is given",
+                 given == nullptr ? "" : given);
+    given = key;
+  }
+  keys.require(given != nullptr, "shear_rate",
+               "is missing; a table of a flow must have one of shear_rate, strain_rate, gradient "
+               "and stress");
 }
 
-void read_flow(const case_file::TomlSection& section, std::string_view key,
-               PairLubrication& pairs) {
+/// Throws Error(kBadInput) if the flow would not move each image of the spheres in a periodic box
+/// along its period, and if there is a stress without a box.
+void check_flow(const case_file::TomlSection& section, const PairLubrication& pairs,
+                const Domain& domain) {
+  const char* key = section.has("gradient") ? "gradient" : "strain_rate";
+  const bool has_box = !std::holds_alternative<std::monostate>(domain);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      section.require(!has_box || (i == 0 && j == 1) || pairs.gradient[i][j] == 0, key,
+                      "makes the velocity along {} change along {}, which is not possible in a "
+                      "periodic box; there only that along x may change, along y (shear_rate), or "
+                      "the case must have no [domain]",
+                      kAxes[i], kAxes[j]);
+  section.require(has_box || !pairs.stress, "stress",
+                  "is that of a suspension in a volume; the case must have a [domain] with a box");
+}
+
+void read_flow(const case_file::TomlSection& section, std::string_view key, PairLubrication& pairs,
+               const Domain& domain) {
   FlowKeys flow;
-  case_file::read_keys(section.section(key), flow_keys, flow);
+  const auto table = section.section(key);
+  case_file::read_keys(table, flow_keys, flow);
   if (flow.shear_rate) pairs.gradient[0][1] = *flow.shear_rate;
   if (flow.strain_rate) {
     pairs.gradient[0][0] = *flow.strain_rate;
     pairs.gradient[1][1] = -*flow.strain_rate;
   }
   if (flow.gradient) pairs.gradient = *flow.gradient;
+  if (flow.stress) pairs.gradient[0][1] = 1;
+  pairs.stress = flow.stress;
+  check_flow(table, pairs, domain);
 }
 
 void read_truth(const case_file::TomlSection& section, std::string_view key, bool& place) {
@@ -78,7 +109,7 @@ struct LubricationKeys {
   bool compares = false;
 };
 
-void lubrication_keys(case_file::Keys& keys, LubricationKeys& read) {
+void lubrication_keys(case_file::Keys& keys, LubricationKeys& read, const Domain& domain) {
   auto& pairs = read.pairs;
   keys.required("viscosity", case_file::number(pairs.viscosity, kModeratelyPositive),
                 {"dynamic viscosity of the fluid"});
@@ -96,10 +127,13 @@ void lubrication_keys(case_file::Keys& keys, LubricationKeys& read) {
        "impulse of the film is integrated exactly"});
   keys.optional("drag", case_file::number(pairs.drag, kDrag),
                 {"multiple of the Stokes drag of the single spheres"});
-  keys.optional("velocity", case_file::custom("a table, see below", read_flow, pairs),
+  keys.optional("velocity", case_file::custom("a table, see below", read_flow, pairs, domain),
                 {"the linear flow around the spheres", "at rest"});
   keys.optional("offset", case_file::number(pairs.offset, kModerate),
                 {"displacement along x, at the start, of the periodic image across y"});
+  keys.require(!keys.has("offset") || !std::holds_alternative<std::monostate>(domain), "offset",
+               "has no effect without periods; it must be left out, or the case must have a "
+               "[domain] with a box");
   keys.optional("inertia", case_file::custom("`true` or `false`", read_truth, pairs.has_inertia),
                 {"whether the masses of the spheres count. They are then required", "`false`"});
   keys.optional(
@@ -129,9 +163,10 @@ constexpr auto kRefusals = std::to_array<Refusal>({
     {"plane", "bounds the particles by a plane"},
 });
 
-/// 2 E:E under a root, with the symmetric part E of the gradient: the rate of a simple shear [1/T].
+/// The root of 2 E:E, with the symmetric part E of the gradient [1/T]; 0 if it is a result.
 double rate_of(const PairLubrication& pairs) {
   double sum = 0;
+  if (pairs.stress) return 0;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) {
       const double strain = (pairs.gradient[i][j] + pairs.gradient[j][i]) / 2;
@@ -152,31 +187,54 @@ void read_repulsion(const case_file::TomlSection& section, std::string_view key,
   case_file::read_keys(section.section(key), repulsion_keys, repulsion.emplace());
 }
 
+void check_domain(const case_file::TomlSection& root, const Domain& domain) {
+  if (std::holds_alternative<std::monostate>(domain)) return;
+  const auto* box = std::get_if<BoxDomain>(&domain);
+  const auto section = root.section("domain").section("box");
+  for (std::size_t d = 0; d < 3; ++d)
+    section.require(box->periodic[d], "periodic",
+                    "leaves walls across {}, and a case with [lubrication] has none; it must be "
+                    "[true, true, true], or the case must have no [domain]",
+                    kAxes[d]);
+}
+
 }  // namespace
 
-PairLubrication read_lubrication(const case_file::TomlSection& root, const ParticlesCase& c,
-                                 bool& compares) {
-  const auto section = root.section("lubrication");
-  const auto refuse_at = [&](const case_file::TomlSection& other, const Refusal& refusal) {
-    throw_bad_input({c.path.string(), other.line(), refusal.section},
-                    "section [{0}] {1}, which is not possible beside [lubrication]; the case must "
-                    "have one of both sections",
-                    refusal.section, refusal.reason);
-  };
+void check_beside_lubrication(const case_file::TomlSection& root, const ParticlesCase& c) {
   root.section("space").require(c.particles.dimension == 3, "dimension",
                                 "is {}; in a case with [lubrication] it must be 3",
                                 root.section("space").shown("dimension"));
-  for (const auto& refusal : kRefusals) {
-    if (!root.has(refusal.section)) continue;
-    if (root.is_array_of_tables(refusal.section))
-      refuse_at(root.sections(refusal.section).front(), refusal);
-    else
-      refuse_at(root.section(refusal.section), refusal);
+  for (const auto& [name, reason] : kRefusals) {
+    if (!root.has(name)) continue;
+    const int line = root.is_array_of_tables(name) ? root.sections(name).front().line()
+                                                   : root.section(name).line();
+    throw_bad_input({c.path.string(), line, name},
+                    "section [{}] {}, which is not possible beside [lubrication]; the case must "
+                    "have one of both sections",
+                    name, reason);
   }
+}
+
+PairLubrication read_lubrication(const case_file::TomlSection& root, const Domain& domain,
+                                 bool& compares) {
+  check_domain(root, domain);
   LubricationKeys keys;
-  case_file::read_keys(section, lubrication_keys, keys);
+  case_file::read_keys(root.section("lubrication"), lubrication_keys, keys, domain);
   compares = keys.compares;
   return keys.pairs;
+}
+
+void check_range(const case_file::TomlSection& root, const ParticlesCase& c) {
+  const double radius = std::ranges::max(c.particles.radii);
+  // The largest distance of a pair; each pair has one image that is so near.
+  const double distance = 2 * radius * (1 + c.setting.lubrication->range / 2);
+  for (const double period : periods_of(c.setting.domain))
+    if (period > 0 && !(period >= 2 * distance))
+      root.section("domain").section("box").fail(
+          "to",
+          "makes the period {:.6g}, which is too short for the range of lubrication, {}, of the "
+          "largest radius, {}; it must be at least {:.6g}, twice the largest distance of a pair",
+          period, c.setting.lubrication->range, radius, 2 * distance);
 }
 
 void lubricated_contact_keys(case_file::Keys& keys, ParticlesCase& c) {
@@ -197,8 +255,8 @@ void lubricated_contact_keys(case_file::Keys& keys, ParticlesCase& c) {
     if (!keys.optional(in_strain, case_file::number(strain, allowed), help_in_strain)) return;
     keys.require(!keys.has(key), in_strain, "must be left out, because {} is given", key);
     keys.require(rate > 0, in_strain,
-                 "needs a flow, whose strain it is; lubrication.velocity must be given, or {} in "
-                 "place of this key",
+                 "needs a flow of a given rate, whose strain it is; lubrication.velocity must have "
+                 "one, or the case {} in place of this key",
                  key);
     if (keys.reads()) time = strain / rate;
   };
@@ -233,13 +291,10 @@ void lubricated_contact_keys(case_file::Keys& keys, ParticlesCase& c) {
   keys.optional("repulsion",
                 case_file::custom("`{ amplitude, length }`", read_repulsion, pairs.repulsion),
                 {"a force that pushes close spheres apart", "none"});
-  keys.optional("fluid_density", case_file::number(c.fluid_density, kModeratelyPositive),
-                {"density of the fluid, for the [Reynolds "
-                 "number](physics.md#4-motion-of-one-sphere-reduced_model) of the particles only"});
 }
 
 std::vector<case_file::KeyTable> lubrication_tables() {
-  return {case_file::describe_keys("[lubrication]", lubrication_keys),
+  return {case_file::describe_keys("[lubrication]", lubrication_keys, Domain{}),
           case_file::describe_keys("lubrication.velocity", flow_keys),
           case_file::describe_keys("[viscous_contact] with [lubrication]", lubricated_contact_keys),
           case_file::describe_keys("viscous_contact.repulsion", repulsion_keys)};

@@ -392,9 +392,11 @@ void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
   // Each section finds what it needs of the sections before it.
   case_file::read_title_and_units(root, c, true);
   case_file::read_keys(root.section("space"), space_keys, c);
+  if (root.has("lubrication")) check_beside_lubrication(root, c);
   read_domain_and_fluid(root, c);
   read_probes(root, c.setting.domain, c.setting.fluid);
-  if (root.has("lubrication")) c.setting.lubrication = read_lubrication(root, c, c.compares);
+  if (root.has("lubrication"))
+    c.setting.lubrication = read_lubrication(root, c.setting.domain, c.compares);
   case_file::read_keys(root.section("viscous_contact"),
                        c.setting.lubrication ? lubricated_contact_keys : contact_keys, c);
   if (root.has("friction")) read_friction(root.section("friction"), c);
@@ -447,6 +449,7 @@ void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
     case_file::read_keys(root.section("sweep"), particles_sweep_keys, c.sweep.emplace());
   root.finish();
   check_start(c, lines);
+  if (c.setting.lubrication) check_range(root, c);
   if (c.setting.fluid) {
     if (!root.section("fluid").has("threshold_gap")) set_default_threshold_gap(c);
     check_fluid_start(root, c, lines);
@@ -467,8 +470,9 @@ std::vector<case_file::KeyTable> tables_of_particles_case() {
       case_file::describe_keys("[output]", output_keys),
       case_file::describe_keys("[[plane]]", plane_keys, c),
       case_file::describe_keys("[sweep] of particles", particles_sweep_keys)};
-  for (auto& more : {domain_and_fluid_tables(), lubrication_tables(), particle_tables(), arrangement_tables(),
-                     source_tables(), membrane_tables(), body_and_link_tables()})
+  for (auto& more :
+       {domain_and_fluid_tables(), lubrication_tables(), particle_tables(), arrangement_tables(),
+        source_tables(), membrane_tables(), body_and_link_tables()})
     tables.insert(tables.end(), more.begin(), more.end());
   return tables;
 }

@@ -31,6 +31,7 @@
 #include "viscontact/particles/steps/current_contacts.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/results/run_folder.hpp"
+#include "viscontact/suspensions/suspension_simulation.hpp"
 #include "viscontact/terminal/progress.hpp"
 
 namespace viscontact::particles {
@@ -52,6 +53,7 @@ class Run {
       : case_(c),
         simulation_(simulation),
         flow_(flow_of(simulation)),
+        suspension_(suspension_of(simulation)),
         folder_(std::move(folder)),
         provenance_(provenance),
         log_(log),
@@ -64,7 +66,14 @@ class Run {
   /// that before the step; otherwise it returns null. Throws Error(kBadInput) if a file cannot be
   /// written, and the errors of the fluid solver if it fails between two steps.
   std::exception_ptr simulate() {
-    if (log_.record().frames == 0) add_frame();
+    if (log_.record().frames == 0) {
+      try {
+        compute_start();
+      } catch (const Error&) {
+        return std::current_exception();
+      }
+      add_frame();
+    }
     save(with_costs(log_.record()));
     double next_frame = frame_after(log_.record().last_frame);
     while (!is_at_end() && !stop_.stop_requested()) {
@@ -79,6 +88,7 @@ class Run {
         if (log_.lacks_flow()) log_.add_flow(flow_->flow());
       }
       log_.add_step(report, simulation_.state(), simulation_.rebounds());
+      if (suspension_ != nullptr) log_.add_rheology(suspension_->rheology());
       if (report.time >= next_frame - tiny_time(case_)) {
         add_frame();
         next_frame = frame_after(report.time);
@@ -153,6 +163,14 @@ class Run {
     if (flow) log_.add_flow(*flow);
   }
 
+  /// Computes the velocities at the start of spheres without inertia, which the first frame has; if
+  /// no step follows, also their rheology.
+  void compute_start() {
+    if (suspension_ == nullptr || (case_.setting.lubrication->has_inertia && !is_at_end())) return;
+    const auto& rheology = suspension_->solve_instant();
+    if (is_at_end()) log_.add_rheology(rheology);
+  }
+
   void add_frame() {
     std::vector<double> link_force_errors;
     if (flow_ != nullptr) link_force_errors = flow_->force_errors().of_links;
@@ -200,7 +218,8 @@ class Run {
 
   const ParticlesCase& case_;
   ParticleSimulation& simulation_;
-  FlowSimulation* flow_;  // null without a fluid
+  FlowSimulation* flow_;              // null without a fluid
+  SuspensionSimulation* suspension_;  // null without lubrication
   fs::path folder_;
   const results::Provenance& provenance_;
   RunLog& log_;
@@ -373,12 +392,27 @@ void write_files_of_all_frames(const ParticlesRequest& request, const ParticlesC
   if (request.xyz) write_xyz(c, request.folder, provenance);
 }
 
-}  // namespace
+void run_case(const ParticlesRequest& request, const ParticlesCase& c);
 
-void run_particles(const ParticlesRequest& request) {
-  assert(request.threads >= 1);
-  if (request.hdf5) require_hdf5();
-  const ParticlesCase c = read_particles_case(request.case_file);
+/// Runs the case of contact alone in its folder below that of the request. Returns the error of
+/// steps that did not converge, because the run beside it is wanted all the same.
+std::exception_ptr run_compared(const ParticlesRequest& request, const ParticlesCase& c) {
+  auto beside = request;
+  beside.folder = compared_folder(request.folder).string();
+  beside.json = false;
+  terminal::say("particles: the same with pairs = \"none\", in {}", beside.folder);
+  try {
+    run_case(beside, compared_case(c));
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kNotConverged) throw;
+    return std::current_exception();
+  }
+  return {};
+}
+
+/// Does the work of run_particles() with the case, which must be that of the request or its
+/// compared_case().
+void run_case(const ParticlesRequest& request, const ParticlesCase& c) {
   std::vector<fs::path> inputs = {c.path};
   if (!c.particles_file.empty()) inputs.push_back(c.particles_file);
   if (!request.restart.empty()) inputs.emplace_back(request.restart);
@@ -388,11 +422,13 @@ void run_particles(const ParticlesRequest& request) {
   auto state = first_state(c, request.restart);
   const LockedFolder lock(folder, results::kFolderIsLocked);
   check_results(folder);
+  const auto failure_beside = c.compares ? run_compared(request, c) : nullptr;
   RunLog log(c, folder, provenance);
   if (const auto earlier = find_earlier_run(c, folder, provenance, log)) {
     if (is_finished(*earlier, c, tiny_time(c), folder)) {
       write_files_of_all_frames(request, c, provenance);
       tell_finished(c, *earlier, folder, request.json, request.stop);
+      if (failure_beside) std::rethrow_exception(failure_beside);
       return;
     }
     log.resume(earlier->record);
@@ -426,6 +462,15 @@ void run_particles(const ParticlesRequest& request) {
   }
   if (request.json) fmt::print("{}", json);
   warn_or_fail(c, log.totals(), simulation->state(), folder, request.stop);
+  if (failure_beside) std::rethrow_exception(failure_beside);
+}
+
+}  // namespace
+
+void run_particles(const ParticlesRequest& request) {
+  assert(request.threads >= 1);
+  if (request.hdf5) require_hdf5();
+  run_case(request, read_particles_case(request.case_file));
 }
 
 }  // namespace viscontact::particles

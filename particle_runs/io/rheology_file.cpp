@@ -1,0 +1,89 @@
+// A new column is a row of rheology_columns().
+#include "viscontact/particle_runs/io/rheology_file.hpp"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "viscontact/common/text/csv.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+std::optional<double> if_finite(double number) {
+  return std::isfinite(number) ? std::optional(number) : std::nullopt;
+}
+
+/// The field is empty if the number is not finite.
+template <auto kMember>
+Column<Rheology> of_stress(std::string_view name, std::string_view meaning,
+                           std::string_view unit = "1") {
+  return column<Rheology>({name, unit, meaning, only_over_time()},
+                          [](const Rheology& row) { return if_finite(row.*kMember); });
+}
+
+const std::vector<Column<Rheology>>& rheology_columns() {
+  static const std::vector<Column<Rheology>> columns = {
+      of_stress<&Rheology::time>("time", "at the end of the step", "T"),
+      of_stress<&Rheology::strain>("strain", "since the start of the case"),
+      of_stress<&Rheology::viscosity>(
+          "viscosity", "relative to that of the fluid: shear stress over viscosity and shear rate"),
+      of_stress<&Rheology::n1>(
+          "n1", "first difference of the normal stresses, xx less yy, over the same"),
+      of_stress<&Rheology::n2>("n2", "second difference, yy less zz, over the same"),
+      of_stress<&Rheology::pressure>("pressure", "that of the particles, over the same"),
+      of_stress<&Rheology::viscosity_film>(
+          "viscosity_film", "part of `viscosity`: the fluid, the drag and the films"),
+      of_stress<&Rheology::viscosity_contact>(
+          "viscosity_contact",
+          "part of `viscosity`: the normal forces of contacts and the repulsion"),
+      of_stress<&Rheology::viscosity_friction>("viscosity_friction",
+                                               "part of `viscosity`: the friction"),
+      column<&Rheology::pairs>({"pairs", "", "number of close pairs", only_over_time()}),
+      column<&Rheology::contacts>({"contacts", "", "number of contacts", only_over_time()}),
+      of_stress<&Rheology::smallest_gap>("smallest_gap", "empty without pairs", "L"),
+      of_stress<&Rheology::shear_rate>("shear_rate", "given, or the result of a given stress",
+                                       "1/T"),
+  };
+  return columns;
+}
+
+constexpr int kSpace = 3;
+
+}  // namespace
+
+std::array<double, kRheologyMeans.size()> numbers_to_average(const Rheology& r) {
+  return {r.viscosity,         r.n1, r.n2, r.pressure, r.viscosity_film, r.viscosity_contact,
+          r.viscosity_friction};
+}
+
+std::string rheology_header() { return table_over_time(rheology_columns(), kSpace).header(); }
+
+std::string rheology_row(const Rheology& rheology) {
+  std::string text;
+  table_over_time(rheology_columns(), kSpace).add(text, rheology);
+  return text;
+}
+
+std::vector<Rheology> read_rheology(const std::filesystem::path& path) {
+  constexpr std::array kMembers = {&Rheology::time,
+                                   &Rheology::strain,
+                                   &Rheology::viscosity,
+                                   &Rheology::viscosity_film,
+                                   &Rheology::viscosity_contact,
+                                   &Rheology::viscosity_friction};
+  const auto file = read_csv<kMembers.size()>(
+      path,
+      {"time", "strain", "viscosity", "viscosity_film", "viscosity_contact", "viscosity_friction"},
+      kMembers.size());
+  std::vector<Rheology> read;
+  for (const auto& row : file.rows)
+    for (std::size_t k = 0; k < kMembers.size(); ++k)
+      (k == 0 ? read.emplace_back() : read.back()).*kMembers[k] =
+          row.fields[k].value_or(std::numeric_limits<double>::quiet_NaN());
+  return read;
+}
+
+ColumnTable rheology_column_table() { return column_table("`rheology.csv`", rheology_columns()); }
+
+}  // namespace viscontact::particles

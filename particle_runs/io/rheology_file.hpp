@@ -1,0 +1,36 @@
+// The columns of rheology.csv.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "viscontact/particle_runs/io/columns.hpp"
+#include "viscontact/suspensions/rheology.hpp"
+
+namespace viscontact::particles {
+
+inline constexpr const char* kRheologyFile = "rheology.csv";
+
+/// The numbers of Rheology of which run.json has means.
+inline constexpr auto kRheologyMeans =
+    std::to_array<std::string_view>({"viscosity", "n1", "n2", "pressure", "viscosity_film",
+                                     "viscosity_contact", "viscosity_friction"});
+/// These numbers, in the same order.
+std::array<double, kRheologyMeans.size()> numbers_to_average(const Rheology& rheology);
+
+/// The line with the names of the columns.
+std::string rheology_header();
+std::string rheology_row(const Rheology& rheology);
+
+/// The times, strains and viscosities of the rows of a file, with NaN where a field is empty, and no
+/// other members. Throws Error(kBadInput), which names the
+/// file, if it cannot be read or has other columns.
+std::vector<Rheology> read_rheology(const std::filesystem::path& path);
+
+/// The table of docs/file-formats.md.
+ColumnTable rheology_column_table();
+
+}  // namespace viscontact::particles

@@ -1,0 +1,141 @@
+// Counts of pairs in bins of the distance.
+#include "viscontact/particle_runs/run/pair_distribution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "viscontact/suspensions/pair_search.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+struct PairDistributionTuning {
+  // Width of a bin [1].
+  static constexpr double kBin = 0.02;
+  // Largest gap, in mean radii, of which pairs are counted, also if the box is large. At a volume
+  // fraction of 0.5 a sphere has 60 neighbours so near, and the next ones tell little.
+  static constexpr double kMostRange = 3;
+  // Frames and spheres times frames that are counted at most, which takes some seconds.
+  static constexpr std::size_t kMostFrames = 100, kMostSpheres = 2000000;
+};
+
+/// The sum over all pairs i < j of (r_i + r_j)^3.
+double sum_of_cubes(const std::vector<double>& radii) {
+  double n = 0, r1 = 0, r2 = 0, r3 = 0;
+  for (const double r : radii) {
+    n += 1;
+    r1 += r;
+    r2 += r * r;
+    r3 += r * r * r;
+  }
+  return (2 * n * r3 + 6 * r1 * r2 - 8 * r3) / 2;
+}
+
+std::vector<std::size_t> counted_frames(const ParticlesCase& c, const Playback& playback) {
+  using Tuning = PairDistributionTuning;
+  std::vector<std::size_t> frames;
+  for (std::size_t f = 0; f < playback.frames.size(); ++f)
+    if (playback.frames[f].time >= c.average_from) frames.push_back(f);
+  // The start has the arrangement of the case, not that of the flow.
+  if (frames.size() > 1 && playback.frames[frames.front()].time == 0) frames.erase(frames.begin());
+  if (frames.empty()) frames.push_back(playback.frames.size() - 1);
+  const auto most =
+      std::clamp<std::size_t>(Tuning::kMostSpheres / playback.radii.size(), 1, Tuning::kMostFrames);
+  if (frames.size() <= most) return frames;
+  std::vector<std::size_t> some;
+  for (std::size_t k = 1; k <= most; ++k) some.push_back(frames[k * frames.size() / most - 1]);
+  return some;
+}
+
+}  // namespace
+
+std::vector<PairDistributionRow> pair_distribution(const ParticlesCase& c,
+                                                   const Playback& playback) {
+  const double volume = measure(c.setting.domain);
+  const std::vector<double> radii(playback.radii.begin(), playback.radii.end());
+  if (!(volume > 0) || radii.size() < 2 || playback.frames.empty()) return {};
+  const double largest = std::ranges::max(radii);
+  double range = PairDistributionTuning::kMostRange;
+  // Each pair must have one image in the range, and single precision leaves a margin.
+  for (const double period : periods_of(c.setting.domain))
+    range = std::min(range, (1 - 1e-5) * period / (2 * largest) - 2);
+  const auto bins = static_cast<std::size_t>(range / 2 / PairDistributionTuning::kBin);
+  if (bins == 0) return {};
+
+  const double sign =
+      c.setting.lubrication->gradient[0][1] < 0 || c.setting.lubrication->stress.value_or(0) < 0
+          ? -1
+          : 1;
+  std::vector<PairDistributionRow> rows(bins);
+  const auto frames = counted_frames(c, playback);
+  for (const auto f : frames) {
+    const auto& frame = playback.frames[f];
+    const suspensions::ShearedCell cell{playback.cell.from, playback.cell.lengths,
+                                        frame.offset.value_or(0)};
+    std::vector<double> positions;
+    for (std::size_t k = 0; k < radii.size(); ++k)
+      for (const double x : cell.wrapped(position(playback, frame, k))) positions.push_back(x);
+    for (const auto& pair : suspensions::near_pairs(cell, positions, radii, range)) {
+      const double sum = radii[index_of(pair.first)] + radii[index_of(pair.second)];
+      const double beyond = std::max(0.0, norm(pair.apart) / sum - 1);
+      const auto bin = static_cast<std::size_t>(beyond / PairDistributionTuning::kBin);
+      if (bin >= bins) continue;
+      rows[bin].all += 1;
+      const bool is_compressed = sign * pair.apart[0] * pair.apart[1] < 0;
+      (is_compressed ? rows[bin].compression : rows[bin].extension) += 1;
+    }
+  }
+  const double per_pairs =
+      4 * std::numbers::pi / 3 * sum_of_cubes(radii) / volume * static_cast<double>(frames.size());
+  for (std::size_t bin = 0; bin < bins; ++bin) {
+    const double low = 1 + static_cast<double>(bin) * PairDistributionTuning::kBin;
+    const double high = low + PairDistributionTuning::kBin;
+    const double expected = per_pairs * (high * high * high - low * low * low);
+    auto& row = rows[bin];
+    row.distance = (low + high) / 2;
+    row.all /= expected;
+    row.compression /= expected / 2;
+    row.extension /= expected / 2;
+  }
+  return rows;
+}
+
+namespace {
+
+const std::vector<Column<PairDistributionRow>>& pair_distribution_columns() {
+  using Row = PairDistributionRow;
+  static const std::vector<Column<Row>> columns = {
+      column<&Row::distance>({"distance", "1",
+                              "of the centres over the sum of the radii, the middle of a bin",
+                              only_over_time()}),
+      column<&Row::all>({"g", "1",
+                         "number of pairs at this distance over that of spheres without order, "
+                         "mean over the frames from `average_from` on",
+                         only_over_time()}),
+      column<&Row::compression>(
+          {"g_compression", "1",
+           "the same of the directions in the two quadrants of the plane of the shear in which the "
+           "flow compresses",
+           only_over_time()}),
+      column<&Row::extension>(
+          {"g_extension", "1", "the same of those in which it extends", only_over_time()}),
+  };
+  return columns;
+}
+
+}  // namespace
+
+std::string write_pair_distribution(const std::vector<PairDistributionRow>& rows) {
+  const auto table = table_over_time(pair_distribution_columns(), 3);
+  auto text = table.header();
+  for (const auto& row : rows) table.add(text, row);
+  return text;
+}
+
+ColumnTable pair_distribution_column_table() {
+  return column_table("`pair_distribution.csv`", pair_distribution_columns());
+}
+
+}  // namespace viscontact::particles
