@@ -61,7 +61,7 @@ struct Playback {
   /// Number of the rigid body of each particle, -1: none; empty if there are no bodies.
   std::vector<std::int32_t> bodies{};
   DrawnLinks links{};
-  std::string note{};  ///< a sentence below the title of the page; may be empty
+  std::string note{};    ///< a sentence below the title of the page; may be empty
   std::string charts{};  ///< SVG below the motion on the page; may be empty
   /// The coefficient is >= 0; empty: there is no friction.
   std::optional<double> friction_coefficient{};

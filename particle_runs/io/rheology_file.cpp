@@ -14,13 +14,19 @@ std::optional<double> if_finite(double number) {
   return std::isfinite(number) ? std::optional(number) : std::nullopt;
 }
 
+constexpr Presence kNotInFrames{.at_end = kNever, .frames = kNever};
+
 /// The field is empty if the number is not finite.
 template <auto kMember>
 Column<Rheology> of_stress(std::string_view name, std::string_view meaning,
                            std::string_view unit = "1") {
-  return column<Rheology>({name, unit, meaning, only_over_time()},
+  return column<Rheology>({name, unit, meaning, kNotInFrames},
                           [](const Rheology& row) { return if_finite(row.*kMember); });
 }
+
+constexpr int kSpace = 3;
+
+}  // namespace
 
 const std::vector<Column<Rheology>>& rheology_columns() {
   static const std::vector<Column<Rheology>> columns = {
@@ -39,18 +45,14 @@ const std::vector<Column<Rheology>>& rheology_columns() {
           "part of `viscosity`: the normal forces of contacts and the repulsion"),
       of_stress<&Rheology::viscosity_friction>("viscosity_friction",
                                                "part of `viscosity`: the friction"),
-      column<&Rheology::pairs>({"pairs", "", "number of close pairs", only_over_time()}),
-      column<&Rheology::contacts>({"contacts", "", "number of contacts", only_over_time()}),
+      column<&Rheology::pairs>({"pairs", "", "number of close pairs", kNotInFrames}),
+      column<&Rheology::contacts>({"contacts", "", "number of contacts", kNotInFrames}),
       of_stress<&Rheology::smallest_gap>("smallest_gap", "empty without pairs", "L"),
       of_stress<&Rheology::shear_rate>("shear_rate", "given, or the result of a given stress",
                                        "1/T"),
   };
   return columns;
 }
-
-constexpr int kSpace = 3;
-
-}  // namespace
 
 std::array<double, kRheologyMeans.size()> numbers_to_average(const Rheology& r) {
   return {r.viscosity,         r.n1, r.n2, r.pressure, r.viscosity_film, r.viscosity_contact,

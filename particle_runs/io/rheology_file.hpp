@@ -1,4 +1,4 @@
-// The columns of rheology.csv.
+// The columns of rheology.csv, and its rows.
 #pragma once
 
 #include <array>
@@ -20,6 +20,9 @@ inline constexpr auto kRheologyMeans =
                                      "viscosity_contact", "viscosity_friction"});
 /// These numbers, in the same order.
 std::array<double, kRheologyMeans.size()> numbers_to_average(const Rheology& rheology);
+
+/// The columns of the table, and the members of Rheology in Python.
+const std::vector<Column<Rheology>>& rheology_columns();
 
 /// The line with the names of the columns.
 std::string rheology_header();

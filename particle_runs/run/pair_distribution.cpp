@@ -6,14 +6,15 @@
 #include <cstddef>
 #include <numbers>
 
-#include "viscontact/suspensions/pair_search.hpp"
+#include "viscontact/common/system/thread_pool.hpp"
+#include "viscontact/particles/neighbours/close_pairs.hpp"
 
 namespace viscontact::particles {
 namespace {
 
 struct PairDistributionTuning {
-  // Width of a bin [1].
-  static constexpr double kBin = 0.02;
+  // Number of bins in a unit of the distance.
+  static constexpr std::size_t kBins = 50;
   // Largest gap, in mean radii, of which pairs are counted, also if the box is large. At a volume
   // fraction of 0.5 a sphere has 60 neighbours so near, and the next ones tell little.
   static constexpr double kMostRange = 3;
@@ -61,7 +62,7 @@ std::vector<PairDistributionRow> pair_distribution(const ParticlesCase& c,
   // Each pair must have one image in the range, and single precision leaves a margin.
   for (const double period : periods_of(c.setting.domain))
     range = std::min(range, (1 - 1e-5) * period / (2 * largest) - 2);
-  const auto bins = static_cast<std::size_t>(range / 2 / PairDistributionTuning::kBin);
+  const auto bins = static_cast<std::size_t>(range / 2 * PairDistributionTuning::kBins);
   if (bins == 0) return {};
 
   const double sign =
@@ -70,31 +71,35 @@ std::vector<PairDistributionRow> pair_distribution(const ParticlesCase& c,
           : 1;
   std::vector<PairDistributionRow> rows(bins);
   const auto frames = counted_frames(c, playback);
+  std::vector<double> extents;
+  for (const double radius : radii) extents.push_back((1 + range / 2) * radius);
+  ThreadPool pool(1);
   for (const auto f : frames) {
     const auto& frame = playback.frames[f];
-    const suspensions::ShearedCell cell{playback.cell.from, playback.cell.lengths,
-                                        frame.offset.value_or(0)};
-    std::vector<double> positions;
-    for (std::size_t k = 0; k < radii.size(); ++k)
-      for (const double x : cell.wrapped(position(playback, frame, k))) positions.push_back(x);
-    for (const auto& pair : suspensions::near_pairs(cell, positions, radii, range)) {
-      const double sum = radii[index_of(pair.first)] + radii[index_of(pair.second)];
-      const double beyond = std::max(0.0, norm(pair.apart) / sum - 1);
-      const auto bin = static_cast<std::size_t>(beyond / PairDistributionTuning::kBin);
+    const auto cell = cell_at(playback, frame);
+    const std::vector<double> positions(frame.positions.begin(), frame.positions.end());
+    for (const auto& [first, second, image] :
+         close_pairs_in_period(cell, positions, extents, pool)) {
+      const auto i = index_of(first), j = index_of(second);
+      const Vector apart =
+          position(playback, frame, j) + shift_of(cell, image) - position(playback, frame, i);
+      const double beyond = std::max(0.0, norm(apart) / (radii[i] + radii[j]) - 1);
+      const auto bin = static_cast<std::size_t>(beyond * PairDistributionTuning::kBins);
       if (bin >= bins) continue;
       rows[bin].all += 1;
-      const bool is_compressed = sign * pair.apart[0] * pair.apart[1] < 0;
+      const bool is_compressed = sign * apart[0] * apart[1] < 0;
       (is_compressed ? rows[bin].compression : rows[bin].extension) += 1;
     }
   }
   const double per_pairs =
       4 * std::numbers::pi / 3 * sum_of_cubes(radii) / volume * static_cast<double>(frames.size());
   for (std::size_t bin = 0; bin < bins; ++bin) {
-    const double low = 1 + static_cast<double>(bin) * PairDistributionTuning::kBin;
-    const double high = low + PairDistributionTuning::kBin;
+    constexpr double kBins = PairDistributionTuning::kBins;
+    const double low = 1 + static_cast<double>(bin) / kBins;
+    const double high = 1 + static_cast<double>(bin + 1) / kBins;
     const double expected = per_pairs * (high * high * high - low * low * low);
     auto& row = rows[bin];
-    row.distance = (low + high) / 2;
+    row.distance = 1 + static_cast<double>(2 * bin + 1) / (2 * kBins);
     row.all /= expected;
     row.compression /= expected / 2;
     row.extension /= expected / 2;

@@ -2,7 +2,6 @@
 #include "viscontact/particle_runs/run/rheology_charts.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "viscontact/particle_runs/picture/line_charts.hpp"
@@ -82,7 +81,10 @@ LineChart pair_chart(const SuspensionCurves& curves) {
 }  // namespace
 
 std::string suspension_charts(const ParticlesCase& c, const SuspensionCurves& curves) {
-  return line_charts(std::array{viscosity_chart(c, curves), pair_chart(curves)});
+  std::vector<LineChart> charts;
+  if (curves.rheology.size() > 1) charts.push_back(viscosity_chart(c, curves));
+  charts.push_back(pair_chart(curves));
+  return line_charts(charts);
 }
 
 }  // namespace viscontact::particles

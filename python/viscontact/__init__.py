@@ -19,7 +19,7 @@ import sys as _sys
 
 try:
     from ._core import (Error, ExternalProgramError, Fit, InputError, NotConvergedError, PairFit,
-                        StepReport, __version__, _tabulate, fit, fit_pair, pair_resistance, rolling,
+                        Rheology, StepReport, __version__, _tabulate, fit, fit_pair, pair_resistance, rolling,
                         simulate, swimmer)
 except ModuleNotFoundError as problem:
     if problem.name != f"{__name__}._core":
@@ -36,7 +36,7 @@ from .particles import Particles
 from .results import Folder, Frames, read
 
 __all__ = ["Columns", "Error", "ExternalProgramError", "Fit", "Folder", "Frames", "InputError",
-           "NotConvergedError", "PairFit", "Particles", "StepReport", "fit", "fit_pair",
+           "NotConvergedError", "PairFit", "Particles", "Rheology", "StepReport", "fit", "fit_pair",
            "pair_resistance", "read", "rolling", "simulate", "swimmer", "tabulate", "__version__"]
 
 
