@@ -1,5 +1,5 @@
 // Spheres in a viscous fluid that is not resolved: each has its Stokes drag, and close pairs exert
-// lubrication forces on each other; `[lubrication]` of a case, docs/physics.md (8.1).
+// lubrication forces on each other; `[lubrication]` of a case, docs/physics.md (9.1).
 #pragma once
 
 #include <array>

@@ -19,8 +19,8 @@ import sys as _sys
 
 try:
     from ._core import (Error, ExternalProgramError, Fit, InputError, NotConvergedError, PairFit,
-                        Rheology, StepReport, __version__, _tabulate, fit, fit_pair, pair_resistance, rolling,
-                        simulate, swimmer)
+                        Rheology, StepReport, __version__, _tabulate, fit, fit_pair,
+                        pair_resistance, rolling, simulate, swimmer)
 except ModuleNotFoundError as problem:
     if problem.name != f"{__name__}._core":
         raise
