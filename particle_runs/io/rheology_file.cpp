@@ -38,11 +38,11 @@ const std::vector<Column<Rheology>>& rheology_columns() {
           "n1", "first difference of the normal stresses, xx less yy, over the same"),
       of_stress<&Rheology::n2>("n2", "second difference, yy less zz, over the same"),
       of_stress<&Rheology::pressure>("pressure", "that of the particles, over the same"),
-      of_stress<&Rheology::viscosity_film>(
-          "viscosity_film", "part of `viscosity`: the fluid, the drag and the films"),
-      of_stress<&Rheology::viscosity_contact>(
-          "viscosity_contact",
-          "part of `viscosity`: the normal forces of contacts and the repulsion"),
+      of_stress<&Rheology::viscosity_film>("viscosity_film",
+                                           "part of `viscosity`: drag and films. The rest is 1, of "
+                                           "the fluid, and the part of the repulsion"),
+      of_stress<&Rheology::viscosity_contact>("viscosity_contact",
+                                              "part of `viscosity`: the normal forces of contacts"),
       of_stress<&Rheology::viscosity_friction>("viscosity_friction",
                                                "part of `viscosity`: the friction"),
       column<&Rheology::pairs>({"pairs", "", "number of close pairs", kNotInFrames}),
@@ -86,6 +86,41 @@ std::vector<Rheology> read_rheology(const std::filesystem::path& path) {
   return read;
 }
 
-ColumnTable rheology_column_table() { return column_table("`rheology.csv`", rheology_columns()); }
+namespace {
+
+const std::vector<Column<PairDistributionRow>>& pair_distribution_columns() {
+  using Pairs = PairDistributionRow;
+  static const std::vector<Column<Pairs>> columns = {
+      column<&Pairs::distance>({"distance", "1",
+                                "of the centres over the sum of the radii, the middle of a bin",
+                                only_over_time()}),
+      column<&Pairs::all>({"g", "1",
+                           "number of pairs at this distance over that of spheres without order, "
+                           "mean over the frames from `average_from` on",
+                           only_over_time()}),
+      column<&Pairs::compression>(
+          {"g_compression", "1",
+           "the same of the directions in the two quadrants of the plane of the shear in which the "
+           "flow compresses",
+           only_over_time()}),
+      column<&Pairs::extension>(
+          {"g_extension", "1", "the same of those in which it extends", only_over_time()}),
+  };
+  return columns;
+}
+
+}  // namespace
+
+std::string write_pair_distribution(const std::vector<PairDistributionRow>& rows) {
+  const auto table = table_over_time(pair_distribution_columns(), kSpace);
+  auto text = table.header();
+  for (const auto& row : rows) table.add(text, row);
+  return text;
+}
+
+std::vector<ColumnTable> rheology_column_tables() {
+  return {column_table("`rheology.csv`", rheology_columns()),
+          column_table("`pair_distribution.csv`", pair_distribution_columns())};
+}
 
 }  // namespace viscontact::particles

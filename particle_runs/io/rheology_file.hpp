@@ -1,4 +1,4 @@
-// The columns of rheology.csv, and its rows.
+// The columns and rows of rheology.csv and pair_distribution.csv.
 #pragma once
 
 #include <array>
@@ -33,7 +33,20 @@ std::string rheology_row(const Rheology& rheology);
 /// file, if it cannot be read or has other columns.
 std::vector<Rheology> read_rheology(const std::filesystem::path& path);
 
-/// The table of docs/file-formats.md.
-ColumnTable rheology_column_table();
+/// Number of pairs per volume at a distance, over that of spheres without order [1]. The distance is
+/// that of the centres over the sum of the radii, so that spheres of all radii touch at 1.
+struct PairDistributionRow {
+  double distance = 0;  ///< the middle of a bin
+  double all = 0;
+  /// Of the pairs whose direction is in the quadrants of the plane of the shear in which the flow
+  /// compresses (xy < 0 at a positive rate), and in those in which it extends.
+  double compression = 0, extension = 0;
+};
+
+/// The text of pair_distribution.csv.
+std::string write_pair_distribution(const std::vector<PairDistributionRow>& rows);
+
+/// The tables of docs/file-formats.md.
+std::vector<ColumnTable> rheology_column_tables();
 
 }  // namespace viscontact::particles

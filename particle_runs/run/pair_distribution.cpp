@@ -107,40 +107,4 @@ std::vector<PairDistributionRow> pair_distribution(const ParticlesCase& c,
   return rows;
 }
 
-namespace {
-
-const std::vector<Column<PairDistributionRow>>& pair_distribution_columns() {
-  using Row = PairDistributionRow;
-  static const std::vector<Column<Row>> columns = {
-      column<&Row::distance>({"distance", "1",
-                              "of the centres over the sum of the radii, the middle of a bin",
-                              only_over_time()}),
-      column<&Row::all>({"g", "1",
-                         "number of pairs at this distance over that of spheres without order, "
-                         "mean over the frames from `average_from` on",
-                         only_over_time()}),
-      column<&Row::compression>(
-          {"g_compression", "1",
-           "the same of the directions in the two quadrants of the plane of the shear in which the "
-           "flow compresses",
-           only_over_time()}),
-      column<&Row::extension>(
-          {"g_extension", "1", "the same of those in which it extends", only_over_time()}),
-  };
-  return columns;
-}
-
-}  // namespace
-
-std::string write_pair_distribution(const std::vector<PairDistributionRow>& rows) {
-  const auto table = table_over_time(pair_distribution_columns(), 3);
-  auto text = table.header();
-  for (const auto& row : rows) table.add(text, row);
-  return text;
-}
-
-ColumnTable pair_distribution_column_table() {
-  return column_table("`pair_distribution.csv`", pair_distribution_columns());
-}
-
 }  // namespace viscontact::particles
