@@ -20,40 +20,51 @@ double weight_at(double gap_over_range) {
   return (1 - x * x) * (1 - x * x);
 }
 
-double gap_of(const NearPair& pair, std::span<const double> radii) {
-  return norm(pair.apart) - radii[static_cast<std::size_t>(pair.first)] -
-         radii[static_cast<std::size_t>(pair.second)];
-}
-
 }  // namespace
 
+std::vector<PlacedPair> placed(std::span<const NearPair> pairs, std::span<const double> radii,
+                               double least_gap) {
+  std::vector<PlacedPair> result;
+  result.reserve(pairs.size());
+  for (const auto& pair : pairs) {
+    const double distance = norm(pair.apart);
+    const double gap = distance - radii[static_cast<std::size_t>(pair.first)] -
+                       radii[static_cast<std::size_t>(pair.second)];
+    result.push_back(
+        {pair.first, pair.second, (1 / distance) * pair.apart, std::max(gap, least_gap)});
+  }
+  return result;
+}
+
 PairSystem::PairSystem(const PairLubrication& lubrication, std::span<const double> radii,
-                       std::span<const NearPair> pairs, double least_gap)
+                       std::span<const PlacedPair> pairs)
     : lubrication_(lubrication) {
   const double mu = lubrication.viscosity;
   for (const double a : radii)
     resistance_.spheres.push_back(
         {lubrication.drag * 6 * pi * mu * a, lubrication.drag * 8 * pi * mu * a * a * a});
-  if (lubrication.pairs == PairTerms::kNone) return;
   resistance_.pairs.reserve(pairs.size());
   strains_.reserve(pairs.size());
-  add_pairs(radii, pairs, least_gap);
+  add_pairs(radii, pairs);
   if (lubrication.pairs != PairTerms::kTables) return;
   share_drag(radii, pairs);
   for (const double a : radii) sphere_stress_ += 20 * pi / 3 * mu * a * a * a;
 }
 
-void PairSystem::add_pairs(std::span<const double> radii, std::span<const NearPair> pairs,
-                           double least_gap) {
+void PairSystem::add_pairs(std::span<const double> radii, std::span<const PlacedPair> pairs) {
   for (const auto& pair : pairs) {
     const double radius1 = radii[static_cast<std::size_t>(pair.first)];
     const double radius2 = radii[static_cast<std::size_t>(pair.second)];
-    const double distance = norm(pair.apart);
-    const double gap = std::max(gap_of(pair, radii), least_gap);
-    const Lanes normal = lanes_of((1 / distance) * pair.apart);
+    const double gap = pair.gap;
+    const Lanes normal = lanes_of(pair.normal);
     const auto& of = lubrication_;
     BalancedTerms terms;
-    if (of.pairs == PairTerms::kNearContact) {
+    gaps_.push_back(gap);
+    if (of.pairs == PairTerms::kNone || gap >= of.range * (radius1 + radius2) / 2) {
+      terms.arm = radius1 + radius2;
+      if (of.pairs == PairTerms::kTables)
+        resistance_.drags.push_back({normal, {}, pair.first, pair.second});
+    } else if (of.pairs == PairTerms::kNearContact) {
       terms = near_contact_terms(of.viscosity, radius1, radius2, gap, of.regularisation);
     } else {
       const auto full = table_terms(of.viscosity, radius1, radius2, gap, of.regularisation);
@@ -69,13 +80,12 @@ void PairSystem::add_pairs(std::span<const double> radii, std::span<const NearPa
   }
 }
 
-void PairSystem::share_drag(std::span<const double> radii, std::span<const NearPair> pairs) {
+void PairSystem::share_drag(std::span<const double> radii, std::span<const PlacedPair> pairs) {
   std::vector<double> weights(pairs.size()), sums(radii.size(), 0.0), left(radii.size(), 1.0);
   const auto sphere = [](std::int32_t k) { return static_cast<std::size_t>(k); };
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const auto i = sphere(pairs[p].first), j = sphere(pairs[p].second);
-    weights[p] =
-        weight_at(2 * gap_of(pairs[p], radii) / (lubrication_.range * (radii[i] + radii[j])));
+    weights[p] = weight_at(2 * pairs[p].gap / (lubrication_.range * (radii[i] + radii[j])));
     sums[i] += weights[p];
     sums[j] += weights[p];
   }

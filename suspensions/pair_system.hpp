@@ -16,11 +16,21 @@ namespace viscontact::suspensions {
 
 using particles::PairLubrication;
 
+/// Where the resistance of a pair is taken.
+struct PlacedPair {
+  std::int32_t first = 0, second = 0;
+  Vector normal{};  ///< from the first to the second sphere
+  double gap = 0;   ///< [L], > 0
+};
+
+/// Pairs where they are. Gaps below `least_gap` [L], such as rounding errors, count as `least_gap`.
+std::vector<PlacedPair> placed(std::span<const NearPair> pairs, std::span<const double> radii,
+                               double least_gap);
+
 class PairSystem {
  public:
-  /// Pairs beyond the range have no terms. Gaps <= 0 count as rounding errors: as `least_gap` [L].
   PairSystem(const PairLubrication& lubrication, std::span<const double> radii,
-             std::span<const NearPair> pairs, double least_gap);
+             std::span<const PlacedPair> pairs);
 
   const Resistance& resistance() const { return resistance_; }
   Resistance& resistance() { return resistance_; }
@@ -30,19 +40,24 @@ class PairSystem {
   /// Sum of the stresslets [M L^2/T^2] of all spheres that move relative to the flow with `motions`.
   SymmetricTensor stresslets(std::span<const Motion> motions, const SymmetricTensor& strain) const;
 
- private:
-  // The terms of BalancedTerms for the strain; row k belongs to Resistance::pairs[k].
+  /// The terms of BalancedTerms for the strain; row k belongs to Resistance::pairs[k].
   struct StrainRow {
     double squeeze = 0, turn_first = 0, turn_second = 0;
     double stress_axial = 0, stress_transverse = 0, stress_twofold = 0;
-    double radii = 0;  // their sum
+    double radii = 0;  ///< their sum
   };
-  void add_pairs(std::span<const double> radii, std::span<const NearPair> pairs, double least_gap);
-  void share_drag(std::span<const double> radii, std::span<const NearPair> pairs);
+  double gap_of(std::size_t pair) const { return gaps_[pair]; }  ///< PlacedPair::gap
+  std::vector<StrainRow>& strains() { return strains_; }
+  const std::vector<StrainRow>& strains() const { return strains_; }
+
+ private:
+  void add_pairs(std::span<const double> radii, std::span<const PlacedPair> pairs);
+  void share_drag(std::span<const double> radii, std::span<const PlacedPair> pairs);
 
   PairLubrication lubrication_;
   Resistance resistance_;
   std::vector<StrainRow> strains_;
+  std::vector<double> gaps_;
   double sphere_stress_ = 0;  // of all spheres alone, over E [M L^2/T]
 };
 

@@ -19,6 +19,8 @@ struct Rheology {
   double viscosity_film = 0, viscosity_contact = 0, viscosity_friction = 0;
   std::size_t pairs = 0, contacts = 0;
   double smallest_gap = 0;  ///< [L], infinite without pairs
+  double dissipation = 0;   ///< of spheres and contacts, without the fluid's own [M L^2/T^3]
+  int solutions = 0;        ///< linear problems that the step solved
 };
 
 }  // namespace viscontact::particles

@@ -10,17 +10,18 @@ void set_stresses(const StressSums& sums, const SymmetricTensor& strain_rate, do
   const double square = 2 * strain_rate.contracted(strain_rate), rate = std::sqrt(square);
   rheology.shear_rate = rate;
   if (!(rate > 0)) return;
-  const auto part = [&](const SymmetricTensor& sum) {
-    return sum.contracted(strain_rate) / (volume * viscosity * square);
+  const auto part = [&](const StressPart& sum) {
+    return sum.power / (volume * viscosity * square);
   };
   rheology.viscosity_film = part(sums.film);
   rheology.viscosity_contact = part(sums.contact);
   rheology.viscosity_friction = part(sums.friction);
+  rheology.viscosity = 1 + rheology.viscosity_film + rheology.viscosity_contact +
+                       rheology.viscosity_friction + part(sums.repulsion);
   SymmetricTensor all;
   for (const auto* sum : {&sums.film, &sums.contact, &sums.friction, &sums.repulsion})
-    all.add(1 / (volume * viscosity * rate), *sum);
+    all.add(1 / (volume * viscosity * rate), sum->stress);
   rheology.pressure = -all.trace() / 3;
-  rheology.viscosity = 1 + all.contracted(strain_rate) / rate;
   all.add(2 / rate, strain_rate);
   const auto& s = all.components;
   rheology.n1 = s[0] - s[1];

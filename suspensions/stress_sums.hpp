@@ -6,10 +6,22 @@
 
 namespace viscontact::suspensions {
 
-/// Sums over all spheres or pairs [M L^2/T^2]; a force of pairs has the dyad of the vector from the
-/// first to the second sphere and the force on the first.
+/// The stress of all spheres or pairs, times the volume.
+struct StressPart {
+  SymmetricTensor stress;  ///< [M L^2/T^2]
+  double power = 0;        ///< of the flow against it [M L^2/T^3]
+
+  /// Adds a force [M L/T^2] on the second of two spheres, and its opposite on the first, that are
+  /// `apart` [L].
+  void add_pair_force(const Vector& force, const Vector& apart,
+                      const std::array<Vector, 3>& gradient) {
+    stress.add_dyad(-1, apart, force);
+    power -= dot(force, times(gradient, apart));
+  }
+};
+
 struct StressSums {
-  SymmetricTensor film, contact, friction, repulsion;
+  StressPart film, contact, friction, repulsion;
 };
 
 /// Sets the members of `rheology` that are stresses over the viscosity and shear rate. `volume` [L^3]

@@ -8,11 +8,13 @@
 #include <utility>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/particles/steps/step_times.hpp"
 #include "viscontact/suspensions/instant.hpp"
 #include "viscontact/suspensions/pair_search.hpp"
 #include "viscontact/suspensions/pair_system.hpp"
 #include "viscontact/suspensions/sheared_cell.hpp"
 #include "viscontact/suspensions/stress_sums.hpp"
+#include "viscontact/suspensions/suspension_step.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -26,6 +28,10 @@ struct SuspensionTuning {
   static constexpr double kInstantTolerance = 1e-11;
   // Gaps below this fraction of the mean radius count as rounding errors.
   static constexpr double kLeastGap = 1e-12;
+  // In mean radii: what a step adds to the range of the search, because spheres move in it.
+  static constexpr double kSearchMargin = 0.1;
+  // Overlap that no step leaves, in mean radii.
+  static constexpr double kMostOverlap = 1e-7;
 };
 
 void check_cell(const Setting& setting, const Particles& particles) {
@@ -115,6 +121,12 @@ struct SuspensionSimulation::Content {
     }
   }
 
+  std::array<Vector, 3> gradient_now() const {
+    auto now = gradient;
+    for (auto& row : now) row = state.shear.rate * row;
+    return now;
+  }
+
   /// Forces and torques that do not depend on the motion.
   std::vector<Motion> given_loads(double time) const {
     const auto& p = state.particles;
@@ -132,9 +144,9 @@ struct SuspensionSimulation::Content {
     return loads;
   }
   /// Adds the repulsion of the pairs to `loads`. Returns its part of the stress sums.
-  suspensions::SymmetricTensor add_repulsion(const std::vector<NearPair>& pairs,
-                                             std::vector<Motion>& loads) const {
-    suspensions::SymmetricTensor sum;
+  suspensions::StressPart add_repulsion(const std::vector<NearPair>& pairs,
+                                        std::vector<Motion>& loads) const {
+    suspensions::StressPart sum;
     if (!lubrication().repulsion) return sum;
     const auto [amplitude, length] = *lubrication().repulsion;
     for (const auto& pair : pairs) {
@@ -145,13 +157,13 @@ struct SuspensionSimulation::Content {
       const auto push = suspensions::lanes_of((force / distance) * pair.apart);
       loads[i].along -= push;
       loads[j].along += push;
-      sum.add_dyad(-force / distance, pair.apart, pair.apart);
+      sum.add_pair_force(suspensions::vector_of(push), pair.apart, gradient_now());
     }
     return sum;
   }
-  std::vector<NearPair> find_pairs() const {
+  std::vector<NearPair> find_pairs(double margin = 0) const {
     return suspensions::near_pairs(cell(), state.particles.positions, state.particles.radii,
-                                   lubrication().range);
+                                   lubrication().range + margin);
   }
   double smallest_gap(const std::vector<NearPair>& pairs) const {
     double smallest = std::numeric_limits<double>::infinity();
@@ -162,12 +174,19 @@ struct SuspensionSimulation::Content {
   }
 
   suspensions::InstantSolution solve_instant();
+  std::vector<suspensions::ContactMemory> memories(double h) const;
+  /// The part of a step of length h up to which spheres that move by `motions` do not overlap.
+  double free_part(const std::vector<NearPair>& pairs, const std::vector<Motion>& motions,
+                   double h) const;
+  void move(const std::vector<Motion>& motions, double h);
+  void remember(const std::vector<suspensions::ContactMemory>& contacts, double h);
 };
 
 suspensions::InstantSolution SuspensionSimulation::Content::solve_instant() {
   const auto pairs = find_pairs();
-  const suspensions::PairSystem system(lubrication(), state.particles.radii, pairs,
-                                       SuspensionTuning::kLeastGap * mean_radius);
+  const suspensions::PairSystem system(
+      lubrication(), state.particles.radii,
+      suspensions::placed(pairs, state.particles.radii, SuspensionTuning::kLeastGap * mean_radius));
   suspensions::InstantProblem problem{&system,
                                       strain,
                                       lubrication().viscosity,
@@ -176,7 +195,7 @@ suspensions::InstantSolution SuspensionSimulation::Content::solve_instant() {
                                       {},
                                       lubrication().stress};
   problem.softest = std::min(lubrication().drag, 1.0);
-  problem.load_stress = add_repulsion(pairs, problem.loads);
+  problem.load_stress = add_repulsion(pairs, problem.loads).stress;
   auto solution = suspensions::solve_instant(problem, std::vector<Motion>(state.particles.count()),
                                              SuspensionTuning::kInstantTolerance);
   state.shear.rate = solution.rate;
@@ -186,8 +205,10 @@ suspensions::InstantSolution SuspensionSimulation::Content::solve_instant() {
   suspensions::SymmetricTensor rate;
   rate.add(solution.rate, strain);
   suspensions::StressSums sums;
-  sums.film = system.stresslets(solution.motions, rate);
-  sums.repulsion = problem.load_stress;
+  sums.film.stress = system.stresslets(solution.motions, rate);
+  sums.film.power = sums.film.stress.contracted(rate);
+  sums.repulsion.stress = problem.load_stress;
+  sums.repulsion.power = problem.load_stress.contracted(rate);
   rheology = {.time = state.time, .strain = state.shear.strain};
   rheology.pairs = pairs.size();
   rheology.smallest_gap = smallest_gap(pairs);
@@ -233,8 +254,162 @@ const Rheology& SuspensionSimulation::solve_instant() {
   return content_->rheology;
 }
 
-StepReport SuspensionSimulation::step(double /*end*/) {
-  throw Error(ErrorKind::kWrongUsage, "steps of suspensions are not there yet");
+std::vector<suspensions::ContactMemory> SuspensionSimulation::Content::memories(double h) const {
+  std::vector<suspensions::ContactMemory> result;
+  const bool has_films = lubrication().pairs == PairTerms::kNone;
+  for (const auto& pair : state.pairs) {
+    suspensions::ContactMemory memory{pair.first, pair.second};
+    const double before = state.earlier_step > 0 ? 1 / state.earlier_step : 0;
+    memory.load = before * pair.impulse;
+    memory.friction = before * state.memories.of(pair.memory).friction();
+    if (has_films) {
+      const double lowest =
+          setting.laws.film.lowest_gamma(state.particles.radii[index_of(pair.first)],
+                                         state.particles.radii[index_of(pair.second)]);
+      memory.lowest = pair.gamma / h;
+      memory.carried_by_film = std::isfinite(lowest) ? (pair.gamma - lowest) / h : lowest;
+    }
+    result.push_back(memory);
+  }
+  return result;
+}
+
+double SuspensionSimulation::Content::free_part(const std::vector<NearPair>& pairs,
+                                                const std::vector<Motion>& motions,
+                                                double h) const {
+  const auto now = gradient_now();
+  const double overlap = SuspensionTuning::kMostOverlap * mean_radius;
+  const auto is_free = [&](const NearPair& pair, double part) {
+    const auto i = index_of(pair.first), j = index_of(pair.second);
+    const double sum = state.particles.radii[i] + state.particles.radii[j];
+    const Vector apart = suspensions::carried(now, part * h, pair.apart) +
+                         part * h * suspensions::vector_of(motions[j].along - motions[i].along);
+    return norm(apart) - sum >= std::min(norm(pair.apart) - sum, 0.0) - overlap;
+  };
+  double part = 1;
+  for (const auto& pair : pairs)
+    while (part > 1e-6 && !is_free(pair, part)) part /= 2;
+  return part;
+}
+
+void SuspensionSimulation::Content::move(const std::vector<Motion>& motions, double h) {
+  auto& p = particles();
+  const auto now = gradient_now();
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    const Vector x =
+        suspensions::carried(now, h, p.position(k)) + h * suspensions::vector_of(motions[k].along);
+    std::ranges::copy(x, &p.positions[3 * k]);
+  }
+  const double displacement = h * now[0][1] * periods_of(setting.domain)[1];
+  state.shear.offset = cell().moved_offset(displacement);
+  state.shear.strain += h * std::sqrt(2 * strain.contracted(strain)) * state.shear.rate;
+  wrap();
+  set_velocities(motions);
+  turn_particles(
+      p,
+      [&] {
+        std::vector<double> turns = p.angular_velocities;
+        for (auto& turn : turns) turn *= h;
+        return turns;
+      }(),
+      h);
+  set_cell();
+}
+
+void SuspensionSimulation::Content::remember(
+    const std::vector<suspensions::ContactMemory>& contacts, double h) {
+  const bool has_films = lubrication().pairs == PairTerms::kNone;
+  std::vector<Pair> pairs;
+  PairMemories memories_now;
+  for (const auto& contact : contacts) {
+    Pair pair{contact.first, contact.second};
+    pair.impulse = h * contact.load;
+    if (has_films) {
+      pair.gamma = h * contact.lowest;
+      FilmLaw::absorb(pair, 0,
+                      setting.laws.film.lowest_gamma(state.particles.radii[index_of(pair.first)],
+                                                     state.particles.radii[index_of(pair.second)]));
+    }
+    const Vector apart = state.particles.position(index_of(pair.second)) -
+                         state.particles.position(index_of(pair.first));
+    // The image of the second sphere that is near has the opposite shift.
+    const auto periods = cell().periods_towards(apart);
+    pair.image = image_number(-static_cast<int>(periods[0]), -static_cast<int>(periods[1]),
+                              -static_cast<int>(periods[2]));
+    PairMemory memory;
+    memory.set_friction(h * contact.friction);
+    memories_now.set(pair.memory, memory);
+    if (pair.impulse != 0 || pair.gamma != 0) pairs.push_back(pair);
+  }
+  memories_now.keep_only(pairs);
+  state.pairs = std::move(pairs);
+  state.memories = std::move(memories_now);
+}
+
+StepReport SuspensionSimulation::step(double end) {
+  auto& content = *content_;
+  auto& state = content.state;
+  StepReport report;
+  report.time = state.time;
+  const auto interval = StepGrid(content.setting.time_step).next(state, end);
+  if (!interval) return report;
+  if (state.steps == 0) content.solve_instant();
+  state.shear.rate = 1;
+  double h = interval->h;
+
+  suspensions::StepProblem problem;
+  problem.lubrication = content.lubrication();
+  if (content.setting.laws.friction) problem.friction = content.setting.laws.friction->coefficient;
+  problem.radii = state.particles.radii;
+  problem.mean_radius = content.mean_radius;
+  problem.pairs = content.find_pairs(SuspensionTuning::kSearchMargin);
+  problem.memories = content.memories(h);
+  problem.motions = content.relative_motions();
+  problem.loads = content.given_loads(state.time);
+  problem.gradient = content.gradient_now();
+  problem.h = h;
+  const auto repulsion = content.add_repulsion(problem.pairs, problem.loads);
+  const auto pairs = problem.pairs;
+  suspensions::SuspensionStep step(std::move(problem));
+  auto solution = step.solve();
+  solution.stresses.repulsion = repulsion;
+
+  report.parts = 1;
+  report.iterations = solution.iterations;
+  report.contacts = solution.touching;
+  report.residual = solution.residual;
+  report.converged = solution.converged;
+  report.largest_overlap = std::max(-solution.smallest_gap / content.mean_radius, 0.0);
+  const double part = content.free_part(pairs, solution.motions, h);
+  auto taken = *interval;
+  if (part < 1) {
+    // The step ends before spheres overlap.
+    report.converged = false;
+    report.excess = std::numeric_limits<double>::infinity();
+    h *= part;
+    taken.h = h;
+    taken.end = state.time + h;
+    taken.new_grid = taken.end;
+  }
+  content.move(solution.motions, h);
+  content.remember(solution.contacts, h);
+  state.time = taken.end;
+  state.earlier_step = h;
+  StepGrid::count(state, taken);
+  report.time = state.time;
+
+  auto& rheology = content.rheology;
+  rheology = {.time = state.time, .strain = state.shear.strain};
+  rheology.pairs = pairs.size();
+  rheology.contacts = solution.touching;
+  rheology.smallest_gap = content.smallest_gap(pairs);
+  rheology.dissipation = solution.dissipation;
+  suspensions::SymmetricTensor rate;
+  rate.add(state.shear.rate, content.strain);
+  suspensions::set_stresses(solution.stresses, rate, content.lubrication().viscosity,
+                            content.volume, rheology);
+  rheology.solutions = solution.solutions;
+  return report;
 }
 
 }  // namespace viscontact::particles

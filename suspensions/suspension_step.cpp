@@ -1,0 +1,419 @@
+// Newton's method for the films, and an augmented Lagrangian for contacts.
+#include "viscontact/suspensions/suspension_step.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace viscontact::suspensions {
+namespace {
+
+using particles::PairTerms;
+
+struct StepTuning {
+  // Residual of the last linear problem: its power error over the dissipation is the square.
+  static constexpr double kTolerance = 1e-5;
+  // Each linear problem reduces its residual by this factor at least.
+  static constexpr double kReduction = 1e-4;
+  // Error of the gap of a contact, in mean radii.
+  static constexpr double kGapTolerance = 3e-8;
+  static constexpr int kMostSolutions = 60;
+  static constexpr int kMostIterations = 5000;
+  // Stiffness of the augmented Lagrangian over that of the film at contact.
+  static constexpr double kStiffness = 10, kStiffnessAcross = 3;
+  // Gaps in mean radii at which that film is taken, if solids touch at smaller ones.
+  static constexpr double kLeastWidth = 1e-3, kWidthWithoutFilm = 1e-2;
+  // A film is linearised at no less than this part of its width before.
+  static constexpr double kLeastPart = 0.2;
+  // Gaps in mean radii below which a pair may touch in the step; others are added where they do.
+  static constexpr double kNearGap = 0.1;
+};
+
+std::size_t index(std::int32_t k) { return static_cast<std::size_t>(k); }
+
+/// The pairs at half of the step that the last motions predict.
+std::vector<PlacedPair> predicted(const StepProblem& problem) {
+  std::vector<PlacedPair> result;
+  result.reserve(problem.pairs.size());
+  const double half = problem.h / 2;
+  for (const auto& pair : problem.pairs) {
+    const auto i = index(pair.first), j = index(pair.second);
+    const double sum = problem.radii[i] + problem.radii[j], start = norm(pair.apart) - sum;
+    const Vector apart = carried(problem.gradient, half, pair.apart) +
+                         half * vector_of(problem.motions[j].along - problem.motions[i].along);
+    const double distance = norm(apart);
+    const double contact = problem.lubrication.roughness * sum / 2;
+    // The prediction may close a gap; a film resists that.
+    const double least = std::max({contact, start / 4, 1e-12 * problem.mean_radius});
+    result.push_back(
+        {pair.first, pair.second, (1 / distance) * apart, std::max(distance - sum, least)});
+  }
+  return result;
+}
+
+}  // namespace
+
+/// Force f = [alpha ln((q' + delta)/(q + delta))/h + constant] n on the fluid by the second sphere,
+/// > 0 where gaps open, linearised at the gap `at`.
+struct SuspensionStep::Film {
+  double alpha = 0;         // [M L/T]
+  double start = 0;         // q + delta [L]
+  double delta = 0;         // [L]
+  double constant = 0;      // [M L/T^2]
+  double arm = 0;           // the strain's share in the motion of the surfaces [L]
+  double stress_axial = 0;  // beside the force [M L^2/T]
+  double affine_gap = 0;    // along the normal, if the spheres only move with the flow [L]
+  double curvature = 0;     // the gap at the end less that along the normal [L]
+  double at = 0;            // q' + delta [L]
+  double load = 0;          // linearised force without motion, with that of the contact
+  std::int32_t contact = -1;
+
+  double force(double h) const { return alpha * std::log(at / start) / h + constant; }
+};
+
+struct SuspensionStep::Contact {
+  std::size_t pair = 0;
+  ContactMemory memory;
+  double gap = 0;                                      // at contact [L]
+  double stiffness = 0;                                // [M/T]
+  bool pushes = false;                                 // its load is above the least one
+  double arm_first = 0, arm_second = 0, strained = 0;  // of friction [L], and W's share of n x En
+  double stiffness_across = 0;
+  Lanes friction{};
+  double turn_first = 0, turn_mixed = 0, turn_second = 0;  // of the film
+};
+
+SuspensionStep::SuspensionStep(StepProblem problem)
+    : problem_(std::move(problem)),
+      strain_(strain_rate_of(problem_.gradient)),
+      system_(problem_.lubrication, problem_.radii, predicted(problem_)),
+      motions_(problem_.motions) {
+  add_films();
+  add_contacts();
+  given_loads_ = problem_.loads;
+  system_.subtract_strain_loads(strain_, given_loads_);
+}
+
+SuspensionStep::~SuspensionStep() = default;
+
+void SuspensionStep::add_films() {
+  auto& rows = system_.resistance().pairs;
+  assert(rows.size() == problem_.pairs.size());
+  films_.resize(rows.size());
+  for (std::size_t p = 0; p < rows.size(); ++p) {
+    auto& row = rows[p];
+    auto& strain = system_.strains()[p];
+    auto& film = films_[p];
+    const auto& pair = problem_.pairs[p];
+    const Vector n = vector_of(row.normal);
+    const double sum = strain.radii, along = dot(n, strain_.times(n));
+    const Vector carried_on = carried(problem_.gradient, problem_.h, pair.apart);
+    film.delta = problem_.lubrication.regularisation * sum / 2;
+    film.start = norm(pair.apart) - sum + film.delta;
+    film.affine_gap = dot(n, carried_on) - sum;
+    if (row.squeeze > 0) {
+      // The resistance at half of the step, as if it were alpha/(q + delta) at all gaps nearby.
+      film.alpha = row.squeeze * (system_.gap_of(p) + film.delta);
+      film.arm = strain.squeeze / row.squeeze;
+      film.stress_axial = strain.stress_axial - film.arm * strain.squeeze;
+      const double rate =
+          dot(n, times(problem_.gradient, mean_carried(problem_.gradient, problem_.h, pair.apart)));
+      film.constant = strain.squeeze * along - row.squeeze * rate;
+    }
+    film.at = film.start;
+    row.squeeze = 0;
+    strain.squeeze = 0;
+    strain.stress_axial = 0;
+  }
+}
+
+void SuspensionStep::add_contact(std::size_t p, const ContactMemory& memory) {
+  const auto& row = system_.resistance().pairs[p];
+  const auto& lubrication = problem_.lubrication;
+  auto& film = films_[p];
+  film.contact = static_cast<std::int32_t>(contacts_.size());
+  Contact contact;
+  contact.pair = p;
+  contact.memory = memory;
+  const double a = problem_.radii[index(row.first)], b = problem_.radii[index(row.second)];
+  const double mean = (a + b) / 2, reduced = a * b / (a + b);
+  contact.gap = lubrication.roughness * mean;
+  const double width = std::max(contact.gap + film.delta, (lubrication.pairs == PairTerms::kNone
+                                                               ? StepTuning::kWidthWithoutFilm
+                                                               : StepTuning::kLeastWidth) *
+                                                              mean);
+  const double film_at_contact =
+      6 * std::numbers::pi * lubrication.viscosity * reduced * reduced / width;
+  contact.stiffness = StepTuning::kStiffness * film_at_contact;
+  if (problem_.friction > 0) {
+    const double arm = 1 / row.inverse_arm;
+    contact.arm_first = a * arm / (a + b);
+    contact.arm_second = b * arm / (a + b);
+    contact.strained = norm(problem_.pairs[p].apart);
+    contact.stiffness_across = StepTuning::kStiffnessAcross * film_at_contact;
+    contact.friction = lanes_of(memory.friction);
+    contact.friction -= dot(contact.friction, row.normal) * row.normal;
+    contact.turn_first = row.turn_first;
+    contact.turn_mixed = row.turn_mixed;
+    contact.turn_second = row.turn_second;
+  }
+  contacts_.push_back(contact);
+}
+
+void SuspensionStep::add_contacts() {
+  auto memory = problem_.memories.begin();
+  const auto& rows = system_.resistance().pairs;
+  const auto& lubrication = problem_.lubrication;
+  const bool has_film_alone = lubrication.pairs != PairTerms::kNone && lubrication.roughness == 0 &&
+                              lubrication.regularisation == 0;
+  for (std::size_t p = 0; p < rows.size(); ++p) {
+    const auto& row = rows[p];
+    const auto before = [&](const ContactMemory& m) {
+      return m.first < row.first || (m.first == row.first && m.second < row.second);
+    };
+    while (memory != problem_.memories.end() && before(*memory)) ++memory;
+    if (memory != problem_.memories.end() && memory->first == row.first &&
+        memory->second == row.second)
+      add_contact(p, *memory);
+    else if (!has_film_alone &&
+             films_[p].start - films_[p].delta <
+                 (lubrication.roughness + StepTuning::kNearGap) * system_.strains()[p].radii / 2)
+      add_contact(p, {row.first, row.second});
+  }
+}
+
+double SuspensionStep::opening(std::size_t p) const {
+  const auto& row = system_.resistance().pairs[p];
+  return dot(row.normal, motions_[index(row.second)].along - motions_[index(row.first)].along);
+}
+
+Lanes SuspensionStep::slip(const Contact& contact) const {
+  const auto& row = system_.resistance().pairs[contact.pair];
+  const Lanes n = row.normal;
+  const Motion &first = motions_[index(row.first)], &second = motions_[index(row.second)];
+  const Lanes rotation = row.inverse_arm * cross(n, second.along - first.along);
+  const Lanes sum = contact.arm_first * (first.turn - rotation) +
+                    contact.arm_second * (second.turn - rotation) -
+                    contact.strained * cross(n, lanes_of(strain_.times(vector_of(n))));
+  return sum - dot(sum, n) * n;
+}
+
+void SuspensionStep::find_gaps() {
+  const auto& rows = system_.resistance().pairs;
+  gap_error_ = 0;
+  smallest_gap_ = std::numeric_limits<double>::infinity();
+  for (std::size_t p = 0; p < rows.size(); ++p) {
+    auto& film = films_[p];
+    const auto& pair = problem_.pairs[p];
+    const Lanes apart =
+        lanes_of(carried(problem_.gradient, problem_.h, pair.apart)) +
+        problem_.h * (motions_[index(pair.second)].along - motions_[index(pair.first)].along);
+    const double distance = std::sqrt(dot(apart, apart));
+    film.curvature = distance - dot(rows[p].normal, apart);
+    const double gap = distance - system_.strains()[p].radii;
+    smallest_gap_ = std::min(smallest_gap_, gap);
+    if (film.contact < 0) {
+      if (film.alpha > 0 && film.delta == 0) continue;
+      const double least = problem_.lubrication.roughness * system_.strains()[p].radii / 2;
+      if (gap < least) add_contact(p, {pair.first, pair.second});
+    }
+    if (film.contact < 0) continue;
+    const auto& contact = contacts_[index(film.contact)];
+    const double over = gap - contact.gap;
+    // Where the load is the least one the gap may be open.
+    const double error =
+        contact.memory.load > contact.memory.lowest ? std::abs(over) : std::max(-over, 0.0);
+    gap_error_ = std::max(gap_error_, error);
+  }
+}
+
+void SuspensionStep::linearise() {
+  auto& rows = system_.resistance().pairs;
+  right_ = given_loads_;
+  is_film_exact_ = true;
+  for (std::size_t p = 0; p < rows.size(); ++p) {
+    auto& row = rows[p];
+    auto& film = films_[p];
+    const double h = problem_.h, affine = film.affine_gap + film.curvature;
+    const double gap = affine + h * opening(p);
+    row.squeeze = 0;
+    film.load = 0;
+    if (film.alpha > 0) {
+      const double least = StepTuning::kLeastPart * film.at;
+      if (gap + film.delta < least) is_film_exact_ = false;
+      film.at = std::max(gap + film.delta, least);
+      row.squeeze = film.alpha / film.at;
+      film.load = film.force(h) + row.squeeze * (affine + film.delta - film.at) / h;
+    }
+    Lanes turn1{}, turn2{};
+    if (film.contact >= 0) {
+      auto& contact = contacts_[index(film.contact)];
+      const auto& memory = contact.memory;
+      contact.pushes = trial_load(contact) > memory.lowest;
+      if (contact.pushes) {
+        row.squeeze += contact.stiffness;
+        film.load += contact.stiffness * (affine - contact.gap) / h - memory.load;
+      } else {
+        film.load -= memory.lowest;
+      }
+      if (problem_.friction > 0) linearise_friction(contact, turn1, turn2);
+    }
+    const Lanes along = film.load * row.normal + row.inverse_arm * cross(row.normal, turn1 + turn2);
+    auto &first = right_[index(row.first)], &second = right_[index(row.second)];
+    first.along += along;
+    first.turn -= turn1;
+    second.along -= along;
+    second.turn -= turn2;
+  }
+}
+
+double SuspensionStep::friction_bound(const Contact& contact) const {
+  return problem_.friction * std::max(contact.memory.load - contact.memory.carried_by_film, 0.0);
+}
+
+void SuspensionStep::linearise_friction(Contact& contact, Lanes& turn1, Lanes& turn2) {
+  auto& row = system_.resistance().pairs[contact.pair];
+  const Lanes trial = contact.friction + contact.stiffness_across * slip(contact);
+  const double size = std::sqrt(dot(trial, trial)), bound = friction_bound(contact);
+  const double share = size > bound ? bound / size : 1;
+  const double stiffness = share * contact.stiffness_across;
+  row.turn_first = contact.turn_first + stiffness * contact.arm_first * contact.arm_first;
+  row.turn_mixed = contact.turn_mixed + stiffness * contact.arm_first * contact.arm_second;
+  row.turn_second = contact.turn_second + stiffness * contact.arm_second * contact.arm_second;
+  const Lanes about = cross(row.normal, lanes_of(strain_.times(vector_of(row.normal))));
+  const Lanes load = share * contact.friction - (stiffness * contact.strained) * about;
+  turn1 = contact.arm_first * load;
+  turn2 = contact.arm_second * load;
+}
+
+double SuspensionStep::trial_load(const Contact& contact) const {
+  const auto& film = films_[contact.pair];
+  const double gap = film.affine_gap + film.curvature + problem_.h * opening(contact.pair);
+  return contact.memory.load - contact.stiffness * (gap - contact.gap) / problem_.h;
+}
+
+std::size_t SuspensionStep::count_changes() const {
+  return static_cast<std::size_t>(std::ranges::count_if(contacts_, [&](const Contact& contact) {
+    return (trial_load(contact) > contact.memory.lowest) != contact.pushes;
+  }));
+}
+
+void SuspensionStep::update_contacts() {
+  for (auto& contact : contacts_) {
+    contact.memory.load = std::max(trial_load(contact), contact.memory.lowest);
+    if (!(problem_.friction > 0)) continue;
+    const Lanes trial = contact.friction + contact.stiffness_across * slip(contact);
+    const double size = std::sqrt(dot(trial, trial)), bound = friction_bound(contact);
+    contact.friction = (size > bound ? bound / size : 1) * trial;
+  }
+}
+
+void SuspensionStep::sum_stresses(StepSolution& solution) {
+  auto& rows = system_.resistance().pairs;
+  // The terms of films and contacts along n are added apart.
+  std::vector<double> squeezes(rows.size());
+  for (std::size_t p = 0; p < rows.size(); ++p) squeezes[p] = std::exchange(rows[p].squeeze, 0);
+  for (auto& contact : contacts_) {
+    if (!(problem_.friction > 0)) break;
+    auto& row = rows[contact.pair];
+    row.turn_first = contact.turn_first;
+    row.turn_mixed = contact.turn_mixed;
+    row.turn_second = contact.turn_second;
+  }
+  auto& sums = solution.stresses;
+  sums = {};
+  sums.film.stress = system_.stresslets(motions_, strain_);
+  std::vector<Motion> product(motions_.size()), strained(motions_.size());
+  system_.resistance().multiply(motions_, product);
+  system_.subtract_strain_loads(strain_, strained);
+  solution.dissipation = sums.film.stress.contracted(strain_);
+  double given = 0;
+  for (std::size_t k = 0; k < motions_.size(); ++k) {
+    const auto &v = motions_[k], &given_load = problem_.loads[k];
+    solution.dissipation += dot(v.along, product[k].along - strained[k].along) +
+                            dot(v.turn, product[k].turn - strained[k].turn);
+    given += dot(v.along, given_load.along) + dot(v.turn, given_load.turn);
+  }
+  for (std::size_t p = 0; p < rows.size(); ++p) {
+    const auto& row = rows[p];
+    const auto& film = films_[p];
+    const Vector n = vector_of(row.normal);
+    const double along = dot(n, strain_.times(n)), rate = opening(p);
+    if (film.alpha > 0) {
+      const double gap = film.affine_gap + film.curvature + problem_.h * rate;
+      const double force =
+          film.alpha * std::log(std::max(gap + film.delta, film.at / 2) / film.start) / problem_.h +
+          film.constant;
+      const double axial = film.arm * force + film.stress_axial * along;
+      auto& stress = sums.film.stress;
+      stress.add_dyad(axial, n, n);
+      stress.add_isotropic((system_.strains()[p].radii * force - axial) / 3);
+      solution.dissipation += force * (rate + film.arm * along) + film.stress_axial * along * along;
+    }
+    if (film.contact < 0) continue;
+    const auto& contact = contacts_[index(film.contact)];
+    const double load = contact.memory.load;
+    const Vector lever = mean_carried(problem_.gradient, problem_.h, problem_.pairs[p].apart);
+    if (load != 0) {
+      sums.contact.add_pair_force(load * n, lever, problem_.gradient);
+      solution.dissipation -= load * (rate + dot(n, times(problem_.gradient, lever)));
+    }
+    if (!(problem_.friction > 0) || !(dot(contact.friction, contact.friction) > 0)) continue;
+    const Vector force = vector_of(cross(contact.friction, row.normal));
+    sums.friction.stress.add_dyad(-contact.strained, n, force);
+    sums.friction.power -= contact.strained * dot(force, strain_.times(n));
+    solution.dissipation += dot(contact.friction, slip(contact));
+  }
+  // The power that the dissipation needs. It differs from stress:E by the residuals of the motions,
+  // and has an error of their square.
+  sums.film.power = solution.dissipation - given - sums.contact.power - sums.friction.power;
+  for (std::size_t p = 0; p < rows.size(); ++p) rows[p].squeeze = squeezes[p];
+}
+
+StepSolution SuspensionStep::solve() {
+  StepSolution solution;
+  find_gaps();
+  double tightening = 1, allowed = 0;
+  while (solution.solutions < StepTuning::kMostSolutions) {
+    if (solution.solutions < 3) {
+      sum_stresses(solution);
+      allowed = StepTuning::kTolerance * StepTuning::kTolerance * std::abs(solution.dissipation);
+    }
+    linearise();
+    const BlockPreconditioner preconditioner(system_.resistance());
+    const auto result = gradients_.solve(system_.resistance(), preconditioner, right_, motions_,
+                                         {tightening * allowed, StepTuning::kReduction},
+                                         StepTuning::kMostIterations);
+    ++solution.solutions;
+    solution.iterations += result.iterations;
+    const bool is_steady = result.iterations == 0 && solution.solutions > 1 && is_film_exact_;
+    const bool is_exact = gap_error_ <= StepTuning::kGapTolerance * problem_.mean_radius;
+    if (is_steady && is_exact) {
+      solution.converged = true;
+      break;
+    }
+    if (is_steady) tightening *= 0.1;
+    find_gaps();
+    // Multipliers are those of a problem that is solved, whose contacts are the right ones.
+    if (count_changes() == 0) update_contacts();
+  }
+  sum_stresses(solution);
+  solution.motions = motions_;
+  solution.residual = gap_error_ / problem_.mean_radius;
+  solution.smallest_gap = smallest_gap_;
+  for (auto& contact : contacts_) {
+    contact.memory.friction = vector_of(contact.friction);
+    if (contact.memory.load > 0) ++solution.touching;
+    if (contact.memory.load != 0 || contact.memory.lowest != 0)
+      solution.contacts.push_back(contact.memory);
+  }
+  std::ranges::sort(solution.contacts, [](const ContactMemory& a, const ContactMemory& b) {
+    return a.first < b.first || (a.first == b.first && a.second < b.second);
+  });
+  return solution;
+}
+
+}  // namespace viscontact::suspensions
