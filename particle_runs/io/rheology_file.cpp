@@ -79,10 +79,11 @@ std::vector<Rheology> read_rheology(const std::filesystem::path& path) {
       {"time", "strain", "viscosity", "viscosity_film", "viscosity_contact", "viscosity_friction"},
       kMembers.size());
   std::vector<Rheology> read;
-  for (const auto& row : file.rows)
+  for (const auto& row : file.rows) {
+    auto& rheology = read.emplace_back();
     for (std::size_t k = 0; k < kMembers.size(); ++k)
-      (k == 0 ? read.emplace_back() : read.back()).*kMembers[k] =
-          row.fields[k].value_or(std::numeric_limits<double>::quiet_NaN());
+      rheology.*kMembers[k] = row.fields[k].value_or(std::numeric_limits<double>::quiet_NaN());
+  }
   return read;
 }
 
