@@ -53,7 +53,7 @@ void flow_keys(case_file::Keys& keys, FlowKeys& flow) {
        "likewise"});
   keys.optional("stress", case_file::number(flow.stress, kModerate),
                 {"mean shear stress of the suspension in a box, component xy: the flow is that of "
-                 "`shear_rate`, and the rate a result",
+                 "`shear_rate`, and the rate a result. Only at the start, with `end_time = 0`",
                  "likewise"});
   const char* given = nullptr;
   for (const auto* key : {"shear_rate", "strain_rate", "gradient", "stress"}) {
@@ -134,8 +134,8 @@ void lubrication_keys(case_file::Keys& keys, LubricationKeys& read, const Domain
   keys.require(!keys.has("offset") || !std::holds_alternative<std::monostate>(domain), "offset",
                "has no effect without periods; it must be left out, or the case must have a "
                "[domain] with a box");
-  keys.optional("inertia", case_file::custom("`true` or `false`", read_truth, pairs.has_inertia),
-                {"whether the masses of the spheres count. They are then required", "`false`"});
+  keys.require(!keys.has("inertia"), "inertia",
+               "is not computed for spheres with lubrication; the key must be left out");
   keys.optional(
       "compare", case_file::custom("`true` or `false`", read_truth, read.compares),
       {"whether the case is run a second time with `pairs = \"none\"`, and the page shows "
@@ -269,6 +269,10 @@ void lubricated_contact_keys(case_file::Keys& keys, ParticlesCase& c) {
            "velocity gradient: in a shear `shear_rate`, with `strain_rate` twice this rate",
            "from `end_time`"},
           kModeratelyPositiveOr0, true);
+  keys.require(!pairs.stress || c.end_time == 0, "end_time",
+               "is {}; it must be 0 with lubrication.velocity.stress, because steps need a given "
+               "rate: the velocities and the rate at the start are computed",
+               c.end_time);
   double& step = c.setting.time_step;
   const bool has_steps = c.end_time > 0 || !keys.reads();
   in_time(step, "time_step", "strain_step",

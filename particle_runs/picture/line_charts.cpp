@@ -15,8 +15,9 @@ namespace {
 
 /// Sizes in page units, of which a chart is kWidth wide, by eye.
 struct LineChartTuning {
-  static constexpr double kWidth = 500, kHeight = 340, kLeft = 62, kRight = 14, kTop = 34,
-                          kBottom = 46, kLineOfLegend = 17;
+  static constexpr double kWidth = 500, kHeight = 370, kLeft = 62, kRight = 14, kTop = 34,
+                          kBottom = 84, kLineOfLegend = 17, kEntry = 145;
+  static constexpr std::size_t kEntriesInLine = 3;
   static constexpr double kTicks = 5;  // about, on an axis
   // More points of a curve could not be told apart.
   static constexpr std::size_t kMostPoints = 1500;
@@ -132,15 +133,18 @@ class ChartFrame {
   Range x_, y_;
 };
 
-std::string legend_of(const ChartFrame& frame, const ChartCurve& curve, std::size_t row) {
-  const double y =
-      LineChartTuning::kTop + 16 + LineChartTuning::kLineOfLegend * static_cast<double>(row);
-  const double right = frame.left() + ChartFrame::width() - 10;
+/// Entry `number` of the legend, below the axis.
+std::string legend_of(const ChartFrame& frame, const ChartCurve& curve, std::size_t number) {
+  using Tuning = LineChartTuning;
+  const double y = ChartFrame::bottom() + 62 +
+                   Tuning::kLineOfLegend * static_cast<double>(number / Tuning::kEntriesInLine);
+  const double x =
+      frame.left() + Tuning::kEntry * static_cast<double>(number % Tuning::kEntriesInLine);
   return fmt::format(
-      "<path d=\"M{:.1f} {:.1f}h28\" stroke=\"{}\" stroke-width=\"2.4\"{}/><text x=\"{:.1f}\" "
-      "y=\"{:.1f}\" text-anchor=\"end\">{}</text>\n",
-      right - 28, y - 4, curve.colour, curve.is_dashed ? " stroke-dasharray=\"7 4\"" : "",
-      right - 34, y, report::escaped(curve.legend));
+      "<path d=\"M{:.1f} {:.1f}h24\" stroke=\"{}\" stroke-width=\"2.4\"{}/><text x=\"{:.1f}\" "
+      "y=\"{:.1f}\">{}</text>\n",
+      x, y - 4, curve.colour, curve.is_dashed ? " stroke-dasharray=\"7 4\"" : "", x + 29, y,
+      report::escaped(curve.legend));
 }
 
 }  // namespace
@@ -163,8 +167,8 @@ std::string line_charts(std::span<const LineChart> charts) {
         c, frame.left(), LineChartTuning::kTop, ChartFrame::width(), ChartFrame::height());
     for (const auto& curve : chart.curves) text += frame.line(curve);
     text += "</g>\n";
-    for (std::size_t row = 0; row < chart.curves.size(); ++row)
-      text += legend_of(frame, chart.curves[row], row);
+    for (std::size_t k = 0; k < chart.curves.size(); ++k)
+      text += legend_of(frame, chart.curves[k], k);
   }
   return text + "</svg>\n";
 }

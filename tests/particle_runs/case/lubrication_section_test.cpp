@@ -52,7 +52,7 @@ TEST_F(LubricationSection, HasTheDefaultsOfItsKeys) {
 TEST_F(LubricationSection, GivesEachKeyItsPlace) {
   const auto c = read(
       "pairs = \"near_contact\"\nrange = 0.4\nregularisation = 1e-3\ndrag = 0.5\noffset = 1.5\n"
-      "inertia = true\ncompare = true\n" +
+      "compare = true\n" +
           kShear,
       kTimes + "roughness = 2e-3\nrepulsion = { amplitude = 3.0, length = 0.02 }\n",
       kBox + kSphere + "mass = 5.0\n[friction]\ncoefficient = 0.5\n");
@@ -62,7 +62,6 @@ TEST_F(LubricationSection, GivesEachKeyItsPlace) {
   EXPECT_EQ(pairs.regularisation, 1e-3);
   EXPECT_EQ(pairs.drag, 0.5);
   EXPECT_EQ(pairs.offset, 1.5);
-  EXPECT_TRUE(pairs.has_inertia);
   EXPECT_TRUE(c.compares);
   EXPECT_EQ(pairs.roughness, 2e-3);
   EXPECT_EQ(pairs.repulsion.value().amplitude, 3);
@@ -72,7 +71,7 @@ TEST_F(LubricationSection, GivesEachKeyItsPlace) {
 
 TEST_F(LubricationSection, ReadsEachFlow) {
   const auto of = [&](const std::string& flow, const std::string& domain) {
-    return read("velocity = { " + flow + " }\n", kTimes, domain + kSphere)
+    return read("velocity = { " + flow + " }\n", "end_time = 0.0\n", domain + kSphere)
         .setting.lubrication.value();
   };
   EXPECT_THAT(of("shear_rate = 3.0", kBox).gradient,
@@ -117,8 +116,8 @@ TEST_F(LubricationSection, RefusesTimesAndStrainsThatDoNotFit) {
               IsAt("case.toml:10", "viscous_contact.strain_step"));
   EXPECT_THAT(refused("", "end_strain = 1.0\ntime_step = 0.1\n"),
               IsAt("case.toml:7", "viscous_contact.end_strain"));
-  EXPECT_THAT(refused("velocity = { stress = 1.0 }\n", "strain_step = 0.1\nend_time = 1.0\n"),
-              IsAt("case.toml:8", "viscous_contact.strain_step"));
+  EXPECT_THAT(refused("velocity = { stress = 1.0 }\n"),
+              IsAt("case.toml:9", "viscous_contact.end_time"));
   EXPECT_THAT(refused(kShear, "strain_step = 2.0\nend_strain = 1.0\n"),
               IsAt("case.toml:8", "viscous_contact.strain_step"));
   EXPECT_THAT(refused(kShear, "time_step = 1e-12\nend_time = 1.0\n"),
@@ -185,7 +184,7 @@ TEST_F(LubricationSection, RefusesWhatItCannotStandBeside) {
                       "[true, true, true] }\n" +
                           kSphere),
               IsAt("case.toml:10", "domain.box.to"));
-  EXPECT_THAT(refused("inertia = true\n"), IsAt("case.toml:12", "particle[0].mass"));
+  EXPECT_THAT(refused("inertia = true\n"), IsAt("case.toml:6", "lubrication.inertia"));
 }
 
 }  // namespace
