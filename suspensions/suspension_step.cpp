@@ -23,14 +23,14 @@ struct StepTuning {
   static constexpr double kReduction = 1e-3;
   // Error of the gap of a contact, in mean radii.
   static constexpr double kGapTolerance = 3e-8;
-  static constexpr int kMostSolutions = 60;
+  static constexpr int kMostSolutions = 150;
   static constexpr int kMostIterations = 5000;
   // After so many linear problems a change is shortened if the slope at its end is above this part
   // of that at its begin. Without this, contacts may come and go for ever.
   static constexpr int kUnchecked = 3, kBisections = 6;
   static constexpr double kLargestSlope = 0.3;
   // Stiffness of the augmented Lagrangian over that of the film at contact.
-  static constexpr double kStiffness = 10, kStiffnessAcross = 3;
+  static constexpr double kStiffness = 10, kStiffnessAcross = 0.3;
   // Gaps in mean radii at which that film is taken, if solids touch at smaller ones.
   static constexpr double kLeastWidth = 1e-3, kWidthWithoutFilm = 1e-2;
   // A film is linearised at no less than this part of its width before.
@@ -484,7 +484,7 @@ StepSolution SuspensionStep::solve() {
       allowed = StepTuning::kTolerance * StepTuning::kTolerance * std::abs(solution.dissipation);
     }
     linearise(solution.solutions == 0);
-    const bool is_checked = solution.solutions >= StepTuning::kUnchecked;
+    const bool is_checked = solution.solutions >= StepTuning::kUnchecked || problem_.friction > 0;
     if (is_checked) before = motions_;
     const BlockPreconditioner preconditioner(system_.resistance());
     const auto result =
@@ -501,7 +501,8 @@ StepSolution SuspensionStep::solve() {
       break;
     }
     if (is_steady && result.iterations == 0) tightening *= 0.1;
-    if (is_checked && (count_changes() > 0 || !is_film_exact_)) shorten(before);
+    if (is_checked && (count_changes() > 0 || !is_film_exact_ || problem_.friction > 0))
+      shorten(before);
     find_gaps();
     // Multipliers are those of a problem that is solved, whose contacts are the right ones.
     if (count_changes() == 0) update_contacts();
