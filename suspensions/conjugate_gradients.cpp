@@ -154,6 +154,7 @@ ConjugateGradients::Result ConjugateGradients::solve(const Resistance& resistanc
     result.residual += suspensions::dot(force, common);
     for (std::size_t k = 0; k < count; ++k) direction_[k].along += common;
     const double allowed = std::max(end.residual, end.reduction * result.residual);
+    result.start = result.residual;
     double best = result.residual;
     int since_best = 0;
     while (result.residual > allowed && result.iterations < most_iterations) {

@@ -35,7 +35,7 @@ class ConjugateGradients {
  public:
   struct Result {
     int iterations = 0;
-    double residual = 0;  ///< r.M^-1 r, a power [M L^2/T^3]
+    double start = 0, residual = 0;  ///< r.M^-1 r, a power [M L^2/T^3]
     bool converged = true;
     bool stagnates = false;  ///< rounding errors keep the residual from falling
   };

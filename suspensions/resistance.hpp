@@ -29,6 +29,15 @@ struct alignas(kLaneAlignment) DragRow {
   std::int32_t first = 0, second = 0;
 };
 
+/// Takes the resistance of a contact that slides, (9.16), in the direction of its slip away from
+/// that of the pair, which is the same in all directions.
+struct alignas(kLaneAlignment) SlipRow {
+  Lanes normal{}, direction{};
+  double stiffness = 0;
+  double arm_first = 0, arm_second = 0;  ///< whose sum is the arm of the pair
+  std::int32_t first = 0, second = 0;
+};
+
 /// What a sphere resists beside its pairs.
 struct SphereDrag {
   double move = 0;  ///< [M/T]
@@ -39,6 +48,7 @@ struct Resistance {
   std::vector<SphereDrag> spheres;
   std::vector<PairRow> pairs;
   std::vector<DragRow> drags;
+  std::vector<SlipRow> slips;
 
   std::size_t count() const { return spheres.size(); }
   /// loads = R motions.
@@ -90,6 +100,19 @@ inline void add_loads(const DragRow& row, std::span<const Motion> x, std::span<M
   }
 }
 
+inline void add_loads(const SlipRow& row, std::span<const Motion> x, std::span<Motion> y) {
+  const auto i = static_cast<std::size_t>(row.first), j = static_cast<std::size_t>(row.second);
+  const Lanes across = cross(row.direction, row.normal);
+  const double slip = row.arm_first * dot(row.direction, x[i].turn) +
+                      row.arm_second * dot(row.direction, x[j].turn) -
+                      dot(across, x[j].along - x[i].along);
+  const double load = -row.stiffness * slip;
+  y[i].along += load * across;
+  y[i].turn += (row.arm_first * load) * row.direction;
+  y[j].along -= load * across;
+  y[j].turn += (row.arm_second * load) * row.direction;
+}
+
 inline void multiply_in_place(const Resistance& resistance, std::span<const Motion> x,
                               std::span<Motion> y) {
   assert(x.size() == resistance.count() && y.size() == resistance.count());
@@ -99,6 +122,7 @@ inline void multiply_in_place(const Resistance& resistance, std::span<const Moti
   }
   for (const auto& pair : resistance.pairs) add_loads(pair, x, y);
   for (const auto& row : resistance.drags) add_loads(row, x, y);
+  for (const auto& row : resistance.slips) add_loads(row, x, y);
 }
 
 }  // namespace viscontact::suspensions

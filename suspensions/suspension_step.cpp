@@ -16,14 +16,21 @@ using particles::PairTerms;
 struct StepTuning {
   // Residual of the last linear problem: its power error over the dissipation is the square.
   static constexpr double kTolerance = 1e-5;
+  // The last linear problems are solved to this part of it, so that what changes after them, such as
+  // directions at the end of the step, does not need another one.
+  static constexpr double kSolved = 0.1;
   // Each linear problem reduces its residual by this factor at least.
-  static constexpr double kReduction = 1e-4;
+  static constexpr double kReduction = 1e-3;
   // Error of the gap of a contact, in mean radii.
   static constexpr double kGapTolerance = 3e-8;
-  static constexpr int kMostSolutions = 60;
+  static constexpr int kMostSolutions = 150;
   static constexpr int kMostIterations = 5000;
+  // After so many linear problems a change is shortened if the slope at its end is above this part
+  // of that at its begin. Without this, contacts may come and go for ever.
+  static constexpr int kUnchecked = 3, kBisections = 6;
+  static constexpr double kLargestSlope = 0.3;
   // Stiffness of the augmented Lagrangian over that of the film at contact.
-  static constexpr double kStiffness = 10, kStiffnessAcross = 3;
+  static constexpr double kStiffness = 10, kStiffnessAcross = 0.3;
   // Gaps in mean radii at which that film is taken, if solids touch at smaller ones.
   static constexpr double kLeastWidth = 1e-3, kWidthWithoutFilm = 1e-2;
   // A film is linearised at no less than this part of its width before.
@@ -72,6 +79,11 @@ struct SuspensionStep::Film {
   std::int32_t contact = -1;
 
   double force(double h) const { return alpha * std::log(at / start) / h + constant; }
+  // The same at a gap, which may be far below the last one.
+  double force_at(double gap, double h) const {
+    const double least = StepTuning::kLeastPart * at, width = std::max(gap + delta, least);
+    return alpha * (std::log(width / start) + (gap + delta - width) / width) / h + constant;
+  }
 };
 
 struct SuspensionStep::Contact {
@@ -83,6 +95,10 @@ struct SuspensionStep::Contact {
   double arm_first = 0, arm_second = 0, strained = 0;  // of friction [L], and W's share of n x En
   double stiffness_across = 0;
   Lanes friction{};
+  // Where friction was linearised: slip, friction, stiffness, and the direction without stiffness.
+  bool slides = false;
+  Lanes at_slip{}, at_friction{}, direction{};
+  double at_stiffness = 0;
   double turn_first = 0, turn_mixed = 0, turn_second = 0;  // of the film
 };
 
@@ -185,20 +201,29 @@ void SuspensionStep::add_contacts() {
   }
 }
 
-double SuspensionStep::opening(std::size_t p) const {
+double SuspensionStep::opening(std::size_t p, const std::vector<Motion>& motions) const {
   const auto& row = system_.resistance().pairs[p];
-  return dot(row.normal, motions_[index(row.second)].along - motions_[index(row.first)].along);
+  return dot(row.normal, motions[index(row.second)].along - motions[index(row.first)].along);
 }
 
-Lanes SuspensionStep::slip(const Contact& contact) const {
+Lanes SuspensionStep::slip_by_strain(const Contact& contact) const {
+  const Lanes n = system_.resistance().pairs[contact.pair].normal;
+  return -contact.strained * cross(n, lanes_of(strain_.times(vector_of(n))));
+}
+
+Lanes SuspensionStep::slip_by_motions(const Contact& contact,
+                                      const std::vector<Motion>& motions) const {
   const auto& row = system_.resistance().pairs[contact.pair];
   const Lanes n = row.normal;
-  const Motion &first = motions_[index(row.first)], &second = motions_[index(row.second)];
+  const Motion &first = motions[index(row.first)], &second = motions[index(row.second)];
   const Lanes rotation = row.inverse_arm * cross(n, second.along - first.along);
-  const Lanes sum = contact.arm_first * (first.turn - rotation) +
-                    contact.arm_second * (second.turn - rotation) -
-                    contact.strained * cross(n, lanes_of(strain_.times(vector_of(n))));
+  const Lanes sum =
+      contact.arm_first * (first.turn - rotation) + contact.arm_second * (second.turn - rotation);
   return sum - dot(sum, n) * n;
+}
+
+Lanes SuspensionStep::slip(const Contact& contact, const std::vector<Motion>& motions) const {
+  return slip_by_motions(contact, motions) + slip_by_strain(contact);
 }
 
 void SuspensionStep::find_gaps() {
@@ -212,7 +237,10 @@ void SuspensionStep::find_gaps() {
         lanes_of(carried(problem_.gradient, problem_.h, pair.apart)) +
         problem_.h * (motions_[index(pair.second)].along - motions_[index(pair.first)].along);
     const double distance = std::sqrt(dot(apart, apart));
-    film.curvature = distance - dot(rows[p].normal, apart);
+    // A gap along the normal is a lower bound of the gap. A film whose gap may become 0 has this
+    // one: with the gap itself, spheres that pass each other come as near as 1e-12.
+    const bool is_bound = film.alpha > 0 && film.delta == 0 && problem_.lubrication.roughness == 0;
+    film.curvature = is_bound ? 0 : distance - dot(rows[p].normal, apart);
     const double gap = distance - system_.strains()[p].radii;
     smallest_gap_ = std::min(smallest_gap_, gap);
     if (film.contact < 0) {
@@ -230,15 +258,16 @@ void SuspensionStep::find_gaps() {
   }
 }
 
-void SuspensionStep::linearise() {
+void SuspensionStep::linearise(bool is_first) {
   auto& rows = system_.resistance().pairs;
   right_ = given_loads_;
   is_film_exact_ = true;
+  system_.resistance().slips.clear();
   for (std::size_t p = 0; p < rows.size(); ++p) {
     auto& row = rows[p];
     auto& film = films_[p];
     const double h = problem_.h, affine = film.affine_gap + film.curvature;
-    const double gap = affine + h * opening(p);
+    const double gap = affine + h * opening(p, motions_);
     row.squeeze = 0;
     film.load = 0;
     if (film.alpha > 0) {
@@ -252,7 +281,8 @@ void SuspensionStep::linearise() {
     if (film.contact >= 0) {
       auto& contact = contacts_[index(film.contact)];
       const auto& memory = contact.memory;
-      contact.pushes = trial_load(contact) > memory.lowest;
+      contact.pushes =
+          is_first && memory.load > memory.lowest ? true : trial_load(contact) > memory.lowest;
       if (contact.pushes) {
         row.squeeze += contact.stiffness;
         film.load += contact.stiffness * (affine - contact.gap) / h - memory.load;
@@ -275,23 +305,44 @@ double SuspensionStep::friction_bound(const Contact& contact) const {
 }
 
 void SuspensionStep::linearise_friction(Contact& contact, Lanes& turn1, Lanes& turn2) {
-  auto& row = system_.resistance().pairs[contact.pair];
-  const Lanes trial = contact.friction + contact.stiffness_across * slip(contact);
+  auto& resistance = system_.resistance();
+  auto& row = resistance.pairs[contact.pair];
+  const Lanes here = slip(contact, motions_);
+  const Lanes trial = contact.friction + contact.stiffness_across * here;
   const double size = std::sqrt(dot(trial, trial)), bound = friction_bound(contact);
-  const double share = size > bound ? bound / size : 1;
+  contact.slides = size > bound;
+  const double share = contact.slides ? bound / size : 1;
   const double stiffness = share * contact.stiffness_across;
   row.turn_first = contact.turn_first + stiffness * contact.arm_first * contact.arm_first;
   row.turn_mixed = contact.turn_mixed + stiffness * contact.arm_first * contact.arm_second;
   row.turn_second = contact.turn_second + stiffness * contact.arm_second * contact.arm_second;
-  const Lanes about = cross(row.normal, lanes_of(strain_.times(vector_of(row.normal))));
-  const Lanes load = share * contact.friction - (stiffness * contact.strained) * about;
+  contact.at_slip = here;
+  contact.at_friction = share * trial;
+  contact.at_stiffness = stiffness;
+  contact.direction = contact.slides ? (1 / size) * trial : Lanes{};
+  if (contact.slides)
+    resistance.slips.push_back({row.normal, contact.direction, stiffness, contact.arm_first,
+                                contact.arm_second, row.first, row.second});
+  const Lanes load =
+      contact.at_friction - change_of_friction(contact, here - slip_by_strain(contact));
   turn1 = contact.arm_first * load;
   turn2 = contact.arm_second * load;
 }
 
+Lanes SuspensionStep::change_of_friction(const Contact& contact, const Lanes& change) {
+  return contact.at_stiffness * (change - dot(contact.direction, change) * contact.direction);
+}
+
+Lanes SuspensionStep::friction_at(const Contact& contact, const Lanes& at_slip) const {
+  const Lanes trial = contact.friction + contact.stiffness_across * at_slip;
+  const double size = std::sqrt(dot(trial, trial)), bound = friction_bound(contact);
+  return (size > bound ? bound / size : 1) * trial;
+}
+
 double SuspensionStep::trial_load(const Contact& contact) const {
   const auto& film = films_[contact.pair];
-  const double gap = film.affine_gap + film.curvature + problem_.h * opening(contact.pair);
+  const double gap =
+      film.affine_gap + film.curvature + problem_.h * opening(contact.pair, motions_);
   return contact.memory.load - contact.stiffness * (gap - contact.gap) / problem_.h;
 }
 
@@ -305,9 +356,7 @@ void SuspensionStep::update_contacts() {
   for (auto& contact : contacts_) {
     contact.memory.load = std::max(trial_load(contact), contact.memory.lowest);
     if (!(problem_.friction > 0)) continue;
-    const Lanes trial = contact.friction + contact.stiffness_across * slip(contact);
-    const double size = std::sqrt(dot(trial, trial)), bound = friction_bound(contact);
-    contact.friction = (size > bound ? bound / size : 1) * trial;
+    contact.friction = friction_at(contact, slip(contact, motions_));
   }
 }
 
@@ -323,6 +372,7 @@ void SuspensionStep::sum_stresses(StepSolution& solution) {
     row.turn_mixed = contact.turn_mixed;
     row.turn_second = contact.turn_second;
   }
+  system_.resistance().slips.clear();
   auto& sums = solution.stresses;
   sums = {};
   sums.film.stress = system_.stresslets(motions_, strain_);
@@ -341,7 +391,7 @@ void SuspensionStep::sum_stresses(StepSolution& solution) {
     const auto& row = rows[p];
     const auto& film = films_[p];
     const Vector n = vector_of(row.normal);
-    const double along = dot(n, strain_.times(n)), rate = opening(p);
+    const double along = dot(n, strain_.times(n)), rate = opening(p, motions_);
     if (film.alpha > 0) {
       const double gap = film.affine_gap + film.curvature + problem_.h * rate;
       const double force =
@@ -365,7 +415,7 @@ void SuspensionStep::sum_stresses(StepSolution& solution) {
     const Vector force = vector_of(cross(contact.friction, row.normal));
     sums.friction.stress.add_dyad(-contact.strained, n, force);
     sums.friction.power -= contact.strained * dot(force, strain_.times(n));
-    solution.dissipation += dot(contact.friction, slip(contact));
+    solution.dissipation += dot(contact.friction, slip(contact, motions_));
   }
   // The power that the dissipation needs. It differs from stress:E by the residuals of the motions,
   // and has an error of their square.
@@ -373,29 +423,86 @@ void SuspensionStep::sum_stresses(StepSolution& solution) {
   for (std::size_t p = 0; p < rows.size(); ++p) rows[p].squeeze = squeezes[p];
 }
 
+void SuspensionStep::shorten(const std::vector<Motion>& before) {
+  const std::size_t count = motions_.size();
+  std::vector<Motion> change(count), product(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    change[k].along = motions_[k].along - before[k].along;
+    change[k].turn = motions_[k].turn - before[k].turn;
+  }
+  system_.resistance().multiply(change, product);
+  double curvature = 0;
+  for (std::size_t k = 0; k < count; ++k)
+    curvature += dot(change[k].along, product[k].along) + dot(change[k].turn, product[k].turn);
+  const auto& rows = system_.resistance().pairs;
+  const double h = problem_.h;
+  // The slope of the function to be minimised at a part of the change: that of the linear problem,
+  // and what films, contacts and friction differ from it.
+  const auto slope_at = [&](double part) {
+    double slope = -(1 - part) * curvature;
+    for (std::size_t p = 0; p < rows.size(); ++p) {
+      const auto& film = films_[p];
+      if (film.alpha == 0 && film.contact < 0) continue;
+      const double rate = opening(p, change), at = opening(p, before) + part * rate;
+      const double gap = film.affine_gap + film.curvature + h * at;
+      double force = film.alpha > 0 ? film.force_at(gap, h) : 0;
+      if (film.contact >= 0) {
+        const auto& contact = contacts_[index(film.contact)];
+        force -= std::max(contact.memory.load - contact.stiffness * (gap - contact.gap) / h,
+                          contact.memory.lowest);
+        if (problem_.friction > 0) {
+          const Lanes turned = slip_by_motions(contact, change);
+          slope +=
+              dot(turned, friction_at(contact, contact.at_slip + part * turned) -
+                              contact.at_friction - change_of_friction(contact, part * turned));
+        }
+      }
+      slope += rate * (force - film.load - rows[p].squeeze * at);
+    }
+    return slope;
+  };
+  if (slope_at(1) <= StepTuning::kLargestSlope * curvature) return;
+  double low = 0, high = 1;
+  for (int k = 0; k < StepTuning::kBisections; ++k) {
+    const double middle = (low + high) / 2;
+    (slope_at(middle) > 0 ? high : low) = middle;
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    motions_[k].along = before[k].along + high * change[k].along;
+    motions_[k].turn = before[k].turn + high * change[k].turn;
+  }
+}
+
 StepSolution SuspensionStep::solve() {
   StepSolution solution;
   find_gaps();
   double tightening = 1, allowed = 0;
+  std::vector<Motion> before;
   while (solution.solutions < StepTuning::kMostSolutions) {
     if (solution.solutions < 3) {
       sum_stresses(solution);
       allowed = StepTuning::kTolerance * StepTuning::kTolerance * std::abs(solution.dissipation);
     }
-    linearise();
+    linearise(solution.solutions == 0);
+    const bool is_checked = solution.solutions >= StepTuning::kUnchecked || problem_.friction > 0;
+    if (is_checked) before = motions_;
     const BlockPreconditioner preconditioner(system_.resistance());
-    const auto result = gradients_.solve(system_.resistance(), preconditioner, right_, motions_,
-                                         {tightening * allowed, StepTuning::kReduction},
-                                         StepTuning::kMostIterations);
+    const auto result =
+        gradients_.solve(system_.resistance(), preconditioner, right_, motions_,
+                         {tightening * StepTuning::kSolved * allowed, StepTuning::kReduction},
+                         StepTuning::kMostIterations);
     ++solution.solutions;
     solution.iterations += result.iterations;
-    const bool is_steady = result.iterations == 0 && solution.solutions > 1 && is_film_exact_;
+    const bool is_steady =
+        result.start <= tightening * allowed && solution.solutions > 1 && is_film_exact_;
     const bool is_exact = gap_error_ <= StepTuning::kGapTolerance * problem_.mean_radius;
     if (is_steady && is_exact) {
       solution.converged = true;
       break;
     }
-    if (is_steady) tightening *= 0.1;
+    if (is_steady && result.iterations == 0) tightening *= 0.1;
+    if (is_checked && (count_changes() > 0 || !is_film_exact_ || problem_.friction > 0))
+      shorten(before);
     find_gaps();
     // Multipliers are those of a problem that is solved, whose contacts are the right ones.
     if (count_changes() == 0) update_contacts();

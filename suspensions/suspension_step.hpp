@@ -61,12 +61,18 @@ class SuspensionStep {
   void add_contacts();
   void add_contact(std::size_t p, const ContactMemory& memory);
   // Rate at which pair p opens relative to the flow [L/T].
-  double opening(std::size_t p) const;
-  // The slip (9.16) of the surfaces, turned by a right angle about the normal [L/T].
-  Lanes slip(const Contact& contact) const;
+  double opening(std::size_t p, const std::vector<Motion>& motions) const;
+  // The slip (9.16) of the surfaces, turned by a right angle about the normal [L/T]: the sum of both
+  // parts.
+  Lanes slip(const Contact& contact, const std::vector<Motion>& motions) const;
+  Lanes slip_by_motions(const Contact& contact, const std::vector<Motion>& motions) const;
+  Lanes slip_by_strain(const Contact& contact) const;
+  // The friction at a slip, and how it changes with the slip where it was linearised.
+  Lanes friction_at(const Contact& contact, const Lanes& at_slip) const;
+  static Lanes change_of_friction(const Contact& contact, const Lanes& change);
   double friction_bound(const Contact& contact) const;
   // Sets the rows and right sides at the present motions.
-  void linearise();
+  void linearise(bool is_first);
   void linearise_friction(Contact& contact, Lanes& turn1, Lanes& turn2);
   double trial_load(const Contact& contact) const;
   // Contacts that would be linearised otherwise at the present motions.
@@ -75,6 +81,8 @@ class SuspensionStep {
   void update_contacts();
   // Finds the gaps at the end of the step, and contacts that were not expected.
   void find_gaps();
+  // Goes back from the present motions towards those before, if the function to be minimised rises.
+  void shorten(const std::vector<Motion>& before);
   void sum_stresses(StepSolution& solution);
 
   StepProblem problem_;
