@@ -163,10 +163,11 @@ class Run {
     if (flow) log_.add_flow(*flow);
   }
 
-  /// Computes the velocities at the start of spheres without inertia, which the first frame has; if
+  /// Computes the velocities at the start of spheres with lubrication, which the first frame has; if
   /// no step follows, also their rheology.
   void compute_start() {
-    if (suspension_ == nullptr || (case_.setting.lubrication->has_inertia && !is_at_end())) return;
+    // After a step the velocities are those of the step, with which the next one begins.
+    if (suspension_ == nullptr || simulation_.state().steps > 0) return;
     const auto& rheology = suspension_->solve_instant();
     if (is_at_end()) log_.add_rheology(rheology);
   }
@@ -306,6 +307,11 @@ void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State&
       static_cast<double>(record.iterations) /
           static_cast<double>(std::max<std::int64_t>(record.steps, 1)),
       record.largest_residual, record.largest_overlap, (folder / "particles.html").string());
+  if (const auto viscosity = record.rheology.mean(0)) {
+    const auto error = record.rheology.standard_error(0);
+    terminal::say("particles: the mean viscosity is {:.6g}{} times that of the fluid", *viscosity,
+                  error ? fmt::format(" (standard error {:.2g})", *error) : "");
+  }
   if (const auto regime = in_words(record.regime); !regime.empty())
     terminal::say("particles: {}", regime);
   for (const auto& warning : warnings_of(c, record.regime))
