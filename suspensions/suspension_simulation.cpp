@@ -28,8 +28,8 @@ struct SuspensionTuning {
   static constexpr double kInstantTolerance = 1e-11;
   // Gaps below this fraction of the mean radius count as rounding errors.
   static constexpr double kLeastGap = 1e-12;
-  // In mean radii: what a step adds to the range of the search, because spheres move in it.
-  static constexpr double kSearchMargin = 0.1;
+  // In mean radii: the least range of the search, because spheres move in a step.
+  static constexpr double kLeastSearch = 0.2;
   // Overlap that no step leaves, in mean radii.
   static constexpr double kMostOverlap = 1e-7;
 };
@@ -161,9 +161,9 @@ struct SuspensionSimulation::Content {
     }
     return sum;
   }
-  std::vector<NearPair> find_pairs(double margin = 0) const {
+  std::vector<NearPair> find_pairs(double least_range = 0) const {
     return suspensions::near_pairs(cell(), state.particles.positions, state.particles.radii,
-                                   lubrication().range + margin);
+                                   std::max(lubrication().range, least_range));
   }
   double smallest_gap(const std::vector<NearPair>& pairs) const {
     double smallest = std::numeric_limits<double>::infinity();
@@ -362,7 +362,7 @@ StepReport SuspensionSimulation::step(double end) {
   if (content.setting.laws.friction) problem.friction = content.setting.laws.friction->coefficient;
   problem.radii = state.particles.radii;
   problem.mean_radius = content.mean_radius;
-  problem.pairs = content.find_pairs(SuspensionTuning::kSearchMargin);
+  problem.pairs = content.find_pairs(SuspensionTuning::kLeastSearch);
   problem.memories = content.memories(h);
   problem.motions = content.relative_motions();
   problem.loads = content.given_loads(state.time);

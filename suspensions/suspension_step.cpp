@@ -72,6 +72,7 @@ struct SuspensionStep::Film {
   double constant = 0;      // [M L/T^2]
   double arm = 0;           // the strain's share in the motion of the surfaces [L]
   double stress_axial = 0;  // beside the force [M L^2/T]
+  Vector carried{};         // from the first to the second sphere, if they move with the flow [L]
   double affine_gap = 0;    // along the normal, if the spheres only move with the flow [L]
   double curvature = 0;     // the gap at the end less that along the normal [L]
   double at = 0;            // q' + delta [L]
@@ -126,10 +127,10 @@ void SuspensionStep::add_films() {
     const auto& pair = problem_.pairs[p];
     const Vector n = vector_of(row.normal);
     const double sum = strain.radii, along = dot(n, strain_.times(n));
-    const Vector carried_on = carried(problem_.gradient, problem_.h, pair.apart);
+    film.carried = carried(problem_.gradient, problem_.h, pair.apart);
     film.delta = problem_.lubrication.regularisation * sum / 2;
     film.start = norm(pair.apart) - sum + film.delta;
-    film.affine_gap = dot(n, carried_on) - sum;
+    film.affine_gap = dot(n, film.carried) - sum;
     if (row.squeeze > 0) {
       // The resistance at half of the step, as if it were alpha/(q + delta) at all gaps nearby.
       film.alpha = row.squeeze * (system_.gap_of(p) + film.delta);
@@ -233,9 +234,8 @@ void SuspensionStep::find_gaps() {
   for (std::size_t p = 0; p < rows.size(); ++p) {
     auto& film = films_[p];
     const auto& pair = problem_.pairs[p];
-    const Lanes apart =
-        lanes_of(carried(problem_.gradient, problem_.h, pair.apart)) +
-        problem_.h * (motions_[index(pair.second)].along - motions_[index(pair.first)].along);
+    const Lanes apart = lanes_of(film.carried) + problem_.h * (motions_[index(pair.second)].along -
+                                                               motions_[index(pair.first)].along);
     const double distance = std::sqrt(dot(apart, apart));
     // A gap along the normal is a lower bound of the gap. A film whose gap may become 0 has this
     // one: with the gap itself, spheres that pass each other come as near as 1e-12.
