@@ -16,6 +16,8 @@ using particles::PairTerms;
 struct StepTuning {
   // Residual of the last linear problem: its power error over the dissipation is the square.
   static constexpr double kTolerance = 1e-5;
+  // Without films, where rounding errors would else grow by 1e8 in ten steps.
+  static constexpr double kToleranceWithoutFilm = 1e-7;
   // The last linear problems are solved to this part of it, so that what changes after them, such as
   // directions at the end of the step, does not need another one.
   static constexpr double kSolved = 0.1;
@@ -24,6 +26,9 @@ struct StepTuning {
   // Error of the gap of a contact, in mean radii.
   static constexpr double kGapTolerance = 3e-8;
   static constexpr int kMostSolutions = 150;
+  // After so many the loads that bound friction stay as they are, because Coulomb's law may have no
+  // solution that the iteration finds. Less than a tenth of the steps of rough spheres needs it.
+  static constexpr int kMostWithLoads = 90;
   static constexpr int kMostIterations = 5000;
   // After so many linear problems a change is shortened if the slope at its end is above this part
   // of that at its begin. Without this, contacts may come and go for ever.
@@ -98,6 +103,7 @@ struct SuspensionStep::Contact {
   Lanes friction{};
   // Where friction was linearised: slip, friction, stiffness, and the direction without stiffness.
   bool slides = false;
+  double given_bound = 0;  // of friction, with given loads
   Lanes at_slip{}, at_friction{}, direction{};
   double at_stiffness = 0;
   double turn_first = 0, turn_mixed = 0, turn_second = 0;  // of the film
@@ -301,6 +307,7 @@ void SuspensionStep::linearise(bool is_first) {
 }
 
 double SuspensionStep::friction_bound(const Contact& contact) const {
+  if (has_given_loads_) return contact.given_bound;
   return problem_.friction * std::max(contact.memory.load - contact.memory.carried_by_film, 0.0);
 }
 
@@ -481,7 +488,14 @@ StepSolution SuspensionStep::solve() {
   while (solution.solutions < StepTuning::kMostSolutions) {
     if (solution.solutions < 3) {
       sum_stresses(solution);
-      allowed = StepTuning::kTolerance * StepTuning::kTolerance * std::abs(solution.dissipation);
+      const double tolerance = problem_.lubrication.pairs == PairTerms::kNone
+                                   ? StepTuning::kToleranceWithoutFilm
+                                   : StepTuning::kTolerance;
+      allowed = tolerance * tolerance * std::abs(solution.dissipation);
+    }
+    if (problem_.friction > 0 && solution.solutions == StepTuning::kMostWithLoads) {
+      for (auto& contact : contacts_) contact.given_bound = friction_bound(contact);
+      has_given_loads_ = true;
     }
     linearise(solution.solutions == 0);
     const bool is_checked = solution.solutions >= StepTuning::kUnchecked || problem_.friction > 0;
@@ -509,6 +523,7 @@ StepSolution SuspensionStep::solve() {
   }
   sum_stresses(solution);
   solution.motions = motions_;
+  solution.has_given_loads = has_given_loads_;
   solution.residual = gap_error_ / problem_.mean_radius;
   solution.smallest_gap = smallest_gap_;
   for (auto& contact : contacts_) {
