@@ -1,9 +1,6 @@
 // Preconditioned conjugate gradients, and the products of (9.1).
 #include "viscontact/suspensions/conjugate_gradients.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -21,50 +18,63 @@ struct GradientTuning {
   static constexpr int kPatience = 100;
 };
 
-using Block = Eigen::Matrix<double, 6, 6>;
+/// The columns of a symmetric 3 x 3 matrix.
+using Columns = std::array<Lanes, 3>;
 
-Eigen::Vector3d eigen_of(const Lanes& a) { return {a[0], a[1], a[2]}; }
-
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& n) {
-  Eigen::Matrix3d matrix;
-  matrix << 0, -n[2], n[1], n[2], 0, -n[0], -n[1], n[0], 0;
-  return matrix;
+inline Lanes product(const Columns& matrix, const Lanes& a) {
+  return matrix[0] * a[0] + matrix[1] * a[1] + matrix[2] * a[2];
 }
 
-/// Adds to the block of a sphere what resists its own motions along n, across n, and the force by
-/// its angular velocity, `mixed` n x w.
-void add_block(const Eigen::Vector3d& n, double along, double across, double spin, double turn,
-               double mixed, Block& block) {
-  const Eigen::Matrix3d nn = n * n.transpose(), rest = Eigen::Matrix3d::Identity() - nn;
-  block.topLeftCorner<3, 3>() += along * nn + across * rest;
-  block.bottomRightCorner<3, 3>() += spin * nn + turn * rest;
-  const Eigen::Matrix3d force_by_turn = mixed * cross_matrix(n);
-  block.topRightCorner<3, 3>() += force_by_turn;
-  block.bottomLeftCorner<3, 3>() += force_by_turn.transpose();
+/// By factors L D L^T, which keep more digits than cofactors where one direction is stiff.
+inline Columns inverse_of(const Columns& m) {
+  const double d1 = m[0][0], l21 = m[0][1] / d1, l31 = m[0][2] / d1;
+  const double d2 = m[1][1] - l21 * m[0][1], l32 = (m[1][2] - l31 * m[0][1]) / d2;
+  const double d3 = m[2][2] - l31 * m[0][2] - l32 * l32 * d2;
+  // Rows of the inverse of L.
+  const double i31 = l21 * l32 - l31;
+  const Lanes row1{1, 0, 0, 0}, row2{-l21, 1, 0, 0}, row3{i31, -l32, 1, 0};
+  const Lanes scaled1 = row1 / d1, scaled2 = row2 / d2, scaled3 = row3 / d3;
+  return {scaled1 + scaled2 * row2[0] + scaled3 * row3[0], scaled2 + scaled3 * row3[1], scaled3};
 }
 
-std::vector<Block> blocks_of(const Resistance& resistance) {
-  std::vector<Block> blocks(resistance.count(), Block::Zero());
+/// The block of a sphere: forces by velocities and torques by angular velocities; an angular velocity
+/// w has the force `mixed` x w.
+struct alignas(kLaneAlignment) Block {
+  Columns move{}, turn{};
+  Lanes mixed{};
+
+  /// Adds what resists motions along n, across n, and turns about n and across n.
+  void add(const Lanes& n, double along, double across, double spin, double turned) {
+    for (int c = 0; c < 3; ++c) {
+      auto &m = move[static_cast<std::size_t>(c)], &t = turn[static_cast<std::size_t>(c)];
+      m += ((along - across) * n[c]) * n;
+      m[c] += across;
+      t += ((spin - turned) * n[c]) * n;
+      t[c] += turned;
+    }
+  }
+};
+
+void add_blocks(const Resistance& resistance, std::vector<Block>& blocks) {
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     const auto& [move, turn] = resistance.spheres[k];
     for (int d = 0; d < 3; ++d) {
-      blocks[k](d, d) = move;
-      blocks[k](d + 3, d + 3) = turn;
+      blocks[k].move[static_cast<std::size_t>(d)][d] = move;
+      blocks[k].turn[static_cast<std::size_t>(d)][d] = turn;
     }
   }
   for (const auto& pair : resistance.pairs) {
-    const auto n = eigen_of(pair.normal);
-    const double inverse = pair.inverse_arm;
+    auto& one = blocks[static_cast<std::size_t>(pair.first)];
+    auto& two = blocks[static_cast<std::size_t>(pair.second)];
     const double first = pair.turn_first + pair.turn_mixed,
                  second = pair.turn_mixed + pair.turn_second;
-    const double across = (first + second) * inverse * inverse;
-    add_block(n, pair.squeeze, across, pair.spin, pair.turn_first, -first * inverse,
-              blocks[static_cast<std::size_t>(pair.first)]);
-    add_block(n, pair.squeeze, across, pair.spin, pair.turn_second, second * inverse,
-              blocks[static_cast<std::size_t>(pair.second)]);
+    const double across = (first + second) * pair.inverse_arm * pair.inverse_arm;
+    one.add(pair.normal, pair.squeeze, across, pair.spin, pair.turn_first);
+    one.mixed -= (first * pair.inverse_arm) * pair.normal;
+    two.add(pair.normal, pair.squeeze, across, pair.spin, pair.turn_second);
+    two.mixed += (second * pair.inverse_arm) * pair.normal;
   }
-  for (const auto& row : resistance.drags) {
-    const auto n = eigen_of(row.normal);
+  for (const auto& row : resistance.drags)
     for (const std::size_t s : {0U, 1U}) {
       double across = 0, turn = 0, mixed = 0;
       for (const auto& mode : row.drag.transverse) {
@@ -72,28 +82,25 @@ std::vector<Block> blocks_of(const Resistance& resistance) {
         turn += mode.turn[s] * mode.turn[s];
         mixed += mode.move[s] * mode.turn[s];
       }
-      add_block(n, row.drag.axial[s] * row.drag.axial[s], across,
-                row.drag.spin[s] * row.drag.spin[s], turn, mixed,
-                blocks[static_cast<std::size_t>(s == 0 ? row.first : row.second)]);
+      auto& block = blocks[static_cast<std::size_t>(s == 0 ? row.first : row.second)];
+      block.add(row.normal, row.drag.axial[s] * row.drag.axial[s], across,
+                row.drag.spin[s] * row.drag.spin[s], turn);
+      block.mixed += mixed * row.normal;
     }
-  }
-  return blocks;
 }
 
 /// The force on all spheres over their common velocity.
-Eigen::Matrix3d common_block(const Resistance& resistance) {
-  Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
-  for (const auto& sphere : resistance.spheres) block += sphere.move * Eigen::Matrix3d::Identity();
+Columns common_block(const Resistance& resistance) {
+  Block block;
+  for (const auto& sphere : resistance.spheres)
+    for (int d = 0; d < 3; ++d) block.move[static_cast<std::size_t>(d)][d] += sphere.move;
   for (const auto& row : resistance.drags) {
-    const auto n = eigen_of(row.normal);
-    const Eigen::Matrix3d nn = n * n.transpose();
     const auto square = [](double a) { return a * a; };
     double across = 0;
     for (const auto& mode : row.drag.transverse) across += square(mode.move[0] + mode.move[1]);
-    block += square(row.drag.axial[0] + row.drag.axial[1]) * nn +
-             across * (Eigen::Matrix3d::Identity() - nn);
+    block.add(row.normal, square(row.drag.axial[0] + row.drag.axial[1]), across, 0, 0);
   }
-  return block;
+  return block.move;
 }
 
 inline double dot(const Motion& a, const Motion& b) {
@@ -112,18 +119,35 @@ void Resistance::multiply(std::span<const Motion> motions, std::span<Motion> loa
 
 BlockPreconditioner::BlockPreconditioner(const Resistance& resistance)
     : inverses_(resistance.count()) {
-  const auto blocks = blocks_of(resistance);
-  for (std::size_t k = 0; k < blocks.size(); ++k) {
-    const Block inverse = blocks[k].llt().solve(Block::Identity());
-    for (int c = 0; c < 6; ++c) {
-      auto& column = inverses_[k].columns[static_cast<std::size_t>(c)];
-      column.along = Lanes{inverse(0, c), inverse(1, c), inverse(2, c), 0};
-      column.turn = Lanes{inverse(3, c), inverse(4, c), inverse(5, c), 0};
+  by_fastest_instructions([&] {
+    std::vector<Block> blocks(resistance.count());
+    add_blocks(resistance, blocks);
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+      const auto& block = blocks[k];
+      // With the rows of X = [mixed]x turn^-1, the block is inverted by move - X [mixed]x^T.
+      const Columns turn = inverse_of(block.turn);
+      Columns x, rest = block.move;
+      for (std::size_t c = 0; c < 3; ++c) x[c] = cross(block.mixed, turn[c]);
+      for (std::size_t c = 0; c < 3; ++c) {
+        Lanes unit{};
+        unit[static_cast<int>(c)] = 1;
+        rest[c] -= product(x, cross(unit, block.mixed));
+      }
+      const Columns move = inverse_of(rest);
+      auto& columns = inverses_[k].columns;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto transposed = [&](const Lanes& a) {
+          return Lanes{suspensions::dot(x[0], a), suspensions::dot(x[1], a),
+                       suspensions::dot(x[2], a), 0};
+        };
+        columns[c] = {move[c], -transposed(move[c])};
+        const Lanes moved = product(move, x[c]);
+        columns[c + 3] = {-moved, turn[c] + transposed(moved)};
+      }
     }
-  }
-  const Eigen::Matrix3d common = common_block(resistance).inverse();
-  for (int c = 0; c < 3; ++c)
-    translation_[static_cast<std::size_t>(c)] = Lanes{common(0, c), common(1, c), common(2, c), 0};
+    return 0;
+  });
+  translation_ = inverse_of(common_block(resistance));
 }
 
 ConjugateGradients::Result ConjugateGradients::solve(const Resistance& resistance,

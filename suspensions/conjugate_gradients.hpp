@@ -14,7 +14,7 @@ namespace viscontact::suspensions {
 
 /// The inverse of the 6 x 6 block of each sphere in R, and the inverse of what all spheres resist
 /// together: with little drag the blocks alone do not see a translation of all spheres.
-class BlockPreconditioner {
+class alignas(kLaneAlignment) BlockPreconditioner {
  public:
   explicit BlockPreconditioner(const Resistance& resistance);
   Motion times(std::size_t sphere, const Motion& load) const;

@@ -28,10 +28,14 @@ struct SuspensionTuning {
   static constexpr double kInstantTolerance = 1e-11;
   // Gaps below this fraction of the mean radius count as rounding errors.
   static constexpr double kLeastGap = 1e-12;
-  // In mean radii: what a step adds to the range of the search, because spheres move in it.
-  static constexpr double kSearchMargin = 0.1;
-  // Overlap that no step leaves, in mean radii.
-  static constexpr double kMostOverlap = 1e-7;
+  // In mean radii: the least range of the search, because spheres move in a step.
+  static constexpr double kLeastSearch = 0.2;
+  // Error of a given stress, relative, and solutions of a step for it.
+  static constexpr double kStressTolerance = 1e-8;
+  static constexpr int kMostRates = 12;
+  // Overlap that no step leaves, in mean radii: half of what is allowed, because a step that cannot
+  // end before it is still taken for a millionth of its length.
+  static constexpr double kMostOverlap = 5e-8;
 };
 
 void check_cell(const Setting& setting, const Particles& particles) {
@@ -161,9 +165,9 @@ struct SuspensionSimulation::Content {
     }
     return sum;
   }
-  std::vector<NearPair> find_pairs(double margin = 0) const {
+  std::vector<NearPair> find_pairs(double least_range = 0) const {
     return suspensions::near_pairs(cell(), state.particles.positions, state.particles.radii,
-                                   lubrication().range + margin);
+                                   std::max(lubrication().range, least_range));
   }
   double smallest_gap(const std::vector<NearPair>& pairs) const {
     double smallest = std::numeric_limits<double>::infinity();
@@ -175,6 +179,9 @@ struct SuspensionSimulation::Content {
 
   suspensions::InstantSolution solve_instant();
   std::vector<suspensions::ContactMemory> memories(double h) const;
+  /// `before` are the motions of the last step. Sets the rate if the stress is given.
+  suspensions::StepSolution solve_step(double h, const std::vector<NearPair>& pairs,
+                                       const std::vector<Motion>& before);
   /// The part of a step of length h up to which spheres that move by `motions` do not overlap.
   double free_part(const std::vector<NearPair>& pairs, const std::vector<Motion>& motions,
                    double h) const;
@@ -237,6 +244,7 @@ SuspensionSimulation::SuspensionSimulation(Setting setting, State state, int /*t
 }
 
 SuspensionSimulation::~SuspensionSimulation() = default;
+SuspensionSimulation::SuspensionSimulation(SuspensionSimulation&&) noexcept = default;
 
 const State& SuspensionSimulation::state() const { return content_->state; }
 const Rheology& SuspensionSimulation::rheology() const { return content_->rheology; }
@@ -284,7 +292,7 @@ double SuspensionSimulation::Content::free_part(const std::vector<NearPair>& pai
     const double sum = state.particles.radii[i] + state.particles.radii[j];
     const Vector apart = suspensions::carried(now, part * h, pair.apart) +
                          part * h * suspensions::vector_of(motions[j].along - motions[i].along);
-    return norm(apart) - sum >= std::min(norm(pair.apart) - sum, 0.0) - overlap;
+    return norm(apart) - sum >= std::min(norm(pair.apart) - sum, -overlap);
   };
   double part = 1;
   for (const auto& pair : pairs)
@@ -346,6 +354,68 @@ void SuspensionSimulation::Content::remember(
   state.memories = std::move(memories_now);
 }
 
+suspensions::StepSolution SuspensionSimulation::Content::solve_step(
+    double h, const std::vector<NearPair>& pairs, const std::vector<Motion>& before) {
+  suspensions::StepProblem problem;
+  problem.lubrication = lubrication();
+  if (setting.laws.friction) problem.friction = setting.laws.friction->coefficient;
+  problem.radii = state.particles.radii;
+  problem.mean_radius = mean_radius;
+  problem.pairs = pairs;
+  problem.memories = memories(h);
+  problem.motions = before;
+  const double first_rate = state.shear.rate;
+  const auto solve_at = [&](double rate) {
+    state.shear.rate = rate;
+    auto now = problem;
+    // Motions of a suspension at another rate are nearly proportional to it.
+    for (auto& motion : now.motions) {
+      motion.along *= rate / first_rate;
+      motion.turn *= rate / first_rate;
+    }
+    now.loads = given_loads(state.time);
+    now.gradient = gradient_now();
+    now.h = h;
+    const auto repulsion = add_repulsion(pairs, now.loads);
+    auto solution = suspensions::SuspensionStep(std::move(now)).solve();
+    solution.stresses.repulsion = repulsion;
+    return solution;
+  };
+  if (!lubrication().stress) return solve_at(1);
+
+  // The rate by the secant method, because the stress is nearly proportional to it.
+  const double target = *lubrication().stress;
+  const auto stress_of = [&](const suspensions::StepSolution& solution) {
+    Rheology found;
+    suspensions::SymmetricTensor now;
+    now.add(state.shear.rate, strain);
+    suspensions::set_stresses(solution.stresses, now, lubrication().viscosity, volume, found);
+    return found.viscosity * lubrication().viscosity * state.shear.rate * gradient[0][1];
+  };
+  double rate = first_rate;
+  auto solution = solve_at(rate);
+  double error = stress_of(solution) - target, slope = (error + target) / rate;
+  int iterations = solution.iterations, solutions = solution.solutions;
+  bool converged = false;
+  for (int k = 0; k < SuspensionTuning::kMostRates; ++k) {
+    converged = std::abs(error) <= SuspensionTuning::kStressTolerance * std::abs(target);
+    if (converged) break;
+    const double next = rate - error / slope;
+    if (!(next * rate > 0)) break;
+    solution = solve_at(next);
+    const double found = stress_of(solution) - target;
+    if (found != error && next != rate) slope = (found - error) / (next - rate);
+    rate = next;
+    error = found;
+    iterations += solution.iterations;
+    solutions += solution.solutions;
+  }
+  solution.converged = solution.converged && converged;
+  solution.iterations = iterations;
+  solution.solutions = solutions;
+  return solution;
+}
+
 StepReport SuspensionSimulation::step(double end) {
   auto& content = *content_;
   auto& state = content.state;
@@ -354,31 +424,17 @@ StepReport SuspensionSimulation::step(double end) {
   const auto interval = StepGrid(content.setting.time_step).next(state, end);
   if (!interval) return report;
   if (state.steps == 0) content.solve_instant();
-  state.shear.rate = 1;
   double h = interval->h;
-
-  suspensions::StepProblem problem;
-  problem.lubrication = content.lubrication();
-  if (content.setting.laws.friction) problem.friction = content.setting.laws.friction->coefficient;
-  problem.radii = state.particles.radii;
-  problem.mean_radius = content.mean_radius;
-  problem.pairs = content.find_pairs(SuspensionTuning::kSearchMargin);
-  problem.memories = content.memories(h);
-  problem.motions = content.relative_motions();
-  problem.loads = content.given_loads(state.time);
-  problem.gradient = content.gradient_now();
-  problem.h = h;
-  const auto repulsion = content.add_repulsion(problem.pairs, problem.loads);
-  const auto pairs = problem.pairs;
-  suspensions::SuspensionStep step(std::move(problem));
-  auto solution = step.solve();
-  solution.stresses.repulsion = repulsion;
+  const auto pairs = content.find_pairs(SuspensionTuning::kLeastSearch);
+  const auto before = content.relative_motions();
+  auto solution = content.solve_step(h, pairs, before);
 
   report.parts = 1;
   report.iterations = solution.iterations;
   report.contacts = solution.touching;
   report.residual = solution.residual;
   report.converged = solution.converged;
+  report.has_given_loads = solution.has_given_loads;
   report.largest_overlap = std::max(-solution.smallest_gap / content.mean_radius, 0.0);
   const double part = content.free_part(pairs, solution.motions, h);
   auto taken = *interval;
@@ -402,7 +458,8 @@ StepReport SuspensionSimulation::step(double end) {
   rheology = {.time = state.time, .strain = state.shear.strain};
   rheology.pairs = pairs.size();
   rheology.contacts = solution.touching;
-  rheology.smallest_gap = content.smallest_gap(pairs);
+  rheology.smallest_gap =
+      part < 1 ? content.smallest_gap(content.find_pairs()) : solution.smallest_gap;
   rheology.dissipation = solution.dissipation;
   suspensions::SymmetricTensor rate;
   rate.add(state.shear.rate, content.strain);

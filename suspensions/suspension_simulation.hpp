@@ -22,6 +22,7 @@ class SuspensionSimulation : public ParticleSimulation {
   /// for the range of a pair, or if the flow does not carry the images of spheres.
   SuspensionSimulation(Setting setting, State state, int threads);
   ~SuspensionSimulation() override;
+  SuspensionSimulation(SuspensionSimulation&&) noexcept;
 
   StepReport step(double end) override;
   const State& state() const override;

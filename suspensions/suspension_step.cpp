@@ -16,6 +16,8 @@ using particles::PairTerms;
 struct StepTuning {
   // Residual of the last linear problem: its power error over the dissipation is the square.
   static constexpr double kTolerance = 1e-5;
+  // Without films, where rounding errors would else grow by 1e8 in ten steps.
+  static constexpr double kToleranceWithoutFilm = 1e-7;
   // The last linear problems are solved to this part of it, so that what changes after them, such as
   // directions at the end of the step, does not need another one.
   static constexpr double kSolved = 0.1;
@@ -24,6 +26,9 @@ struct StepTuning {
   // Error of the gap of a contact, in mean radii.
   static constexpr double kGapTolerance = 3e-8;
   static constexpr int kMostSolutions = 150;
+  // After so many the loads that bound friction stay as they are, because Coulomb's law may have no
+  // solution that the iteration finds. Less than a tenth of the steps of rough spheres needs it.
+  static constexpr int kMostWithLoads = 90;
   static constexpr int kMostIterations = 5000;
   // After so many linear problems a change is shortened if the slope at its end is above this part
   // of that at its begin. Without this, contacts may come and go for ever.
@@ -72,6 +77,7 @@ struct SuspensionStep::Film {
   double constant = 0;      // [M L/T^2]
   double arm = 0;           // the strain's share in the motion of the surfaces [L]
   double stress_axial = 0;  // beside the force [M L^2/T]
+  Vector carried{};         // from the first to the second sphere, if they move with the flow [L]
   double affine_gap = 0;    // along the normal, if the spheres only move with the flow [L]
   double curvature = 0;     // the gap at the end less that along the normal [L]
   double at = 0;            // q' + delta [L]
@@ -97,6 +103,7 @@ struct SuspensionStep::Contact {
   Lanes friction{};
   // Where friction was linearised: slip, friction, stiffness, and the direction without stiffness.
   bool slides = false;
+  double given_bound = 0;  // of friction, with given loads
   Lanes at_slip{}, at_friction{}, direction{};
   double at_stiffness = 0;
   double turn_first = 0, turn_mixed = 0, turn_second = 0;  // of the film
@@ -126,10 +133,10 @@ void SuspensionStep::add_films() {
     const auto& pair = problem_.pairs[p];
     const Vector n = vector_of(row.normal);
     const double sum = strain.radii, along = dot(n, strain_.times(n));
-    const Vector carried_on = carried(problem_.gradient, problem_.h, pair.apart);
+    film.carried = carried(problem_.gradient, problem_.h, pair.apart);
     film.delta = problem_.lubrication.regularisation * sum / 2;
     film.start = norm(pair.apart) - sum + film.delta;
-    film.affine_gap = dot(n, carried_on) - sum;
+    film.affine_gap = dot(n, film.carried) - sum;
     if (row.squeeze > 0) {
       // The resistance at half of the step, as if it were alpha/(q + delta) at all gaps nearby.
       film.alpha = row.squeeze * (system_.gap_of(p) + film.delta);
@@ -233,9 +240,8 @@ void SuspensionStep::find_gaps() {
   for (std::size_t p = 0; p < rows.size(); ++p) {
     auto& film = films_[p];
     const auto& pair = problem_.pairs[p];
-    const Lanes apart =
-        lanes_of(carried(problem_.gradient, problem_.h, pair.apart)) +
-        problem_.h * (motions_[index(pair.second)].along - motions_[index(pair.first)].along);
+    const Lanes apart = lanes_of(film.carried) + problem_.h * (motions_[index(pair.second)].along -
+                                                               motions_[index(pair.first)].along);
     const double distance = std::sqrt(dot(apart, apart));
     // A gap along the normal is a lower bound of the gap. A film whose gap may become 0 has this
     // one: with the gap itself, spheres that pass each other come as near as 1e-12.
@@ -301,6 +307,7 @@ void SuspensionStep::linearise(bool is_first) {
 }
 
 double SuspensionStep::friction_bound(const Contact& contact) const {
+  if (has_given_loads_) return contact.given_bound;
   return problem_.friction * std::max(contact.memory.load - contact.memory.carried_by_film, 0.0);
 }
 
@@ -481,7 +488,14 @@ StepSolution SuspensionStep::solve() {
   while (solution.solutions < StepTuning::kMostSolutions) {
     if (solution.solutions < 3) {
       sum_stresses(solution);
-      allowed = StepTuning::kTolerance * StepTuning::kTolerance * std::abs(solution.dissipation);
+      const double tolerance = problem_.lubrication.pairs == PairTerms::kNone
+                                   ? StepTuning::kToleranceWithoutFilm
+                                   : StepTuning::kTolerance;
+      allowed = tolerance * tolerance * std::abs(solution.dissipation);
+    }
+    if (problem_.friction > 0 && solution.solutions == StepTuning::kMostWithLoads) {
+      for (auto& contact : contacts_) contact.given_bound = friction_bound(contact);
+      has_given_loads_ = true;
     }
     linearise(solution.solutions == 0);
     const bool is_checked = solution.solutions >= StepTuning::kUnchecked || problem_.friction > 0;
@@ -509,6 +523,7 @@ StepSolution SuspensionStep::solve() {
   }
   sum_stresses(solution);
   solution.motions = motions_;
+  solution.has_given_loads = has_given_loads_;
   solution.residual = gap_error_ / problem_.mean_radius;
   solution.smallest_gap = smallest_gap_;
   for (auto& contact : contacts_) {

@@ -43,8 +43,9 @@ struct StepSolution {
   int solutions = 0;       ///< linear problems
   int iterations = 0;      ///< of conjugate gradients
   bool converged = false;
-  double residual = 0;      ///< the largest error of a gap in mean radii
-  double smallest_gap = 0;  ///< at the end [L]
+  bool has_given_loads = false;  ///< whether the loads that bound friction were fixed
+  double residual = 0;           ///< the largest error of a gap in mean radii
+  double smallest_gap = 0;       ///< at the end [L]
   std::size_t touching = 0;
 };
 
@@ -93,7 +94,8 @@ class SuspensionStep {
   std::vector<Film> films_;
   std::vector<Contact> contacts_;
   double gap_error_ = 0, smallest_gap_ = 0;  // [L]
-  bool is_film_exact_ = true;                // whether all films were linearised where they are
+  bool has_given_loads_ = false;
+  bool is_film_exact_ = true;  // whether all films were linearised where they are
 };
 
 }  // namespace viscontact::suspensions
