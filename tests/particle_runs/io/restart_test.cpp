@@ -194,9 +194,9 @@ TEST_F(RestartFile, WithListsOfOtherLengthsIsRefused) {
 }
 
 TEST_F(RestartFile, OfAnotherVersionIsRefused) {
-  for (const auto* version : {"version 14", "version :", "version 12", "version 13x"}) {
+  for (const auto* version : {"version 15", "version :", "version 13", "version 14x"}) {
     auto text = write_restart(disc_on_plane(-0.5));
-    text.replace(text.find("version 13"), 10, version);
+    text.replace(text.find("version 14"), 10, version);
     EXPECT_THAT(bad_input([&] { read(text); }), IsAt("restart.bin"));
   }
 }
