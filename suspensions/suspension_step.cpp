@@ -79,7 +79,7 @@ struct SuspensionStep::Film {
   double stress_axial = 0;  // beside the force [M L^2/T]
   Vector carried{};         // from the first to the second sphere, if they move with the flow [L]
   double affine_gap = 0;    // along the normal, if the spheres only move with the flow [L]
-  double curvature = 0;     // the gap at the end less that along the normal [L]
+  double curvature = 0;     // the gap at the end less the linear one [L]
   double at = 0;            // q' + delta [L]
   double load = 0;          // linearised force without motion, with that of the contact
   std::int32_t contact = -1;
@@ -142,9 +142,8 @@ void SuspensionStep::add_films() {
       film.alpha = row.squeeze * (system_.gap_of(p) + film.delta);
       film.arm = strain.squeeze / row.squeeze;
       film.stress_axial = strain.stress_axial - film.arm * strain.squeeze;
-      const double rate =
-          dot(n, times(problem_.gradient, mean_carried(problem_.gradient, problem_.h, pair.apart)));
-      film.constant = strain.squeeze * along - row.squeeze * rate;
+      // The flow opens the gap by r nEn, and the surfaces by arm nEn.
+      film.constant = (strain.squeeze - row.squeeze * (sum + system_.gap_of(p))) * along;
     }
     film.at = film.start;
     row.squeeze = 0;
@@ -240,13 +239,17 @@ void SuspensionStep::find_gaps() {
   for (std::size_t p = 0; p < rows.size(); ++p) {
     auto& film = films_[p];
     const auto& pair = problem_.pairs[p];
-    const Lanes apart = lanes_of(film.carried) + problem_.h * (motions_[index(pair.second)].along -
-                                                               motions_[index(pair.first)].along);
-    const double distance = std::sqrt(dot(apart, apart));
+    const Vector change =
+        vector_of(motions_[index(pair.second)].along - motions_[index(pair.first)].along);
+    const Vector apart =
+        film.carried + problem_.h * mean_carried(problem_.gradient, problem_.h, change);
+    const double distance = norm(apart);
     // A gap along the normal is a lower bound of the gap. A film whose gap may become 0 has this
     // one: with the gap itself, spheres that pass each other come as near as 1e-12.
     const bool is_bound = film.alpha > 0 && film.delta == 0 && problem_.lubrication.roughness == 0;
-    film.curvature = is_bound ? 0 : distance - dot(rows[p].normal, apart);
+    film.curvature = (is_bound ? dot(vector_of(rows[p].normal), apart) : distance) -
+                     system_.strains()[p].radii - film.affine_gap -
+                     problem_.h * opening(p, motions_);
     const double gap = distance - system_.strains()[p].radii;
     smallest_gap_ = std::min(smallest_gap_, gap);
     if (film.contact < 0) {
@@ -413,7 +416,9 @@ void SuspensionStep::sum_stresses(StepSolution& solution) {
     if (film.contact < 0) continue;
     const auto& contact = contacts_[index(film.contact)];
     const double load = contact.memory.load;
-    const Vector lever = mean_carried(problem_.gradient, problem_.h, problem_.pairs[p].apart);
+    const Vector change =
+        vector_of(motions_[index(row.second)].along - motions_[index(row.first)].along);
+    const Vector lever = mean_path(problem_.gradient, problem_.h, problem_.pairs[p].apart, change);
     if (load != 0) {
       sums.contact.add_pair_force(load * n, lever, problem_.gradient);
       solution.dissipation -= load * (rate + dot(n, times(problem_.gradient, lever)));
