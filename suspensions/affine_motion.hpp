@@ -32,6 +32,19 @@ inline Vector mean_carried(const Matrix& gradient, double t, const Vector& x) {
   return sum;
 }
 
+/// The matrix of carried() or mean_carried().
+inline Matrix matrix_of(Vector (*map)(const Matrix&, double, const Vector&), const Matrix& gradient,
+                        double t) {
+  Matrix matrix{};
+  for (std::size_t j = 0; j < 3; ++j) {
+    Vector unit{};
+    unit[j] = 1;
+    const Vector column = map(gradient, t, unit);
+    for (std::size_t i = 0; i < 3; ++i) matrix[i][j] = column[i];
+  }
+  return matrix;
+}
+
 /// The mean over 0 < s < t of the path exp(s G) x + s (mean of exp(. G) v over s).
 inline Vector mean_path(const Matrix& gradient, double t, const Vector& x, const Vector& v) {
   Vector sum = mean_carried(gradient, t, x), term = (t / 2) * v;
