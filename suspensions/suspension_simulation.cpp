@@ -290,8 +290,9 @@ double SuspensionSimulation::Content::free_part(const std::vector<NearPair>& pai
   const auto is_free = [&](const NearPair& pair, double part) {
     const auto i = index_of(pair.first), j = index_of(pair.second);
     const double sum = state.particles.radii[i] + state.particles.radii[j];
+    const Vector change = suspensions::vector_of(motions[j].along - motions[i].along);
     const Vector apart = suspensions::carried(now, part * h, pair.apart) +
-                         part * h * suspensions::vector_of(motions[j].along - motions[i].along);
+                         part * h * suspensions::mean_carried(now, part * h, change);
     return norm(apart) - sum >= std::min(norm(pair.apart) - sum, -overlap);
   };
   double part = 1;
@@ -304,8 +305,9 @@ void SuspensionSimulation::Content::move(const std::vector<Motion>& motions, dou
   auto& p = particles();
   const auto now = gradient_now();
   for (std::size_t k = 0; k < p.count(); ++k) {
+    const Vector v = suspensions::vector_of(motions[k].along);
     const Vector x =
-        suspensions::carried(now, h, p.position(k)) + h * suspensions::vector_of(motions[k].along);
+        suspensions::carried(now, h, p.position(k)) + h * suspensions::mean_carried(now, h, v);
     std::ranges::copy(x, &p.positions[3 * k]);
   }
   const double displacement = h * now[0][1] * periods_of(setting.domain)[1];

@@ -1,4 +1,4 @@
-// Many spheres with lubrication between close pairs, docs/physics.md (9.1) to (9.10).
+// Many spheres with lubrication between close pairs, docs/physics.md (9.1) to (9.17).
 #pragma once
 
 #include <cstddef>
