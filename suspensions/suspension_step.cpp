@@ -42,6 +42,8 @@ struct StepTuning {
   static constexpr double kLeastWidth = 1e-3, kWidthWithoutFilm = 1e-2;
   // A film is linearised at no less than this part of its width before.
   static constexpr double kLeastPart = 0.2;
+  // Smaller gaps are rounding errors.
+  static constexpr double kLeastGap = 1e-12;
   // Gaps in mean radii below which a pair may touch in the step; others are added where they do.
   static constexpr double kNearGap = 0.1;
 };
@@ -68,7 +70,8 @@ std::vector<PlacedPair> predicted(const StepProblem& problem, const std::vector<
     const double distance = norm(apart);
     const double contact = problem.lubrication.roughness * sum / 2;
     // The prediction may close a gap; a film resists that.
-    const double least = std::max({contact, start / 4, 1e-12 * problem.mean_radius});
+    const double least =
+        std::max({contact, start / 4, StepTuning::kLeastGap * problem.mean_radius});
     result.push_back(
         {pair.first, pair.second, (1 / distance) * apart, std::max(distance - sum, least)});
   }
@@ -159,7 +162,8 @@ void SuspensionStep::add_films() {
     const double sum = strain.radii, along = dot(n, strain_.times(n));
     film.carried = times(carry, pair.apart);
     film.delta = problem_.lubrication.regularisation * sum / 2;
-    film.start = norm(pair.apart) - sum + film.delta;
+    film.start =
+        std::max(norm(pair.apart) - sum, StepTuning::kLeastGap * problem_.mean_radius) + film.delta;
     film.affine_gap = dot(n, film.carried) - sum;
     if (row.squeeze > 0) {
       // The resistance at half of the step, as if it were alpha/(q + delta) at all gaps nearby.
