@@ -33,6 +33,8 @@ struct SuspensionTuning {
   // Error of a given stress, relative, and solutions of a step for it.
   static constexpr double kStressTolerance = 1e-8;
   static constexpr int kMostRates = 12;
+  // Overlap at the start, in mean radii, that counts as rounding errors of a file.
+  static constexpr double kMostStartOverlap = 1e-6;
   // Overlap that no step leaves, in mean radii: half of what is allowed, because a step that cannot
   // end before it is still taken for a millionth of its length.
   static constexpr double kMostOverlap = 5e-8;
@@ -57,6 +59,15 @@ void check_cell(const Setting& setting, const Particles& particles) {
                     "along y");
   if (periods[1] > 0 && !(periods[0] > 0) && lubrication.gradient[0][1] != 0)
     throw Error(ErrorKind::kBadInput, "a shear flow with a period along y needs one along x");
+}
+
+void check_spheres(const Setting& setting, const Particles& particles, double smallest_gap) {
+  if (!setting.given_motions.empty())
+    throw Error(ErrorKind::kBadInput,
+                "spheres with lubrication cannot have given motions; give them forces");
+  if (smallest_gap < -SuspensionTuning::kMostStartOverlap * mean_radius(particles))
+    throw Error(ErrorKind::kBadInput, "two spheres overlap by {} at the start; they must not",
+                -smallest_gap);
 }
 
 }  // namespace
@@ -241,6 +252,7 @@ SuspensionSimulation::SuspensionSimulation(Setting setting, State state, int /*t
   }
   content.wrap();
   content.set_cell();
+  check_spheres(content.setting, content.particles(), content.smallest_gap(content.find_pairs()));
 }
 
 SuspensionSimulation::~SuspensionSimulation() = default;
@@ -290,8 +302,9 @@ double SuspensionSimulation::Content::free_part(const std::vector<NearPair>& pai
   const auto is_free = [&](const NearPair& pair, double part) {
     const auto i = index_of(pair.first), j = index_of(pair.second);
     const double sum = state.particles.radii[i] + state.particles.radii[j];
+    const Vector change = suspensions::vector_of(motions[j].along - motions[i].along);
     const Vector apart = suspensions::carried(now, part * h, pair.apart) +
-                         part * h * suspensions::vector_of(motions[j].along - motions[i].along);
+                         part * h * suspensions::mean_carried(now, part * h, change);
     return norm(apart) - sum >= std::min(norm(pair.apart) - sum, -overlap);
   };
   double part = 1;
@@ -304,8 +317,9 @@ void SuspensionSimulation::Content::move(const std::vector<Motion>& motions, dou
   auto& p = particles();
   const auto now = gradient_now();
   for (std::size_t k = 0; k < p.count(); ++k) {
+    const Vector v = suspensions::vector_of(motions[k].along);
     const Vector x =
-        suspensions::carried(now, h, p.position(k)) + h * suspensions::vector_of(motions[k].along);
+        suspensions::carried(now, h, p.position(k)) + h * suspensions::mean_carried(now, h, v);
     std::ranges::copy(x, &p.positions[3 * k]);
   }
   const double displacement = h * now[0][1] * periods_of(setting.domain)[1];
@@ -429,6 +443,8 @@ StepReport SuspensionSimulation::step(double end) {
   const auto before = content.relative_motions();
   auto solution = content.solve_step(h, pairs, before);
 
+  if (!std::isfinite(solution.dissipation))
+    throw Error(ErrorKind::kNotConverged, "the step from time {} has no solution", state.time);
   report.parts = 1;
   report.iterations = solution.iterations;
   report.contacts = solution.touching;

@@ -1,4 +1,4 @@
-// Many spheres with lubrication between close pairs, docs/physics.md (9.1) to (9.10).
+// Many spheres with lubrication between close pairs, docs/physics.md (9.1) to (9.17).
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,8 @@ class SuspensionSimulation : public ParticleSimulation {
  public:
   /// `setting` has PairLubrication and no fluid. `state` is that of a restart file, or a state of
   /// which only the particles, which turn, are set. Throws Error(kBadInput) if a period is too short
-  /// for the range of a pair, or if the flow does not carry the images of spheres.
+  /// for the range of a pair, if the flow does not carry the images of spheres, if motions are
+  /// given, or if spheres overlap. `threads` has no effect yet.
   SuspensionSimulation(Setting setting, State state, int threads);
   ~SuspensionSimulation() override;
   SuspensionSimulation(SuspensionSimulation&&) noexcept;

@@ -30,6 +30,8 @@ struct StepTuning {
   // solution that the iteration finds. Less than a tenth of the steps of rough spheres needs it.
   static constexpr int kMostWithLoads = 90;
   static constexpr int kMostIterations = 5000;
+  // After so many the motions are good enough for the place of pairs at half of the step.
+  static constexpr int kRough = 2;
   // After so many linear problems a change is shortened if the slope at its end is above this part
   // of that at its begin. Without this, contacts may come and go for ever.
   static constexpr int kUnchecked = 3, kBisections = 6;
@@ -40,26 +42,36 @@ struct StepTuning {
   static constexpr double kLeastWidth = 1e-3, kWidthWithoutFilm = 1e-2;
   // A film is linearised at no less than this part of its width before.
   static constexpr double kLeastPart = 0.2;
+  // Smaller gaps are rounding errors.
+  static constexpr double kLeastGap = 1e-12;
   // Gaps in mean radii below which a pair may touch in the step; others are added where they do.
   static constexpr double kNearGap = 0.1;
 };
 
+void sort(std::vector<ContactMemory>& contacts) {
+  std::ranges::sort(contacts, [](const ContactMemory& a, const ContactMemory& b) {
+    return a.first < b.first || (a.first == b.first && a.second < b.second);
+  });
+}
+
 std::size_t index(std::int32_t k) { return static_cast<std::size_t>(k); }
 
-/// The pairs at half of the step that the last motions predict.
-std::vector<PlacedPair> predicted(const StepProblem& problem) {
+/// The pairs at half of the step, if the spheres have these motions.
+std::vector<PlacedPair> predicted(const StepProblem& problem, const std::vector<Motion>& motions) {
   std::vector<PlacedPair> result;
   result.reserve(problem.pairs.size());
   const double half = problem.h / 2;
+  const Matrix carry = matrix_of(carried, problem.gradient, half);
   for (const auto& pair : problem.pairs) {
     const auto i = index(pair.first), j = index(pair.second);
     const double sum = problem.radii[i] + problem.radii[j], start = norm(pair.apart) - sum;
-    const Vector apart = carried(problem.gradient, half, pair.apart) +
-                         half * vector_of(problem.motions[j].along - problem.motions[i].along);
+    const Vector apart =
+        times(carry, pair.apart) + half * vector_of(motions[j].along - motions[i].along);
     const double distance = norm(apart);
     const double contact = problem.lubrication.roughness * sum / 2;
     // The prediction may close a gap; a film resists that.
-    const double least = std::max({contact, start / 4, 1e-12 * problem.mean_radius});
+    const double least =
+        std::max({contact, start / 4, StepTuning::kLeastGap * problem.mean_radius});
     result.push_back(
         {pair.first, pair.second, (1 / distance) * apart, std::max(distance - sum, least)});
   }
@@ -79,7 +91,7 @@ struct SuspensionStep::Film {
   double stress_axial = 0;  // beside the force [M L^2/T]
   Vector carried{};         // from the first to the second sphere, if they move with the flow [L]
   double affine_gap = 0;    // along the normal, if the spheres only move with the flow [L]
-  double curvature = 0;     // the gap at the end less that along the normal [L]
+  double curvature = 0;     // the gap at the end less the linear one [L]
   double at = 0;            // q' + delta [L]
   double load = 0;          // linearised force without motion, with that of the contact
   std::int32_t contact = -1;
@@ -112,20 +124,35 @@ struct SuspensionStep::Contact {
 SuspensionStep::SuspensionStep(StepProblem problem)
     : problem_(std::move(problem)),
       strain_(strain_rate_of(problem_.gradient)),
-      system_(problem_.lubrication, problem_.radii, predicted(problem_)),
+      system_(problem_.lubrication, problem_.radii, predicted(problem_, problem_.motions)),
       motions_(problem_.motions) {
   add_films();
   add_contacts();
-  given_loads_ = problem_.loads;
-  system_.subtract_strain_loads(strain_, given_loads_);
 }
 
 SuspensionStep::~SuspensionStep() = default;
 
+void SuspensionStep::place_again() {
+  std::vector<double> widths;
+  for (const auto& film : films_) widths.push_back(film.at);
+  problem_.memories.clear();
+  for (auto& contact : contacts_) {
+    contact.memory.friction = vector_of(contact.friction);
+    problem_.memories.push_back(contact.memory);
+  }
+  sort(problem_.memories);
+  contacts_.clear();
+  system_ = PairSystem(problem_.lubrication, problem_.radii, predicted(problem_, motions_));
+  add_films();
+  add_contacts();
+  for (std::size_t p = 0; p < films_.size(); ++p) films_[p].at = widths[p];
+}
+
 void SuspensionStep::add_films() {
   auto& rows = system_.resistance().pairs;
   assert(rows.size() == problem_.pairs.size());
-  films_.resize(rows.size());
+  const Matrix carry = matrix_of(carried, problem_.gradient, problem_.h);
+  films_.assign(rows.size(), {});
   for (std::size_t p = 0; p < rows.size(); ++p) {
     auto& row = rows[p];
     auto& strain = system_.strains()[p];
@@ -133,24 +160,26 @@ void SuspensionStep::add_films() {
     const auto& pair = problem_.pairs[p];
     const Vector n = vector_of(row.normal);
     const double sum = strain.radii, along = dot(n, strain_.times(n));
-    film.carried = carried(problem_.gradient, problem_.h, pair.apart);
+    film.carried = times(carry, pair.apart);
     film.delta = problem_.lubrication.regularisation * sum / 2;
-    film.start = norm(pair.apart) - sum + film.delta;
+    film.start =
+        std::max(norm(pair.apart) - sum, StepTuning::kLeastGap * problem_.mean_radius) + film.delta;
     film.affine_gap = dot(n, film.carried) - sum;
     if (row.squeeze > 0) {
       // The resistance at half of the step, as if it were alpha/(q + delta) at all gaps nearby.
       film.alpha = row.squeeze * (system_.gap_of(p) + film.delta);
       film.arm = strain.squeeze / row.squeeze;
       film.stress_axial = strain.stress_axial - film.arm * strain.squeeze;
-      const double rate =
-          dot(n, times(problem_.gradient, mean_carried(problem_.gradient, problem_.h, pair.apart)));
-      film.constant = strain.squeeze * along - row.squeeze * rate;
+      // The flow opens the gap by r nEn, and the surfaces by arm nEn.
+      film.constant = (strain.squeeze - row.squeeze * (sum + system_.gap_of(p))) * along;
     }
     film.at = film.start;
     row.squeeze = 0;
     strain.squeeze = 0;
     strain.stress_axial = 0;
   }
+  given_loads_ = problem_.loads;
+  system_.subtract_strain_loads(strain_, given_loads_);
 }
 
 void SuspensionStep::add_contact(std::size_t p, const ContactMemory& memory) {
@@ -235,18 +264,22 @@ Lanes SuspensionStep::slip(const Contact& contact, const std::vector<Motion>& mo
 
 void SuspensionStep::find_gaps() {
   const auto& rows = system_.resistance().pairs;
+  const Matrix mean = matrix_of(mean_carried, problem_.gradient, problem_.h);
   gap_error_ = 0;
   smallest_gap_ = std::numeric_limits<double>::infinity();
   for (std::size_t p = 0; p < rows.size(); ++p) {
     auto& film = films_[p];
     const auto& pair = problem_.pairs[p];
-    const Lanes apart = lanes_of(film.carried) + problem_.h * (motions_[index(pair.second)].along -
-                                                               motions_[index(pair.first)].along);
-    const double distance = std::sqrt(dot(apart, apart));
+    const Vector change =
+        vector_of(motions_[index(pair.second)].along - motions_[index(pair.first)].along);
+    const Vector apart = film.carried + problem_.h * times(mean, change);
+    const double distance = norm(apart);
     // A gap along the normal is a lower bound of the gap. A film whose gap may become 0 has this
     // one: with the gap itself, spheres that pass each other come as near as 1e-12.
     const bool is_bound = film.alpha > 0 && film.delta == 0 && problem_.lubrication.roughness == 0;
-    film.curvature = is_bound ? 0 : distance - dot(rows[p].normal, apart);
+    film.curvature = (is_bound ? dot(vector_of(rows[p].normal), apart) : distance) -
+                     system_.strains()[p].radii - film.affine_gap -
+                     problem_.h * opening(p, motions_);
     const double gap = distance - system_.strains()[p].radii;
     smallest_gap_ = std::min(smallest_gap_, gap);
     if (film.contact < 0) {
@@ -413,7 +446,9 @@ void SuspensionStep::sum_stresses(StepSolution& solution) {
     if (film.contact < 0) continue;
     const auto& contact = contacts_[index(film.contact)];
     const double load = contact.memory.load;
-    const Vector lever = mean_carried(problem_.gradient, problem_.h, problem_.pairs[p].apart);
+    const Vector change =
+        vector_of(motions_[index(row.second)].along - motions_[index(row.first)].along);
+    const Vector lever = mean_path(problem_.gradient, problem_.h, problem_.pairs[p].apart, change);
     if (load != 0) {
       sums.contact.add_pair_force(load * n, lever, problem_.gradient);
       solution.dissipation -= load * (rate + dot(n, times(problem_.gradient, lever)));
@@ -517,9 +552,10 @@ StepSolution SuspensionStep::solve() {
     if (is_steady && result.iterations == 0) tightening *= 0.1;
     if (is_checked && (count_changes() > 0 || !is_film_exact_ || problem_.friction > 0))
       shorten(before);
+    if (solution.solutions == StepTuning::kRough) place_again();
     find_gaps();
     // Multipliers are those of a problem that is solved, whose contacts are the right ones.
-    if (count_changes() == 0) update_contacts();
+    if (solution.solutions != StepTuning::kRough && count_changes() == 0) update_contacts();
   }
   sum_stresses(solution);
   solution.motions = motions_;
@@ -532,9 +568,7 @@ StepSolution SuspensionStep::solve() {
     if (contact.memory.load != 0 || contact.memory.lowest != 0)
       solution.contacts.push_back(contact.memory);
   }
-  std::ranges::sort(solution.contacts, [](const ContactMemory& a, const ContactMemory& b) {
-    return a.first < b.first || (a.first == b.first && a.second < b.second);
-  });
+  sort(solution.contacts);
   return solution;
 }
 

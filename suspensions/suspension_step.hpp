@@ -58,6 +58,8 @@ class SuspensionStep {
  private:
   struct Film;
   struct Contact;
+  // Takes pairs at half of the step of the present motions.
+  void place_again();
   void add_films();
   void add_contacts();
   void add_contact(std::size_t p, const ContactMemory& memory);

@@ -316,8 +316,7 @@ ParticleLines read_particles_of_case(const case_file::TomlSection& root, Particl
   read_membranes(root, c, lines);
   read_sources(root, c);
   add_missing_shapes(c.particles);
-  if (!c.setting.fluid &&
-      (c.setting.laws.friction || c.setting.lubrication || c.particles.turn()))
+  if (!c.setting.fluid && (c.setting.laws.friction || c.setting.lubrication || c.particles.turn()))
     add_rotation(c.particles);
   if (c.particles.count() > 0 || !c.setting.sources.empty()) return lines;
   if (!c.particles_file.empty())

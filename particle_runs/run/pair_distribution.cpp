@@ -50,6 +50,36 @@ std::vector<std::size_t> counted_frames(const ParticlesCase& c, const Playback& 
   return some;
 }
 
+/// The centres of the spheres, followed by those of their images near the cell.
+struct Places {
+  std::vector<double> positions;       // [L]
+  std::vector<std::size_t> particles;  // of each place
+};
+
+/// Images that are further than `reach` [L] from the cell are left out.
+Places places_of(const Playback& playback, const Frame& frame, double reach) {
+  const auto cell = cell_at(playback, frame);
+  Places places;
+  const auto add = [&](std::size_t k, const Vector& x) {
+    places.positions.insert(places.positions.end(), x.begin(), x.end());
+    places.particles.push_back(k);
+  };
+  for (std::size_t k = 0; k < playback.radii.size(); ++k) add(k, position(playback, frame, k));
+  for (std::int32_t image = -kLargestImage; image <= kLargestImage; ++image) {
+    if (image == 0) continue;
+    const Vector shift = shift_of(cell, image);
+    for (std::size_t k = 0; k < playback.radii.size(); ++k) {
+      const Vector x = position(playback, frame, k) + shift;
+      bool is_near = true;
+      for (std::size_t d = 0; d < 3; ++d)
+        is_near =
+            is_near && x[d] > cell.from[d] - reach && x[d] < cell.from[d] + cell.lengths[d] + reach;
+      if (is_near) add(k, x);
+    }
+  }
+  return places;
+}
+
 }  // namespace
 
 std::vector<PairDistributionRow> pair_distribution(const ParticlesCase& c,
@@ -73,16 +103,20 @@ std::vector<PairDistributionRow> pair_distribution(const ParticlesCase& c,
   const auto frames = counted_frames(c, playback);
   std::vector<double> extents;
   for (const double radius : radii) extents.push_back((1 + range / 2) * radius);
+  const double reach = 2 * std::ranges::max(extents);
   ThreadPool pool(1);
   for (const auto f : frames) {
     const auto& frame = playback.frames[f];
-    const auto cell = cell_at(playback, frame);
-    const std::vector<double> positions(frame.positions.begin(), frame.positions.end());
+    const auto places = places_of(playback, frame, reach);
+    std::vector<double> extents_of_places;
+    for (const auto k : places.particles) extents_of_places.push_back(extents[k]);
     for (const auto& [first, second, image] :
-         close_pairs_in_period(cell, positions, extents, pool)) {
-      const auto i = index_of(first), j = index_of(second);
-      const Vector apart =
-          position(playback, frame, j) + shift_of(cell, image) - position(playback, frame, i);
+         close_pairs(3, places.positions, extents_of_places, pool)) {
+      // A pair with an image is found twice; the pair with i < j is kept.
+      const auto i = index_of(first), j = places.particles[index_of(second)];
+      if (i >= radii.size() || i >= j) continue;
+      const Vector apart = point_of(places.positions.data(), index_of(second), 3) -
+                           point_of(places.positions.data(), i, 3);
       const double beyond = std::max(0.0, norm(apart) / (radii[i] + radii[j]) - 1);
       const auto bin = static_cast<std::size_t>(beyond * PairDistributionTuning::kBins);
       if (bin >= bins) continue;

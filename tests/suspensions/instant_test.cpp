@@ -154,11 +154,12 @@ TEST(Instant, OfADiluteSuspensionHasEinsteinsViscosityByTheTables) {
   EXPECT_NEAR(simulation.solve_instant().viscosity, 1 + 2.5 * fraction, 1e-12);
 }
 
-TEST(Instant, NeedsPeriodsThatAreLongForThePairs) {
+TEST(Instant, NeedsRoomForThePairsAndImages) {
   const auto state = spheres_at({{1, 1, 1}}, {1});
   bad_input([&] { SuspensionSimulation(sheared_cube(4.9, 0), state, 1); });
   SuspensionSimulation(sheared_cube(5.1, 0), state, 1).solve_instant();
   auto setting = sheared_cube(10, 0);
+  bad_input([&] { SuspensionSimulation(setting, spheres_at({{1, 1, 1}, {2, 2, 2}}, {1, 1}), 1); });
   setting.lubrication->gradient[1][0] = 1;  // does not carry the images along x
   bad_input([&] { SuspensionSimulation(setting, state, 1); });
 }
