@@ -252,8 +252,9 @@ void add_neighbour(Entries& entries, const FlowOfNeighbour& flow, const Scales& 
 /// For b > kFarRatio. Sphere 1 is small beside the lengths over which the flow of sphere 2 alone
 /// changes, so that it feels its linear part only. If C are the components of this part for the
 /// motions of sphere 2, sphere 1 at rest has the loads K_11 C, and K_22 is that of sphere 2 alone and
-/// C^T K_11 C by the reciprocal theorem. What is left out is smaller by 1/b^2. The terms near contact
-/// are exact, as in far_own_entries().
+/// C^T K_11 C by the reciprocal theorem. The quadratic part is smaller by 1/b^2 in the velocity and, at
+/// gaps below the radius, by 1/b in turns and strains. The terms near contact are exact, as in
+/// far_own_entries().
 Entries far_entries(double b, double gap) {
   const double cube = std::pow(gap / FarTuning{}.contact, 3), near = 1 / (1 + cube);
   auto [entries, own_contact] = far_own_entries(b, gap, near);
@@ -381,7 +382,9 @@ void require_pair(double radius1, double radius2, double gap, double viscosity) 
                   what);
   };
   const auto require_positive = [&](double value, const char* name) {
-    require(value > 0 && std::isfinite(value), value, name, "positive and finite");
+    require(value > 0 && std::isfinite(value), value, name,
+            std::isinf(radius1) && std::isinf(radius2) ? "finite, because there is one plane only"
+                                                       : "positive and finite");
   };
   const bool has_plane = std::isinf(radius1) != std::isinf(radius2);
   if (!(has_plane && radius1 > 0)) require_positive(radius1, "radius of sphere 1");
@@ -415,6 +418,12 @@ void fill(double radius1, double radius2, double gap, double viscosity, PairForm
     if (has_plane && terms.column_sphere == 1) continue;
     const double value =
         entries[e] * units[(terms.row == kMove ? 0U : 1U) + (terms.column == kMove ? 0U : 1U)];
+    if (!std::isfinite(value))
+      throw Error(
+          ErrorKind::kBadInput,
+          "the gap {} beside the radii {} and {} has no finite resistances; choose a smaller "
+          "gap or another unit of length",
+          format_number(gap), format_number(radius1), format_number(radius2));
     for (const auto& place : places[e]) {
       const auto other = [&](std::size_t k) {
         return !exchanged              ? k
