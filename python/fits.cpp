@@ -20,6 +20,7 @@
 #include "viscontact/lubrication/scaling.hpp"
 #include "viscontact/motions/fit/fit_pair.hpp"
 #include "viscontact/motions/job/pair_fit_stage.hpp"
+#include "viscontact/particles/contact/film_law.hpp"
 #include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
 #include "viscontact/python/call.hpp"
 #include "viscontact/results/foreign_files.hpp"
@@ -403,12 +404,14 @@ void require_film(double radius, double neighbour, double gap, double viscosity)
 }
 
 lubrication::SqueezeIntegral squeeze(bool discs) {
-  return discs ? lubrication::disc_squeeze_integral : lubrication::sphere_squeeze_integral;
+  return particles::squeeze_integral(discs ? particles::FilmShape::kDiscs
+                                           : particles::FilmShape::kSpheres);
 }
 
 double film_gamma(double radius, double neighbour, double begins_at, double gap, double viscosity,
                   bool discs) {
-  require_film(radius, neighbour, std::min(begins_at, gap), viscosity);
+  require_film(radius, neighbour, gap, viscosity);
+  require_film(radius, neighbour, begins_at, viscosity);
   if (!(gap <= begins_at)) refuse("a film is not thicker than the gap at which it begins");
   return -viscosity * squeeze(discs)(radius, neighbour, gap, begins_at);
 }
@@ -466,16 +469,15 @@ balanced          True: the form without the resistance of the pair as a whole, 
                   N^T K with its rigid motions N, whose forces and torques add up to 0
 
 Radii and gaps are numbers or arrays, whose shapes are combined as NumPy does. Returns an array with
-two further dimensions of 22: the symmetric, positive definite matrix R with loads = R components. The
-axis z goes from sphere 1 to sphere 2. The components of sphere 1, and then those of sphere 2, are
+two further dimensions of 22: the symmetric matrix R with loads = R components. The axis z goes from
+sphere 1 to sphere 2. The components of sphere 1, and then those of sphere 2, are
     velocity x, y, z; angular velocity x, y, z, each less that of the undisturbed flow at the centre;
     its strain rate E = e1 (zz - 1/3) sqrt(3/2)
         + (e2 (xz + zx) + e3 (yz + zy) + e4 (xx - yy) + e5 (xy + yx))/sqrt(2).
-The loads are force and torque of the sphere on the fluid, and its stresslet in the basis of E. The
-error of R_ij over sqrt(R_ii R_jj) is below 3e-6 for ratios of the radii up to 10 and at a plane;
-docs/pairs.md has it for other ratios.)");
+The loads are force and torque of the sphere on the fluid, and its stresslet in the basis of E.
+docs/pairs.md has the errors for each ratio of the radii.)");
   module.def("film_gamma", py::vectorize(film_gamma), py::arg("radius"), py::arg("neighbour"),
-             py::arg("begins_at"), py::arg("gap"), py::arg("viscosity") = 1.0,
+             py::arg("begins_at"), py::arg("gap"), py::arg("viscosity") = 1.0, py::kw_only(),
              py::arg("discs") = false,
              R"(gamma of a film: minus the impulse that presses it from a gap to a smaller one.
 
@@ -488,7 +490,7 @@ discs       True: of cylinders per length
 
 Arguments are numbers or arrays. Returns gamma [M L/T], of discs [M/T]. docs/physics.md, (6.8).)");
   module.def("film_gap", py::vectorize(film_gap), py::arg("radius"), py::arg("neighbour"),
-             py::arg("begins_at"), py::arg("gamma"), py::arg("viscosity") = 1.0,
+             py::arg("begins_at"), py::arg("gamma"), py::arg("viscosity") = 1.0, py::kw_only(),
              py::arg("discs") = false,
              R"(The gap [L] of a film from gamma <= 0, the inverse of film_gamma().)");
   module.def("_tabulate", &tabulate, py::arg("case"), py::arg("output"), py::arg("jobs"),

@@ -162,8 +162,7 @@ std::vector<std::size_t> StepProjection<D>::closed_by_free_motion() {
 template <int D>
 bool StepProjection<D>::has_film(std::size_t k) {
   assert(step_ != nullptr);
-  return step_->laws.lowest_gamma(pair(k), state_.memories.of(pair(k).memory), radii_of_pair(k)) <
-         0;
+  return step_->laws.has_film(radii_of_pair(k));
 }
 
 template <int D>

@@ -97,34 +97,6 @@ Entries sums(const RestTable<products>& table, const PairCoordinates& at) {
   return rest;
 }
 
-/// The first entry of the block of azimuthal flows that has this entry.
-std::size_t block_of(std::size_t entry) {
-  return entry < 10 ? 0 : entry < 31 ? 10 : entry < 34 ? 31 : 34;
-}
-
-/// For an entry of sphere 1 and a component of the large sphere 2: the entry of sphere 1 and the
-/// motion of its neighbour's surface there, and this motion for a component 1. Turns and strains
-/// across move the surface, at the distance b from the centre of sphere 2, by b times this number.
-struct SurfaceMotion {
-  std::size_t entry;
-  PairComponent component;
-  double motion;
-  bool has_arm;
-};
-
-SurfaceMotion surface_motion(std::size_t entry) {
-  const auto block = block_of(entry);
-  const auto& terms = kPairEntryTerms[entry];
-  if (block > 10) return {block, terms.column, 1, false};
-  const std::size_t with_velocity = block + (terms.row == kMove                 ? 0
-                                             : terms.row == kTurn || block == 0 ? 1
-                                                                                : 2);
-  const double motion = terms.column == kMove   ? 1
-                        : terms.column == kTurn ? -1
-                                                : std::sqrt(block == 0 ? 2.0 / 3 : 0.5);
-  return {with_velocity, kMove, motion, terms.column != kMove};
-}
-
 /// The terms near contact, with strains in the basis of PairMatrix.
 Entries contact_entries(double b, double gap) {
   static const ContactTable table;
@@ -168,46 +140,129 @@ Entries entries_by(const RestTable<products>& table, double b, double gap) {
 /// At this ratio 1 + b is b, and the entries of sphere 1 are those beside a plane.
 constexpr double kFlat = 1e17;
 
-/// For b > kFarRatio, by matching. Where the gap q is not large, a large sphere 2 is a plane but for
-/// terms like 1/b, which the table at kFarRatio has at the same gap; its motion is that of its
-/// surface, which has the loads of sphere 1 with the opposite sign; and its own entries are those of
-/// a sphere alone. Where the gap is not small beside b, sphere 1 is a point, and the terms depend on
-/// q/b, so that the table has them at the gap q kFarRatio/b. Between both they are constant.
-Entries far_entries(double b, double gap) {
+/// Choices of far_entries().
+struct FarTuning {
+  /// The gap at which the gap itself goes over into the share q kFarRatio/b of the gap, as the place
+  /// in the table at kFarRatio.
+  double between = 10;
+  /// The gap at which the exact coefficients of the terms near contact go over into those of the
+  /// approximations. With 0.01 errors of the small sphere's own entries are smaller by a factor of 2,
+  /// and those of the mixed ones larger by 2; with 0.2 both are larger by 3.
+  double contact = 0.05;
+  /// The gap beyond which the entries beside a plane, but for the force by a velocity, have their
+  /// largest power of the distance. There the table has rounding errors, which are not small beside
+  /// the torque and the stresslet in the flow of a very large sphere.
+  double powers = 100;
+};
+
+/// For b > kFarRatio, the entries of sphere 1 with sphere 2 at rest, and 0 elsewhere, by matching.
+/// Where the gap q is not large, a large sphere 2 is a plane but for terms like 1/b, which the table
+/// at kFarRatio has at the same gap. Where q is not small beside b, sphere 1 is a point; the terms
+/// are 1/b for the force by a velocity and one more 1/b for each torque, stresslet, turn or strain,
+/// times functions of q/b, which the table has at the gap q kFarRatio/b. Between both q/b or 1/q
+/// times these terms are constant.
+struct OwnEntries {
+  Entries all, contact;
+};
+
+OwnEntries far_own_entries(double b, double gap, double near) {
   static const RestTable far(kFarPairRest);
   static const RestTable plane(kPlaneRest);
   constexpr double kRatio = PairCoordinates::kFarRatio;
-  // Free choices: where the one gap goes over into the other one, and where the exact coefficients
-  // of the terms near contact go over into those of the matching.
-  constexpr double kBetween = 10, kContact = 0.2;
-  const double share = kRatio / b, cube = std::pow(gap / kContact, 3), near = 1 / (1 + cube);
-  const double there = gap * (1 + share * gap / kBetween) / (1 + gap / kBetween);
+  constexpr FarTuning kTuning;
+  const double share = kRatio / b;
+  const double there = gap * (1 + share * gap / kTuning.between) / (1 + gap / kTuning.between);
   // Each with its terms near contact.
   const std::array planes{entries_by(plane, kFlat, gap), contact_entries(kFlat, gap)};
   const std::array planes_there{entries_by(plane, kFlat, there), contact_entries(kFlat, there)};
   const std::array tables{entries_by(far, kRatio, there), contact_entries(kRatio, there)};
-  const auto contact = contact_entries(b, gap);
-  const std::array scales{Scales(1), Scales(b)}, scales_there{Scales(1), Scales(kRatio)};
-  Entries entries{};
+  OwnEntries own{{}, contact_entries(b, gap)};
+  const double closer = there / gap;
+  const double last = std::min(gap, kTuning.powers), decay = (1 + last) / (1 + gap);
+  const auto powers = last < gap ? entries_by(plane, kFlat, last) : planes[0];
   for (std::size_t e = 0; e < kPairEntries; ++e) {
     const auto& terms = kPairEntryTerms[e];
-    const auto matched = [&](std::size_t part) {
-      if (terms.column_sphere == 0)
-        return planes[part][e] + share * (tables[part][e] - planes_there[part][e]);
-      if (terms.row_sphere == 1) {
-        const double alone = part == 0 && terms.row == terms.column ? 1 : 0;
-        const double unit = scales_there[1].of(terms.row) * scales_there[1].of(terms.column);
-        return (alone + share * (tables[part][e] / unit - alone)) * scales[1].of(terms.row) *
-               scales[1].of(terms.column);
-      }
-      const auto of = surface_motion(e);
-      const double in_table = tables[part][e] / (of.has_arm ? kRatio : 1);
-      return (share * gap / there * (in_table + of.motion * planes_there[part][of.entry]) -
-              of.motion * planes[part][of.entry]) *
-             (of.has_arm ? b : 1);
+    if (terms.column_sphere == 1) continue;
+    const int moments = (terms.row == kMove ? 0 : 1) + (terms.column == kMove ? 0 : 1);
+    const double factor = share * std::pow(closer, moments);
+    const auto matched = [&](double beside_plane, std::size_t part) {
+      return beside_plane + factor * (tables[part][e] - planes_there[part][e]);
     };
-    entries[e] = matched(0) + near * (contact[e] - matched(1));
+    double beside_plane = planes[0][e];
+    if (last < gap && moments > 0) {
+      const double alone = terms.row == terms.column ? Scales(1).of(terms.row) : 0;
+      const double change = powers[e] - alone * alone;
+      beside_plane = alone * alone + std::pow(decay, moments + 1) * change;
+    }
+    own.all[e] = matched(beside_plane, 0) + near * (own.contact[e] - matched(planes[1][e], 1));
   }
+  return own;
+}
+
+/// The linear part of the flow of sphere 2 alone at the centre of sphere 1, by the components of
+/// sphere 2 (columns), as components of sphere 1 at rest in this flow (rows), for each block.
+struct FlowOfNeighbour {
+  Eigen::Matrix2d axial;
+  Eigen::Matrix3d transverse;
+  double twofold, spin;
+
+  /// With the radius b of sphere 2 at the distance r.
+  FlowOfNeighbour(double b, double r) {
+    const double s = b / r, s3 = s * s * s, s5 = s3 * s * s;
+    const double strain = std::sqrt(1.5), across = std::sqrt(2.0);
+    axial << -(1.5 * s - 0.5 * s3), -(2.5 * s3 - 1.5 * s5) * r / strain,  //
+        strain * 1.5 * (s - s3) / r, 5 * s3 - 6 * s5;
+    transverse << -(0.75 * s + 0.25 * s3), s3 * r, -s5 * r / across,  //
+        -0.75 * s / r, 0.5 * s3, -2.5 * s3 / across,                  //
+        across * 0.75 * s3 / r, -across * 1.5 * s3, 4 * s5 - 2.5 * s3;
+    twofold = -s5;
+    spin = -s3;
+  }
+};
+
+/// Completes the upper triangle K_11 C, alone + C^T K_11 C from the block K_11 of sphere 1, where C
+/// is the flow of sphere 2, and `alone` are the entries of sphere 2 alone (a diagonal).
+template <int size>
+void add_neighbour(double* upper_triangle, const Eigen::Matrix<double, size, size>& flow,
+                   const Eigen::Matrix<double, size, 1>& alone) {
+  Eigen::Matrix<double, size, size> own;
+  const auto at = [&](int i, int j) { return upper_triangle + i * (4 * size - i + 1) / 2 + j - i; };
+  for (int i = 0; i < size; ++i)
+    for (int j = i; j < size; ++j) own(i, j) = own(j, i) = *at(i, j);
+  const Eigen::Matrix<double, size, size> mixed = own * flow;
+  Eigen::Matrix<double, size, size> other = flow.transpose() * mixed;
+  other.diagonal() += alone;
+  for (int i = 0; i < size; ++i)
+    for (int j = 0; j < size; ++j) {
+      *at(i, size + j) = mixed(i, j);
+      if (j >= i) *at(size + i, size + j) = other(i, j);
+    }
+}
+
+void add_neighbour(Entries& entries, const FlowOfNeighbour& flow, const Scales& scales) {
+  const double move = scales.move * scales.move, turn = scales.turn * scales.turn,
+               strain = scales.strain * scales.strain;
+  using Single = Eigen::Matrix<double, 1, 1>;
+  add_neighbour<2>(entries.data(), flow.axial, {move, strain});
+  add_neighbour<3>(&entries[10], flow.transverse, {move, turn, strain});
+  add_neighbour<1>(&entries[31], Single(flow.twofold), Single(strain));
+  add_neighbour<1>(&entries[34], Single(flow.spin), Single(turn));
+}
+
+/// For b > kFarRatio. Sphere 1 is small beside the lengths over which the flow of sphere 2 alone
+/// changes, so that it feels its linear part only. If C are the components of this part for the
+/// motions of sphere 2, sphere 1 at rest has the loads K_11 C, and K_22 is that of sphere 2 alone and
+/// C^T K_11 C by the reciprocal theorem. The quadratic part is smaller by 1/b^2 in the velocity and, at
+/// gaps below the radius, by 1/b in turns and strains. The terms near contact are exact, as in
+/// far_own_entries().
+Entries far_entries(double b, double gap) {
+  const double cube = std::pow(gap / FarTuning{}.contact, 3), near = 1 / (1 + cube);
+  auto [entries, own_contact] = far_own_entries(b, gap, near);
+  const auto contact = own_contact;
+  const FlowOfNeighbour flow(b, 1 + b + gap);
+  add_neighbour(entries, flow, Scales(b));
+  add_neighbour(own_contact, flow, Scales(0));
+  for (std::size_t e = 0; e < kPairEntries; ++e) entries[e] += near * (contact[e] - own_contact[e]);
   return entries;
 }
 
@@ -327,7 +382,9 @@ void require_pair(double radius1, double radius2, double gap, double viscosity) 
                   what);
   };
   const auto require_positive = [&](double value, const char* name) {
-    require(value > 0 && std::isfinite(value), value, name, "positive and finite");
+    require(value > 0 && std::isfinite(value), value, name,
+            std::isinf(radius1) && std::isinf(radius2) ? "finite, because there is one plane only"
+                                                       : "positive and finite");
   };
   const bool has_plane = std::isinf(radius1) != std::isinf(radius2);
   if (!(has_plane && radius1 > 0)) require_positive(radius1, "radius of sphere 1");
@@ -361,6 +418,12 @@ void fill(double radius1, double radius2, double gap, double viscosity, PairForm
     if (has_plane && terms.column_sphere == 1) continue;
     const double value =
         entries[e] * units[(terms.row == kMove ? 0U : 1U) + (terms.column == kMove ? 0U : 1U)];
+    if (!std::isfinite(value))
+      throw Error(
+          ErrorKind::kBadInput,
+          "the gap {} beside the radii {} and {} has no finite resistances; choose a smaller "
+          "gap or another unit of length",
+          format_number(gap), format_number(radius1), format_number(radius2));
     for (const auto& place : places[e]) {
       const auto other = [&](std::size_t k) {
         return !exchanged              ? k

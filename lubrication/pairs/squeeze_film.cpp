@@ -121,7 +121,8 @@ double disc_squeeze_integral(double radius, double neighbour, double from, doubl
   };
   const double at_contact = smooth(0);
   // With eps = x^2 the integral of eps^(-3/2) (smooth(eps) - smooth(0)) has the integrand
-  // 2 (smooth(x^2) - smooth(0))/x^2, whose poles are at least at the distance 1 from x = 0.
+  // 2 (smooth(x^2) - smooth(0))/x^2, whose poles are at least at sqrt(2) times the
+  // largest x from x = 0 in a narrow round wall, and at 1 elsewhere.
   const double first = std::sqrt(possible_gap(radius, neighbour, from) / r_eff),
                last = std::sqrt(possible_gap(radius, neighbour, to) / r_eff);
   double sum = at_contact * 2 * (1 / first - 1 / last);

@@ -1,5 +1,5 @@
-// The squeeze of the film between two bodies that approach each other: the integral of its
-// resistance over the gap, and the gap from the integral (docs/physics.md (6.8)).
+// The resistance of the film between two bodies that approach each other: its integral over the
+// gap, and the gap from the integral (docs/physics.md (6.8)).
 #pragma once
 
 namespace viscontact::lubrication {
@@ -8,8 +8,8 @@ namespace viscontact::lubrication {
 // closes, while the other body exerts the opposite force and the fluid is unbounded: the pair as a
 // whole has no net force. Forces of contact are such a pair of forces, so that R is the resistance
 // that the contact feels, however the pair moves as a whole. (With the neighbour held at rest the
-// terms 1/q, ln q and q ln q are the same; next to a plane, and in a round wall at rest, there is
-// no difference.)
+// terms 1/q, ln q and q ln q are the same, and the rest is larger; next to a plane, and in a round
+// wall at rest, there is no difference.)
 //
 // `radius` is that of the one body, `neighbour` that of the other one, infinite for a plane, or
 // minus the radius of a round wall around the body. Lengths are in one unit [L], > 0. In a round
@@ -38,7 +38,8 @@ double disc_squeeze_integral(double radius, double neighbour, double from, doubl
 
 using SqueezeIntegral = double (*)(double radius, double neighbour, double from, double to);
 
-/// The gap q <= `from` from which `integral` up to `from` is `value` >= 0, to rounding errors.
+/// The gap q <= `from` from which `integral` up to `from` is `value` >= 0, to rounding errors; at
+/// least exp(-700).
 double gap_of_squeeze(SqueezeIntegral integral, double radius, double neighbour, double from,
                       double value);
 

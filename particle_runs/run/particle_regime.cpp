@@ -61,6 +61,7 @@ void ParticleRegime::add(const ParticlesCase& c, const State& state, bool contac
   const double density = has_inertia_of_fluid(c) ? c.setting.fluid->density : c.fluid_density;
   const bool per_length = c.setting.fluid && particles.dimension == 2;
   constexpr double kPlane = std::numeric_limits<double>::infinity();
+  at_plane.resize(particles.count());
   for (std::size_t k = 0; k < particles.count(); ++k) {
     const double r = particles.radii[k], speed = norm(relative_velocity(c, state, k));
     const double momentum = particles.masses[k] * speed;
@@ -70,7 +71,8 @@ void ParticleRegime::add(const ParticlesCase& c, const State& state, bool contac
     const double mass = per_length ? particles.masses[k] * (4 * r / 3) : particles.masses[k];
     if (mu > 0) stokes = std::max(stokes, lubrication::stokes_number(mass, r, speed, mu));
     if (c.setting.fluid || c.setting.lubrication) continue;
-    const double lowest = c.setting.laws.film.lowest_gamma(r, kPlane);
+    if (at_plane[k].radius != r) at_plane[k] = {r, c.setting.laws.film.lowest_gamma(r, kPlane)};
+    const double lowest = at_plane[k].lowest_gamma;
     if (lowest < 0 && std::isfinite(lowest)) film = std::max(film, momentum / -lowest);
   }
 }

@@ -19,6 +19,12 @@ struct ParticleRegime {
   bool has_contact = false;
   bool have_solids_touched = false;  ///< whether a film has absorbed all that it can
 
+  /// The radius of each particle, and gamma_min of a film at a plane, which is integrated once.
+  struct AtPlane {
+    double radius = -1, lowest_gamma = 0;
+  };
+  std::vector<AtPlane> at_plane;
+
   /// Takes the state at the end of a step into account, and whether it has contacts.
   void add(const ParticlesCase& c, const State& state, bool contact);
 };

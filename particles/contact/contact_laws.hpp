@@ -51,6 +51,9 @@ struct ContactLaws {
     return film.lowest_gamma(radii.second, radii.first);
   }
 
+  /// Whether gamma_min of a pair is below 0.
+  bool has_film(const PairRadii& radii) const { return film.is_between(radii.second, radii.first); }
+
   /// Updates Pair::gamma, Pair::gamma_error and what the laws remember, from Pair::impulse, after a
   /// step of length `h` [T]. `impulse_error` >= 0 is the residual of this impulse.
   void remember(Pair& pair, PairMemories& memories, const PairRadii& radii, double impulse_error,

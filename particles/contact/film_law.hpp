@@ -36,15 +36,6 @@ inline double impulse_of_film(FilmShape shape, double viscosity, double r_i, dou
   return viscosity * squeeze_integral(shape)(r_i, r_j, from, to);
 }
 
-/// The gap [L] to which a film that begins at the gap `begins_at` is pressed when it has absorbed
-/// the impulse -gamma >= 0: Gamma^-1(Gamma(begins_at) + gamma).
-inline double gap_of_film(FilmShape shape, double viscosity, double r_i, double r_j,
-                          double begins_at, double gamma) {
-  assert(viscosity > 0 && gamma <= 0);
-  return lubrication::gap_of_squeeze(squeeze_integral(shape), r_i, r_j, begins_at,
-                                     -gamma / viscosity);
-}
-
 /// gamma <= 0 is minus the impulse that the film has absorbed while it was pressed; the film holds
 /// the surfaces together until a pull has given this impulse back. At gamma_min the solids touch:
 ///
@@ -74,8 +65,23 @@ struct FilmLaw {
     if (gamma_min) return *gamma_min;
     if (!viscosity) return -std::numeric_limits<double>::infinity();
     assert(roughness);
-    const double begin = begins_at ? *begins_at : std::abs(lubrication::effective_radius(r_i, r_j));
-    return std::min(0.0, impulse_of_film(shape, *viscosity, r_i, r_j, begin, 2 * *roughness));
+    if (!is_between(r_i, r_j)) return 0;
+    return impulse_of_film(shape, *viscosity, r_i, r_j, begin_of(r_i, r_j), 2 * *roughness);
+  }
+
+  /// Whether lowest_gamma() is below 0.
+  bool is_between(double r_i, double r_j) const {
+    if (gamma_min) return *gamma_min < 0;
+    if (!viscosity) return true;
+    assert(roughness);
+    // A round wall leaves at most the difference of the radii.
+    const double largest = r_j < 0 ? -r_j - r_i : std::numeric_limits<double>::infinity();
+    return 2 * *roughness < std::min(begin_of(r_i, r_j), largest);
+  }
+
+  /// The gap at which the film of a pair begins [L].
+  double begin_of(double r_i, double r_j) const {
+    return begins_at ? *begins_at : std::abs(lubrication::effective_radius(r_i, r_j));
   }
 
   /// The film takes up the impulse p = Pair::impulse: gamma becomes gamma - p, within [`lowest`, 0]

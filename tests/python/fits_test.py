@@ -177,7 +177,8 @@ class PairResistanceTest(unittest.TestCase):
         self.assertEqual(np.abs(matrix[0, 11:]).max(), 0)
         # Drag of a sphere at the gap 0.1 above a plane, Brenner 1961.
         self.assertAlmostEqual(matrix[0, 2, 2] / (6 * np.pi), 11.459157, delta=1e-4)
-        np.testing.assert_allclose(matrix[1, :11, :11], matrix[0, :11, :11], rtol=1e-3, atol=1e-3)
+        # The table of the plane and its matching have errors of 4e-6 beside the diagonal, below 216.
+        np.testing.assert_allclose(matrix[1, :11, :11], matrix[0, :11, :11], rtol=0, atol=2e-5 * 216)
         balanced = viscontact.pair_resistance(1, 3, 0.1, balanced=True)
         np.testing.assert_array_equal(balanced[:3], -balanced[11:14])
 
@@ -190,9 +191,9 @@ class FilmTest(unittest.TestCase):
         gaps = np.array([0.001, 0.01, 0.1])
         for radius, neighbour in (1, np.inf), (1, 0.5), (1, -3):
             for discs in False, True:
-                gamma = viscontact.film_gamma(radius, neighbour, 0.1, gaps, 2, discs)
+                gamma = viscontact.film_gamma(radius, neighbour, 0.1, gaps, 2, discs=discs)
                 np.testing.assert_allclose(
-                    viscontact.film_gap(radius, neighbour, 0.1, gamma, 2, discs), gaps, rtol=1e-12)
+                    viscontact.film_gap(radius, neighbour, 0.1, gamma, 2, discs=discs), gaps, rtol=1e-12)
 
     def test_refuses_what_is_no_film(self):
         for arguments in (1, -0.9, 0.1, 0.01), (0, 1, 0.1, 0.01), (1, 1, 0.1, 0.2), (1, 1, 0.1, 0):

@@ -248,6 +248,7 @@ TEST(EllipseContact, HasTheFilmOfItsRadiusOfCurvature) {
   system.setting.laws.film.viscosity = 1;
   system.setting.laws.film.roughness = kGap / 10;
   auto simulation = system.simulation(constant_drag(1e-3));
+  // Until the film is spent: 0.01 times the force 1 a step, and |gamma_min| is below 32.
   for (int n = 0; n < 3200; ++n) simulation.step(1e9);
   const double tip = kShort * kShort / kLong;
   const double expected = impulse_of_film(FilmShape::kDiscs, 1, tip,

@@ -116,14 +116,14 @@ TEST(PairFits, OfAPlaneAreTheExactResistances) {
   EXPECT_EQ(compared, 4);
 }
 
-/// Tables with stresslets of a sphere of radius 1 in a fluid of viscosity 1, whose neighbour is a
-/// sphere of radius 1/curvature, or a plane: exact values, and the leading factors of theory.
 std::vector<double> log_spaced_gaps(double from, double to, int count) {
   std::vector<double> gaps;
   for (int i = 0; i < count; ++i) gaps.push_back(from * std::pow(to / from, i / (count - 1.0)));
   return gaps;
 }
 
+/// Tables with stresslets of a sphere of radius 1 in a fluid of viscosity 1, whose neighbour is a
+/// sphere of radius 1/curvature, or a plane: exact values, and the leading factors of theory.
 PairTables exact_tables(double curvature,
                         const std::vector<double>& gaps = log_spaced_gaps(1e-3, 1, 31)) {
   const std::string geometry =

@@ -55,8 +55,7 @@ TEST(FilmLaw, GivesWayAfterTheIntegralOfTheResistance) {
                 ? -mu * lubrication::sphere_squeeze_integral(r, other, 2e-3, begin)
                 : -integral(resistance, 2e-3, begin);
         EXPECT_NEAR(law.lowest_gamma(r, other), expected, 1e-8 * std::abs(expected));
-        EXPECT_NEAR(gap_of_film(shape, mu, r, other, begin, law.lowest_gamma(r, other)), 2e-3,
-                    1e-14);
+        EXPECT_TRUE(law.is_between(r, other));
       }
   // A film thinner than the roughness does not exist.
   FilmLaw thin, given;
@@ -65,6 +64,11 @@ TEST(FilmLaw, GivesWayAfterTheIntegralOfTheResistance) {
   given.gamma_min = -2.5;
   thin.begins_at = 1e-3;
   EXPECT_EQ(thin.lowest_gamma(r, r), 0);
+  EXPECT_FALSE(thin.is_between(r, r));
+  // A round wall that is too narrow for the roughness.
+  thin.begins_at = 1;
+  EXPECT_EQ(thin.lowest_gamma(r, -r - 1e-3), 0);
+  EXPECT_FALSE(thin.is_between(r, -r - 1e-3));
   EXPECT_EQ(given.lowest_gamma(r, r), -2.5);
   EXPECT_EQ(FilmLaw{}.lowest_gamma(r, r), -std::numeric_limits<double>::infinity());
 }
