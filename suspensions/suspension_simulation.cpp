@@ -136,6 +136,12 @@ struct SuspensionSimulation::Content {
     }
   }
 
+  /// The mean factor on the gradient of the setting; 1 with a given stress.
+  double given_rate(double from, double to) const {
+    const auto& factor = lubrication().rate_factor;
+    if (factor.pieces.empty() || lubrication().stress) return 1;
+    return to > from ? factor.mean(from, to)[0] : factor.value(from)[0];
+  }
   std::array<Vector, 3> gradient_now() const {
     auto now = gradient;
     for (auto& row : now) row = state.shear.rate * row;
@@ -201,27 +207,26 @@ struct SuspensionSimulation::Content {
 };
 
 suspensions::InstantSolution SuspensionSimulation::Content::solve_instant() {
+  const double given = given_rate(state.time, state.time);
+  suspensions::SymmetricTensor given_strain;
+  given_strain.add(given, strain);
   const auto pairs = find_pairs();
   const suspensions::PairSystem system(
       lubrication(), state.particles.radii,
       suspensions::placed(pairs, state.particles.radii, SuspensionTuning::kLeastGap * mean_radius));
-  suspensions::InstantProblem problem{&system,
-                                      strain,
-                                      lubrication().viscosity,
-                                      volume,
-                                      given_loads(state.time),
-                                      {},
-                                      lubrication().stress};
+  suspensions::InstantProblem problem{
+      &system, given_strain,        lubrication().viscosity, volume, given_loads(state.time),
+      {},      lubrication().stress};
   problem.softest = std::min(lubrication().drag, 1.0);
   problem.load_stress = add_repulsion(pairs, problem.loads).stress;
   auto solution = suspensions::solve_instant(problem, std::vector<Motion>(state.particles.count()),
                                              SuspensionTuning::kInstantTolerance);
-  state.shear.rate = solution.rate;
+  state.shear.rate = given * solution.rate;
   set_velocities(solution.motions);
   set_cell();
 
   suspensions::SymmetricTensor rate;
-  rate.add(solution.rate, strain);
+  rate.add(solution.rate, given_strain);
   suspensions::StressSums sums;
   sums.film.stress = system.stresslets(solution.motions, rate);
   sums.film.power = sums.film.stress.contracted(rate);
@@ -324,7 +329,7 @@ void SuspensionSimulation::Content::move(const std::vector<Motion>& motions, dou
   }
   const double displacement = h * now[0][1] * periods_of(setting.domain)[1];
   state.shear.offset = cell().moved_offset(displacement);
-  state.shear.strain += h * std::sqrt(2 * strain.contracted(strain)) * state.shear.rate;
+  state.shear.strain += h * std::sqrt(2 * strain.contracted(strain)) * std::abs(state.shear.rate);
   wrap();
   set_velocities(motions);
   turn_particles(
@@ -384,6 +389,7 @@ suspensions::StepSolution SuspensionSimulation::Content::solve_step(
     auto now = problem;
     // Motions of a suspension at another rate are nearly proportional to it.
     for (auto& motion : now.motions) {
+      if (first_rate == 0) break;
       motion.along *= rate / first_rate;
       motion.turn *= rate / first_rate;
     }
@@ -395,7 +401,7 @@ suspensions::StepSolution SuspensionSimulation::Content::solve_step(
     solution.stresses.repulsion = repulsion;
     return solution;
   };
-  if (!lubrication().stress) return solve_at(1);
+  if (!lubrication().stress) return solve_at(given_rate(state.time, state.time + h));
 
   // The rate by the secant method, because the stress is nearly proportional to it.
   const double target = *lubrication().stress;

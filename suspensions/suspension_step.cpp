@@ -42,8 +42,8 @@ struct StepTuning {
   static constexpr double kLeastWidth = 1e-3, kWidthWithoutFilm = 1e-2;
   // A film is linearised at no less than this part of its width before.
   static constexpr double kLeastPart = 0.2;
-  // Smaller gaps are rounding errors.
-  static constexpr double kLeastGap = 1e-12;
+  // Smaller gaps at the start of a step count as this one, such as those of spheres that touch.
+  static constexpr double kLeastGap = 1e-7;
   // Gaps in mean radii below which a pair may touch in the step; others are added where they do.
   static constexpr double kNearGap = 0.1;
 };

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "viscontact/particles/values/piecewise_constant.hpp"
 #include "viscontact/particles/values/vector.hpp"
 
 namespace viscontact::particles {
@@ -37,6 +38,9 @@ struct PairLubrication {
   /// du_i/dx_j of the undisturbed flow in row i and column j [1/T], without trace. With a stress it
   /// is the flow of rate 1, and the rate is a result.
   std::array<Vector, 3> gradient{};
+  /// Factor on the gradient in component 0 [1], such as 1 and then -1 for a shear flow that reverses;
+  /// without pieces it is 1 at all times.
+  PiecewiseConstant rate_factor{};
   /// If it is given, the mean shear stress [M/(L T^2)] of the suspension, component xy.
   std::optional<double> stress;
   /// Displacement along x of the image of a sphere across the period y at the start [L].

@@ -56,6 +56,36 @@ TEST(FreePair, MovesByTheTablesAsTwoSpheresAloneDo) {
   EXPECT_EQ(compared, 16);
 }
 
+TEST(FreePair, HasTheStressletsOfTwoSpheresAlone) {
+  std::istringstream lines(read_file(std::filesystem::path(VISCONTACT_SOURCE_FOLDER) /
+                                     "data/reference/two_free_spheres.csv"));
+  const double length = 100, half = std::sqrt(0.5);
+  int compared = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('#') || line.starts_with("size_ratio")) continue;
+    std::istringstream fields(line);
+    std::vector<double> numbers;
+    for (std::string word; std::getline(fields, word, ',');)
+      numbers.push_back(parse_number(word).value());
+    const double r = numbers.at(1), s0 = numbers.at(8), s1 = numbers.at(9), s2 = numbers.at(10);
+    const std::array<std::pair<Vector, double>, 3> cases{
+        {{{1, 0, 0}, s1}, {{0, 0, 1}, s2}, {{half, half, 0}, (3 * s0 + s2) / 4}}};
+    for (const auto& [n, expected] : cases) {
+      auto setting = sheared_cube(length, 0);
+      setting.lubrication->pairs = PairTerms::kTables;
+      setting.lubrication->regularisation = 0;
+      setting.lubrication->range = 5;
+      const Vector middle{50, 50, 50};
+      SuspensionSimulation simulation(setting, spheres_at({middle, middle + r * n}, {1, 1}), 1);
+      const double found = (simulation.solve_instant().viscosity - 1) * length * length * length;
+      // The tables have errors of 1e-5 of a resistance.
+      EXPECT_NEAR(found / (20 * M_PI / 3), expected, 5e-5) << line;
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, 24);
+}
+
 TEST(FreePair, OfUnequalSpheresHasTheNearContactMotion) {
   // Computed apart from Viscontact with 20 digits; the gradient is along z there.
   const std::array<std::array<double, 6>, 2> expected{

@@ -123,6 +123,30 @@ TEST(SuspensionStep, FindsTheRateOfAGivenStress) {
   EXPECT_GT(simulation.state().shear.rate, 1);
 }
 
+TEST(SuspensionStep, OfAShearFlowThatReversesAndStops) {
+  auto setting = setting_of({PairTerms::kNearContact, 1e-3, 1e-3, 0});
+  setting.lubrication->rate_factor = {{{1, {1, 0, 0}}, {1.2, {-2, 0, 0}}, {1.3, {0, 0, 0}}}};
+  SuspensionSimulation simulation(setting, start(), 1);
+  const auto run_until = [&](double end) {
+    while (simulation.step(end).parts > 0) EXPECT_GT(least_gap(simulation), 1e-3 - 1e-7);
+  };
+  run_until(1);
+  EXPECT_NEAR(simulation.state().shear.strain, 1, 1e-12);
+  EXPECT_NEAR(simulation.state().shear.offset, 1, 1e-11);
+  const double before = simulation.rheology().viscosity_contact;
+  simulation.step(1.02);
+  // Contacts that pushed open at once.
+  EXPECT_GT(before, 0);
+  EXPECT_LT(simulation.rheology().viscosity_contact, 0.5 * before);
+  EXPECT_NEAR(simulation.rheology().shear_rate, 2, 1e-12);
+  run_until(1.2);
+  EXPECT_NEAR(simulation.state().shear.strain, 1.4, 1e-12);
+  EXPECT_NEAR(simulation.state().shear.offset, 1 - 0.4 * kPeriod, 1e-11);
+  run_until(1.3);
+  EXPECT_NEAR(simulation.state().shear.strain, 1.4, 1e-12);
+  EXPECT_EQ(simulation.state().shear.rate, 0);
+}
+
 TEST(SuspensionStep, OfTwoPressedSpheresFollowsTheFilm) {
   // Without a flow two equal spheres that the force F presses have alpha dq/dt/q = -F to leading
   // order, beside the drag: q = q_0 exp(-F t/alpha), alpha = 6 pi mu (a/2)^2.
