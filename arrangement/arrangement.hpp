@@ -28,22 +28,33 @@ double size_of(const Arrangement& asked, int dimension);
 /// centres [L], 2 or 3 for each particle, in the order of `asked.radii`.
 ///
 /// All gaps of a new particle, to other particles (also across periodic sides) and to walls, are at
-/// least `smallest_gap`. The arrangement is a sample of the equilibrium of hard discs or spheres
-/// with this gap, as far as a Monte Carlo simulation of a limited number of moves reaches it:
+/// least `smallest_gap`.
 ///
 /// 1. The particles are put, the largest first, at random places where their gaps are large enough
 ///    (random sequential addition, Widom 1966). A particle for which 1000 tries fail is put at any
 ///    random place.
-/// 2. Particles that are too close are pushed apart until all gaps are large enough.
-/// 3. Each particle is moved at random, on average 500 times, or 20 to 500 times if there are more
+/// 2. Particles that are too close are pushed apart until all gaps are large enough. If this fails,
+///    step 1 is repeated, up to ten times with 20 million pushes in all.
+/// 3. If all that fails, the particles are put at random places anew and repel each other until
+///    they have their gaps or jam, as relax() does it, in up to 30 beginnings.
+/// 4. Each particle is moved at random, on average 500 times, or 20 to 500 times if there are more
 ///    than 40 000 particles. A move is kept if the gaps stay large enough (Metropolis et al. 1953).
 ///
-/// 1000 equal discs in a periodic box, with gaps of 0.05 radii and an area fraction of 0.6, take
-/// less than a second. On every machine with IEEE 754 arithmetic the same arguments give the same
-/// bits, because users repeat runs by their seeds.
+/// Where the particles move freely the arrangement is a sample of the equilibrium of hard discs or
+/// spheres with this gap, of equal spheres above 0.49 of the fluid that has not crystallised. Dense
+/// particles keep their neighbours in step 4: above a volume fraction of about 0.55 (of spheres
+/// that are larger by half of the gap; discs of several sizes: 0.78) the arrangement is a random
+/// packing and no sample of an equilibrium. Packings of spheres are isotropic, and of 1000 equal
+/// spheres at 0.63 fewer than 1 % are in crystals. Equal discs crystallise in step 4 above 0.7.
 ///
-/// Throws Error(kBadInput) if the particles do not fit, or if step 2 fails for ten random
-/// arrangements of step 1, which can happen although an arrangement with these gaps exists; the
+/// Step 2 ends up to volume fractions of 0.6 to 0.62, step 3 up to 0.635 (equal spheres), 0.64
+/// (radii 1 and 1.4, half of the volume each) or 0.835 (such discs) in periodic boxes. 10 000
+/// spheres take 3 s at 0.55 and 8 s at 0.62, 1000 spheres less than a second at 0.6 and 5 s if step
+/// 3 is needed. On every machine with IEEE 754 arithmetic the same arguments give the same bits,
+/// because users repeat runs by their seeds.
+///
+/// Throws Error(kBadInput) if the particles do not fit, or if no arrangement is found, which can
+/// happen although one exists: the message says which fraction of the domain was reached. The
 /// caller adds file and line to the message. Throws std::bad_variant_access if `domain` is neither
 /// a disc nor a box.
 std::vector<double> arrange(const Arrangement& asked, const Domain& domain,

@@ -20,9 +20,9 @@ double square_of(const Vector& x) { return x[0] * x[0] + x[1] * x[1] + x[2] * x[
 /// The particles as points and their repulsion, of stiffness 1. The mass is 1 up to the mean size,
 /// and of larger particles as their surface, because they have so many neighbours; otherwise they
 /// would vibrate too fast for the time step. Stiffness and mass give the unit of time.
-class Repulsion {
+class OverlapRepulsion {
  public:
-  explicit Repulsion(PlacedParticles& placed)
+  explicit OverlapRepulsion(PlacedParticles& placed)
       : placed_(placed),
         slack_(Tuning::kRelaxationSlack * placed.distance()),
         centres_(placed.centres()),
@@ -140,7 +140,7 @@ class Repulsion {
 }  // namespace
 
 Relaxation relax(PlacedParticles& placed, int most_steps) {
-  Repulsion repulsion(placed);
+  OverlapRepulsion repulsion(placed);
   double before = std::numeric_limits<double>::infinity();
   int step = 0;
   for (; step < most_steps; ++step) {

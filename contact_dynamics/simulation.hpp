@@ -66,8 +66,8 @@ class Simulation : public ParticleSimulation {
   /// A step in which two touching particles pass each other by more than half the sum of their
   /// radii (kLargestTurn in contact.hpp), or links turn so far that their equations are not solved,
   /// is computed in two halves, and these again. The report then has the contacts of the last part.
-  /// With SolverSettings::suits_sweeps() this also happens, up to four times, to a step whose sweeps
-  /// do not solve Coulomb's law, because those of shorter steps do.
+  /// With SolverSettings::suits_sweeps() this also happens, up to six times, to a step whose sweeps
+  /// do not solve Coulomb's law, because those of shorter steps often do.
   ///
   /// Throws Error(kNotConverged) if a position or displacement exceeds largest_resolved_distance(),
   /// if a displacement is longer than a periodic domain allows (rebuild_neighbour_list()), if the

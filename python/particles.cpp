@@ -4,17 +4,20 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <optional>
 
 #include "viscontact/freefem_flow/freefem_solver.hpp"
 #include "viscontact/particle_runs/case/particles_case.hpp"
 #include "viscontact/particle_runs/io/contact_columns.hpp"
 #include "viscontact/particle_runs/io/particle_columns.hpp"
+#include "viscontact/particle_runs/io/rheology_file.hpp"
 #include "viscontact/particle_runs/io/step_columns.hpp"
 #include "viscontact/particle_runs/run/particles_earlier_run.hpp"
 #include "viscontact/particle_runs/run/start_simulation.hpp"
 #include "viscontact/particles/steps/current_contacts.hpp"
 #include "viscontact/python/call.hpp"
+#include "viscontact/suspensions/suspension_simulation.hpp"
 
 namespace viscontact::python {
 namespace {
@@ -28,7 +31,12 @@ class PythonParticles {
       : case_(particles::read_particles_case(path)),
         simulation_(particles::start_simulation(
             case_.setting, particles::first_state(case_, restart ? restart->string() : ""), threads,
-            freefem_flow::start_fluid_solver, interrupt_token())) {}
+            freefem_flow::start_fluid_solver, interrupt_token())) {
+    // Without inertia the velocities follow from the places, also before the first step.
+    const auto& pairs = case_.setting.lubrication;
+    if (pairs && !pairs->has_inertia && simulation_->state().steps == 0)
+      particles::suspension_of(*simulation_)->solve_instant();
+  }
 
   const particles::ParticlesCase& case_file() const { return case_; }
   /// The caller must have called check_idle(), or be a step that compute() runs.
@@ -252,7 +260,7 @@ template <class Row>
 py::object value_of(const particles::Column<Row>& column, const Row& row) {
   if (column.text != nullptr) return py::str(std::string(column.text(row)));
   particles::Entries entries{};
-  column.read(row, entries);
+  if (!column.read(row, entries)) entries[0] = std::numeric_limits<double>::quiet_NaN();
   if (column.kind == particles::ValueKind::kTruth) return py::bool_(entries[0] != 0);
   if (column.is_whole()) return py::int_(static_cast<std::int64_t>(entries[0]));
   return py::float_(entries[0]);
@@ -276,11 +284,34 @@ void add_step_report(py::module_& module) {
   });
 }
 
+void add_rheology(py::module_& module) {
+  using particles::Rheology;
+  py::class_<Rheology> rheology(module, "Rheology",
+                                "The stress of a suspension; see Particles.rheology.");
+  for (const auto& column : particles::rheology_columns())
+    rheology.def_property_readonly(
+        std::string(column.name).c_str(),
+        [&column](const Rheology& row) { return value_of(column, row); }, help_of(column).c_str());
+  rheology.def("__repr__", [](const Rheology& row) {
+    return fmt::format("<viscontact.Rheology strain {}, viscosity {}, n1 {}, n2 {}>", row.strain,
+                       row.viscosity, row.n1, row.n2);
+  });
+}
+
+/// Throws Error(kWrongUsage) if the case has no lubrication.
+particles::SuspensionSimulation& suspension(PythonParticles& self) {
+  auto* found = particles::suspension_of(self.simulation());
+  if (found == nullptr)
+    throw Error(ErrorKind::kWrongUsage, "the case has no [lubrication], to which this belongs");
+  return *found;
+}
+
 }  // namespace
 
 void add_particles(py::module_& module) {
   using particles::Particles;
   add_step_report(module);
+  add_rheology(module);
   py::class_<PythonParticles>(module, "Particles", R"(Many discs or spheres with viscous contact.
 
 Particles(case, particles=None, threads=1, restart=None)
@@ -313,6 +344,23 @@ be computed; the state is then that before the step.)",
 
 until      the time [T], at most end_time of the case; None: end_time)",
            py::arg("until") = py::none())
+      .def(
+          "solve_instant",
+          [](PythonParticles& self) {
+            auto& simulation = suspension(self);
+            return self.compute([&](const StopToken&) { return simulation.solve_instant(); });
+          },
+          R"(Computes the velocities of spheres with lubrication and returns their Rheology.
+
+Nothing moves. Forces and torques of the caller act. Raises InputError if the case has no section
+[lubrication].)")
+      .def_property_readonly(
+          "rheology",
+          [](PythonParticles& self) {
+            self.check_idle();
+            return suspension(self).rheology();
+          },
+          "The Rheology of the last step, or of the start or solve_instant() before it.")
       .def_property_readonly(
           "forces",
           [](const py::object& self) {

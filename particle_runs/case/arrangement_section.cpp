@@ -153,7 +153,7 @@ void read_arrangement(const case_file::TomlSection& section, ParticlesCase& c) {
       section.has("species") ? "species" : "radius",
       "belongs to an arrangement, which needs a section [domain] with a disc or a box");
   ArrangementKeys keys;
-  case_file::read_keys(section, arrangement_keys, keys, p.dimension, has_fluid);
+  case_file::read_keys(section, arrangement_keys, keys, p.dimension, may_lack_mass(c.setting));
   const std::string_view key = keys.count > 0     ? "count"
                                : p.dimension == 3 ? "volume_fraction"
                                                   : "area_fraction";

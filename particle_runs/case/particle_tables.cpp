@@ -15,7 +15,8 @@ namespace {
 
 constexpr Allowed kMassWithoutFluid = {
     [](double v) { return v >= 1 / kLargestNumber && v <= kLargestNumber; },
-    "from 1e-100 to 1e100 (0 is allowed only in a case with [fluid], or with a given motion)"};
+    "from 1e-100 to 1e100 (0 is allowed only in a case with [fluid], with [lubrication] without "
+    "inertia, or with a given motion)"};
 constexpr std::array kKeysOfRotation = {"torque", "angle", "angular_velocity", "moment_of_inertia"};
 
 /// The rules of shapes with a key, in the order in which the keys are read: first those that stand
@@ -57,6 +58,15 @@ void check_keys(const case_file::TomlSection& section, const ParticlesCase& c) {
   for (const auto* key : kKeysOfRotation)
     section.require(dimension != 1 || !section.has(key), key,
                     "must be left out, because a sphere on the axis does not turn");
+  const auto& pairs = c.setting.lubrication;
+  for (const auto* key : {"fixed", "velocity_given"})
+    section.require(!pairs || !section.has(key), key,
+                    "gives the motion of this particle, and a case with [lubrication] computes the "
+                    "motion of all; the key must be left out");
+  for (const auto* key : {"velocity", "angular_velocity", "moment_of_inertia"})
+    section.require(!pairs || pairs->has_inertia || !section.has(key), key,
+                    "has no effect without inertia; it must be left out, or lubrication.inertia be "
+                    "true");
   section.require(dimension != 3 || !section.has("angle"), "angle",
                   "must be left out, because the orientation of a sphere changes nothing");
 }
@@ -161,7 +171,7 @@ bool read_shape_keys(case_file::Keys& keys, bool beside_radius, ParticleTable& p
 
 void particle_keys(case_file::Keys& keys, ParticleTable& p, const ParticlesCase& c) {
   const int dimension = c.particles.dimension;
-  const bool in_fluid = c.setting.fluid.has_value();
+  const bool in_fluid = may_lack_mass(c.setting);
   const auto read_fixed = [&](const case_file::TomlSection& section, std::string_view key) {
     p.is_fixed = section.truth(key);
   };
@@ -268,7 +278,7 @@ void read_file_of_particles(const case_file::TomlSection& section, ParticlesCase
   case_file::read_keys(section, file_keys, name);
   c.particles_file = c.path.parent_path() / name;
   const bool in_fluid = c.setting.fluid.has_value();
-  auto file = read_particles(c.particles_file, c.particles.dimension, in_fluid);
+  auto file = read_particles(c.particles_file, c.particles.dimension, may_lack_mass(c.setting));
   c.particles = std::move(file.particles);
   lines.in_file = std::move(file.lines);
   auto& p = c.particles;
@@ -306,7 +316,7 @@ ParticleLines read_particles_of_case(const case_file::TomlSection& root, Particl
   read_membranes(root, c, lines);
   read_sources(root, c);
   add_missing_shapes(c.particles);
-  if (!c.setting.fluid && (c.setting.laws.friction || c.particles.turn()))
+  if (!c.setting.fluid && (c.setting.laws.friction || c.setting.lubrication || c.particles.turn()))
     add_rotation(c.particles);
   if (c.particles.count() > 0 || !c.setting.sources.empty()) return lines;
   if (!c.particles_file.empty())

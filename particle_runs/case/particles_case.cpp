@@ -138,16 +138,24 @@ void friction_keys(case_file::Keys& keys, FrictionLaw& law) {
 void read_friction(const case_file::TomlSection& section, ParticlesCase& c) {
   auto& setting = c.setting;
   const int dimension = c.particles.dimension;
+  if (const auto& pairs = setting.lubrication)
+    section.require(pairs->roughness > 0 ||
+                        (pairs->pairs == PairTerms::kNearContact && pairs->regularisation > 0),
+                    "coefficient",
+                    "has no effect, because smooth spheres with a film never touch; "
+                    "viscous_contact.roughness must be > 0, or lubrication.pairs \"near_contact\" "
+                    "with a regularisation > 0");
   section.require(!setting.fluid || dimension == 2, "coefficient",
                   "belongs to particles that turn; spheres on the axis of a fluid do not slide on "
                   "each other, and the case must have no section [friction]");
-  section.require(setting.laws.film.gamma_min || setting.laws.film.viscosity, "coefficient", "{}",
-                  kNoSolidContact);
+  section.require(setting.lubrication || setting.laws.film.gamma_min || setting.laws.film.viscosity,
+                  "coefficient", "{}", kNoSolidContact);
   case_file::read_keys(section, friction_keys, setting.laws.friction.emplace());
-  section.require(!setting.fluid || setting.laws.friction->method == FrictionMethod::kCoulomb,
+  section.require((!setting.fluid && !setting.lubrication) ||
+                      setting.laws.friction->method == FrictionMethod::kCoulomb,
                   "method",
-                  "is 'convex', which is for particles without a fluid; in a fluid it must be "
-                  "\"coulomb\", or the key must be left out");
+                  "is 'convex', which is for particles without a fluid; in a fluid, and with "
+                  "[lubrication], it must be \"coulomb\", or the key must be left out");
   if (section.has("method") && section.text("method") == kFormerMethod)
     c.warnings.emplace_back(
         "friction.method is \"fixed_point\", the former word for \"coulomb\"; write \"coulomb\"");
@@ -202,7 +210,7 @@ void output_keys(case_file::Keys& keys, ParticlesCase& c) {
       keys.optional("average_from", case_file::number(c.average_from, kNotNegative),
                     {"time at which the means over time in run.json and in sweeps begin; with it, "
                      "run.json also has the means of contact forces"});
-  keys.require(c.average_from < c.end_time, "average_from",
+  keys.require(c.average_from < c.end_time || c.average_from == 0, "average_from",
                "is {}; it must be earlier than end_time, {}", c.average_from, c.end_time);
   keys.optional("tables", case_file::texts(c.tables),
                 {"tables with rows for each frame: `\"motion\"`, `\"contacts\"`, `\"walls\"`, "
@@ -384,12 +392,16 @@ void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
   // Each section finds what it needs of the sections before it.
   case_file::read_title_and_units(root, c, true);
   case_file::read_keys(root.section("space"), space_keys, c);
+  if (root.has("lubrication")) check_beside_lubrication(root, c);
   read_domain_and_fluid(root, c);
   read_probes(root, c.setting.domain, c.setting.fluid);
-  case_file::read_keys(root.section("viscous_contact"), contact_keys, c);
+  if (root.has("lubrication"))
+    c.setting.lubrication = read_lubrication(root, c.setting.domain, c.compares);
+  case_file::read_keys(root.section("viscous_contact"),
+                       c.setting.lubrication ? lubricated_contact_keys : contact_keys, c);
   if (root.has("friction")) read_friction(root.section("friction"), c);
   if (root.has("solver")) case_file::read_keys(root.section("solver"), solver_keys, c);
-  c.frame_interval = c.end_time / 100;
+  c.frame_interval = c.end_time > 0 ? c.end_time / 100 : c.setting.time_step;
   if (root.has("output")) case_file::read_keys(root.section("output"), output_keys, c);
   if (root.has("plane"))
     for (const auto& section : root.sections("plane")) {
@@ -437,6 +449,7 @@ void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
     case_file::read_keys(root.section("sweep"), particles_sweep_keys, c.sweep.emplace());
   root.finish();
   check_start(c, lines);
+  if (c.setting.lubrication) check_range(root, c);
   if (c.setting.fluid) {
     if (!root.section("fluid").has("threshold_gap")) set_default_threshold_gap(c);
     check_fluid_start(root, c, lines);
@@ -457,8 +470,9 @@ std::vector<case_file::KeyTable> tables_of_particles_case() {
       case_file::describe_keys("[output]", output_keys),
       case_file::describe_keys("[[plane]]", plane_keys, c),
       case_file::describe_keys("[sweep] of particles", particles_sweep_keys)};
-  for (auto& more : {domain_and_fluid_tables(), particle_tables(), arrangement_tables(),
-                     source_tables(), membrane_tables(), body_and_link_tables()})
+  for (auto& more :
+       {domain_and_fluid_tables(), lubrication_tables(), particle_tables(), arrangement_tables(),
+        source_tables(), membrane_tables(), body_and_link_tables()})
     tables.insert(tables.end(), more.begin(), more.end());
   return tables;
 }

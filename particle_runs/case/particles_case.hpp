@@ -26,15 +26,20 @@ struct ParticlesCase {
   /// and of [[membrane]], in this order. Their dimension is 1 (spheres on an axis), 2 or 3.
   Particles particles;
   std::filesystem::path particles_file;  ///< the CSV file; empty if there is none
-  double end_time = 0;                   ///< time at which the run ends [T], 1e-100 to 1e100
-  double frame_interval = 0;             ///< time between outputs (frames) [T], 1e-100 to 1e100
-  double average_from = 0;          ///< time at which means over time begin [T], >= 0, < end_time
+  /// Time at which the run ends [T], 1e-100 to 1e100. With lubrication it may be 0: no step is made,
+  /// and the velocities are those at the start.
+  double end_time = 0;
+  double frame_interval = 0;  ///< time between outputs (frames) [T], 1e-100 to 1e100
+  /// Time at which means over time begin [T], >= 0, < end_time unless that is 0.
+  double average_from = 0;
   bool average_from_given = false;  ///< true: the case has the key average_from
   std::vector<std::string> tables;  ///< names of tables that the case asks for, of kAskedTables
                                     ///< (particle_runs/io/contact_file.hpp)
   std::vector<std::string>
       step_columns;                   ///< names of further columns of steps.csv, of kStepColumns
   std::vector<std::string> warnings;  ///< what the user should know of the case, in sentences
+  /// Whether the run of a case with lubrication is compared with one of contact alone.
+  bool compares = false;
   /// rho_f [M/L^3] of a fluid without inertia, for the Reynolds number only; 0: not known.
   double fluid_density = 0;
   /// Without a value if the case has no such section.

@@ -80,6 +80,27 @@ inline constexpr double kLeastGapToImage = 0.01;
 /// dimension.
 Domain read_domain(const case_file::TomlSection& section, int dimension);
 
+/// Throws if a case with [lubrication] has another dimension than 3, or a section that cannot stand
+/// beside it.
+void check_beside_lubrication(const case_file::TomlSection& root, const ParticlesCase& c);
+/// Reads [lubrication]. `compares` becomes true if the case is to be run a second time with contact
+/// alone. Also throws if the domain has walls, or if the flow would change a periodic cell in
+/// another way than a shear along x.
+PairLubrication read_lubrication(const case_file::TomlSection& root, const Domain& domain,
+                                 bool& compares);
+/// Throws if a period of the domain is too short for the range of a pair. The particles must have
+/// been read, at least one.
+void check_range(const case_file::TomlSection& root, const ParticlesCase& c);
+/// Declares the keys of [viscous_contact] in a case with [lubrication]: the end and the step, in
+/// units of time or of strain, and the contact of the solids.
+void lubricated_contact_keys(case_file::Keys& keys, ParticlesCase& c);
+std::vector<case_file::KeyTable> lubrication_tables();
+
+/// Whether particles may have no mass: in a fluid, and with lubrication without inertia.
+inline bool may_lack_mass(const Setting& setting) {
+  return setting.fluid || (setting.lubrication && !setting.lubrication->has_inertia);
+}
+
 /// Reads [fluid], which the walls or periods of `domain` hold. If the section does not give
 /// threshold_gap, it is 0 in the result, and set_default_threshold_gap() must set its default. Also
 /// throws for keys of a fluid with inertia if the density is 0, and for keys that exclude each

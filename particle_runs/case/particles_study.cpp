@@ -44,6 +44,10 @@ std::vector<std::string> columns_of(const ParticlesCase& c) {
     for (const auto* column : {"apparent_viscosity", "mean_apparent_viscosity", "dissipation",
                                "mean_dissipation", "velocity_error_estimate"})
       columns.emplace_back(column);
+  if (c.setting.lubrication)
+    for (const auto* column : {"mean_viscosity", "mean_viscosity_error", "mean_n1", "mean_n1_error",
+                               "mean_n2", "mean_n2_error", "mean_pressure", "mean_pressure_error"})
+      columns.emplace_back(column);
   return columns;
 }
 

@@ -146,7 +146,7 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension, bo
   const auto d = static_cast<std::size_t>(dimension);
   const std::string file = path.string(), text = read_file(path);
   std::vector<Row> rows;
-  read_csv_rows(text, file, names, d + 2, [&](auto fields, int line) {
+  read_csv_rows(text, file, names, in_fluid ? d + 1 : d + 2, [&](auto fields, int line) {
     std::ranges::copy(fields, rows.emplace_back(Row{{}, line}).fields.begin());
   });
   check_header(text, file, names, dimension, in_fluid);
@@ -179,7 +179,9 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension, bo
       p.positions.push_back(allowed(row, names, i, Sign::kAny, file));
     p.radii.push_back(allowed(row, names, d, Sign::kPositive, file));
     p.masses.push_back(
-        allowed(row, names, d + 1, in_fluid ? Sign::kNotNegative : Sign::kPositive, file));
+        in_fluid && !row.fields[d + 1]
+            ? 0
+            : allowed(row, names, d + 1, in_fluid ? Sign::kNotNegative : Sign::kPositive, file));
     for (std::size_t i = d + 2; i < 2 * d + 2; ++i) p.velocities.push_back(given_or_0(i));
     if (rotate) {
       p.angles.push_back(given_or_0(kAngle));

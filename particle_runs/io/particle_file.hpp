@@ -18,7 +18,8 @@ struct ParticleFile {
 };
 
 /// Reads a file. `dimension` is 1 (spheres on an axis), 2 (discs) or 3 (spheres). The columns are
-/// x,y[,z],radius,mass and, if they exist, vx,vy[,vz] and id. Without columns of velocities the
+/// x,y[,z],radius,mass and, if they exist, vx,vy[,vz] and id. In a fluid (`in_fluid`), and for
+/// spheres with lubrication without inertia, masses may be 0 or missing. Without columns of velocities the
 /// particles are at rest; without the column id, or with ids 0, 1, ..., Particles::ids is empty.
 /// The file final_particles.csv of a run can be read, too, unless the run has other shapes than
 /// discs and spheres.

@@ -27,6 +27,8 @@ struct Frame {
   /// Unit quaternions (w, x, y, z) of spheres in space; empty if none turns.
   std::vector<float> orientations{};
   std::vector<float> speeds{};  ///< of each particle [L/T], >= 0; empty: not known
+  /// With lubrication in a periodic box: displacement along x of the image across the period y [L].
+  std::optional<double> offset{};
   /// File of the flow around the particles (flow_vtk.hpp); empty if there is none. All flows
   /// together may be too large for the memory.
   std::filesystem::path flow{};
@@ -59,7 +61,8 @@ struct Playback {
   /// Number of the rigid body of each particle, -1: none; empty if there are no bodies.
   std::vector<std::int32_t> bodies{};
   DrawnLinks links{};
-  std::string note{};  ///< a sentence below the title of the page; may be empty
+  std::string note{};    ///< a sentence below the title of the page; may be empty
+  std::string charts{};  ///< SVG below the motion on the page; may be empty
   /// The coefficient is >= 0; empty: there is no friction.
   std::optional<double> friction_coefficient{};
 };
@@ -68,6 +71,11 @@ struct Playback {
 inline PeriodicCell cell_at(const Playback& playback, const Frame& frame) {
   auto cell = playback.cell;
   cell.moved_for = frame.time;
+  if (frame.offset) {
+    assert(cell.lengths[1] > 0);
+    cell.gradient = {0, *frame.offset / cell.lengths[1], 0, 0};
+    cell.moved_for = 1;
+  }
   return cell;
 }
 

@@ -18,7 +18,7 @@ namespace viscontact::particles {
 namespace {
 
 // Another one means other fields.
-constexpr int kVersion = 13;
+constexpr int kVersion = 14;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
 constexpr std::string_view kOrder =
@@ -92,6 +92,7 @@ void for_fields(State& state, Arrays& arrays, Field&& field) {
   field(arrays.impact_impulses);
   field(arrays.impact_branches);
   field(state.planes);
+  field(state.shear);
   field(arrays.given_particles);
   field(arrays.given_forces);
   field(arrays.given_torques);
@@ -303,7 +304,9 @@ bool is_consistent(const State& state) {
          is_empty_or(state.earlier_forces, p.count() * motion_components(p.dimension)) &&
          std::isfinite(state.velocity_lag) && state.velocity_lag >= 0 &&
          std::isfinite(state.earlier_step) && state.earlier_step >= 0 &&
-         std::isfinite(state.step_before) && state.step_before >= 0;
+         std::isfinite(state.step_before) && state.step_before >= 0 &&
+         std::isfinite(state.shear.strain) && std::isfinite(state.shear.rate) &&
+         std::isfinite(state.shear.offset);
 }
 
 /// True if the numbers of the particles, the image and the place of the contact are in their

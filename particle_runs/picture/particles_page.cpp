@@ -129,7 +129,7 @@ std::string units_of_page(const Scene& scene) {
 /// The elements of the page that the scripts read: the JSON object "motion", and the blocks of
 /// motion and flow in base64. In the object, `low`, `step` and `bytes` encode positions (PageData);
 /// `roomLow`, `roomHigh`, `cell` (place and periods), `meanRadius` and `hinges` are lengths [L];
-/// `gradient` is the mean velocity gradient of the cell [1/T]; `lowest` is the lowest gamma [M
+/// `offsets` has Frame::offset of each frame, or nothing; `gradient` is the mean velocity gradient of the cell [1/T]; `lowest` is the lowest gamma [M
 /// L/T]; `topForce` is the force of the widest lines [M L/T^2]. `springs` and `arms` are pairs of
 /// particles, numbered from 0. `allForces` is true if the page has the forces of all contacts.
 std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& flow) {
@@ -149,6 +149,10 @@ std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& 
   std::string hinges;
   for (const auto& at : links.hinges)
     hinges += fmt::format("{}[{}]", hinges.empty() ? "" : ",", fmt::join(at, ","));
+  std::vector<float> offsets;
+  for (const auto f : data.frames)
+    if (const auto offset = playback.frames[f].offset)
+      offsets.push_back(static_cast<float>(*offset));
   const auto list = [&](const auto& x) {
     return fmt::format("[{}]", fmt::join(x.begin(), x.begin() + playback.dimension, ","));
   };
@@ -158,7 +162,8 @@ std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& 
       "\"touching\":\"{}\",\"colours\":[{}],\"cell\":[{},{}],\"gradient\":[{}],\"hasAxis\":{},"
       "\"flow\":{},"
       "\"friction\":[{}],\"hasForces\":{},\"meanRadius\":{},\"hinges\":[{}],\"springs\":[{}],"
-      "\"arms\":[{}],\"topForce\":{},\"allForces\":{},\"topSpeed\":{},\"units\":{},\"style\":{}}}"
+      "\"arms\":[{}],\"offsets\":[{}],\"topForce\":{},\"allForces\":{},\"topSpeed\":{},\"units\":{}"
+      ",\"style\":{}}}"
       "</script>\n",
       playback.dimension, data.every_particle, data.position_bytes, list(data.low), list(data.step),
       list(scene.box.low), list(scene.box.high), scene.lowest_gamma, report::kTouchingColour,
@@ -166,8 +171,9 @@ std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& 
       fmt::join(playback.cell.gradient, ","), scene.has_axis, flow.settings,
       playback.friction_coefficient ? listed(report::friction_scale(kFrictionColours, "")) : "",
       scene.top_force > 0, scene.mean_radius, hinges, ends_of(links.springs), ends_of(links.arms),
-      scene.top_force, scene.top_force > 0 && data.contacts && data.every_particle == 1,
-      data.top_speed, units_of_page(scene), style_of_page());
+      fmt::join(offsets, ","), scene.top_force,
+      scene.top_force > 0 && data.contacts && data.every_particle == 1, data.top_speed,
+      units_of_page(scene), style_of_page());
   for (const auto* blocks : {&data.blocks, &flow.blocks})
     for (const auto& [name, bytes] : *blocks)
       text += fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>\n", name,
@@ -268,11 +274,12 @@ std::string particles_page(const Playback& original, const std::string& title, F
       "<option value=radius>radius<option value=mass>mass<option "
       "value=force>force</select></label>\n"
       "<button type=button id=whole>Whole view</button>\n"
-      "<button type=button id=film>Save film</button>\n</div>\n{}</main>\n"
+      "<button type=button id=film>Save film</button>\n</div>\n{}</main>\n{}"
       "<p class=hint>The space bar plays and pauses. The keys ← and → go back and forward by one "
       "frame; Home and End go to the first and the last frame. {} Point at a particle to see its "
       "values. The address of the page keeps time, view and colours.</p>\n",
       report::escaped(words), flow.controls, legend(scene, flow),
+      original.charts.empty() ? "" : "<div class=charts>" + original.charts + "</div>\n",
       scene.playback.dimension == 2 ? "Drag to move the picture; use the wheel or pinch to zoom."
                                     : "Drag to turn the picture, or with Shift or two fingers to "
                                       "move it; use the wheel or pinch to zoom.");

@@ -13,6 +13,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/json.hpp"
+#include "viscontact/particle_runs/io/rheology_file.hpp"
 #include "viscontact/particles/steps/current_contacts.hpp"
 #include "viscontact/results/foreign_files.hpp"
 
@@ -25,14 +26,16 @@ namespace viscontact::particles {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RelativeErrors, best, of_one_mesh, of_penalty)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ParticleRegime, reynolds, stokes, film, has_contact,
                                                 have_solids_touched)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RheologyMeans::Block, duration, means)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(RheologyMeans, blocks)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(
     StepTotals, steps, unconverged, failed, iterations, most_iterations, first_time, last_time,
     largest_residual, largest_overlap, largest_impulse_residual, divided, unresolved, buckling,
     largest_buckling, first_buckling, lacks_springs, given_loads, regime, seconds,
     peak_memory_mebibytes, fluid_seconds, advection_errors, largest_advection_error, unknowns,
     first_velocity_errors, last_velocity_errors, first_force_errors, last_force_errors,
-    averaged_time, mean_dissipation, mean_apparent_viscosity, contact_time, contact_means, jammed,
-    first_jam, jammed_bodies, given_load, growing)
+    averaged_time, mean_dissipation, mean_apparent_viscosity, contact_time, contact_means, rheology,
+    jammed, first_jam, jammed_bodies, given_load, growing)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunRecord, totals, frames, flows, last_frame, rebounds, files)
 
 namespace {
@@ -147,6 +150,19 @@ void add_contact_means(const ParticlesCase& c, const StepTotals& totals, Json& j
   }
 }
 
+/// The means over time of the rheology, and their standard errors.
+void add_rheology(const ParticlesCase& c, const StepTotals& totals, Json& json) {
+  json["average_from"] = std::max(c.average_from, totals.first_time);
+  json["rheology_blocks"] = totals.rheology.filled_blocks();
+  const auto known = [](const std::optional<double>& number) {
+    return number ? Json(*number) : Json();
+  };
+  for (std::size_t k = 0; k < kRheologyMeans.size(); ++k) {
+    json[mean_name(k)] = known(totals.rheology.mean(k));
+    json[standard_error_name(k)] = known(totals.rheology.standard_error(k));
+  }
+}
+
 }  // namespace
 
 std::string run_json(const ParticlesCase& c, const StepTotals& totals, const State& state) {
@@ -186,6 +202,7 @@ std::string run_json(const ParticlesCase& c, const StepTotals& totals, const Sta
   json["jammed_steps"] = totals.jammed;
   json["first_jam"] = totals.jammed > 0 ? Json(totals.first_jam) : Json();
   if (c.average_from_given) add_contact_means(c, totals, json);
+  if (c.setting.lubrication) add_rheology(c, totals, json);
   if (c.setting.fluid) {
     const auto add_estimates = [&](const std::string& key, const RelativeErrors& first,
                                    const RelativeErrors& last) {

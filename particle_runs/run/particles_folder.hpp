@@ -14,6 +14,7 @@
 #include "viscontact/common/files/growing_file.hpp"
 #include "viscontact/particle_runs/case/particles_case.hpp"
 #include "viscontact/particle_runs/run/particle_regime.hpp"
+#include "viscontact/particle_runs/run/rheology_means.hpp"
 #include "viscontact/particles/state/state.hpp"
 #include "viscontact/particles/steps/step_report.hpp"
 
@@ -22,13 +23,13 @@ namespace viscontact::particles {
 /// The names of all files that a run may have, except those of its frames, in the order in which
 /// they are removed. restart.bin is the first, because no run continues without it.
 inline constexpr auto kParticleResults = std::to_array<const char*>(
-    {"restart.bin",  "particles.pvd", "particles.html",      "particles.svg",
-     "run.json",     "steps.csv",     "final_particles.csv", "final_contacts.csv",
-     "motion.csv",   "contacts.csv",  "walls.csv",           "stress.csv",
-     "flow.pvd",     "bodies.csv",    "hinges.csv",          "springs.csv",
-     "arms.csv",     "membranes.csv", "links.pvd",           "rebounds.csv",
-     "probes.csv",   "particles.h5",  "planes.csv",          "particles.pdf",
-     "particles.xyz"});
+    {"restart.bin",   "particles.pvd", "particles.html",      "particles.svg",
+     "run.json",      "steps.csv",     "final_particles.csv", "final_contacts.csv",
+     "motion.csv",    "contacts.csv",  "walls.csv",           "stress.csv",
+     "flow.pvd",      "bodies.csv",    "hinges.csv",          "springs.csv",
+     "arms.csv",      "membranes.csv", "links.pvd",           "rebounds.csv",
+     "probes.csv",    "particles.h5",  "planes.csv",          "particles.pdf",
+     "particles.xyz", "rheology.csv",  "rheology.svg",        "pair_distribution.csv"});
 
 /// A kind of file of which each frame (output time) has one, named `begin`_NUMBER`end`.
 struct FrameKind {
@@ -109,6 +110,8 @@ struct StepTotals {
 
   double contact_time = 0;            ///< time over which contact_means are taken [T]
   std::vector<double> contact_means;  ///< means over time of the values of add_means()
+
+  RheologyMeans rheology;  ///< with lubrication
 
   std::int64_t jammed = 0;    ///< number of steps in which a packing jams, see add()
   double first_jam = 0;       ///< time at the end of the first of these steps [T]

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -15,9 +16,11 @@
 #include "viscontact/membranes/membrane_shape.hpp"
 #include "viscontact/particle_runs/io/contact_file.hpp"
 #include "viscontact/particle_runs/io/playback.hpp"
+#include "viscontact/particle_runs/io/rheology_file.hpp"
 #include "viscontact/particle_runs/io/vtk.hpp"
 #include "viscontact/particle_runs/picture/particles_picture.hpp"
 #include "viscontact/particle_runs/picture/scene.hpp"
+#include "viscontact/particle_runs/run/rheology_charts.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/report/pictures/pdf.hpp"
 #include "viscontact/results/foreign_files.hpp"
@@ -78,6 +81,26 @@ Playback without_frames(const ParticlesCase& c) {
     for (std::int32_t k = 0; k < membrane.count(); ++k)
       playback.links.arms.push_back({membrane.bead(k), membrane.bead(k + 1)});
   return playback;
+}
+
+/// Sets Frame::offset of all frames of a case with a shear across y in a periodic box. `rheology` has
+/// the strains at the times of the steps, of which a given stress needs those of the frames.
+void set_offsets(const ParticlesCase& c, const std::vector<Rheology>& rheology,
+                 Playback& playback) {
+  const auto& pairs = *c.setting.lubrication;
+  const auto& lengths = playback.cell.lengths;
+  if (!(lengths[1] > 0)) return;
+  for (auto& frame : playback.frames) {
+    double strain = pairs.gradient[0][1] * frame.time;
+    if (pairs.stress) {
+      const auto step =
+          std::ranges::lower_bound(rheology, frame.time * (1 - 1e-12), {}, &Rheology::time);
+      strain = step == rheology.end() || frame.time == 0 ? 0 : step->strain;
+      if (*pairs.stress < 0) strain = -strain;
+    }
+    const double offset = pairs.offset + strain * lengths[1];
+    frame.offset = offset - lengths[0] * std::round(offset / lengths[0]);
+  }
 }
 
 /// A frame without the flow, whose places are relative to `origin` [L]. Throws Error(kBadInput) if
@@ -184,6 +207,23 @@ Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
   return playback;
 }
 
+/// The curves of the run in `folder`, whose frames `playback` has, and of the run beside it that
+/// `compared_folder()` names, if that exists. Throws Error(kBadInput) if a file cannot be read.
+SuspensionCurves read_curves(const ParticlesCase& c, const fs::path& folder, Playback& playback) {
+  SuspensionCurves curves;
+  curves.rheology = read_rheology(folder / kRheologyFile);
+  set_offsets(c, curves.rheology, playback);
+  curves.pairs = pair_distribution(c, playback);
+  const auto beside = compared_folder(folder);
+  if (!c.compares || !fs::is_regular_file(beside / kRheologyFile)) return curves;
+  const auto compared = compared_case(c);
+  auto other = read_playback(compared, beside);
+  curves.compared = read_rheology(beside / kRheologyFile);
+  set_offsets(compared, curves.compared, other);
+  curves.compared_pairs = pair_distribution(compared, other);
+  return curves;
+}
+
 /// The numbers in run.json; unknown ones if the file is missing, as after an interrupted run, or
 /// lacks them.
 ParticleRegime regime_in(const fs::path& folder) {
@@ -203,10 +243,29 @@ ParticleRegime regime_in(const fs::path& folder) {
 
 }  // namespace
 
+fs::path compared_folder(const fs::path& folder) { return folder / "viscous_contact"; }
+
+ParticlesCase compared_case(const ParticlesCase& c) {
+  assert(c.setting.lubrication);
+  auto compared = c;
+  compared.compares = false;
+  auto& pairs = *compared.setting.lubrication;
+  pairs.pairs = PairTerms::kNone;
+  pairs.regularisation = 0;
+  return compared;
+}
+
 void write_pages(const ParticlesCase& c, const fs::path& folder,
                  const results::Provenance& provenance, const ParticleRegime& regime) {
   constexpr int kPanels = 4;  // number of times that the still picture shows
   auto playback = read_playback(c, folder);
+  if (c.setting.lubrication) {
+    const auto curves = read_curves(c, folder, playback);
+    playback.charts = suspension_charts(c, curves);
+    results::write_output(folder / "rheology.svg", TextKind::kSvg, playback.charts, provenance);
+    results::write_output(folder / "pair_distribution.csv", TextKind::kHashComment,
+                          write_pair_distribution(curves.pairs), provenance);
+  }
   playback.note = in_words(regime);
   if (const auto& x = playback.origin; x != Vector{})
     playback.note += fmt::format(". Places are relative to ({}, {}{})", x[0], x[1],
@@ -226,7 +285,8 @@ void write_pages(const ParticlesCase& c, const fs::path& folder,
 }
 
 void report_particles(const fs::path& folder) {
-  for (const auto* name : {"particles.html", "particles.svg"})
+  for (const auto* name :
+       {"particles.html", "particles.svg", "rheology.svg", "pair_distribution.csv"})
     results::refuse_other_kind(folder / name, "", "result");
   auto files = results::given_inputs(folder / "particles.pvd");
   const auto c = read_particles_case(files.front());

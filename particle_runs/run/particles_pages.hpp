@@ -9,8 +9,14 @@
 
 namespace viscontact::particles {
 
+/// The folder of the run of contact alone that belongs to the run in `folder`
+/// (ParticlesCase::compares), and its case.
+std::filesystem::path compared_folder(const std::filesystem::path& folder);
+ParticlesCase compared_case(const ParticlesCase& c);
+
 /// Writes particles.html and particles.svg from the frames (states at the output times) and flows
-/// that a run of the case `c` has written into `folder`. If all frames need more than 256 MiB of
+/// that a run of the case `c` has written into `folder`; with lubrication also rheology.svg and
+/// pair_distribution.csv. If all frames need more than 256 MiB of
 /// memory, only every 2nd, 4th, ... frame and the last one are used. `provenance`, the record of
 /// inputs and command, is stored in both files. The page shows `regime` in words. A radius that is
 /// not between 1e-37 and 3e38 [L] only causes a warning, because nothing can be drawn. Throws

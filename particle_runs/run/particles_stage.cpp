@@ -31,6 +31,7 @@
 #include "viscontact/particles/steps/current_contacts.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/results/run_folder.hpp"
+#include "viscontact/suspensions/suspension_simulation.hpp"
 #include "viscontact/terminal/progress.hpp"
 
 namespace viscontact::particles {
@@ -52,6 +53,7 @@ class Run {
       : case_(c),
         simulation_(simulation),
         flow_(flow_of(simulation)),
+        suspension_(suspension_of(simulation)),
         folder_(std::move(folder)),
         provenance_(provenance),
         log_(log),
@@ -64,13 +66,22 @@ class Run {
   /// that before the step; otherwise it returns null. Throws Error(kBadInput) if a file cannot be
   /// written, and the errors of the fluid solver if it fails between two steps.
   std::exception_ptr simulate() {
-    if (log_.record().frames == 0) add_frame();
+    if (log_.record().frames == 0) {
+      try {
+        compute_start();
+      } catch (const Error&) {
+        return std::current_exception();
+      }
+      add_frame();
+    }
     save(with_costs(log_.record()));
     double next_frame = frame_after(log_.record().last_frame);
     while (!is_at_end() && !stop_.stop_requested()) {
       StepReport report;
+      const double before = simulation_.state().time;
       try {
         report = simulation_.step(case_.end_time);
+        if (suspension_ != nullptr) count_short_step(report.time - before);
       } catch (const Error&) {
         return std::current_exception();
       }
@@ -79,6 +90,7 @@ class Run {
         if (log_.lacks_flow()) log_.add_flow(flow_->flow());
       }
       log_.add_step(report, simulation_.state(), simulation_.rebounds());
+      if (suspension_ != nullptr) log_.add_rheology(suspension_->rheology());
       if (report.time >= next_frame - tiny_time(case_)) {
         add_frame();
         next_frame = frame_after(report.time);
@@ -153,6 +165,31 @@ class Run {
     if (flow) log_.add_flow(*flow);
   }
 
+  /// Computes the velocities at the start of spheres with lubrication, which the first frame has; if
+  /// no step follows, also their rheology.
+  void compute_start() {
+    // After a step the velocities are those of the step, with which the next one begins.
+    if (suspension_ == nullptr || simulation_.state().steps > 0) return;
+    const auto& rheology = suspension_->solve_instant();
+    if (is_at_end()) log_.add_rheology(rheology);
+  }
+
+  /// Throws Error(kNotConverged) if spheres with lubrication have ended so many steps early that the
+  /// run would hardly get on. `h` is the length of the last step [T].
+  void count_short_step(double h) {
+    // A step that ends early because spheres would overlap may be followed by whole ones.
+    constexpr int kMost = 100;
+    constexpr double kShort = 0.01;
+    short_steps_ = h < kShort * case_.setting.time_step && !is_at_end() ? short_steps_ + 1 : 0;
+    if (short_steps_ < kMost) return;
+    throw Error(ErrorKind::kNotConverged,
+                "{}: the spheres jam at t = {:.6g}, the strain {:.6g}: {} steps in a row ended "
+                "within a hundredth of the time step, because spheres would overlap. Everything "
+                "before is kept; use a smaller volume fraction, less friction, or a shorter step",
+                case_.path.string(), simulation_.state().time, suspension_->rheology().strain,
+                kMost);
+  }
+
   void add_frame() {
     std::vector<double> link_force_errors;
     if (flow_ != nullptr) link_force_errors = flow_->force_errors().of_links;
@@ -200,7 +237,8 @@ class Run {
 
   const ParticlesCase& case_;
   ParticleSimulation& simulation_;
-  FlowSimulation* flow_;  // null without a fluid
+  FlowSimulation* flow_;              // null without a fluid
+  SuspensionSimulation* suspension_;  // null without lubrication
   fs::path folder_;
   const results::Provenance& provenance_;
   RunLog& log_;
@@ -208,6 +246,7 @@ class Run {
   double first_time_ = simulation_.state().time;  // at which this call began [T]
   Clock::time_point begin_ = Clock::now(), last_saved_ = begin_;
   terminal::ProgressTimer progress_;
+  int short_steps_ = 0;  // the last steps that count_short_step() counts
 };
 
 void warn_of_jam(const StepTotals& record) {
@@ -287,10 +326,21 @@ void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State&
       static_cast<double>(record.iterations) /
           static_cast<double>(std::max<std::int64_t>(record.steps, 1)),
       record.largest_residual, record.largest_overlap, (folder / "particles.html").string());
+  if (const auto viscosity = record.rheology.mean(0)) {
+    const auto error = record.rheology.standard_error(0);
+    terminal::say("particles: the mean viscosity is {:.6g}{} times that of the fluid", *viscosity,
+                  error ? fmt::format(" (standard error {:.2g})", *error) : "");
+  }
   if (const auto regime = in_words(record.regime); !regime.empty())
     terminal::say("particles: {}", regime);
   for (const auto& warning : warnings_of(c, record.regime))
     terminal::warn("particles: warning: {}", warning);
+  if (record.divided > 0)
+    terminal::say(
+        "particles: {} of {} steps were computed in parts, because particles are fast or Coulomb's "
+        "law "
+        "was not solved (steps.csv says in how many)",
+        record.divided, record.steps);
   if (record.unconverged > 0)
     terminal::warn(
         "particles: warning: {} of {} steps did not reach the tolerances {} and {}, {}",
@@ -373,12 +423,27 @@ void write_files_of_all_frames(const ParticlesRequest& request, const ParticlesC
   if (request.xyz) write_xyz(c, request.folder, provenance);
 }
 
-}  // namespace
+void run_case(const ParticlesRequest& request, const ParticlesCase& c);
 
-void run_particles(const ParticlesRequest& request) {
-  assert(request.threads >= 1);
-  if (request.hdf5) require_hdf5();
-  const ParticlesCase c = read_particles_case(request.case_file);
+/// Runs the case of contact alone in its folder below that of the request. Returns the error of
+/// steps that did not converge, because the run beside it is wanted all the same.
+std::exception_ptr run_compared(const ParticlesRequest& request, const ParticlesCase& c) {
+  auto beside = request;
+  beside.folder = compared_folder(request.folder).string();
+  beside.json = false;
+  terminal::say("particles: the same with pairs = \"none\", in {}", beside.folder);
+  try {
+    run_case(beside, compared_case(c));
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kNotConverged) throw;
+    return std::current_exception();
+  }
+  return {};
+}
+
+/// Does the work of run_particles() with the case, which must be that of the request or its
+/// compared_case().
+void run_case(const ParticlesRequest& request, const ParticlesCase& c) {
   std::vector<fs::path> inputs = {c.path};
   if (!c.particles_file.empty()) inputs.push_back(c.particles_file);
   if (!request.restart.empty()) inputs.emplace_back(request.restart);
@@ -388,11 +453,13 @@ void run_particles(const ParticlesRequest& request) {
   auto state = first_state(c, request.restart);
   const LockedFolder lock(folder, results::kFolderIsLocked);
   check_results(folder);
+  const auto failure_beside = c.compares ? run_compared(request, c) : nullptr;
   RunLog log(c, folder, provenance);
   if (const auto earlier = find_earlier_run(c, folder, provenance, log)) {
     if (is_finished(*earlier, c, tiny_time(c), folder)) {
       write_files_of_all_frames(request, c, provenance);
       tell_finished(c, *earlier, folder, request.json, request.stop);
+      if (failure_beside) std::rethrow_exception(failure_beside);
       return;
     }
     log.resume(earlier->record);
@@ -426,6 +493,15 @@ void run_particles(const ParticlesRequest& request) {
   }
   if (request.json) fmt::print("{}", json);
   warn_or_fail(c, log.totals(), simulation->state(), folder, request.stop);
+  if (failure_beside) std::rethrow_exception(failure_beside);
+}
+
+}  // namespace
+
+void run_particles(const ParticlesRequest& request) {
+  assert(request.threads >= 1);
+  if (request.hdf5) require_hdf5();
+  run_case(request, read_particles_case(request.case_file));
 }
 
 }  // namespace viscontact::particles

@@ -9,6 +9,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/particle_runs/io/contact_file.hpp"
+#include "viscontact/particle_runs/io/rheology_file.hpp"
 #include "viscontact/particle_runs/io/step_columns.hpp"
 #include "viscontact/particle_runs/io/vtk.hpp"
 #include "viscontact/particles/steps/current_contacts.hpp"
@@ -69,6 +70,7 @@ RunLog::RunLog(const ParticlesCase& c, fs::path folder, const results::Provenanc
   add_file("steps.csv", TextKind::kHashComment, steps_header(c.setting.fluid, c.step_columns));
   if (c.setting.laws.restitution.is_on())
     add_file("rebounds.csv", TextKind::kHashComment, rebounds_header());
+  if (c.setting.lubrication) add_file(kRheologyFile, TextKind::kHashComment, rheology_header());
   if (!c.setting.links.empty()) add_list(kLinksFile);
   if (c.setting.fluid) add_list(kFlowFile);
   if (c.setting.fluid && !c.setting.fluid->probes.empty())
@@ -111,10 +113,13 @@ void RunLog::add_step(const StepReport& report, const State& state,
   const double duration = report.time - std::max(record_.totals.last_time, case_.average_from);
   if (case_.average_from_given && duration > 0)
     record_.totals.add_means(values_to_average(case_.setting, state), duration);
+  step_began_ = record_.totals.last_time;
   record_.totals.add(report, case_.average_from);
   record_.totals.regime.add(case_, state, report.glued > 0);
   const auto steps = record_.totals.steps;
-  if (steps <= RunLogTuning::kMostRows || steps % RunLogTuning::kOneIn == 0 || !report.converged) {
+  has_row_ =
+      steps <= RunLogTuning::kMostRows || steps % RunLogTuning::kOneIn == 0 || !report.converged;
+  if (has_row_) {
     files_.at("steps.csv")
         .append(step_row(state.steps, report, case_.setting.fluid, case_.step_columns));
     if (!report.fluid.probes.empty())
@@ -125,6 +130,12 @@ void RunLog::add_step(const StepReport& report, const State& state,
   if (more.empty()) return;
   files_.at("rebounds.csv").append(rebound_rows(state.particles, more));
   record_.rebounds += more.size();
+}
+
+void RunLog::add_rheology(const Rheology& rheology) {
+  record_.totals.rheology.add(rheology, step_began_, rheology.time, case_.average_from,
+                              case_.end_time);
+  if (has_row_) files_.at(kRheologyFile).append(rheology_row(rheology));
 }
 
 void RunLog::add_frame(const State& state, std::span<const double> link_force_errors) {

@@ -45,6 +45,11 @@ class RunLog {
   /// has at most a million rows (80 MB).
   void add_step(const StepReport& report, const State& state, std::span<const Rebound> rebounds);
 
+  /// Adds the rheology of the step that add_step() added last to rheology.csv and to the means, or
+  /// that of the start before any step. rheology.csv has rows of the same steps as steps.csv. The
+  /// case must have lubrication.
+  void add_rheology(const Rheology& rheology);
+
   /// Writes a frame of the state, and the rows of the state in the tables. `link_force_errors` are
   /// estimates of the errors of State::link_forces, in the same order and units; empty if they are
   /// not known.
@@ -79,6 +84,8 @@ class RunLog {
   std::vector<TimeTable> tables_;                 // those that get rows with each frame
   std::vector<std::filesystem::path> unflushed_;  // files of frames that may not be on the disk yet
   RunRecord record_;                              // its `files` are empty; record() adds them
+  double step_began_ = 0;                         // time at the start of the last step [T]
+  bool has_row_ = true;                           // whether the last step has a row in steps.csv
 };
 
 }  // namespace viscontact::particles

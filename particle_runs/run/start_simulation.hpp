@@ -10,8 +10,11 @@
 
 namespace viscontact::particles {
 
-/// A MembraneSimulation if the setting has a fluid with membranes, a FluidSimulation if it has
-/// another fluid, else a Simulation. `threads` >= 1 is used without a fluid only. With a fluid,
+class SuspensionSimulation;
+
+/// A SuspensionSimulation if the setting has lubrication, a MembraneSimulation if it has a fluid with
+/// membranes, a FluidSimulation if it has another fluid, else a Simulation. `threads` >= 1 is used
+/// without a fluid only. With a fluid,
 /// `start_solver` starts the fluid solver, which ends if `stop` requests a stop; without one no
 /// solver is started, because FreeFEM may not be installed. Throws Error(kBadInput) if `state` does
 /// not fit the setting. The errors of the fluid solver, here and in the simulation, are
@@ -21,6 +24,9 @@ std::unique_ptr<ParticleSimulation> start_simulation(const Setting& setting, Sta
                                                      int threads,
                                                      const StartFluidSolver& start_solver,
                                                      const StopToken& stop);
+
+/// The simulation of spheres with lubrication; null if it is another one.
+SuspensionSimulation* suspension_of(ParticleSimulation& simulation);
 
 /// What the simulation tells of its flow; null without a fluid.
 inline FlowSimulation* flow_of(ParticleSimulation& simulation) {

@@ -19,6 +19,7 @@
 #include "viscontact/common/text/json.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/common/text/on_one_line.hpp"
+#include "viscontact/particle_runs/run/particles_pages.hpp"
 #include "viscontact/particle_runs/run/particles_stage.hpp"
 #include "viscontact/particles/domain/region.hpp"
 #include "viscontact/results/foreign_files.hpp"
@@ -80,8 +81,10 @@ std::string without(std::string text, const std::string& part) {
   return text;
 }
 
-/// Removes the files that Viscontact wrote into the folder of a run, except run.json and steps.csv.
+/// Removes the files that Viscontact wrote into the folder of a run, except run.json and steps.csv,
+/// and likewise those of a run beside it.
 void remove_the_rest(const fs::path& run) {
+  if (const auto beside = compared_folder(run); fs::is_directory(beside)) remove_the_rest(beside);
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(run))
     if (entry.is_regular_file() && entry.path().filename() != "run.json" &&

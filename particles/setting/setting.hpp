@@ -15,6 +15,7 @@
 #include "viscontact/particles/domain/periods.hpp"
 #include "viscontact/particles/links/links.hpp"
 #include "viscontact/particles/setting/fluid.hpp"
+#include "viscontact/particles/setting/pair_lubrication.hpp"
 #include "viscontact/particles/setting/source.hpp"
 #include "viscontact/particles/state/particles.hpp"
 #include "viscontact/particles/values/piecewise_constant.hpp"
@@ -94,6 +95,7 @@ struct Setting {
   Scheme scheme = Scheme::kEuler;  ///< must be kEuler with a fluid
   SolverSettings solver;
   std::optional<Fluid> fluid;  ///< needs a domain
+  std::optional<PairLubrication> lubrication{};  ///< not together with `fluid`
   /// Torques on single particles [M L^2/T^2], of discs in component 2, > 0 if counter-clockwise.
   /// They need particles that turn. A particle with a torque must not be in `given_motions`.
   std::map<std::int32_t, PiecewiseConstant> torques;

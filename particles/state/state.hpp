@@ -67,6 +67,14 @@ struct GivenParticleLoad {
       torque{};    ///< about its centre [M L^2/T^2], of a disc in component 2
 };
 
+/// How far a suspension has been sheared (PairLubrication).
+struct ShearProgress {
+  double strain = 0;  ///< integral of the shear rate since the start [1]
+  double rate = 0;    ///< factor on the gradient of the setting in the last step [1]; 0 at the start
+  double offset = 0;  ///< displacement of images across y along x [L], within half a period
+  bool operator==(const ShearProgress&) const = default;
+};
+
 /// The state of a simulation, in any consistent units. To begin a new one, only `particles` has to
 /// be set. The restart file (particle_runs/io/restart.cpp) stores the state bit for bit.
 struct State {
@@ -124,6 +132,7 @@ struct State {
   /// source that is not in the state yet. In `particles`, the particles of sources follow those of
   /// the case, in the order in which they were added.
   std::vector<SourceProgress> sources;
+  ShearProgress shear;  ///< with PairLubrication
 };
 
 }  // namespace viscontact::particles

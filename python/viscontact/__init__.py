@@ -20,7 +20,7 @@ import sys as _sys
 
 try:
     from ._core import (Error, ExternalProgramError, Fit, InputError, NotConvergedError, PairFit,
-                        StepReport, __version__, _tabulate, film_gamma, film_gap, fit, fit_pair,
+                        Rheology, StepReport, __version__, _tabulate, film_gamma, film_gap, fit, fit_pair,
                         pair_resistance, rolling, simulate, swimmer)
 except ModuleNotFoundError as problem:
     if problem.name != f"{__name__}._core":
@@ -37,8 +37,9 @@ from .particles import Particles
 from .results import Folder, Frames, read
 
 __all__ = ["Columns", "Error", "ExternalProgramError", "Fit", "Folder", "Frames", "InputError",
-           "NotConvergedError", "PairFit", "Particles", "StepReport", "film_gamma", "film_gap", "fit",
-           "fit_pair", "pair_resistance", "read", "rolling", "simulate", "swimmer", "tabulate", "__version__"]
+           "NotConvergedError", "PairFit", "Particles", "Rheology", "StepReport", "film_gamma", "film_gap",
+           "fit", "fit_pair", "pair_resistance", "read", "rolling", "simulate", "swimmer", "tabulate",
+           "__version__"]
 
 
 def tabulate(case, output, *, jobs=0, motions=None):

@@ -343,5 +343,36 @@ radius = 1.0
         self.assertAlmostEqual(own.positions[0, 0], 3 / (8 * np.pi), delta=1e-12)
 
 
+class Suspensions(unittest.TestCase):
+    CASE = {"space": {"dimension": 3},
+            "domain": {"box": {"from": [0.0, 0.0, 0.0], "to": [8.0, 8.0, 8.0],
+                               "periodic": [True, True, True]}},
+            "lubrication": {"viscosity": 3.0, "velocity": {"shear_rate": 2.0}},
+            "viscous_contact": {"strain_step": 0.125, "end_strain": 1.0}}
+
+    def test_one_sphere_has_einsteins_viscosity(self):
+        sphere = viscontact.Particles(self.CASE, {"x": [1.0], "y": [5.0], "z": [3.0],
+                                                  "radius": [1.0]})
+        viscosity = 1 + 2.5 * 4 * np.pi / 3 / 8**3
+        # Rounding errors of the solution, whose tolerance is 1e-11.
+        self.assertAlmostEqual(sphere.rheology.viscosity, viscosity, delta=1e-12)
+        self.assertAlmostEqual(sphere.velocities[0, 0], 10, delta=1e-9)
+        self.assertTrue(np.isnan(sphere.rheology.smallest_gap))
+        self.assertEqual(sphere.run(), 8)
+        self.assertAlmostEqual(sphere.rheology.strain, 1, delta=1e-12)
+
+    def test_forces_of_the_caller_act_at_once(self):
+        sphere = viscontact.Particles(self.CASE, {"x": [1.0], "y": [5.0], "z": [3.0],
+                                                  "radius": [1.0]})
+        sphere.forces[0] = [0.0, 0.0, 6 * np.pi * 3.0]
+        sphere.solve_instant()
+        self.assertAlmostEqual(sphere.velocities[0, 2], 1, delta=1e-9)
+        self.assertEqual(sphere.time, 0)
+
+    def test_other_particles_have_no_rheology(self):
+        with self.assertRaises(viscontact.InputError):
+            viscontact.Particles(RAFT).rheology
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -79,6 +79,8 @@ const orientations = new Float32Array(writtenOrientations ? 4 * count : 0);
 // > 0 [L], its centre as `point` and the normal 0; the particles are inside the circle.
 let planes = [];
 let presentFrame = 0;  // the last frame that is not after the time
+// With lubrication: the displacement along x, at the time, of the image across the period y.
+let offset = 0;
 let strain = [0, 0, 0, 0];  // strain of the cell until the time, in the order of motion.gradient
 // The contacts of frame number `frame` (-1: none read yet), as readContacts() decodes them. Each
 // array has an entry for each of `count` contacts; entries beyond are not used.
@@ -112,7 +114,15 @@ const writtenPlace = (frame, k, d) =>
 // The present shift [L] of a periodic image, for its numbers of periods along x, y and z.
 function imageShift([alongX, alongY, alongZ]) {
   const x = periodX * alongX, y = periodY * alongY, [a, b, c, d] = strain;
-  return [x + (a * x + b * y), y + (c * x + d * y), periodZ * alongZ];
+  return [x + (a * x + b * y) + offset * alongY, y + (c * x + d * y), periodZ * alongZ];
+}
+
+// The numbers of periods of the image whose shift is the nearest one to a vector [L], in a cell with
+// offsets.
+function nearestWithOffset([x, y, z]) {
+  const alongY = periodY ? Math.round(y / periodY) : 0;
+  return [periodX ? Math.round((x - alongY * offset) / periodX) : 0, alongY,
+          periodZ ? Math.round(z / periodZ) : 0];
 }
 
 // The numbers of periods of the image whose shift is the nearest one to the vector (x, y, z) [L].
@@ -132,12 +142,20 @@ function nearestPeriods([x, y, z]) {
 function setTime(time) {
   const {frame, share} = placeOf(time), n = count * dim;
   const from = frame * n, to = Math.min(frame + 1, frames - 1) * n;
+  const offsets = motion.offsets;
+  if (offsets.length) {
+    let moves = offsets[Math.min(frame + 1, frames - 1)] - offsets[frame];
+    if (periodX) moves -= periodX * Math.round(moves / periodX);
+    offset = offsets[frame] + share * moves;
+  }
   for (let d = 0; d < dim; ++d) {
     // In a sheared cell particles that leave it are not brought back.
     const period = isSheared ? 0 : [periodX, periodY, periodZ][d], begin = [cellX, cellY, cellZ][d];
     for (let i = d; i < n; i += dim) {
       const here = motion.low[d] + motion.step[d] * written[from + i];
       let move = motion.low[d] + motion.step[d] * written[to + i] - here;
+      if (offsets.length && d === 0 && periodY)  // a particle that leaves across y is displaced
+        move -= offset * Math.round(motion.step[1] * (written[to + i + 1] - written[from + i + 1]) / periodY);
       // A particle that leaves the cell comes in again at the other side.
       if (period) move -= period * Math.round(move / period);
       const x = here + share * move;

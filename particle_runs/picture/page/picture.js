@@ -365,6 +365,9 @@ function shiftOf(i) {
   if (!images) return kNoShift;
   const image = images[lines.pair[i]];
   const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
+  if (motion.offsets.length)
+    return imageShift(nearestWithOffset([0, 1, 2].map(
+      d => positions[first * dim + d] - positions[second * dim + d])));
   return imageShift([periodX, periodY, periodZ].map((period, d) => {
     if (!period) return 0;
     const now = positions[second * dim + d] - positions[first * dim + d];

@@ -31,7 +31,7 @@ constexpr double kFarLeast = 1e-6;
 // Below this gap the rest for b > 10 is linear in the gap, to 1e-5; exact solutions there take
 // gigabytes.
 constexpr double kLinear = 1.5e-3;
-// A small ratio stands for the plane.
+// The ratio that stands for the plane.
 constexpr double kPlane = 1e9;
 
 double node(int i, int count) { return -std::cos(std::numbers::pi * (i + 0.5) / count); }

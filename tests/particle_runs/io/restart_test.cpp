@@ -55,6 +55,14 @@ TEST_F(RestartFile, HasTheFlowOfAFluidWithInertia) {
   EXPECT_EQ(back.walls, state.walls);
 }
 
+TEST_F(RestartFile, HasTheShearOfASuspension) {
+  auto state = disc_on_plane(-0.75);
+  state.shear = {.strain = 7.5, .rate = -1, .offset = 0.25};
+  EXPECT_EQ(read(write_restart(state)).shear, state.shear);
+  state.shear.offset = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(bad_input([&] { read(write_restart(state)); }), IsAt("restart.bin"));
+}
+
 TEST_F(RestartFile, HasThePositionsBeforeAStepOfMembranes) {
   auto state = disc_on_plane(-0.75);
   state.earlier_positions = {0.5, 2};
@@ -194,9 +202,9 @@ TEST_F(RestartFile, WithListsOfOtherLengthsIsRefused) {
 }
 
 TEST_F(RestartFile, OfAnotherVersionIsRefused) {
-  for (const auto* version : {"version 14", "version :", "version 12", "version 13x"}) {
+  for (const auto* version : {"version 15", "version :", "version 13", "version 14x"}) {
     auto text = write_restart(disc_on_plane(-0.5));
-    text.replace(text.find("version 13"), 10, version);
+    text.replace(text.find("version 14"), 10, version);
     EXPECT_THAT(bad_input([&] { read(text); }), IsAt("restart.bin"));
   }
 }

@@ -1,0 +1,43 @@
+// Many spheres with lubrication between close pairs, docs/physics.md (9.1) to (9.17).
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+#include "viscontact/particles/setting/setting.hpp"
+#include "viscontact/particles/state/state.hpp"
+#include "viscontact/particles/steps/particle_simulation.hpp"
+#include "viscontact/particles/steps/step_report.hpp"
+#include "viscontact/suspensions/rheology.hpp"
+
+namespace viscontact::particles {
+
+/// Computes the motion of spheres in space. Their velocities in the state are those in the fluid,
+/// not relative to the flow.
+class SuspensionSimulation : public ParticleSimulation {
+ public:
+  /// `setting` has PairLubrication and no fluid. `state` is that of a restart file, or a state of
+  /// which only the particles, which turn, are set. Throws Error(kBadInput) if a period is too short
+  /// for the range of a pair, if the flow does not carry the images of spheres, if motions are
+  /// given, or if spheres overlap. `threads` has no effect yet.
+  SuspensionSimulation(Setting setting, State state, int threads);
+  ~SuspensionSimulation() override;
+  SuspensionSimulation(SuspensionSimulation&&) noexcept;
+
+  StepReport step(double end) override;
+  const State& state() const override;
+  std::span<double> added_forces() override;
+  std::span<double> added_torques() override;
+
+  /// Of the last step; before the first step that of the instant.
+  const Rheology& rheology() const;
+  /// Computes velocities and stress at the present places, without moving anything.
+  const Rheology& solve_instant();
+
+ private:
+  struct Content;
+  std::unique_ptr<Content> content_;
+};
+
+}  // namespace viscontact::particles

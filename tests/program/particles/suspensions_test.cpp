@@ -1,0 +1,159 @@
+// Spheres with pairwise lubrication, from the command line to the files.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <numeric>
+
+#include "tests/program/particles/particles_command.hpp"
+#include "tests/program/program.hpp"
+#include "tests/program/sample_files.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/results/exit_code.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+/// 30 rough spheres of two sizes, which meet within a unit of strain.
+const std::string kShear = R"(title = "Shear"
+[space]
+dimension = 3
+[domain]
+box = { from = [1.0, 2.0, 3.0], to = [11.0, 12.0, 13.0], periodic = [true, true, true] }
+[arrangement]
+count = 30
+species = [ { radius = 1.0, share = 0.7 }, { radius = 1.3, share = 0.3 } ]
+[lubrication]
+viscosity = 2.0
+pairs = "near_contact"
+regularisation = 1e-3
+velocity = { shear_rate = 4.0 }
+[viscous_contact]
+strain_step = 0.02
+end_strain = 2.0
+roughness = 1e-3
+[output]
+every = 0.05
+average_from = 0.21
+)";
+
+class Suspensions : public ParticlesCommand {
+ protected:
+  Json record(const std::string& folder = "out") const {
+    return Json::parse(read_file(out(folder) / "run.json"));
+  }
+};
+
+TEST_F(Suspensions, HaveEinsteinsViscosityAroundOneSphere) {
+  compute(R"(title = "One sphere"
+[space]
+dimension = 3
+[domain]
+box = { from = [0.0, 0.0, 0.0], to = [20.0, 10.0, 8.0], periodic = [true, true, true] }
+[lubrication]
+viscosity = 3.0
+velocity = { shear_rate = -2.0 }
+[viscous_contact]
+end_time = 0
+[[particle]]
+centre = [1.0, 4.0, 5.0]
+radius = 0.5
+)");
+  const double fraction = 4 * std::numbers::pi / 3 * 0.125 / 1600;
+  const auto viscosity = column("rheology.csv", "viscosity");
+  ASSERT_EQ(viscosity.size(), 1U);
+  // Rounding errors of the solution, whose tolerance is 1e-11.
+  EXPECT_NEAR(viscosity[0], 1 + 2.5 * fraction, 1e-12);
+  EXPECT_NEAR(column("final_particles.csv", "vx").at(0), -8, 1e-9);
+  EXPECT_NEAR(column("final_particles.csv", "angular_velocity_z").at(0), 1, 1e-9);
+  EXPECT_EQ(record()["mean_viscosity"], viscosity[0]);
+  EXPECT_TRUE(record()["mean_viscosity_error"].is_null());
+}
+
+TEST_F(Suspensions, HaveMeansOfTheirRheology) {
+  compute(kShear);
+  const auto time = column("rheology.csv", "time");
+  ASSERT_EQ(time.size(), 100U);
+  EXPECT_NEAR(time.back(), 0.5, 1e-12);
+  EXPECT_NEAR(column("rheology.csv", "strain").back(), 2, 1e-12);
+  // The means begin at 0.21, within a step of 0.005 in rounded numbers; blocks are 0.029 long.
+  const auto n1 = column("rheology.csv", "n1");
+  double sum = 0, duration = 0;
+  for (std::size_t k = 0; k < time.size(); ++k) {
+    const double from = std::max(0.21, k == 0 ? 0 : time[k - 1]);
+    if (!(time[k] > from)) continue;
+    sum += n1[k] * (time[k] - from);
+    duration += time[k] - from;
+  }
+  EXPECT_NEAR(record()["mean_n1"], sum / duration, 1e-9 * std::abs(sum / duration));
+  EXPECT_GT(record()["mean_n1_error"], 0);
+  EXPECT_EQ(record()["rheology_blocks"], 10);
+  EXPECT_THAT(read_file(out() / "particles.html"), HasSubstr("<div class=charts><svg"));
+  EXPECT_EQ(column("pair_distribution.csv", "distance").front(), 1.01);
+  for (const double x : column("final_particles.csv", "x")) EXPECT_TRUE(x >= 1 && x <= 11) << x;
+  const auto again = run(out().parent_path() / "case.toml", out());
+  expect_done(again);
+  EXPECT_THAT(again.errors, IsUpToDate(out().string()));
+}
+
+TEST_F(Suspensions, GoOnAfterAnInterruptAndFromARestartFile) {
+  expect_done(run(put_case(kShear), out("whole")));
+  const auto shell =
+      fmt::format("(while [ ! -e '{}/particles_00003.vtp' ]; do sleep 0.01; done; kill -INT $$) &",
+                  path("parts"));
+  const auto half =
+      run_viscontact({"particles", path("case.toml"), "-o", path("parts")}, {}, shell);
+  ASSERT_EQ(half.exit_status, results::exit_code_of(ErrorKind::kInterrupted)) << half.errors;
+  const auto rest = run(put_case(kShear), out("parts"));
+  expect_done(rest);
+  EXPECT_THAT(rest.errors, Continues());
+  expect_same_files(path("whole"), path("parts"));
+
+  const auto first = replaced(kShear, "end_strain = 2.0", "end_strain = 1.0");
+  expect_done(run(put_case(first, "half.toml"), out("half")));
+  expect_done(
+      run(put_case(kShear), out("rest"), {"--restart", (out("half") / "restart.bin").string()}));
+  EXPECT_EQ(content(out("whole") / "final_particles.csv"),
+            content(out("rest") / "final_particles.csv"));
+}
+
+TEST_F(Suspensions, AreComparedWithContactAlone) {
+  const auto text = replaced(replaced(kShear, "regularisation", "compare = true\nregularisation"),
+                             "end_strain = 2.0", "end_strain = 1.0");
+  expect_done(run(put_case(text), out()));
+  expect_done(run(
+      put_case(replaced(replaced(replaced(kShear, "pairs = \"near_contact\"", "pairs = \"none\""),
+                                 "regularisation = 1e-3\n", ""),
+                        "end_strain = 2.0", "end_strain = 1.0"),
+               "none.toml"),
+      out("none")));
+  EXPECT_EQ(content(out() / "viscous_contact" / "rheology.csv"),
+            content(out("none") / "rheology.csv"));
+  EXPECT_NE(content(out() / "rheology.csv"), content(out("none") / "rheology.csv"));
+  EXPECT_THAT(read_file(out() / "rheology.svg"), HasSubstr("viscous contact alone"));
+  EXPECT_THAT(read_file(out("none") / "rheology.svg"), Not(HasSubstr("viscous contact alone")));
+}
+
+TEST_F(Suspensions, AreSweptWithTheirMeans) {
+  const auto file = put_case(replaced(kShear, "end_strain = 2.0", "end_strain = 1.0"));
+  expect_done(run_viscontact({"sweep", file.string(), "--draws", "2", "-o", path("rows.csv")}));
+  const auto rows = content(out("rows.csv"));
+  EXPECT_THAT(rows, HasSubstr("mean_viscosity,mean_viscosity_error,mean_n1"));
+  EXPECT_EQ(matches_in(rows, "\n", 0).size(), 3U);
+}
+
+TEST_F(Suspensions, RefuseABadKeyWithItsLine) {
+  expect_refusal(run(put_case(replaced(kShear, "viscosity = 2.0", "viscosity = -2.0")), out()),
+                 ErrorKind::kBadInput, Names("case.toml:10", "lubrication.viscosity"));
+  EXPECT_FALSE(fs::exists(out() / "run.json"));
+}
+
+}  // namespace
+}  // namespace viscontact

@@ -1,0 +1,80 @@
+#include "tests/suspensions/spheres.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "viscontact/suspensions/sheared_cell.hpp"
+
+namespace viscontact::particles {
+
+State spheres_at(const std::vector<Vector>& places, const std::vector<double>& radii) {
+  State state;
+  auto& p = state.particles;
+  p.dimension = 3;
+  p.radii = radii;
+  for (const auto& x : places) p.positions.insert(p.positions.end(), x.begin(), x.end());
+  p.velocities.assign(p.positions.size(), 0);
+  for (const double a : radii) p.masses.push_back(4 * M_PI / 3 * a * a * a);
+  add_rotation(p);
+  return state;
+}
+
+State random_spheres(double period, double offset, const std::vector<double>& radii, double gap,
+                     Random& random) {
+  const suspensions::ShearedCell cell{{}, {period, period, period}, offset};
+  std::vector<Vector> places;
+  for (int trials = 0; places.size() < radii.size(); ++trials) {
+    // The first spheres may leave no room for the last ones.
+    if (trials % 5000 == 4999) places.clear();
+    const Vector x{random.uniform(0, period), random.uniform(0, period), random.uniform(0, period)};
+    bool is_free = true;
+    for (std::size_t k = 0; k < places.size() && is_free; ++k)
+      is_free = norm(cell.nearest(x - places[k])) >= (1 + gap) * (radii[k] + radii[places.size()]);
+    if (is_free) places.push_back(x);
+  }
+  return spheres_at(places, radii);
+}
+
+std::vector<double> two_sizes(std::size_t count) {
+  std::vector<double> radii;
+  for (std::size_t k = 0; k < count; ++k) radii.push_back(k % 2 == 0 ? 1 : 1.4);
+  return radii;
+}
+
+Setting sheared_cube(double period, double offset) {
+  Setting setting;
+  setting.domain = BoxDomain{{0, 0, 0}, {period, period, period}, {true, true, true}};
+  PairLubrication lubrication;
+  lubrication.viscosity = 1;
+  lubrication.pairs = PairTerms::kNearContact;
+  lubrication.regularisation = 1e-3;
+  lubrication.gradient[0][1] = 1;
+  lubrication.offset = offset;
+  setting.lubrication = lubrication;
+  return setting;
+}
+
+RelativeMotion relative_motion(const SuspensionSimulation& simulation, const Setting& setting,
+                               std::size_t k) {
+  const auto& p = simulation.state().particles;
+  const auto& g = setting.lubrication->gradient;
+  const double rate = simulation.state().shear.rate;
+  const Vector x = p.position(k);
+  const Vector flow{dot(g[0], x), dot(g[1], x), dot(g[2], x)};
+  const Vector turn{(g[2][1] - g[1][2]) / 2, (g[0][2] - g[2][0]) / 2, (g[1][0] - g[0][1]) / 2};
+  return {p.velocity(k) - rate * flow, point_of(p.angular_velocities.data(), k, 3) - rate * turn};
+}
+
+double largest_difference(const std::vector<RelativeMotion>& a,
+                          const std::vector<RelativeMotion>& b) {
+  double difference = 0, largest = 0;
+  for (std::size_t k = 0; k < a.size(); ++k)
+    for (std::size_t d = 0; d < 3; ++d) {
+      difference = std::max({difference, std::abs(a[k].along[d] - b[k].along[d]),
+                             std::abs(a[k].turn[d] - b[k].turn[d])});
+      largest = std::max({largest, std::abs(a[k].along[d]), std::abs(a[k].turn[d])});
+    }
+  return difference / largest;
+}
+
+}  // namespace viscontact::particles

@@ -1,0 +1,127 @@
+// Ten steps in another order, mirrored, shifted and in other units.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "tests/suspensions/spheres.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+constexpr double kPeriod = 8.5, kOffset = 1.7;
+// Rounding errors of iterations, which ten steps multiply.
+constexpr double kBar = 1e-9;
+
+struct StepKind {
+  PairTerms pairs;
+  double regularisation, roughness, friction;
+};
+
+class StepInvariance : public testing::TestWithParam<StepKind> {
+ protected:
+  StepInvariance() { adapt(setting); }
+  static void adapt(Setting& of) {
+    of.lubrication->pairs = GetParam().pairs;
+    of.lubrication->regularisation = GetParam().regularisation;
+    of.lubrication->roughness = GetParam().roughness;
+    if (GetParam().friction > 0) of.laws.friction = FrictionLaw{GetParam().friction};
+    of.time_step = 0.02;
+  }
+  static SuspensionSimulation moved(const Setting& of, const State& from) {
+    SuspensionSimulation simulation(of, from, 1);
+    for (int n = 0; n < 10; ++n) EXPECT_TRUE(simulation.step(1e300).converged);
+    return simulation;
+  }
+  std::vector<RelativeMotion> motions(const SuspensionSimulation& of, const Setting& with) const {
+    std::vector<RelativeMotion> result;
+    for (std::size_t k = 0; k < 26; ++k) result.push_back(relative_motion(of, with, k));
+    return result;
+  }
+  Random random{41};
+  State state = random_spheres(kPeriod, kOffset, two_sizes(26), 0.006, random);
+  Setting setting = sheared_cube(kPeriod, kOffset);
+};
+
+TEST_P(StepInvariance, OfTheOrderOfSpheres) {
+  std::vector<std::size_t> order(26);
+  std::iota(order.begin(), order.end(), 0U);
+  std::shuffle(order.begin(), order.end(), std::mt19937(1));
+  std::vector<Vector> places;
+  std::vector<double> radii;
+  for (const auto k : order) {
+    places.push_back(state.particles.position(k));
+    radii.push_back(state.particles.radii[k]);
+  }
+  const auto here = moved(setting, state), there = moved(setting, spheres_at(places, radii));
+  std::vector<RelativeMotion> sorted;
+  for (const auto k : order) sorted.push_back(relative_motion(here, setting, k));
+  EXPECT_LT(largest_difference(sorted, motions(there, setting)), kBar);
+  EXPECT_NEAR(here.rheology().viscosity, there.rheology().viscosity, kBar);
+}
+
+TEST_P(StepInvariance, OfAMirrorAcrossTheVorticity) {
+  std::vector<Vector> places;
+  for (std::size_t k = 0; k < 26; ++k) {
+    auto x = state.particles.position(k);
+    x[2] = kPeriod - x[2];
+    places.push_back(x);
+  }
+  const auto here = moved(setting, state);
+  const auto there = moved(setting, spheres_at(places, state.particles.radii));
+  auto mirrored = motions(there, setting);
+  for (auto& motion : mirrored) {
+    motion.along[2] *= -1;
+    motion.turn[0] *= -1;
+    motion.turn[1] *= -1;
+  }
+  EXPECT_LT(largest_difference(motions(here, setting), mirrored), kBar);
+}
+
+TEST_P(StepInvariance, OfTheOrigin) {
+  const Vector shift{30, -20, 7};
+  std::vector<Vector> places;
+  for (std::size_t k = 0; k < 26; ++k) places.push_back(state.particles.position(k) + shift);
+  auto shifted = setting;
+  shifted.domain = BoxDomain{shift, shift + Vector{kPeriod, kPeriod, kPeriod}, {true, true, true}};
+  const auto here = moved(setting, state);
+  const auto there = moved(shifted, spheres_at(places, state.particles.radii));
+  EXPECT_LT(largest_difference(motions(here, setting), motions(there, shifted)), kBar);
+}
+
+TEST_P(StepInvariance, OfUnits) {
+  for (int trial = 0; trial < 3; ++trial) {
+    const double length = random.decades(-5, 5), time = random.decades(-5, 5);
+    const double mass = random.decades(-5, 5);
+    std::vector<Vector> places;
+    std::vector<double> radii;
+    for (std::size_t k = 0; k < 26; ++k) {
+      places.push_back(length * state.particles.position(k));
+      radii.push_back(length * state.particles.radii[k]);
+    }
+    auto other = sheared_cube(length * kPeriod, length * kOffset);
+    adapt(other);
+    other.lubrication->viscosity = mass / (length * time);
+    other.lubrication->gradient[0][1] = 1 / time;
+    other.time_step = 0.02 * time;
+    const auto here = moved(setting, state), there = moved(other, spheres_at(places, radii));
+    auto scaled = motions(there, other);
+    for (auto& motion : scaled) {
+      motion.along = (time / length) * motion.along;
+      motion.turn = time * motion.turn;
+    }
+    EXPECT_LT(largest_difference(motions(here, setting), scaled), kBar);
+    EXPECT_NEAR(here.rheology().viscosity, there.rheology().viscosity, kBar);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, StepInvariance,
+                         testing::Values(StepKind{PairTerms::kNearContact, 1e-3, 0, 0},
+                                         StepKind{PairTerms::kNearContact, 0, 0, 0},
+                                         StepKind{PairTerms::kTables, 0, 5e-3, 0.3},
+                                         StepKind{PairTerms::kNone, 0, 0, 0}));
+
+}  // namespace
+}  // namespace viscontact::particles

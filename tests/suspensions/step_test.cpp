@@ -1,0 +1,216 @@
+// Steps: contacts, the balance of power, restart, and how little they depend on their length.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/suspensions/spheres.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+constexpr double kPeriod = 8.5;
+
+struct Kind {
+  PairTerms pairs;
+  double regularisation, roughness, friction;
+};
+
+Setting setting_of(const Kind& kind) {
+  auto setting = sheared_cube(kPeriod, 1);
+  auto& of = *setting.lubrication;
+  of.pairs = kind.pairs;
+  of.regularisation = kind.regularisation;
+  of.roughness = kind.roughness;
+  if (kind.friction > 0) setting.laws.friction = FrictionLaw{kind.friction};
+  if (kind.pairs == PairTerms::kNone) {
+    setting.laws.film.viscosity = 1;
+    setting.laws.film.roughness = 1e-3;
+  }
+  setting.time_step = 0.02;
+  return setting;
+}
+
+const std::vector<Kind> kKinds{
+    {PairTerms::kNearContact, 1e-3, 0, 0},   {PairTerms::kNearContact, 0, 0, 0},
+    {PairTerms::kNearContact, 0, 1e-2, 0.3}, {PairTerms::kTables, 0, 1e-2, 0.3},
+    {PairTerms::kTables, 0, 0, 0},           {PairTerms::kNone, 0, 0, 0},
+    {PairTerms::kNone, 0, 0, 0.3},
+};
+
+State start() {
+  Random random(31);
+  return random_spheres(kPeriod, 1, two_sizes(26), 0.011, random);
+}
+
+double least_gap(const SuspensionSimulation& simulation) {
+  return simulation.rheology().smallest_gap;
+}
+
+TEST(SuspensionStep, LeavesNoOverlapAndBalancesThePower) {
+  for (const auto& kind : kKinds) {
+    SCOPED_TRACE(&kind - kKinds.data());
+    const auto setting = setting_of(kind);
+    SuspensionSimulation simulation(setting, start(), 1);
+    std::size_t touched = 0;
+    for (int n = 0; n < 60; ++n) {
+      const auto report = simulation.step(10);
+      EXPECT_TRUE(report.converged);
+      const auto& rheology = simulation.rheology();
+      touched = std::max(touched, rheology.contacts);
+      const double contact = kind.roughness * 1;  // the least mean radius is 1
+      EXPECT_GT(least_gap(simulation), contact - 1e-7);
+      EXPECT_NEAR((rheology.viscosity - 1) * std::pow(kPeriod, 3), rheology.dissipation,
+                  1e-8 * rheology.dissipation);
+      EXPECT_GE(rheology.dissipation, 0);
+    }
+    const bool has_contacts =
+        kind.regularisation > 0 || kind.roughness > 0 || kind.pairs == PairTerms::kNone;
+    EXPECT_EQ(touched > 0, has_contacts);
+    EXPECT_NEAR(simulation.state().shear.strain, 1.2, 1e-12);
+    EXPECT_NEAR(simulation.state().time, 1.2, 1e-12);
+  }
+}
+
+TEST(SuspensionStep, IsContinuedFromAStateBitForBit) {
+  for (const auto& kind : kKinds) {
+    SCOPED_TRACE(&kind - kKinds.data());
+    const auto setting = setting_of(kind);
+    SuspensionSimulation whole(setting, start(), 1);
+    for (int n = 0; n < 8; ++n) whole.step(10);
+    SuspensionSimulation rest(setting, whole.state(), 1);
+    for (int n = 0; n < 8; ++n) {
+      whole.step(10);
+      rest.step(10);
+    }
+    EXPECT_EQ(whole.state().particles.positions, rest.state().particles.positions);
+    EXPECT_EQ(whole.state().particles.velocities, rest.state().particles.velocities);
+    EXPECT_EQ(whole.state().particles.angular_velocities,
+              rest.state().particles.angular_velocities);
+    EXPECT_EQ(whole.state().pairs, rest.state().pairs);
+    EXPECT_EQ(whole.state().shear, rest.state().shear);
+  }
+}
+
+TEST(SuspensionStep, HasTheViscosityOfShorterSteps) {
+  const auto mean_viscosity = [](double h) {
+    auto setting = setting_of({PairTerms::kNearContact, 1e-3, 0, 0});
+    setting.time_step = h;
+    SuspensionSimulation simulation(setting, start(), 1);
+    double sum = 0, time = 0;
+    while (simulation.step(0.4).parts > 0) {
+      sum += simulation.rheology().viscosity * (simulation.state().time - time);
+      time = simulation.state().time;
+    }
+    return sum / time;
+  };
+  // First order: half of the step has half of the error.
+  const double exact = mean_viscosity(0.001), error = mean_viscosity(0.02) - exact;
+  EXPECT_LT(std::abs(error), 0.02 * exact);
+  EXPECT_LT(std::abs(mean_viscosity(0.01) - exact), 0.01 * exact);
+}
+
+TEST(SuspensionStep, FindsTheRateOfAGivenStress) {
+  auto setting = setting_of({PairTerms::kNearContact, 1e-3, 0, 0});
+  setting.lubrication->stress = 7;
+  setting.lubrication->repulsion = Repulsion{1, 0.02};
+  SuspensionSimulation simulation(setting, start(), 1);
+  for (int n = 0; n < 10; ++n) {
+    EXPECT_TRUE(simulation.step(10).converged);
+    const auto& rheology = simulation.rheology();
+    EXPECT_NEAR(rheology.viscosity * rheology.shear_rate, 7, 1e-6);
+    EXPECT_NEAR(rheology.shear_rate, simulation.state().shear.rate, 1e-12);
+  }
+  EXPECT_GT(simulation.state().shear.rate, 1);
+}
+
+TEST(SuspensionStep, OfAShearFlowThatReversesAndStops) {
+  auto setting = setting_of({PairTerms::kNearContact, 1e-3, 1e-3, 0});
+  setting.lubrication->rate_factor = {{{1, {1, 0, 0}}, {1.2, {-2, 0, 0}}, {1.3, {0, 0, 0}}}};
+  SuspensionSimulation simulation(setting, start(), 1);
+  const auto run_until = [&](double end) {
+    while (simulation.step(end).parts > 0) EXPECT_GT(least_gap(simulation), 1e-3 - 1e-7);
+  };
+  run_until(1);
+  EXPECT_NEAR(simulation.state().shear.strain, 1, 1e-12);
+  EXPECT_NEAR(simulation.state().shear.offset, 1, 1e-11);
+  const double before = simulation.rheology().viscosity_contact;
+  simulation.step(1.02);
+  // Contacts that pushed open at once.
+  EXPECT_GT(before, 0);
+  EXPECT_LT(simulation.rheology().viscosity_contact, 0.5 * before);
+  EXPECT_NEAR(simulation.rheology().shear_rate, 2, 1e-12);
+  run_until(1.2);
+  EXPECT_NEAR(simulation.state().shear.strain, 1.4, 1e-12);
+  EXPECT_NEAR(simulation.state().shear.offset, 1 - 0.4 * kPeriod, 1e-11);
+  run_until(1.3);
+  EXPECT_NEAR(simulation.state().shear.strain, 1.4, 1e-12);
+  EXPECT_EQ(simulation.state().shear.rate, 0);
+}
+
+TEST(SuspensionStep, OfTwoPressedSpheresFollowsTheFilm) {
+  // Without a flow two equal spheres that the force F presses have alpha dq/dt/q = -F to leading
+  // order, beside the drag: q = q_0 exp(-F t/alpha), alpha = 6 pi mu (a/2)^2.
+  const double force = 3, alpha = 6 * M_PI / 4, start_gap = 1e-3;
+  auto setting = sheared_cube(1, 0);
+  setting.domain = {};
+  auto& of = *setting.lubrication;
+  of.regularisation = 0;
+  of.drag = 1e-8;
+  of.gradient = {};
+  setting.added_forces = {force, 0, 0, -force, 0, 0};
+  setting.added_torques.assign(6, 0);
+  setting.time_step = 0.5;
+  SuspensionSimulation simulation(setting, spheres_at({{}, {2 + start_gap, 0, 0}}, {1, 1}), 1);
+  for (int n = 0; n < 8; ++n) simulation.step(100);
+  EXPECT_NEAR(least_gap(simulation), start_gap * std::exp(-force * 4 / alpha), 1e-6 * start_gap);
+}
+
+TEST(SuspensionStep, OfAContactThatSlidesHasCoulombsFriction) {
+  // Two spheres are pressed together and pulled past each other across the contact.
+  const double press = 5, pull = 3, coefficient = 0.2;
+  auto setting = sheared_cube(1, 0);
+  setting.domain = {};
+  auto& of = *setting.lubrication;
+  of.pairs = PairTerms::kNone;
+  of.gradient = {};
+  setting.laws.film.gamma_min = 0;
+  setting.laws.friction = FrictionLaw{coefficient};
+  setting.added_forces = {press, pull, 0, -press, -pull, 0};
+  setting.added_torques.assign(6, 0);
+  setting.time_step = 1e-4;
+  SuspensionSimulation simulation(setting, spheres_at({{}, {2, 0, 0}}, {1, 1}), 1);
+  EXPECT_TRUE(simulation.step(1).converged);
+  const auto& p = simulation.state().particles;
+  // Drag 6 pi mu a v balances the pull less the friction, and 8 pi mu a^3 w its torque.
+  EXPECT_NEAR(p.velocity(0)[1], (pull - coefficient * press) / (6 * M_PI), 1e-4);
+  EXPECT_NEAR(p.angular_velocities[2], -coefficient * press / (8 * M_PI), 1e-4);
+  EXPECT_NEAR(p.angular_velocities[5], -coefficient * press / (8 * M_PI), 1e-4);
+  ASSERT_EQ(simulation.state().pairs.size(), 1U);
+  EXPECT_NEAR(simulation.state().pairs[0].impulse, press * 1e-4, 1e-7);
+}
+
+TEST(SuspensionStep, OfAFilmOfViscousContactGivesBackWhatItTook) {
+  // Pressed for as long as it is pulled: the spheres stay together, gamma returns to 0.
+  auto setting = sheared_cube(1, 0);
+  setting.domain = {};
+  auto& of = *setting.lubrication;
+  of.pairs = PairTerms::kNone;
+  of.gradient = {};
+  setting.added_forces = {2, 0, 0, -2, 0, 0};
+  setting.added_torques.assign(6, 0);
+  setting.time_step = 0.125;
+  SuspensionSimulation simulation(setting, spheres_at({{}, {2, 0, 0}}, {1, 1}), 1);
+  for (int n = 0; n < 8; ++n) simulation.step(100);
+  ASSERT_EQ(simulation.state().pairs.size(), 1U);
+  EXPECT_NEAR(simulation.state().pairs[0].gamma, -2, 1e-6);
+  auto forces = simulation.added_forces();
+  forces[0] = -2;
+  forces[3] = 2;
+  for (int n = 0; n < 7; ++n) simulation.step(100);
+  EXPECT_LT(least_gap(simulation), 1e-7);
+  for (int n = 0; n < 3; ++n) simulation.step(100);
+  EXPECT_GT(least_gap(simulation), 1e-3);
+}
+
+}  // namespace
+}  // namespace viscontact::particles
