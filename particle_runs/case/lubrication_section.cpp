@@ -1,5 +1,6 @@
 // Reads [lubrication], and [viscous_contact] beside it.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "viscontact/common/error.hpp"
@@ -235,6 +236,16 @@ void check_range(const case_file::TomlSection& root, const ParticlesCase& c) {
           "makes the period {:.6g}, which is too short for the range of lubrication, {}, of the "
           "largest radius, {}; it must be at least {:.6g}, twice the largest distance of a pair",
           period, c.setting.lubrication->range, radius, 2 * distance);
+}
+
+void set_film_of_pairs(ParticlesCase& c) {
+  const auto& pairs = *c.setting.lubrication;
+  assert(pairs.pairs == PairTerms::kNone && c.particles.count() > 0);
+  if (pairs.roughness == 0) return;
+  auto& film = c.setting.laws.film;
+  film.viscosity = pairs.viscosity;
+  // The height of the roughness of each sphere; the solids touch at twice this gap.
+  film.roughness = pairs.roughness * mean_radius(c.particles) / 2;
 }
 
 void lubricated_contact_keys(case_file::Keys& keys, ParticlesCase& c) {

@@ -449,7 +449,10 @@ void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
     case_file::read_keys(root.section("sweep"), particles_sweep_keys, c.sweep.emplace());
   root.finish();
   check_start(c, lines);
-  if (c.setting.lubrication) check_range(root, c);
+  if (c.setting.lubrication) {
+    check_range(root, c);
+    if (c.setting.lubrication->pairs == PairTerms::kNone) set_film_of_pairs(c);
+  }
   if (c.setting.fluid) {
     if (!root.section("fluid").has("threshold_gap")) set_default_threshold_gap(c);
     check_fluid_start(root, c, lines);

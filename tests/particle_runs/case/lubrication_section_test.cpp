@@ -1,6 +1,7 @@
 // Cases of spheres with pairwise lubrication: what is read and what is refused.
 #include <gmock/gmock.h>
 
+#include <limits>
 #include <string>
 
 #include "tests/common/failure.hpp"
@@ -67,6 +68,23 @@ TEST_F(LubricationSection, GivesEachKeyItsPlace) {
   EXPECT_EQ(pairs.repulsion.value().amplitude, 3);
   EXPECT_EQ(pairs.repulsion.value().length, 0.02);
   EXPECT_EQ(c.particles.masses, std::vector{5.0});
+}
+
+TEST_F(LubricationSection, GivesContactAloneTheFilmOfViscousContact) {
+  const auto film_of = [&](const std::string& keys, const std::string& roughness) {
+    return read(keys, kTimes + roughness,
+                kBox + kSphere + "[[particle]]\ncentre = [6.0, 6.0, 6.0]\nradius = 2.0\n")
+        .setting.laws.film;
+  };
+  const auto film = film_of("pairs = \"none\"\n", "roughness = 0.01\n");
+  EXPECT_EQ(film.viscosity, 2);
+  // The solids touch at the gap of 0.01 times the mean of the radii 1 and 2.
+  EXPECT_DOUBLE_EQ(2 * film.roughness.value(), 0.015);
+  EXPECT_DOUBLE_EQ(film.lowest_gamma(1, 2),
+                   impulse_of_film(FilmShape::kSpheres, 2, 1, 2, 2.0 / 3, 0.015));
+  EXPECT_EQ(film_of("pairs = \"none\"\n", "").lowest_gamma(1, 2),
+            -std::numeric_limits<double>::infinity());
+  EXPECT_FALSE(film_of("", "roughness = 0.01\n").viscosity);
 }
 
 TEST_F(LubricationSection, ReadsEachFlow) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -11,6 +12,7 @@
 #include "tests/program/program.hpp"
 #include "tests/program/sample_files.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/particles/contact/film_law.hpp"
 #include "viscontact/results/exit_code.hpp"
 
 namespace viscontact {
@@ -139,6 +141,26 @@ TEST_F(Suspensions, AreComparedWithContactAlone) {
   EXPECT_NE(content(out() / "rheology.csv"), content(out("none") / "rheology.csv"));
   EXPECT_THAT(read_file(out() / "rheology.svg"), HasSubstr("viscous contact alone"));
   EXPECT_THAT(read_file(out("none") / "rheology.svg"), Not(HasSubstr("viscous contact alone")));
+}
+
+TEST_F(Suspensions, OfContactAloneTouchWhenTheFilmHasTakenAllThatItCan) {
+  compute(replaced(replaced(replaced(kShear, "pairs = \"near_contact\"", "pairs = \"none\""),
+                            "regularisation = 1e-3\n", ""),
+                   "roughness = 1e-3", "roughness = 1e-2\n[friction]\ncoefficient = 0.5"));
+  // The largest film is that of two large spheres.
+  particles::FilmLaw film;
+  film.viscosity = 2;
+  film.roughness = 1e-2 * (21 * 1.0 + 9 * 1.3) / 30 / 2;
+  const auto gammas = column("final_contacts.csv", "gamma");
+  const std::array lowest{film.lowest_gamma(1, 1), film.lowest_gamma(1, 1.3),
+                          film.lowest_gamma(1.3, 1.3)};
+  std::size_t touching = 0;
+  for (const double gamma : gammas) {
+    EXPECT_GE(gamma, lowest[2] * (1 + 1e-6));
+    // Files have nine digits or more.
+    for (const double least : lowest) touching += std::abs(gamma - least) < -1e-6 * least ? 1 : 0;
+  }
+  EXPECT_GT(touching, 0U);
 }
 
 TEST_F(Suspensions, AreSweptWithTheirMeans) {
