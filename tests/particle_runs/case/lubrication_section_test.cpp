@@ -45,7 +45,7 @@ TEST_F(LubricationSection, HasTheDefaultsOfItsKeys) {
   EXPECT_EQ(pairs.regularisation, 0);
   EXPECT_EQ(pairs.drag, 1);
   EXPECT_EQ(pairs.roughness, 0);
-  EXPECT_FALSE(pairs.has_inertia || pairs.stress || pairs.repulsion || c.compares);
+  EXPECT_FALSE(pairs.stress || pairs.repulsion || c.compares);
   EXPECT_EQ(c.particles.masses, std::vector{0.0});
   EXPECT_TRUE(c.particles.turn());
 }
