@@ -417,6 +417,11 @@ void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
             0,
         "tables", "has 'stress', which needs a [domain], or planes that bound a region");
 
+  if (c.setting.lubrication && c.setting.lubrication->offset != 0)
+    root.section("lubrication")
+        .require(!root.has("arrangement"), "offset",
+                 "must be left out, because an [arrangement] places spheres between images that "
+                 "are not displaced; only particles that are given may have an offset");
   const auto lines = read_particles_of_case(root, c);
   read_forces_by_id(root, c);
   read_bodies(root, c);
@@ -448,11 +453,10 @@ void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
   if (root.has("sweep"))
     case_file::read_keys(root.section("sweep"), particles_sweep_keys, c.sweep.emplace());
   root.finish();
+  if (c.setting.lubrication) check_range(root, c);
   check_start(c, lines);
-  if (c.setting.lubrication) {
-    check_range(root, c);
-    if (c.setting.lubrication->pairs == PairTerms::kNone) set_film_of_pairs(c);
-  }
+  if (c.setting.lubrication && c.setting.lubrication->pairs == PairTerms::kNone)
+    set_film_of_pairs(c);
   if (c.setting.fluid) {
     if (!root.section("fluid").has("threshold_gap")) set_default_threshold_gap(c);
     check_fluid_start(root, c, lines);

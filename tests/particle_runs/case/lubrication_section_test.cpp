@@ -159,6 +159,30 @@ TEST_F(LubricationSection, RefusesFlowsThatItCannotCompute) {
   EXPECT_THAT(of("stress = 1.0", ""), IsAt("case.toml:6", "lubrication.velocity.stress"));
 }
 
+TEST_F(LubricationSection, FindsOverlapsAcrossDisplacedImages) {
+  // The image of the first sphere across y is at x = 1 + offset, y = 9.2.
+  const auto spheres = [](const std::string& x) {
+    return kBox + "[[particle]]\ncentre = [1.0, 0.2, 2.0]\nradius = 1.0\n[[particle]]\ncentre = [" +
+           x + ", 8.8, 2.0]\nradius = 1.0\n";
+  };
+  EXPECT_THAT(refused("", kTimes, spheres("1.5")), IsAt("case.toml:14"));
+  EXPECT_EQ(read("offset = 3.0\n", kTimes, spheres("1.5")).setting.lubrication->offset, 3);
+  EXPECT_EQ(read("", kTimes, spheres("4.5")).particles.count(), 2U);
+  EXPECT_THAT(refused("offset = 3.0\n", kTimes, spheres("4.5")),
+              IsAt("case.toml:15"));
+  // Displaced by more than a period along x, and across x.
+  EXPECT_THAT(refused("offset = -13.0\n", kTimes, spheres("4.5")),
+              IsAt("case.toml:15"));
+  EXPECT_THAT(refused("offset = -1.0\n", kTimes, spheres("7.5")),
+              IsAt("case.toml:15"));
+  // Within the cell as without an offset.
+  EXPECT_THAT(refused("offset = 3.0\n", kTimes,
+                      kBox + kSphere + "[[particle]]\ncentre = [3.0, 2.0, 2.0]\nradius = 1.0\n"),
+              IsAt("case.toml:15"));
+  EXPECT_THAT(refused("offset = 3.0\n", kTimes, kBox + "[arrangement]\ncount = 2\nradius = 1.0\n"),
+              IsAt("case.toml:6", "lubrication.offset"));
+}
+
 TEST_F(LubricationSection, RefusesKeysWithoutAnEffect) {
   EXPECT_THAT(refused("pairs = \"none\"\nrange = 0.5\n"), IsAt("case.toml:7", "lubrication.range"));
   EXPECT_THAT(refused("pairs = \"none\"\ncompare = true\n"),
