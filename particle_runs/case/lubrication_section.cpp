@@ -9,7 +9,8 @@
 namespace viscontact::particles {
 namespace {
 
-constexpr Allowed kRange = {[](double v) { return v >= 1e-3 && v <= 2; }, "from 1e-3 to 2"};
+constexpr Allowed kRange = {[](double v) { return v >= 1e-3 && v <= 100; }, "from 1e-3 to 100"};
+constexpr double kLargestRangeInBox = 2;  // beyond it other spheres are between those of a pair
 constexpr Allowed kRelativeLength = {[](double v) { return v == 0 || (v >= 1e-12 && v <= 0.1); },
                                      "0, or from 1e-12 to 0.1"};
 constexpr Allowed kDrag = {[](double v) { return v >= 1e-12 && v <= 1e6; }, "from 1e-12 to 1e6"};
@@ -121,7 +122,12 @@ void lubrication_keys(case_file::Keys& keys, LubricationKeys& read, const Domain
                 {"the resistances of a pair: exact for two spheres, the terms 1/q and ln(1/q) of "
                  "the gap q, or none: drag and viscous contact alone"});
   keys.optional("range", case_file::number(pairs.range, kRange),
-                {"largest gap of a pair, in mean radii of the pair"});
+                {"largest gap of a pair, in mean radii of the pair; in a box at most 2"});
+  keys.require(pairs.range <= kLargestRangeInBox || std::holds_alternative<std::monostate>(domain),
+               "range",
+               "is {}; in a box it must be at most {}, because other spheres are between those of "
+               "a pair that is farther apart",
+               pairs.range, kLargestRangeInBox);
   keys.optional(
       "regularisation", case_file::number(pairs.regularisation, kRelativeLength),
       {"delta, in mean radii: it is added to the gap in the resistances of a pair. 0: the "

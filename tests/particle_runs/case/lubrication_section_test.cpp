@@ -226,6 +226,10 @@ TEST_F(LubricationSection, RefusesWhatItCannotStandBeside) {
                       "[true, true, true] }\n" +
                           kSphere),
               IsAt("case.toml:10", "domain.box.to"));
+  EXPECT_THAT(refused("range = 2.5\n"), IsAt("case.toml:6", "lubrication.range"));
+  EXPECT_EQ(read("range = 100.0\n", kTimes, kSphere).setting.lubrication->range, 100);
+  EXPECT_THAT(refused("range = 101.0\n", kTimes, kSphere),
+              IsAt("case.toml:6", "lubrication.range"));
   EXPECT_THAT(refused("inertia = true\n"), IsAt("case.toml:6", "lubrication.inertia"));
 }
 
