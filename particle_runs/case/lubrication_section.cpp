@@ -205,9 +205,17 @@ void check_domain(const case_file::TomlSection& root, const Domain& domain) {
                     kAxes[d]);
 }
 
+void refuse_solver(const case_file::TomlSection& root, const ParticlesCase& c) {
+  if (!root.has("solver")) return;
+  throw_bad_input({c.path.string(), root.section("solver").line(), "solver"},
+                  "section [solver] has no effect beside [lubrication], whose steps have fixed "
+                  "tolerances; the section must be left out");
+}
+
 }  // namespace
 
 void check_beside_lubrication(const case_file::TomlSection& root, const ParticlesCase& c) {
+  refuse_solver(root, c);
   root.section("space").require(c.particles.dimension == 3, "dimension",
                                 "is {}; in a case with [lubrication] it must be 3",
                                 root.section("space").shown("dimension"));

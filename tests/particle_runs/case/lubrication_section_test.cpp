@@ -211,7 +211,7 @@ TEST_F(LubricationSection, RefusesWhatItCannotStandBeside) {
               IsAt("case.toml:3", "space.dimension"));
   for (const std::string section :
        {"[fluid]\nviscosity = 1.0\n", "[[membrane]]\n", "[[source]]\n", "[[body]]\n", "[[hinge]]\n",
-        "[[spring]]\n", "[[arm]]\n", "[[plane]]\n"}) {
+        "[[spring]]\n", "[[arm]]\n", "[[plane]]\n", "[solver]\n"}) {
     const auto begin = section.find_first_not_of('[');
     EXPECT_THAT(refused("", kTimes, kBox + kSphere + section),
                 IsAt("case.toml:14", section.substr(begin, section.find(']') - begin)));
