@@ -138,13 +138,17 @@ void friction_keys(case_file::Keys& keys, FrictionLaw& law) {
 void read_friction(const case_file::TomlSection& section, ParticlesCase& c) {
   auto& setting = c.setting;
   const int dimension = c.particles.dimension;
-  if (const auto& pairs = setting.lubrication)
+  if (const auto& pairs = setting.lubrication) {
+    section.require(pairs->roughness > 0 || pairs->pairs != PairTerms::kNone, "coefficient",
+                    "has no effect, because the film of viscous contact keeps smooth spheres "
+                    "apart; viscous_contact.roughness must be > 0");
     section.require(pairs->roughness > 0 ||
                         (pairs->pairs == PairTerms::kNearContact && pairs->regularisation > 0),
                     "coefficient",
                     "has no effect, because smooth spheres with a film never touch; "
                     "viscous_contact.roughness must be > 0, or lubrication.pairs \"near_contact\" "
                     "with a regularisation > 0");
+  }
   section.require(!setting.fluid || dimension == 2, "coefficient",
                   "belongs to particles that turn; spheres on the axis of a fluid do not slide on "
                   "each other, and the case must have no section [friction]");

@@ -196,6 +196,10 @@ TEST_F(LubricationSection, RefusesKeysWithoutAnEffect) {
   const std::string friction = "[friction]\ncoefficient = 0.5\n";
   EXPECT_THAT(refused("", kTimes, kBox + kSphere + friction),
               IsAt("case.toml:15", "friction.coefficient"));
+  const auto without_roughness =
+      refused("pairs = \"none\"\n", kTimes, kBox + kSphere + friction);
+  EXPECT_THAT(without_roughness, IsAt("case.toml:16", "friction.coefficient"));
+  EXPECT_THAT(without_roughness.what(), ::testing::Not(::testing::HasSubstr("near_contact")));
   EXPECT_THAT(refused("", kTimes + "roughness = 1e-3\n",
                       kBox + kSphere + friction + "method = \"convex\"\n"),
               IsAt("case.toml:17", "friction.method"));
