@@ -168,13 +168,10 @@ TEST_F(LubricationSection, FindsOverlapsAcrossDisplacedImages) {
   EXPECT_THAT(refused("", kTimes, spheres("1.5")), IsAt("case.toml:14"));
   EXPECT_EQ(read("offset = 3.0\n", kTimes, spheres("1.5")).setting.lubrication->offset, 3);
   EXPECT_EQ(read("", kTimes, spheres("4.5")).particles.count(), 2U);
-  EXPECT_THAT(refused("offset = 3.0\n", kTimes, spheres("4.5")),
-              IsAt("case.toml:15"));
+  EXPECT_THAT(refused("offset = 3.0\n", kTimes, spheres("4.5")), IsAt("case.toml:15"));
   // Displaced by more than a period along x, and across x.
-  EXPECT_THAT(refused("offset = -13.0\n", kTimes, spheres("4.5")),
-              IsAt("case.toml:15"));
-  EXPECT_THAT(refused("offset = -1.0\n", kTimes, spheres("7.5")),
-              IsAt("case.toml:15"));
+  EXPECT_THAT(refused("offset = -13.0\n", kTimes, spheres("4.5")), IsAt("case.toml:15"));
+  EXPECT_THAT(refused("offset = -1.0\n", kTimes, spheres("7.5")), IsAt("case.toml:15"));
   // Within the cell as without an offset.
   EXPECT_THAT(refused("offset = 3.0\n", kTimes,
                       kBox + kSphere + "[[particle]]\ncentre = [3.0, 2.0, 2.0]\nradius = 1.0\n"),
@@ -196,8 +193,7 @@ TEST_F(LubricationSection, RefusesKeysWithoutAnEffect) {
   const std::string friction = "[friction]\ncoefficient = 0.5\n";
   EXPECT_THAT(refused("", kTimes, kBox + kSphere + friction),
               IsAt("case.toml:15", "friction.coefficient"));
-  const auto without_roughness =
-      refused("pairs = \"none\"\n", kTimes, kBox + kSphere + friction);
+  const auto without_roughness = refused("pairs = \"none\"\n", kTimes, kBox + kSphere + friction);
   EXPECT_THAT(without_roughness, IsAt("case.toml:16", "friction.coefficient"));
   EXPECT_THAT(without_roughness.what(), ::testing::Not(::testing::HasSubstr("near_contact")));
   EXPECT_THAT(refused("", kTimes + "roughness = 1e-3\n",

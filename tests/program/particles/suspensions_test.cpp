@@ -75,7 +75,22 @@ radius = 0.5
   EXPECT_NEAR(viscosity[0], 1 + 2.5 * fraction, 1e-12);
   EXPECT_NEAR(column("final_particles.csv", "vx").at(0), -8, 1e-9);
   EXPECT_NEAR(column("final_particles.csv", "angular_velocity_z").at(0), 1, 1e-9);
+  EXPECT_FALSE(std::signbit(column("rheology.csv", "pressure").at(0)));
   EXPECT_EQ(record()["mean_viscosity"], viscosity[0]);
+  EXPECT_TRUE(record()["mean_viscosity_error"].is_null());
+}
+
+TEST_F(Suspensions, HaveNoViscosityAtRest) {
+  compute(replaced(replaced(replaced(kShear, "velocity = { shear_rate = 4.0 }\n", ""),
+                            "strain_step = 0.02\nend_strain = 2.0",
+                            "time_step = 0.1\nend_time = 0.3\nrepulsion = { amplitude = 1.0, length "
+                            "= 0.1 }"),
+                   "average_from = 0.21", "average_from = 0.1"));
+  const auto rows = matches_in(content(out() / "rheology.csv"), "([^\n]+)\n", 1);
+  ASSERT_EQ(rows.size(), 4U);
+  // time, strain, seven empty fields, pairs.
+  EXPECT_THAT(rows[1], HasSubstr(",0,,,,,,,,"));
+  EXPECT_TRUE(record()["mean_viscosity"].is_null());
   EXPECT_TRUE(record()["mean_viscosity_error"].is_null());
 }
 
