@@ -32,9 +32,8 @@ class PythonParticles {
         simulation_(particles::start_simulation(
             case_.setting, particles::first_state(case_, restart ? restart->string() : ""), threads,
             freefem_flow::start_fluid_solver, interrupt_token())) {
-    // Without inertia the velocities follow from the places, also before the first step.
-    const auto& pairs = case_.setting.lubrication;
-    if (pairs && !pairs->has_inertia && simulation_->state().steps == 0)
+    // The velocities of spheres with lubrication follow from the places, also before the first step.
+    if (case_.setting.lubrication && simulation_->state().steps == 0)
       particles::suspension_of(*simulation_)->solve_instant();
   }
 

@@ -1,5 +1,6 @@
 // Reads [lubrication], and [viscous_contact] beside it.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "viscontact/common/error.hpp"
@@ -8,7 +9,8 @@
 namespace viscontact::particles {
 namespace {
 
-constexpr Allowed kRange = {[](double v) { return v >= 1e-3 && v <= 2; }, "from 1e-3 to 2"};
+constexpr Allowed kRange = {[](double v) { return v >= 1e-3 && v <= 100; }, "from 1e-3 to 100"};
+constexpr double kLargestRangeInBox = 2;  // beyond it other spheres are between those of a pair
 constexpr Allowed kRelativeLength = {[](double v) { return v == 0 || (v >= 1e-12 && v <= 0.1); },
                                      "0, or from 1e-12 to 0.1"};
 constexpr Allowed kDrag = {[](double v) { return v >= 1e-12 && v <= 1e6; }, "from 1e-12 to 1e6"};
@@ -120,7 +122,12 @@ void lubrication_keys(case_file::Keys& keys, LubricationKeys& read, const Domain
                 {"the resistances of a pair: exact for two spheres, the terms 1/q and ln(1/q) of "
                  "the gap q, or none: drag and viscous contact alone"});
   keys.optional("range", case_file::number(pairs.range, kRange),
-                {"largest gap of a pair, in mean radii of the pair"});
+                {"largest gap of a pair, in mean radii of the pair; in a box at most 2"});
+  keys.require(pairs.range <= kLargestRangeInBox || std::holds_alternative<std::monostate>(domain),
+               "range",
+               "is {}; in a box it must be at most {}, because other spheres are between those of "
+               "a pair that is farther apart",
+               pairs.range, kLargestRangeInBox);
   keys.optional(
       "regularisation", case_file::number(pairs.regularisation, kRelativeLength),
       {"delta, in mean radii: it is added to the gap in the resistances of a pair. 0: the "
@@ -198,9 +205,17 @@ void check_domain(const case_file::TomlSection& root, const Domain& domain) {
                     kAxes[d]);
 }
 
+void refuse_solver(const case_file::TomlSection& root, const ParticlesCase& c) {
+  if (!root.has("solver")) return;
+  throw_bad_input({c.path.string(), root.section("solver").line(), "solver"},
+                  "section [solver] has no effect beside [lubrication], whose steps have fixed "
+                  "tolerances; the section must be left out");
+}
+
 }  // namespace
 
 void check_beside_lubrication(const case_file::TomlSection& root, const ParticlesCase& c) {
+  refuse_solver(root, c);
   root.section("space").require(c.particles.dimension == 3, "dimension",
                                 "is {}; in a case with [lubrication] it must be 3",
                                 root.section("space").shown("dimension"));
@@ -235,6 +250,16 @@ void check_range(const case_file::TomlSection& root, const ParticlesCase& c) {
           "makes the period {:.6g}, which is too short for the range of lubrication, {}, of the "
           "largest radius, {}; it must be at least {:.6g}, twice the largest distance of a pair",
           period, c.setting.lubrication->range, radius, 2 * distance);
+}
+
+void set_film_of_pairs(ParticlesCase& c) {
+  const auto& pairs = *c.setting.lubrication;
+  assert(pairs.pairs == PairTerms::kNone && c.particles.count() > 0);
+  if (pairs.roughness == 0) return;
+  auto& film = c.setting.laws.film;
+  film.viscosity = pairs.viscosity;
+  // The height of the roughness of each sphere; the solids touch at twice this gap.
+  film.roughness = pairs.roughness * mean_radius(c.particles) / 2;
 }
 
 void lubricated_contact_keys(case_file::Keys& keys, ParticlesCase& c) {

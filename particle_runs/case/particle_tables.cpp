@@ -64,9 +64,9 @@ void check_keys(const case_file::TomlSection& section, const ParticlesCase& c) {
                     "gives the motion of this particle, and a case with [lubrication] computes the "
                     "motion of all; the key must be left out");
   for (const auto* key : {"velocity", "angular_velocity", "moment_of_inertia"})
-    section.require(!pairs || pairs->has_inertia || !section.has(key), key,
-                    "has no effect without inertia; it must be left out, or lubrication.inertia be "
-                    "true");
+    section.require(!pairs || !section.has(key), key,
+                    "has no effect, because spheres with lubrication have no inertia; it must be "
+                    "left out");
   section.require(dimension != 3 || !section.has("angle"), "angle",
                   "must be left out, because the orientation of a sphere changes nothing");
 }

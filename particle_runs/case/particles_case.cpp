@@ -138,13 +138,17 @@ void friction_keys(case_file::Keys& keys, FrictionLaw& law) {
 void read_friction(const case_file::TomlSection& section, ParticlesCase& c) {
   auto& setting = c.setting;
   const int dimension = c.particles.dimension;
-  if (const auto& pairs = setting.lubrication)
+  if (const auto& pairs = setting.lubrication) {
+    section.require(pairs->roughness > 0 || pairs->pairs != PairTerms::kNone, "coefficient",
+                    "has no effect, because the film of viscous contact keeps smooth spheres "
+                    "apart; viscous_contact.roughness must be > 0");
     section.require(pairs->roughness > 0 ||
                         (pairs->pairs == PairTerms::kNearContact && pairs->regularisation > 0),
                     "coefficient",
                     "has no effect, because smooth spheres with a film never touch; "
                     "viscous_contact.roughness must be > 0, or lubrication.pairs \"near_contact\" "
                     "with a regularisation > 0");
+  }
   section.require(!setting.fluid || dimension == 2, "coefficient",
                   "belongs to particles that turn; spheres on the axis of a fluid do not slide on "
                   "each other, and the case must have no section [friction]");
@@ -417,6 +421,11 @@ void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
             0,
         "tables", "has 'stress', which needs a [domain], or planes that bound a region");
 
+  if (c.setting.lubrication && c.setting.lubrication->offset != 0)
+    root.section("lubrication")
+        .require(!root.has("arrangement"), "offset",
+                 "must be left out, because an [arrangement] places spheres between images that "
+                 "are not displaced; only particles that are given may have an offset");
   const auto lines = read_particles_of_case(root, c);
   read_forces_by_id(root, c);
   read_bodies(root, c);
@@ -448,8 +457,10 @@ void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
   if (root.has("sweep"))
     case_file::read_keys(root.section("sweep"), particles_sweep_keys, c.sweep.emplace());
   root.finish();
-  check_start(c, lines);
   if (c.setting.lubrication) check_range(root, c);
+  check_start(c, lines);
+  if (c.setting.lubrication && c.setting.lubrication->pairs == PairTerms::kNone)
+    set_film_of_pairs(c);
   if (c.setting.fluid) {
     if (!root.section("fluid").has("threshold_gap")) set_default_threshold_gap(c);
     check_fluid_start(root, c, lines);

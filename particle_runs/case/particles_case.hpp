@@ -63,6 +63,12 @@ inline constexpr auto kStepColumns = std::to_array<std::string_view>({"solver_st
 /// (check_fluid_start() in particles_sections.hpp).
 ParticlesCase read_particles_case(const std::filesystem::path& path);
 
+/// Sets the film of viscous contact (5.2) in a case with pairs = "none": with a roughness, gamma_min
+/// is the impulse of the film from the effective radius, where it begins without a fluid, too, to
+/// the roughness times the mean radius of all particles, of which there must be one. Without a
+/// roughness the film has no end.
+void set_film_of_pairs(ParticlesCase& c);
+
 /// Reads a case into `c` from the root table of its file; c.path must have been set. Throws the
 /// errors of read_particles_case().
 void read_root(const case_file::TomlSection& root, ParticlesCase& c);

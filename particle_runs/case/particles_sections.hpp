@@ -96,10 +96,8 @@ void check_range(const case_file::TomlSection& root, const ParticlesCase& c);
 void lubricated_contact_keys(case_file::Keys& keys, ParticlesCase& c);
 std::vector<case_file::KeyTable> lubrication_tables();
 
-/// Whether particles may have no mass: in a fluid, and with lubrication without inertia.
-inline bool may_lack_mass(const Setting& setting) {
-  return setting.fluid || (setting.lubrication && !setting.lubrication->has_inertia);
-}
+/// Whether particles may have no mass: in a fluid, and with lubrication.
+inline bool may_lack_mass(const Setting& setting) { return setting.fluid || setting.lubrication; }
 
 /// Reads [fluid], which the walls or periods of `domain` hold. If the section does not give
 /// threshold_gap, it is 0 in the result, and set_default_threshold_gap() must set its default. Also

@@ -1,6 +1,8 @@
 // Checks of the places and radii of the particles at the start.
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <utility>
 #include <variant>
 
 #include "viscontact/common/error.hpp"
@@ -45,6 +47,48 @@ std::string obstacle_name(const ParticlesCase& c, std::size_t k) {
   }
   return k < walls.size() ? walls[k] : fmt::format("plane {}", k - walls.size() + 1);
 }
+
+namespace {
+
+/// The gaps of overlapping spheres in a cell whose images across y are displaced along x. The period
+/// along y is above twice the sum of any two radii.
+std::vector<StartGap> overlaps_in_sheared_cell(const ParticlesCase& c, double offset) {
+  const auto& p = c.particles;
+  auto cell = cell_of(c.setting.domain);
+  const double middle = cell.from[1] + cell.lengths[1] / 2, period = cell.lengths[1];
+  // Pairs that do not meet across y, and then, with the upper half of the cell below the lower one,
+  // those that do.
+  cell.lengths[1] = 0;
+  auto positions = p.positions;
+  ThreadPool pool(1);
+  std::vector<StartGap> gaps;
+  const auto add_pairs = [&] {
+    for (const auto& [first, second, image] :
+         close_pairs_in_period(cell, positions, p.radii, pool)) {
+      const auto i = index_of(first), j = index_of(second);
+      const Vector apart = point_of(positions.data(), j, 3) + shift_of(cell, image) -
+                           point_of(positions.data(), i, 3);
+      gaps.push_back({first, second, norm(apart) - p.radii[i] - p.radii[j]});
+    }
+  };
+  add_pairs();
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    if (positions[3 * k + 1] < middle) continue;
+    positions[3 * k + 1] -= period;
+    auto& x = positions[3 * k];
+    x -= offset;
+    x -= cell.lengths[0] * std::floor((x - cell.from[0]) / cell.lengths[0]);
+  }
+  add_pairs();
+  std::ranges::sort(gaps, {}, [](const StartGap& at) { return std::pair(at.first, at.second); });
+  const auto equal = std::ranges::unique(gaps, [](const StartGap& a, const StartGap& b) {
+    return a.first == b.first && a.second == b.second;
+  });
+  gaps.erase(equal.begin(), equal.end());
+  return gaps;
+}
+
+}  // namespace
 
 std::vector<StartGap> gaps_at_start(const ParticlesCase& c, double limit) {
   assert(limit >= 0);
@@ -170,7 +214,9 @@ void check_start(const ParticlesCase& c, const ParticleLines& lines) {
     return body >= 0 ? c.setting.given_motions.contains(body)
                      : w < walls || !c.setting.planes[w - walls].load;
   };
-  for (const auto& [first, second, gap] : gaps_at_start(c, 0)) {
+  const double offset = c.setting.lubrication ? c.setting.lubrication->offset : 0;
+  for (const auto& [first, second, gap] :
+       offset != 0 ? overlaps_in_sheared_cell(c, offset) : gaps_at_start(c, 0)) {
     if (!(gap < -allowed)) continue;
     if (!c.setting.fluid && is_given(first) && is_given(second)) continue;
     const auto j = index_of(second);

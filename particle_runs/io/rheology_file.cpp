@@ -11,17 +11,26 @@ namespace viscontact::particles {
 namespace {
 
 std::optional<double> if_finite(double number) {
-  return std::isfinite(number) ? std::optional(number) : std::nullopt;
+  if (!std::isfinite(number)) return {};
+  return number + 0.0;  // the sum is 0 instead of -0
 }
 
 constexpr Presence kNotInFrames{.at_end = kNever, .frames = kNever};
 
 /// The field is empty if the number is not finite.
 template <auto kMember>
-Column<Rheology> of_stress(std::string_view name, std::string_view meaning,
-                           std::string_view unit = "1") {
+Column<Rheology> if_known(std::string_view name, std::string_view meaning,
+                          std::string_view unit = "1") {
   return column<Rheology>({name, unit, meaning, kNotInFrames},
                           [](const Rheology& row) { return if_finite(row.*kMember); });
+}
+
+/// The field is also empty at rest, because the number is one over the shear rate.
+template <auto kMember>
+Column<Rheology> of_stress(std::string_view name, std::string_view meaning) {
+  return column<Rheology>({name, "1", meaning, kNotInFrames}, [](const Rheology& row) {
+    return row.shear_rate != 0 ? if_finite(row.*kMember) : std::nullopt;
+  });
 }
 
 constexpr int kSpace = 3;
@@ -30,12 +39,16 @@ constexpr int kSpace = 3;
 
 const std::vector<Column<Rheology>>& rheology_columns() {
   static const std::vector<Column<Rheology>> columns = {
-      of_stress<&Rheology::time>("time", "at the end of the step", "T"),
-      of_stress<&Rheology::strain>("strain", "since the start of the case"),
+      if_known<&Rheology::time>("time", "at the end of the step", "T"),
+      if_known<&Rheology::strain>("strain", "since the start of the case"),
       of_stress<&Rheology::viscosity>(
-          "viscosity", "relative to that of the fluid: shear stress over viscosity and shear rate"),
+          "viscosity",
+          "relative to that of the fluid: shear stress over viscosity and shear rate, > 0 for both "
+          "signs of the rate. It and the next six are empty at rest"),
       of_stress<&Rheology::n1>(
-          "n1", "first difference of the normal stresses, xx less yy, over the same"),
+          "n1",
+          "first difference of the normal stresses, xx less yy, over the viscosity of the "
+          "fluid and the magnitude of the shear rate"),
       of_stress<&Rheology::n2>("n2", "second difference, yy less zz, over the same"),
       of_stress<&Rheology::pressure>("pressure", "that of the particles, over the same"),
       of_stress<&Rheology::viscosity_film>("viscosity_film",
@@ -47,14 +60,17 @@ const std::vector<Column<Rheology>>& rheology_columns() {
                                                "part of `viscosity`: the friction"),
       column<&Rheology::pairs>({"pairs", "", "number of close pairs", kNotInFrames}),
       column<&Rheology::contacts>({"contacts", "", "number of contacts", kNotInFrames}),
-      of_stress<&Rheology::smallest_gap>("smallest_gap", "empty without pairs", "L"),
-      of_stress<&Rheology::shear_rate>("shear_rate", "given, or the result of a given stress",
-                                       "1/T"),
+      if_known<&Rheology::smallest_gap>("smallest_gap", "empty without pairs", "L"),
+      if_known<&Rheology::shear_rate>("shear_rate", "given, or the result of a given stress",
+                                      "1/T"),
   };
   return columns;
 }
 
 std::array<double, kRheologyMeans.size()> numbers_to_average(const Rheology& r) {
+  std::array<double, kRheologyMeans.size()> unknown{};
+  unknown.fill(std::numeric_limits<double>::quiet_NaN());
+  if (r.shear_rate == 0) return unknown;
   return {r.viscosity,         r.n1, r.n2, r.pressure, r.viscosity_film, r.viscosity_contact,
           r.viscosity_friction};
 }

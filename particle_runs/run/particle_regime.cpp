@@ -12,11 +12,11 @@
 namespace viscontact::particles {
 namespace {
 
-/// mu [M/(L T)] of the fluid, or else of the films; 0: the case has none, or its spheres have no
-/// inertia.
+/// mu [M/(L T)] of the fluid, or else of the films; 0: the case has none, or [lubrication], with
+/// which spheres have no inertia.
 double viscosity_of(const ParticlesCase& c) {
   if (c.setting.fluid) return c.setting.fluid->viscosity;
-  if (const auto& pairs = c.setting.lubrication) return pairs->has_inertia ? pairs->viscosity : 0;
+  if (c.setting.lubrication) return 0;
   return c.setting.laws.film.viscosity.value_or(0);
 }
 

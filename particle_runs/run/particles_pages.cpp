@@ -252,6 +252,7 @@ ParticlesCase compared_case(const ParticlesCase& c) {
   auto& pairs = *compared.setting.lubrication;
   pairs.pairs = PairTerms::kNone;
   pairs.regularisation = 0;
+  set_film_of_pairs(compared);
   return compared;
 }
 

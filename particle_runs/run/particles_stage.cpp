@@ -337,11 +337,17 @@ void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State&
     terminal::warn("particles: warning: {}", warning);
   if (record.divided > 0)
     terminal::say(
-        "particles: {} of {} steps were computed in parts, because particles are fast or Coulomb's "
-        "law "
-        "was not solved (steps.csv says in how many)",
+        "particles: {} of {} steps were computed in parts, because particles are fast or a step "
+        "was "
+        "not solved (steps.csv says in how many)",
         record.divided, record.steps);
-  if (record.unconverged > 0)
+  const bool is_suspension = c.setting.lubrication.has_value();
+  if (record.unconverged > 0 && is_suspension)
+    terminal::warn(
+        "particles: warning: {} of {} steps did not converge (steps.csv says which); use a shorter "
+        "step",
+        record.unconverged, record.steps);
+  if (record.unconverged > 0 && !is_suspension)
     terminal::warn(
         "particles: warning: {} of {} steps did not reach the tolerances {} and {}, {}",
         record.unconverged, record.steps, c.setting.solver.tolerance,
@@ -352,10 +358,12 @@ void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State&
   if (record.given_loads > 0)
     terminal::warn(
         "particles: warning: in {} of {} steps given loads bound the friction, because {} was not "
-        "solved (docs/particles.md, \"A step that does not converge\")",
+        "solved ({})",
         record.given_loads, record.steps,
         c.setting.laws.friction->method == FrictionMethod::kConvex ? "the convex relaxation"
-                                                                   : "Coulomb's law");
+                                                                   : "Coulomb's law",
+        is_suspension ? "docs/suspensions.md, \"Limits\""
+                      : "docs/particles.md, \"A step that does not converge\"");
   warn_of_jam(record);
   warn_of_buckling(c, record);
   warn_of_springs(record);
@@ -376,6 +384,11 @@ void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State&
         "free in its region for the next one, of radius {:.6g}; the source must have a lower rate, "
         "smaller particles, or a larger region",
         count, source, radius);
+  if (record.failed > 0 && is_suspension)
+    throw Error(ErrorKind::kNotConverged,
+                "{}: {} of {} steps did not converge: residuals are up to {:.2g} mean radii. All "
+                "results are written, and steps.csv says which steps; use a shorter step",
+                c.path.string(), record.failed, record.steps, record.largest_residual);
   if (record.failed > 0)
     throw Error(ErrorKind::kNotConverged,
                 "{}: {} of {} steps did not converge: residuals are up to {:.2g} (of gaps, "

@@ -45,8 +45,7 @@ struct PairLubrication {
   std::optional<double> stress;
   /// Displacement along x of the image of a sphere across the period y at the start [L].
   double offset = 0;
-  bool has_inertia = false;  ///< whether the masses of the spheres count
-  double roughness = 0;      ///< gap at which solids touch, in mean radii, >= 0
+  double roughness = 0;  ///< gap at which solids touch, in mean radii, >= 0
   std::optional<Repulsion> repulsion;
 };
 

@@ -1,6 +1,7 @@
 // Cases of spheres with pairwise lubrication: what is read and what is refused.
 #include <gmock/gmock.h>
 
+#include <limits>
 #include <string>
 
 #include "tests/common/failure.hpp"
@@ -44,7 +45,7 @@ TEST_F(LubricationSection, HasTheDefaultsOfItsKeys) {
   EXPECT_EQ(pairs.regularisation, 0);
   EXPECT_EQ(pairs.drag, 1);
   EXPECT_EQ(pairs.roughness, 0);
-  EXPECT_FALSE(pairs.has_inertia || pairs.stress || pairs.repulsion || c.compares);
+  EXPECT_FALSE(pairs.stress || pairs.repulsion || c.compares);
   EXPECT_EQ(c.particles.masses, std::vector{0.0});
   EXPECT_TRUE(c.particles.turn());
 }
@@ -67,6 +68,23 @@ TEST_F(LubricationSection, GivesEachKeyItsPlace) {
   EXPECT_EQ(pairs.repulsion.value().amplitude, 3);
   EXPECT_EQ(pairs.repulsion.value().length, 0.02);
   EXPECT_EQ(c.particles.masses, std::vector{5.0});
+}
+
+TEST_F(LubricationSection, GivesContactAloneTheFilmOfViscousContact) {
+  const auto film_of = [&](const std::string& keys, const std::string& roughness) {
+    return read(keys, kTimes + roughness,
+                kBox + kSphere + "[[particle]]\ncentre = [6.0, 6.0, 6.0]\nradius = 2.0\n")
+        .setting.laws.film;
+  };
+  const auto film = film_of("pairs = \"none\"\n", "roughness = 0.01\n");
+  EXPECT_EQ(film.viscosity, 2);
+  // The solids touch at the gap of 0.01 times the mean of the radii 1 and 2.
+  EXPECT_DOUBLE_EQ(2 * film.roughness.value(), 0.015);
+  EXPECT_DOUBLE_EQ(film.lowest_gamma(1, 2),
+                   impulse_of_film(FilmShape::kSpheres, 2, 1, 2, 2.0 / 3, 0.015));
+  EXPECT_EQ(film_of("pairs = \"none\"\n", "").lowest_gamma(1, 2),
+            -std::numeric_limits<double>::infinity());
+  EXPECT_FALSE(film_of("", "roughness = 0.01\n").viscosity);
 }
 
 TEST_F(LubricationSection, ReadsEachFlow) {
@@ -141,6 +159,27 @@ TEST_F(LubricationSection, RefusesFlowsThatItCannotCompute) {
   EXPECT_THAT(of("stress = 1.0", ""), IsAt("case.toml:6", "lubrication.velocity.stress"));
 }
 
+TEST_F(LubricationSection, FindsOverlapsAcrossDisplacedImages) {
+  // The image of the first sphere across y is at x = 1 + offset, y = 9.2.
+  const auto spheres = [](const std::string& x) {
+    return kBox + "[[particle]]\ncentre = [1.0, 0.2, 2.0]\nradius = 1.0\n[[particle]]\ncentre = [" +
+           x + ", 8.8, 2.0]\nradius = 1.0\n";
+  };
+  EXPECT_THAT(refused("", kTimes, spheres("1.5")), IsAt("case.toml:14"));
+  EXPECT_EQ(read("offset = 3.0\n", kTimes, spheres("1.5")).setting.lubrication->offset, 3);
+  EXPECT_EQ(read("", kTimes, spheres("4.5")).particles.count(), 2U);
+  EXPECT_THAT(refused("offset = 3.0\n", kTimes, spheres("4.5")), IsAt("case.toml:15"));
+  // Displaced by more than a period along x, and across x.
+  EXPECT_THAT(refused("offset = -13.0\n", kTimes, spheres("4.5")), IsAt("case.toml:15"));
+  EXPECT_THAT(refused("offset = -1.0\n", kTimes, spheres("7.5")), IsAt("case.toml:15"));
+  // Within the cell as without an offset.
+  EXPECT_THAT(refused("offset = 3.0\n", kTimes,
+                      kBox + kSphere + "[[particle]]\ncentre = [3.0, 2.0, 2.0]\nradius = 1.0\n"),
+              IsAt("case.toml:15"));
+  EXPECT_THAT(refused("offset = 3.0\n", kTimes, kBox + "[arrangement]\ncount = 2\nradius = 1.0\n"),
+              IsAt("case.toml:6", "lubrication.offset"));
+}
+
 TEST_F(LubricationSection, RefusesKeysWithoutAnEffect) {
   EXPECT_THAT(refused("pairs = \"none\"\nrange = 0.5\n"), IsAt("case.toml:7", "lubrication.range"));
   EXPECT_THAT(refused("pairs = \"none\"\ncompare = true\n"),
@@ -154,6 +193,9 @@ TEST_F(LubricationSection, RefusesKeysWithoutAnEffect) {
   const std::string friction = "[friction]\ncoefficient = 0.5\n";
   EXPECT_THAT(refused("", kTimes, kBox + kSphere + friction),
               IsAt("case.toml:15", "friction.coefficient"));
+  const auto without_roughness = refused("pairs = \"none\"\n", kTimes, kBox + kSphere + friction);
+  EXPECT_THAT(without_roughness, IsAt("case.toml:16", "friction.coefficient"));
+  EXPECT_THAT(without_roughness.what(), ::testing::Not(::testing::HasSubstr("near_contact")));
   EXPECT_THAT(refused("", kTimes + "roughness = 1e-3\n",
                       kBox + kSphere + friction + "method = \"convex\"\n"),
               IsAt("case.toml:17", "friction.method"));
@@ -169,7 +211,7 @@ TEST_F(LubricationSection, RefusesWhatItCannotStandBeside) {
               IsAt("case.toml:3", "space.dimension"));
   for (const std::string section :
        {"[fluid]\nviscosity = 1.0\n", "[[membrane]]\n", "[[source]]\n", "[[body]]\n", "[[hinge]]\n",
-        "[[spring]]\n", "[[arm]]\n", "[[plane]]\n"}) {
+        "[[spring]]\n", "[[arm]]\n", "[[plane]]\n", "[solver]\n"}) {
     const auto begin = section.find_first_not_of('[');
     EXPECT_THAT(refused("", kTimes, kBox + kSphere + section),
                 IsAt("case.toml:14", section.substr(begin, section.find(']') - begin)));
@@ -184,6 +226,10 @@ TEST_F(LubricationSection, RefusesWhatItCannotStandBeside) {
                       "[true, true, true] }\n" +
                           kSphere),
               IsAt("case.toml:10", "domain.box.to"));
+  EXPECT_THAT(refused("range = 2.5\n"), IsAt("case.toml:6", "lubrication.range"));
+  EXPECT_EQ(read("range = 100.0\n", kTimes, kSphere).setting.lubrication->range, 100);
+  EXPECT_THAT(refused("range = 101.0\n", kTimes, kSphere),
+              IsAt("case.toml:6", "lubrication.range"));
   EXPECT_THAT(refused("inertia = true\n"), IsAt("case.toml:6", "lubrication.inertia"));
 }
 

@@ -11,6 +11,7 @@ namespace {
 
 Rheology viscosity_of(double viscosity) {
   Rheology rheology;
+  rheology.shear_rate = 1;
   rheology.viscosity = viscosity;
   return rheology;
 }
@@ -49,6 +50,9 @@ TEST(RheologyMeans, LeaveOutAFluidWithoutAViscosity) {
   RheologyMeans means;
   means.add(viscosity_of(std::numeric_limits<double>::quiet_NaN()), 0, 1, 0, 10);
   EXPECT_FALSE(means.mean(0).has_value());
+  Rheology at_rest;
+  means.add(at_rest, 1, 2, 0, 10);
+  EXPECT_EQ(means.filled_blocks(), 0U);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -11,6 +12,7 @@
 #include "tests/program/program.hpp"
 #include "tests/program/sample_files.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/particles/contact/film_law.hpp"
 #include "viscontact/results/exit_code.hpp"
 
 namespace viscontact {
@@ -73,7 +75,22 @@ radius = 0.5
   EXPECT_NEAR(viscosity[0], 1 + 2.5 * fraction, 1e-12);
   EXPECT_NEAR(column("final_particles.csv", "vx").at(0), -8, 1e-9);
   EXPECT_NEAR(column("final_particles.csv", "angular_velocity_z").at(0), 1, 1e-9);
+  EXPECT_FALSE(std::signbit(column("rheology.csv", "pressure").at(0)));
   EXPECT_EQ(record()["mean_viscosity"], viscosity[0]);
+  EXPECT_TRUE(record()["mean_viscosity_error"].is_null());
+}
+
+TEST_F(Suspensions, HaveNoViscosityAtRest) {
+  compute(replaced(replaced(replaced(kShear, "velocity = { shear_rate = 4.0 }\n", ""),
+                            "strain_step = 0.02\nend_strain = 2.0",
+                            "time_step = 0.1\nend_time = 0.3\nrepulsion = { amplitude = 1.0, length "
+                            "= 0.1 }"),
+                   "average_from = 0.21", "average_from = 0.1"));
+  const auto rows = matches_in(content(out() / "rheology.csv"), "([^\n]+)\n", 1);
+  ASSERT_EQ(rows.size(), 4U);
+  // time, strain, seven empty fields, pairs.
+  EXPECT_THAT(rows[1], HasSubstr(",0,,,,,,,,"));
+  EXPECT_TRUE(record()["mean_viscosity"].is_null());
   EXPECT_TRUE(record()["mean_viscosity_error"].is_null());
 }
 
@@ -139,6 +156,26 @@ TEST_F(Suspensions, AreComparedWithContactAlone) {
   EXPECT_NE(content(out() / "rheology.csv"), content(out("none") / "rheology.csv"));
   EXPECT_THAT(read_file(out() / "rheology.svg"), HasSubstr("viscous contact alone"));
   EXPECT_THAT(read_file(out("none") / "rheology.svg"), Not(HasSubstr("viscous contact alone")));
+}
+
+TEST_F(Suspensions, OfContactAloneTouchWhenTheFilmHasTakenAllThatItCan) {
+  compute(replaced(replaced(replaced(kShear, "pairs = \"near_contact\"", "pairs = \"none\""),
+                            "regularisation = 1e-3\n", ""),
+                   "roughness = 1e-3", "roughness = 1e-2\n[friction]\ncoefficient = 0.5"));
+  // The largest film is that of two large spheres.
+  particles::FilmLaw film;
+  film.viscosity = 2;
+  film.roughness = 1e-2 * (21 * 1.0 + 9 * 1.3) / 30 / 2;
+  const auto gammas = column("final_contacts.csv", "gamma");
+  const std::array lowest{film.lowest_gamma(1, 1), film.lowest_gamma(1, 1.3),
+                          film.lowest_gamma(1.3, 1.3)};
+  std::size_t touching = 0;
+  for (const double gamma : gammas) {
+    EXPECT_GE(gamma, lowest[2] * (1 + 1e-6));
+    // Files have nine digits or more.
+    for (const double least : lowest) touching += std::abs(gamma - least) < -1e-6 * least ? 1 : 0;
+  }
+  EXPECT_GT(touching, 0U);
 }
 
 TEST_F(Suspensions, AreSweptWithTheirMeans) {
