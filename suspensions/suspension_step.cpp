@@ -218,9 +218,6 @@ void SuspensionStep::add_contact(std::size_t p, const ContactMemory& memory) {
 void SuspensionStep::add_contacts() {
   auto memory = problem_.memories.begin();
   const auto& rows = system_.resistance().pairs;
-  const auto& lubrication = problem_.lubrication;
-  const bool has_film_alone = lubrication.pairs != PairTerms::kNone && lubrication.roughness == 0 &&
-                              lubrication.regularisation == 0;
   for (std::size_t p = 0; p < rows.size(); ++p) {
     const auto& row = rows[p];
     const auto before = [&](const ContactMemory& m) {
@@ -230,11 +227,15 @@ void SuspensionStep::add_contacts() {
     if (memory != problem_.memories.end() && memory->first == row.first &&
         memory->second == row.second)
       add_contact(p, *memory);
-    else if (!has_film_alone &&
-             films_[p].start - films_[p].delta <
-                 (lubrication.roughness + StepTuning::kNearGap) * system_.strains()[p].radii / 2)
+    else if (!is_kept_apart(p) && films_[p].start - films_[p].delta <
+                                      (problem_.lubrication.roughness + StepTuning::kNearGap) *
+                                          system_.strains()[p].radii / 2)
       add_contact(p, {row.first, row.second});
   }
+}
+
+bool SuspensionStep::is_kept_apart(std::size_t p) const {
+  return films_[p].alpha > 0 && films_[p].delta == 0 && problem_.lubrication.roughness == 0;
 }
 
 double SuspensionStep::opening(std::size_t p, const std::vector<Motion>& motions) const {
@@ -276,14 +277,13 @@ void SuspensionStep::find_gaps() {
     const double distance = norm(apart);
     // A gap along the normal is a lower bound of the gap. A film whose gap may become 0 has this
     // one: with the gap itself, spheres that pass each other come as near as 1e-12.
-    const bool is_bound = film.alpha > 0 && film.delta == 0 && problem_.lubrication.roughness == 0;
-    film.curvature = (is_bound ? dot(vector_of(rows[p].normal), apart) : distance) -
+    film.curvature = (is_kept_apart(p) ? dot(vector_of(rows[p].normal), apart) : distance) -
                      system_.strains()[p].radii - film.affine_gap -
                      problem_.h * opening(p, motions_);
     const double gap = distance - system_.strains()[p].radii;
     smallest_gap_ = std::min(smallest_gap_, gap);
     if (film.contact < 0) {
-      if (film.alpha > 0 && film.delta == 0) continue;
+      if (is_kept_apart(p)) continue;
       const double least = problem_.lubrication.roughness * system_.strains()[p].radii / 2;
       if (gap < least) add_contact(p, {pair.first, pair.second});
     }

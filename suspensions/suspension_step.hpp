@@ -63,6 +63,8 @@ class SuspensionStep {
   void add_films();
   void add_contacts();
   void add_contact(std::size_t p, const ContactMemory& memory);
+  // Whether the film of pair p alone keeps its gap above 0, so that it never has a contact.
+  bool is_kept_apart(std::size_t p) const;
   // Rate at which pair p opens relative to the flow [L/T].
   double opening(std::size_t p, const std::vector<Motion>& motions) const;
   // The slip (9.16) of the surfaces, turned by a right angle about the normal [L/T]: the sum of both

@@ -71,6 +71,26 @@ TEST(SuspensionStep, LeavesNoOverlapAndBalancesThePower) {
   }
 }
 
+TEST(SuspensionStep, KeepsTheRoughnessOfPairsThatComeFromFarAway) {
+  // Two spheres start at a gap of 0.3 and are pushed to the roughness in one step.
+  for (const auto pairs : {PairTerms::kTables, PairTerms::kNearContact}) {
+    auto setting = sheared_cube(1, 0);
+    setting.domain = {};
+    auto& of = *setting.lubrication;
+    of.pairs = pairs;
+    of.regularisation = 0;
+    of.roughness = 1e-2;
+    of.gradient = {};
+    setting.added_forces = {60, 0, 0, -60, 0, 0};
+    setting.added_torques.assign(6, 0);
+    setting.time_step = 1;
+    SuspensionSimulation simulation(setting, spheres_at({{}, {2.3, 0, 0}}, {1, 1}), 1);
+    EXPECT_TRUE(simulation.step(10).converged);
+    EXPECT_NEAR(least_gap(simulation), 1e-2, 1e-7);
+    EXPECT_EQ(simulation.rheology().contacts, 1U);
+  }
+}
+
 TEST(SuspensionStep, IsContinuedFromAStateBitForBit) {
   for (const auto& kind : kKinds) {
     SCOPED_TRACE(&kind - kKinds.data());
