@@ -337,9 +337,8 @@ void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State&
     terminal::warn("particles: warning: {}", warning);
   if (record.divided > 0)
     terminal::say(
-        "particles: {} of {} steps were computed in parts, because particles are fast or a step "
-        "was "
-        "not solved (steps.csv says in how many)",
+        "particles: {} of {} steps were computed in parts, because particles are fast or Coulomb's "
+        "law was not solved (steps.csv says in how many)",
         record.divided, record.steps);
   const bool is_suspension = c.setting.lubrication.has_value();
   if (record.unconverged > 0 && is_suspension)
