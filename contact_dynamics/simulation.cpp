@@ -32,9 +32,9 @@ struct DivisionTuning {
   // How often a step may be halved because its friction is not solved. 500 to 2000 spheres with
   // mu_s up to 1 need at most five parts, radii in the ratio 10 with mu_s = 1 up to ten.
   static constexpr int kMostOfFriction = 6;
-  // Iterations of a step after which its parts are divided no further, which bounds the time: 2000
-  // spheres took at most 28 000 in a step, and then 1.7 s.
-  static constexpr int kMostIterations = 20000;
+  // Iterations of a step times its listed pairs, after which its parts are divided no further, which
+  // bounds the time: 2000 spheres took at most 28 000 iterations in a step, and then 1.7 s.
+  static constexpr double kMostVisits = 2e8;
 };
 
 struct OverlapTuning {
@@ -455,8 +455,10 @@ template <int D>
 void Simulation::advance(double h, double next, int halvings, StepReport& report) {
   assert(h > 0 && halvings <= kMostHalvings);
   move_freely<D>(h, next);
-  const bool may_divide_friction = halvings < DivisionTuning::kMostOfFriction &&
-                                   report.iterations < DivisionTuning::kMostIterations;
+  const double visits =
+      double(report.iterations) * double(state_.pairs.size() + state_.walls.size());
+  const bool may_divide_friction =
+      halvings < DivisionTuning::kMostOfFriction && visits < DivisionTuning::kMostVisits;
   const auto projected = project<D>(h, next, may_divide_friction);
   // Links that only seem to contradict each other because they turn too far hold in shorter steps.
   const bool is_divided =
