@@ -5,7 +5,7 @@
 # 6 pi (1 + 2.725 phi - 6.583 phi^2) times the velocity, a parabola fitted to dilute suspensions. Above
 # phi = 0.648 it is negative, and drives the spheres: they gain energy from a fluid at rest. LAMMPS says nothing,
 # and its manual names no largest volume fraction. Random packings reach 0.64, of unequal spheres more.
-# Package: lammps 2022-01-06 (Debian 12).
+# Packages: lammps 2022-01-06 (Debian 12).
 set -eu
 cd "$(dirname "$0")"
 # shellcheck source-path=SCRIPTDIR

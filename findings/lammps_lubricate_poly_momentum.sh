@@ -5,7 +5,7 @@
 # forces are -20.58 and 23.68, so that the film pushes the pair along, and its torques, -51.76 and 95.41, do not
 # balance the couple of the forces either: momentum and angular momentum are made of nothing. The film's terms
 # are -16.79 and 16.79, and the torques -33.58 and -16.79. With equal radii the forces are opposite.
-# Package: lammps 2022-01-06 (Debian 12).
+# Packages: lammps 2022-01-06 (Debian 12).
 set -eu
 cd "$(dirname "$0")"
 # shellcheck source-path=SCRIPTDIR

@@ -6,7 +6,7 @@
 # the style for equal spheres, gives -12.30 for the same two spheres, and -16.64 for the torque on the sphere that
 # turns, whose exact value is -41.09. Forces agree in both styles. A pair turns faster or slower than it should
 # as soon as its spheres turn.
-# Package: lammps 2022-01-06 (Debian 12).
+# Packages: lammps 2022-01-06 (Debian 12).
 set -eu
 cd "$(dirname "$0")"
 # shellcheck source-path=SCRIPTDIR

@@ -5,7 +5,7 @@
 # because the law takes the mean of both radii for each: the force is the same as for radii 3 and 3. The
 # manual calls the law one "between two spheres" and does not say that they must be equal. The error is the
 # factor ((r1 + r2)^2/(4 r1 r2))^2, 1.15 for radii 1 and 1.7, and 9.2 for 1 and 10.
-# Package: yade 2023.02a-1 (Debian 12).
+# Packages: yade 2023.02a-1 (Debian 12).
 set -eu
 cd "$(dirname "$0")"
 # shellcheck source-path=SCRIPTDIR

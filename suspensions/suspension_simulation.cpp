@@ -82,6 +82,8 @@ struct SuspensionSimulation::Content {
 
   const PairLubrication& lubrication() const { return *setting.lubrication; }
   Particles& particles() { return state.particles; }
+  /// Those of viscous contact, (9.14).
+  bool contacts_have_films() const { return lubrication().pairs == PairTerms::kNone; }
   ShearedCell cell() const {
     ShearedCell cell;
     if (const auto* box = std::get_if<BoxDomain>(&setting.domain)) cell.from = box->from;
@@ -281,19 +283,12 @@ const Rheology& SuspensionSimulation::solve_instant() {
 
 std::vector<suspensions::ContactMemory> SuspensionSimulation::Content::memories(double h) const {
   std::vector<suspensions::ContactMemory> result;
-  const bool has_films = lubrication().pairs == PairTerms::kNone;
   for (const auto& pair : state.pairs) {
     suspensions::ContactMemory memory{pair.first, pair.second};
     const double before = state.earlier_step > 0 ? 1 / state.earlier_step : 0;
     memory.load = before * pair.impulse;
     memory.friction = before * state.memories.of(pair.memory).friction();
-    if (has_films) {
-      const double lowest =
-          setting.laws.film.lowest_gamma(state.particles.radii[index_of(pair.first)],
-                                         state.particles.radii[index_of(pair.second)]);
-      memory.lowest = pair.gamma / h;
-      memory.carried_by_film = std::isfinite(lowest) ? (pair.gamma - lowest) / h : lowest;
-    }
+    if (contacts_have_films()) memory.least_load = pair.gamma / h;
     result.push_back(memory);
   }
   return result;
@@ -345,14 +340,13 @@ void SuspensionSimulation::Content::move(const std::vector<Motion>& motions, dou
 
 void SuspensionSimulation::Content::remember(
     const std::vector<suspensions::ContactMemory>& contacts, double h) {
-  const bool has_films = lubrication().pairs == PairTerms::kNone;
   std::vector<Pair> pairs;
   PairMemories memories_now;
   for (const auto& contact : contacts) {
     Pair pair{contact.first, contact.second};
     pair.impulse = h * contact.load;
-    if (has_films) {
-      pair.gamma = h * contact.lowest;
+    if (contacts_have_films()) {
+      pair.gamma = h * contact.least_load;
       FilmLaw::absorb(pair, 0,
                       setting.laws.film.lowest_gamma(state.particles.radii[index_of(pair.first)],
                                                      state.particles.radii[index_of(pair.second)]));
@@ -378,6 +372,7 @@ suspensions::StepSolution SuspensionSimulation::Content::solve_step(
   suspensions::StepProblem problem;
   problem.lubrication = lubrication();
   if (setting.laws.friction) problem.friction = setting.laws.friction->coefficient;
+  if (contacts_have_films()) problem.contact_film = &setting.laws.film;
   problem.radii = state.particles.radii;
   problem.mean_radius = mean_radius;
   problem.pairs = pairs;

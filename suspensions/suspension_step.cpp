@@ -107,9 +107,10 @@ struct SuspensionStep::Film {
 struct SuspensionStep::Contact {
   std::size_t pair = 0;
   ContactMemory memory;
-  double gap = 0;                                      // at contact [L]
-  double stiffness = 0;                                // [M/T]
-  bool pushes = false;                                 // its load is above the least one
+  double gap = 0;            // at contact [L]
+  double stiffness = 0;      // [M/T]
+  double borne_by_film = 0;  // part of the load that has no friction, (gamma - gamma_min)/h
+  bool pushes = false;       // its load is above the least one
   double arm_first = 0, arm_second = 0, strained = 0;  // of friction [L], and W's share of n x En
   double stiffness_across = 0;
   Lanes friction{};
@@ -190,9 +191,16 @@ void SuspensionStep::add_contact(std::size_t p, const ContactMemory& memory) {
   Contact contact;
   contact.pair = p;
   contact.memory = memory;
+  assert(memory.least_load <= 0);
   const double a = problem_.radii[index(row.first)], b = problem_.radii[index(row.second)];
   const double mean = (a + b) / 2, reduced = a * b / (a + b);
   contact.gap = lubrication.roughness * mean;
+  if (problem_.contact_film) {
+    // Infinite for smooth spheres. Rounding errors may leave gamma just below gamma_min.
+    const double carried =
+        memory.least_load - problem_.contact_film->lowest_gamma(a, b) / problem_.h;
+    contact.borne_by_film = std::max(carried, 0.0);
+  }
   const double width = std::max(contact.gap + film.delta, (lubrication.pairs == PairTerms::kNone
                                                                ? StepTuning::kWidthWithoutFilm
                                                                : StepTuning::kLeastWidth) *
@@ -218,9 +226,6 @@ void SuspensionStep::add_contact(std::size_t p, const ContactMemory& memory) {
 void SuspensionStep::add_contacts() {
   auto memory = problem_.memories.begin();
   const auto& rows = system_.resistance().pairs;
-  const auto& lubrication = problem_.lubrication;
-  const bool has_film_alone = lubrication.pairs != PairTerms::kNone && lubrication.roughness == 0 &&
-                              lubrication.regularisation == 0;
   for (std::size_t p = 0; p < rows.size(); ++p) {
     const auto& row = rows[p];
     const auto before = [&](const ContactMemory& m) {
@@ -230,11 +235,15 @@ void SuspensionStep::add_contacts() {
     if (memory != problem_.memories.end() && memory->first == row.first &&
         memory->second == row.second)
       add_contact(p, *memory);
-    else if (!has_film_alone &&
-             films_[p].start - films_[p].delta <
-                 (lubrication.roughness + StepTuning::kNearGap) * system_.strains()[p].radii / 2)
+    else if (!is_kept_apart(p) && films_[p].start - films_[p].delta <
+                                      (problem_.lubrication.roughness + StepTuning::kNearGap) *
+                                          system_.strains()[p].radii / 2)
       add_contact(p, {row.first, row.second});
   }
+}
+
+bool SuspensionStep::is_kept_apart(std::size_t p) const {
+  return films_[p].alpha > 0 && films_[p].delta == 0 && problem_.lubrication.roughness == 0;
 }
 
 double SuspensionStep::opening(std::size_t p, const std::vector<Motion>& motions) const {
@@ -276,14 +285,13 @@ void SuspensionStep::find_gaps() {
     const double distance = norm(apart);
     // A gap along the normal is a lower bound of the gap. A film whose gap may become 0 has this
     // one: with the gap itself, spheres that pass each other come as near as 1e-12.
-    const bool is_bound = film.alpha > 0 && film.delta == 0 && problem_.lubrication.roughness == 0;
-    film.curvature = (is_bound ? dot(vector_of(rows[p].normal), apart) : distance) -
+    film.curvature = (is_kept_apart(p) ? dot(vector_of(rows[p].normal), apart) : distance) -
                      system_.strains()[p].radii - film.affine_gap -
                      problem_.h * opening(p, motions_);
     const double gap = distance - system_.strains()[p].radii;
     smallest_gap_ = std::min(smallest_gap_, gap);
     if (film.contact < 0) {
-      if (film.alpha > 0 && film.delta == 0) continue;
+      if (is_kept_apart(p)) continue;
       const double least = problem_.lubrication.roughness * system_.strains()[p].radii / 2;
       if (gap < least) add_contact(p, {pair.first, pair.second});
     }
@@ -292,7 +300,7 @@ void SuspensionStep::find_gaps() {
     const double over = gap - contact.gap;
     // Where the load is the least one the gap may be open.
     const double error =
-        contact.memory.load > contact.memory.lowest ? std::abs(over) : std::max(-over, 0.0);
+        contact.memory.load > contact.memory.least_load ? std::abs(over) : std::max(-over, 0.0);
     gap_error_ = std::max(gap_error_, error);
   }
 }
@@ -320,13 +328,14 @@ void SuspensionStep::linearise(bool is_first) {
     if (film.contact >= 0) {
       auto& contact = contacts_[index(film.contact)];
       const auto& memory = contact.memory;
-      contact.pushes =
-          is_first && memory.load > memory.lowest ? true : trial_load(contact) > memory.lowest;
+      contact.pushes = is_first && memory.load > memory.least_load
+                           ? true
+                           : trial_load(contact) > memory.least_load;
       if (contact.pushes) {
         row.squeeze += contact.stiffness;
         film.load += contact.stiffness * (affine - contact.gap) / h - memory.load;
       } else {
-        film.load -= memory.lowest;
+        film.load -= memory.least_load;
       }
       if (problem_.friction > 0) linearise_friction(contact, turn1, turn2);
     }
@@ -341,7 +350,7 @@ void SuspensionStep::linearise(bool is_first) {
 
 double SuspensionStep::friction_bound(const Contact& contact) const {
   if (has_given_loads_) return contact.given_bound;
-  return problem_.friction * std::max(contact.memory.load - contact.memory.carried_by_film, 0.0);
+  return problem_.friction * std::max(contact.memory.load - contact.borne_by_film, 0.0);
 }
 
 void SuspensionStep::linearise_friction(Contact& contact, Lanes& turn1, Lanes& turn2) {
@@ -388,13 +397,13 @@ double SuspensionStep::trial_load(const Contact& contact) const {
 
 std::size_t SuspensionStep::count_changes() const {
   return static_cast<std::size_t>(std::ranges::count_if(contacts_, [&](const Contact& contact) {
-    return (trial_load(contact) > contact.memory.lowest) != contact.pushes;
+    return (trial_load(contact) > contact.memory.least_load) != contact.pushes;
   }));
 }
 
 void SuspensionStep::update_contacts() {
   for (auto& contact : contacts_) {
-    contact.memory.load = std::max(trial_load(contact), contact.memory.lowest);
+    contact.memory.load = std::max(trial_load(contact), contact.memory.least_load);
     if (!(problem_.friction > 0)) continue;
     contact.friction = friction_at(contact, slip(contact, motions_));
   }
@@ -491,7 +500,7 @@ void SuspensionStep::shorten(const std::vector<Motion>& before) {
       if (film.contact >= 0) {
         const auto& contact = contacts_[index(film.contact)];
         force -= std::max(contact.memory.load - contact.stiffness * (gap - contact.gap) / h,
-                          contact.memory.lowest);
+                          contact.memory.least_load);
         if (problem_.friction > 0) {
           const Lanes turned = slip_by_motions(contact, change);
           slope +=
@@ -565,7 +574,7 @@ StepSolution SuspensionStep::solve() {
   for (auto& contact : contacts_) {
     contact.memory.friction = vector_of(contact.friction);
     if (contact.memory.load > 0) ++solution.touching;
-    if (contact.memory.load != 0 || contact.memory.lowest != 0)
+    if (contact.memory.load != 0 || contact.memory.least_load != 0)
       solution.contacts.push_back(contact.memory);
   }
   sort(solution.contacts);

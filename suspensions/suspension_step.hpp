@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "viscontact/particles/contact/film_law.hpp"
 #include "viscontact/suspensions/affine_motion.hpp"
 #include "viscontact/suspensions/conjugate_gradients.hpp"
 #include "viscontact/suspensions/pair_system.hpp"
@@ -16,15 +17,17 @@ namespace viscontact::suspensions {
 /// What a pair remembers of its contact.
 struct ContactMemory {
   std::int32_t first = 0, second = 0;
-  double load = 0;    ///< mean force of the contact in the last step, > 0 where it pushes [M L/T^2]
-  double lowest = 0;  ///< the least load in the step, <= 0
-  double carried_by_film = 0;  ///< part of the load that has no friction [M L/T^2], >= 0
-  Vector friction{};           ///< mean load of friction, (9.16), in the last step [M L/T^2]
+  /// Mean force of the contact in the last step, > 0 where it pushes [M L/T^2].
+  double load = 0;
+  double least_load = 0;  ///< in the step, <= 0: gamma/h if it has a film [M L/T^2]
+  Vector friction{};      ///< mean load of friction, (9.16), in the last step [M L/T^2]
 };
 
 struct StepProblem {
   PairLubrication lubrication;
-  double friction = 0;            ///< coefficient of Coulomb's friction [1]
+  double friction = 0;  ///< coefficient of Coulomb's friction [1]
+  /// Of contacts without lubrication; nullptr if they have none.
+  const particles::FilmLaw* contact_film = nullptr;
   std::span<const double> radii;  ///< [L]
   double mean_radius = 1;
   std::vector<NearPair> pairs;          ///< at the start of the step
@@ -63,6 +66,8 @@ class SuspensionStep {
   void add_films();
   void add_contacts();
   void add_contact(std::size_t p, const ContactMemory& memory);
+  // Whether the film of pair p alone keeps its gap above 0, so that it never has a contact.
+  bool is_kept_apart(std::size_t p) const;
   // Rate at which pair p opens relative to the flow [L/T].
   double opening(std::size_t p, const std::vector<Motion>& motions) const;
   // The slip (9.16) of the surfaces, turned by a right angle about the normal [L/T]: the sum of both

@@ -93,7 +93,7 @@ class ConstraintSystem {
 
   /// The equations of all links, and then those of the stops of hinges, which bound their angles.
   const std::vector<LinkEquations>& links() const { return links_; }
-  /// How solutions begin. The caller sets this and the next five before solve().
+  /// How solutions begin. The caller sets all public members before solve().
   ConstraintStart start = ConstraintStart::kSweeps;
   /// True if the caller takes the step anew, in shorter parts, if needs_shorter_step(). Islands do
   /// not give up then.

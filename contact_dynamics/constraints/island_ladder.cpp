@@ -111,8 +111,7 @@ template <int D>
 SolverResult IslandLadder<D>::solve() {
   restart();
   contact_solver::run_stages(kTable, *this);
-  island_.needs_shorter_step =
-      constraints_.can_be_divided && !(result_.residual <= 1) && could_give_up();
+  island_.needs_shorter_step = can_be_divided() && !(result_.residual <= 1) && could_give_up();
   take_over();
   return result_;
 }
@@ -248,6 +247,12 @@ void IslandLadder<D>::prepare_correction(bool is_fast) {
       corrections_ > 0 && solution_.result.residual <= 1 && (is_fast || !has_large_shifts());
   ++corrections_;
   phase_ = Phase::kNotSolved;
+}
+
+template <int D>
+bool IslandLadder<D>::can_be_divided() const {
+  return constraints_.can_be_divided &&
+         std::ranges::all_of(problem_.blocks, &ConstraintBlock::is_contact);
 }
 
 template <int D>

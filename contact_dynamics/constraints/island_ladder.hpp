@@ -63,7 +63,10 @@ class IslandLadder {
   bool is_exhausted() const;
   // True if the island has not given up yet, and a load of its own could be given.
   bool could_give_up() const;
-  bool may_give_up() const { return !constraints_.can_be_divided && could_give_up(); }
+  // True if the step can be divided, and the island has no rows but those of contacts: one with
+  // links that no step solves would be tried in all parts.
+  bool can_be_divided() const;
+  bool may_give_up() const { return !can_be_divided() && could_give_up(); }
   // Solves with the loads of the present impulses or, if they fail or `have_diverged`, of a
   // solution without friction. If this fails, too, returns false and changes nothing but the
   // iterations.

@@ -336,8 +336,10 @@ void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State&
   for (const auto& warning : warnings_of(c, record.regime))
     terminal::warn("particles: warning: {}", warning);
   if (record.divided > 0)
-    terminal::say("particles: {} of {} steps were computed in parts (steps.csv says in how many)",
-                  record.divided, record.steps);
+    terminal::say(
+        "particles: {} of {} steps were computed in parts, because particles are fast or Coulomb's "
+        "law was not solved (steps.csv says in how many)",
+        record.divided, record.steps);
   const bool is_suspension = c.setting.lubrication.has_value();
   if (record.unconverged > 0 && is_suspension)
     terminal::warn(

@@ -178,6 +178,20 @@ TEST(PairResistance, OfASmallSphereIsThatInTheFlowOfALargeOne) {
     }
 }
 
+TEST(PairResistance, BesideAPlaneHasTheForceOfAShearFlow) {
+  // F* of Goldman, Cox & Brenner 1967 (II), Table 1: the force of the shear u = g z on a sphere at rest
+  // over 6 pi mu r g h, by centres at the heights h, with four digits. The plane is sphere 1.
+  for (const auto& [height, expected] : {std::pair(1.003202, 1.6982), {1.5430806, 1.4391}}) {
+    const auto matrix = resistance(std::numeric_limits<double>::infinity(), 1, height - 1);
+    Eigen::Matrix<double, 11, 1> flow = Eigen::Matrix<double, 11, 1>::Zero();
+    flow(0) = -height;
+    flow(4) = -0.5;
+    flow(7) = std::sqrt(0.5);
+    const double force = -matrix.row(11).tail<11>().dot(flow);
+    EXPECT_NEAR(force / (6 * kPi * height), expected, 1e-4) << height;
+  }
+}
+
 TEST(PairResistance, BalancedHasNoLoadsOfRigidMotions) {
   for (const double ratio : {1.0, 0.2, 7.0, 60.0, 1e4, 1e8})
     for (const double gap : {1e-6, 0.01, 3.0}) {

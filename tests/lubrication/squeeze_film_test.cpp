@@ -74,7 +74,8 @@ TEST(SqueezeFilm, OfSpheresIsTheExactOne) {
 }
 
 TEST(SqueezeFilm, OfSpheresHasNoNetForce) {
-  // R by the matrix of the pair, whose error is 3e-6 of K_11 and K_22.
+  // R by the matrix of the pair, whose error is 3e-6 of K_11 and K_22. The integral has errors of
+  // 1e-5, and its derivative has 4e-5.
   for (const double ratio : {1.0, 2.5, 9.0})
     for (const double gap : {1e-4, 0.02, 0.7, 4.0}) {
       const auto matrix = pair_resistance(1, ratio, gap, 1);
@@ -84,7 +85,7 @@ TEST(SqueezeFilm, OfSpheresHasNoNetForce) {
       const double found =
           sphere_squeeze_integral(1, ratio, gap * std::exp(-step), gap * std::exp(step)) /
           (2 * std::sinh(step) * gap);
-      EXPECT_NEAR(found / expected, 1, 1e-5) << ratio << ' ' << gap;
+      EXPECT_NEAR(found / expected, 1, 5e-5) << ratio << ' ' << gap;
     }
 }
 

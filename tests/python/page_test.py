@@ -1,4 +1,4 @@
-"""Runs the examples of docs/python.md and of examples/python as a reader does."""
+"""Runs the examples of docs/python.md, of docs/pairs.md and of examples/python as a reader does."""
 
 import contextlib
 import io
@@ -33,16 +33,20 @@ class PageTest(unittest.TestCase):
                                    delta=2e-3 * max(abs(float(one)), 1e-12), msg=printed)
 
     def test_blocks(self):
-        page = (SOURCE / "docs/python.md").read_text()
+        self.check_page("docs/python.md", 5)
+        self.check_page("docs/pairs.md", 1)
+
+    def check_page(self, name, fewest):
+        page = (SOURCE / name).read_text()
         blocks = re.findall(r"```python\n(.*?)```\n(?:\n```text\n(.*?)```\n)?", page, re.DOTALL)
-        self.assertGreater(len(blocks), 5)
+        self.assertGreater(len(blocks), fewest)
         session = {}
         for code, expected in blocks:
             code = code.replace('"out/', f'"{self.folder}/')
             code = code.replace("build/release/viscontact", os.environ["VISCONTACT_PROGRAM"])
             printed = io.StringIO()
             with contextlib.redirect_stdout(printed):
-                exec(compile(code, "docs/python.md", "exec"), session)
+                exec(compile(code, name, "exec"), session)
             self.check(expected, printed.getvalue())
 
     def test_examples(self):

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "tests/suspensions/spheres.hpp"
 
@@ -68,6 +69,26 @@ TEST(SuspensionStep, LeavesNoOverlapAndBalancesThePower) {
     EXPECT_EQ(touched > 0, has_contacts);
     EXPECT_NEAR(simulation.state().shear.strain, 1.2, 1e-12);
     EXPECT_NEAR(simulation.state().time, 1.2, 1e-12);
+  }
+}
+
+TEST(SuspensionStep, KeepsTheRoughnessOfPairsThatComeFromFarAway) {
+  // Two spheres start at a gap of 0.3 and are pushed to the roughness in one step.
+  for (const auto pairs : {PairTerms::kTables, PairTerms::kNearContact}) {
+    auto setting = sheared_cube(1, 0);
+    setting.domain = {};
+    auto& of = *setting.lubrication;
+    of.pairs = pairs;
+    of.regularisation = 0;
+    of.roughness = 1e-2;
+    of.gradient = {};
+    setting.added_forces = {60, 0, 0, -60, 0, 0};
+    setting.added_torques.assign(6, 0);
+    setting.time_step = 1;
+    SuspensionSimulation simulation(setting, spheres_at({{}, {2.3, 0, 0}}, {1, 1}), 1);
+    EXPECT_TRUE(simulation.step(10).converged);
+    EXPECT_NEAR(least_gap(simulation), 1e-2, 1e-7);
+    EXPECT_EQ(simulation.rheology().contacts, 1U);
   }
 }
 
@@ -187,6 +208,37 @@ TEST(SuspensionStep, OfAContactThatSlidesHasCoulombsFriction) {
   EXPECT_NEAR(p.angular_velocities[5], -coefficient * press / (8 * M_PI), 1e-4);
   ASSERT_EQ(simulation.state().pairs.size(), 1U);
   EXPECT_NEAR(simulation.state().pairs[0].impulse, press * 1e-4, 1e-7);
+}
+
+TEST(SuspensionStep, OfAContactWhoseFilmBearsTheLoadHasNoFriction) {
+  // The film of smooth spheres bears every load; that of rough ones the first gamma_min/h of it,
+  // also in the step in which the contact is new.
+  const double press = 5, pull = 3, coefficient = 0.2, h = 1e-4;
+  for (const double borne : {std::numeric_limits<double>::infinity(), 8.0, 2.0, 0.0}) {
+    for (const bool is_new : {true, false}) {
+      auto setting = sheared_cube(1, 0);
+      setting.domain = {};
+      auto& of = *setting.lubrication;
+      of.pairs = PairTerms::kNone;
+      of.gradient = {};
+      if (std::isfinite(borne)) setting.laws.film.gamma_min = -h * borne;
+      setting.laws.friction = FrictionLaw{coefficient};
+      setting.added_forces = {press, pull, 0, -press, -pull, 0};
+      setting.added_torques.assign(6, 0);
+      setting.time_step = h;
+      SuspensionSimulation simulation(setting, spheres_at({{}, {2, 0, 0}}, {1, 1}), 1);
+      EXPECT_TRUE(simulation.step(1).converged);
+      if (!is_new) {
+        EXPECT_TRUE(simulation.step(1).converged);
+      }
+      // After one step the film has taken up `press`, and in the second one can take the rest.
+      const double left = is_new ? borne : std::max(borne - press, 0.0);
+      const double friction = coefficient * std::max(press - left, 0.0);
+      // The normal turns by about h times the velocity in a step.
+      EXPECT_NEAR(simulation.state().particles.velocity(0)[1], (pull - friction) / (6 * M_PI),
+                  3 * h);
+    }
+  }
 }
 
 TEST(SuspensionStep, OfAFilmOfViscousContactGivesBackWhatItTook) {

@@ -265,7 +265,7 @@ TEST_P(StrainedPair, IsTabulatedAsExactlyAsItSays) {
   const auto tables = shipped_tables(pair, true);
   std::vector<double> gaps;
   for (const auto& row : tables.at(MotionKind::kSlide).rows) gaps.push_back(row.gap);
-  ASSERT_EQ(gaps.size(), 25U);
+  ASSERT_GE(gaps.size(), 25U);
   EXPECT_NEAR(gaps.front(), 1e-3, 1e-18);
   EXPECT_EQ(gaps.back(), 2);
   const auto exact = exact_tables(curvature, gaps);
@@ -286,8 +286,7 @@ TEST_P(StrainedPair, IsTabulatedAsExactlyAsItSays) {
   }
 }
 
-/// At the gaps of the table, and at three between each two of them. Between the two largest gaps the
-/// fit of two spheres is 3.1e-5 off, because only one gap is beyond 1.46.
+/// At the gaps of the table, and between them.
 TEST_P(StrainedPair, HasAShippedFitWithin1e5OfTheExactEntries) {
   const auto& [pair, curvature, entries] = GetParam();
   const auto fit = read_pair_fit(kData + "fits/pairs/" + pair + ".json");
@@ -302,8 +301,7 @@ TEST_P(StrainedPair, HasAShippedFitWithin1e5OfTheExactEntries) {
     const auto& rows = exact.at(named.motion).rows;
     for (std::size_t k = 0; k < gaps.size(); ++k) {
       const double own = entry_in(diagonal_entry(named.motion), rows[k]).first;
-      const double tolerance = gaps[k] < 1.46 || curvature == 0 ? 1e-5 : 4e-5;
-      EXPECT_NEAR(entry_value(fit, which, gaps[k]), entry_in(which, rows[k]).first, tolerance * own)
+      EXPECT_NEAR(entry_value(fit, which, gaps[k]), entry_in(which, rows[k]).first, 1e-5 * own)
           << gaps[k];
     }
   }
