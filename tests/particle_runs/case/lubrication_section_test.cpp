@@ -73,7 +73,7 @@ TEST_F(LubricationSection, GivesEachKeyItsPlace) {
 TEST_F(LubricationSection, GivesContactAloneTheFilmOfViscousContact) {
   const auto film_of = [&](const std::string& keys, const std::string& roughness) {
     return read(keys, kTimes + roughness,
-                kBox + kSphere + "[[particle]]\ncentre = [6.0, 6.0, 6.0]\nradius = 2.0\n")
+                kSphere + "[[particle]]\ncentre = [6.0, 6.0, 6.0]\nradius = 2.0\n")
         .setting.laws.film;
   };
   const auto film = film_of("pairs = \"none\"\n", "roughness = 0.01\n");
