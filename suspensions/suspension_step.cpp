@@ -23,7 +23,8 @@ struct StepTuning {
   static constexpr double kSolved = 0.1;
   // Each linear problem reduces its residual by this factor at least.
   static constexpr double kReduction = 1e-3;
-  // Error of the gap of a contact, in mean radii.
+  // Error of the gap of a contact and of friction_error(), in mean radii. A friction of loads of order
+  // one has then errors of 1e-3 at most.
   static constexpr double kGapTolerance = 3e-8;
   static constexpr int kMostSolutions = 150;
   // After so many the loads that bound friction stay as they are, because Coulomb's law may have no
@@ -349,7 +350,10 @@ void SuspensionStep::linearise(bool is_first) {
 }
 
 double SuspensionStep::friction_bound(const Contact& contact) const {
-  if (has_given_loads_) return contact.given_bound;
+  return has_given_loads_ ? contact.given_bound : coulomb_bound(contact);
+}
+
+double SuspensionStep::coulomb_bound(const Contact& contact) const {
   return problem_.friction * std::max(contact.memory.load - contact.borne_by_film, 0.0);
 }
 
@@ -386,6 +390,23 @@ Lanes SuspensionStep::friction_at(const Contact& contact, const Lanes& at_slip) 
   const Lanes trial = contact.friction + contact.stiffness_across * at_slip;
   const double size = std::sqrt(dot(trial, trial)), bound = friction_bound(contact);
   return (size > bound ? bound / size : 1) * trial;
+}
+
+SuspensionStep::FrictionError SuspensionStep::friction_error() const {
+  FrictionError error;
+  if (!(problem_.friction > 0)) return error;
+  for (const auto& contact : contacts_) {
+    const Lanes here = slip(contact, motions_), force = friction_at(contact, here);
+    const Lanes trial = force + contact.stiffness_across * here;
+    const double size = std::sqrt(dot(trial, trial));
+    const auto error_of = [&](double bound) {
+      const Lanes wrong = force - (size > bound ? bound / size : 1) * trial;
+      return problem_.h * std::sqrt(dot(wrong, wrong)) / contact.stiffness_across;
+    };
+    error.with_bounds = std::max(error.with_bounds, error_of(friction_bound(contact)));
+    error.with_loads = std::max(error.with_loads, error_of(coulomb_bound(contact)));
+  }
+  return error;
 }
 
 double SuspensionStep::trial_load(const Contact& contact) const {
@@ -553,10 +574,12 @@ StepSolution SuspensionStep::solve() {
     solution.iterations += result.iterations;
     const bool is_steady =
         result.start <= tightening * allowed && solution.solutions > 1 && is_film_exact_;
-    const bool is_exact = gap_error_ <= StepTuning::kGapTolerance * problem_.mean_radius;
-    if (is_steady && is_exact) {
-      solution.converged = true;
-      break;
+    const double tolerated = StepTuning::kGapTolerance * problem_.mean_radius;
+    if (is_steady && gap_error_ <= tolerated) {
+      const auto error = friction_error();
+      solution.is_solved = error.with_bounds <= tolerated;
+      solution.converged = error.with_loads <= tolerated;
+      if (solution.is_solved) break;
     }
     if (is_steady && result.iterations == 0) tightening *= 0.1;
     if (is_checked && (count_changes() > 0 || !is_film_exact_ || problem_.friction > 0))
@@ -569,7 +592,7 @@ StepSolution SuspensionStep::solve() {
   sum_stresses(solution);
   solution.motions = motions_;
   solution.has_given_loads = has_given_loads_;
-  solution.residual = gap_error_ / problem_.mean_radius;
+  solution.residual = std::max(gap_error_, friction_error().with_loads) / problem_.mean_radius;
   solution.smallest_gap = smallest_gap_;
   for (auto& contact : contacts_) {
     contact.memory.friction = vector_of(contact.friction);

@@ -45,10 +45,13 @@ struct StepSolution {
   double dissipation = 0;  ///< of drag, films, contacts and friction [M L^2/T^3]
   int solutions = 0;       ///< linear problems
   int iterations = 0;      ///< of conjugate gradients
-  bool converged = false;
+  /// Whether motions, gaps and slips are right with the friction's bounds; these are perhaps wrong.
+  bool is_solved = false;
+  bool converged = false;        ///< is_solved, and the bounds are those of the loads
   bool has_given_loads = false;  ///< whether the loads that bound friction were fixed
-  double residual = 0;           ///< the largest error of a gap in mean radii
-  double smallest_gap = 0;       ///< at the end [L]
+  /// The largest error of a gap and of friction_error(), in mean radii.
+  double residual = 0;
+  double smallest_gap = 0;  ///< at the end [L]
   std::size_t touching = 0;
 };
 
@@ -79,6 +82,13 @@ class SuspensionStep {
   Lanes friction_at(const Contact& contact, const Lanes& at_slip) const;
   static Lanes change_of_friction(const Contact& contact, const Lanes& change);
   double friction_bound(const Contact& contact) const;
+  double coulomb_bound(const Contact& contact) const;
+  // What contacts that stick slip in the step. Where the friction differs from Coulomb's, of the loads
+  // or, in the first member, of the bounds in use, the slip that makes this difference [L].
+  struct FrictionError {
+    double with_bounds = 0, with_loads = 0;
+  };
+  FrictionError friction_error() const;
   // Sets the rows and right sides at the present motions.
   void linearise(bool is_first);
   void linearise_friction(Contact& contact, Lanes& turn1, Lanes& turn2);
