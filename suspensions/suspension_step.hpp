@@ -48,7 +48,7 @@ struct StepSolution {
   /// Whether motions, gaps and slips are right with the friction's bounds; these are perhaps wrong.
   bool is_solved = false;
   bool converged = false;        ///< is_solved, and the bounds are those of the loads
-  bool has_given_loads = false;  ///< whether the loads that bound friction were fixed
+  bool has_given_loads = false;  ///< whether the loads that bound friction are fixed at the end
   /// The largest error of a gap and of friction_error(), in mean radii.
   double residual = 0;
   double smallest_gap = 0;  ///< at the end [L]
@@ -64,6 +64,8 @@ class SuspensionStep {
  private:
   struct Film;
   struct Contact;
+  // The loads that bound friction: those of contacts, others that follow these, or fixed ones.
+  enum class Bounds : std::uint8_t { kOfLoads, kFollowing, kGiven };
   // Takes pairs at half of the step of the present motions.
   void place_again();
   void add_films();
@@ -89,6 +91,8 @@ class SuspensionStep {
     double with_bounds = 0, with_loads = 0;
   };
   FrictionError friction_error() const;
+  // Whether the bounds in use are those of the loads.
+  bool are_bounds_right() const;
   // Sets the rows and right sides at the present motions.
   void linearise(bool is_first);
   void linearise_friction(Contact& contact, Lanes& turn1, Lanes& turn2);
@@ -111,7 +115,7 @@ class SuspensionStep {
   std::vector<Film> films_;
   std::vector<Contact> contacts_;
   double gap_error_ = 0, smallest_gap_ = 0;  // [L]
-  bool has_given_loads_ = false;
+  Bounds bounds_ = Bounds::kOfLoads;
   bool is_film_exact_ = true;  // whether all films were linearised where they are
 };
 
