@@ -45,10 +45,13 @@ struct StepSolution {
   double dissipation = 0;  ///< of drag, films, contacts and friction [M L^2/T^3]
   int solutions = 0;       ///< linear problems
   int iterations = 0;      ///< of conjugate gradients
-  bool converged = false;
-  bool has_given_loads = false;  ///< whether the loads that bound friction were fixed
-  double residual = 0;           ///< the largest error of a gap in mean radii
-  double smallest_gap = 0;       ///< at the end [L]
+  /// Whether motions, gaps and slips are right with the friction's bounds; these are perhaps wrong.
+  bool is_solved = false;
+  bool converged = false;        ///< is_solved, and the bounds are those of the loads
+  bool has_given_loads = false;  ///< whether the loads that bound friction are fixed at the end
+  /// The largest error of a gap and of friction_error(), in mean radii.
+  double residual = 0;
+  double smallest_gap = 0;  ///< at the end [L]
   std::size_t touching = 0;
 };
 
@@ -61,6 +64,8 @@ class SuspensionStep {
  private:
   struct Film;
   struct Contact;
+  // The loads that bound friction: those of contacts, others that follow these, or fixed ones.
+  enum class Bounds : std::uint8_t { kOfLoads, kFollowing, kGiven };
   // Takes pairs at half of the step of the present motions.
   void place_again();
   void add_films();
@@ -79,6 +84,15 @@ class SuspensionStep {
   Lanes friction_at(const Contact& contact, const Lanes& at_slip) const;
   static Lanes change_of_friction(const Contact& contact, const Lanes& change);
   double friction_bound(const Contact& contact) const;
+  double coulomb_bound(const Contact& contact) const;
+  // What contacts that stick slip in the step. Where the friction differs from Coulomb's, of the loads
+  // or, in the first member, of the bounds in use, the slip that makes this difference [L].
+  struct FrictionError {
+    double with_bounds = 0, with_loads = 0;
+  };
+  FrictionError friction_error() const;
+  // Whether the bounds in use are those of the loads.
+  bool are_bounds_right() const;
   // Sets the rows and right sides at the present motions.
   void linearise(bool is_first);
   void linearise_friction(Contact& contact, Lanes& turn1, Lanes& turn2);
@@ -101,7 +115,7 @@ class SuspensionStep {
   std::vector<Film> films_;
   std::vector<Contact> contacts_;
   double gap_error_ = 0, smallest_gap_ = 0;  // [L]
-  bool has_given_loads_ = false;
+  Bounds bounds_ = Bounds::kOfLoads;
   bool is_film_exact_ = true;  // whether all films were linearised where they are
 };
 
