@@ -21,6 +21,9 @@ struct StepTuning {
   // The last linear problems are solved to this part of it, so that what changes after them, such as
   // directions at the end of the step, does not need another one.
   static constexpr double kSolved = 0.1;
+  // The least dissipation that counts, over that of the loads on spheres alone, because spheres that
+  // are pressed together and do not move have none.
+  static constexpr double kLeastPower = 1e-6;
   // Each linear problem reduces its residual by this factor at least.
   static constexpr double kReduction = 1e-3;
   // Error of the gap of a contact and of friction_error(), in mean radii. A friction of loads of order
@@ -566,6 +569,15 @@ void SuspensionStep::shorten(const std::vector<Motion>& before) {
   }
 }
 
+double SuspensionStep::least_power() const {
+  double sum = 0;
+  for (std::size_t k = 0; k < problem_.loads.size(); ++k) {
+    const double drag = 6 * std::numbers::pi * problem_.lubrication.viscosity * problem_.radii[k];
+    sum += dot(problem_.loads[k].along, problem_.loads[k].along) / drag;
+  }
+  return StepTuning::kLeastPower * sum;
+}
+
 StepSolution SuspensionStep::solve() {
   StepSolution solution;
   find_gaps();
@@ -577,7 +589,7 @@ StepSolution SuspensionStep::solve() {
       const double tolerance = problem_.lubrication.pairs == PairTerms::kNone
                                    ? StepTuning::kToleranceWithoutFilm
                                    : StepTuning::kTolerance;
-      allowed = tolerance * tolerance * std::abs(solution.dissipation);
+      allowed = tolerance * tolerance * std::max(std::abs(solution.dissipation), least_power());
     }
     if (problem_.friction > 0 && solution.solutions == StepTuning::kMostWithLoads) {
       for (auto& contact : contacts_) contact.given_bound = friction_bound(contact);
