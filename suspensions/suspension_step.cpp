@@ -124,7 +124,8 @@ struct SuspensionStep::Contact {
   double stiffness = 0;      // [M/T]
   double borne_by_film = 0;  // part of the load that has no friction, (gamma - gamma_min)/h
   bool pushes = false;       // its load is above the least one
-  double arm_first = 0, arm_second = 0, strained = 0;  // of friction [L], and W's share of n x En
+  // Of friction [L]: l of the pair, by which forces across the normal turn it, and its parts.
+  double arm = 0, arm_first = 0, arm_second = 0;
   double stiffness_across = 0;
   Lanes friction{};
   // Where friction was linearised: slip, friction, stiffness, and the direction without stiffness.
@@ -225,7 +226,7 @@ void SuspensionStep::add_contact(std::size_t p, const ContactMemory& memory) {
     const double arm = 1 / row.inverse_arm;
     contact.arm_first = a * arm / (a + b);
     contact.arm_second = b * arm / (a + b);
-    contact.strained = norm(problem_.pairs[p].apart);
+    contact.arm = arm;
     contact.stiffness_across = StepTuning::kStiffnessAcross * film_at_contact;
     contact.friction = lanes_of(memory.friction);
     contact.friction -= dot(contact.friction, row.normal) * row.normal;
@@ -266,7 +267,7 @@ double SuspensionStep::opening(std::size_t p, const std::vector<Motion>& motions
 
 Lanes SuspensionStep::slip_by_strain(const Contact& contact) const {
   const Lanes n = system_.resistance().pairs[contact.pair].normal;
-  return -contact.strained * cross(n, lanes_of(strain_.times(vector_of(n))));
+  return -contact.arm * cross(n, lanes_of(strain_.times(vector_of(n))));
 }
 
 Lanes SuspensionStep::slip_by_motions(const Contact& contact,
@@ -509,8 +510,8 @@ void SuspensionStep::sum_stresses(StepSolution& solution) {
     }
     if (!(problem_.friction > 0) || !(dot(contact.friction, contact.friction) > 0)) continue;
     const Vector force = vector_of(cross(contact.friction, row.normal));
-    sums.friction.stress.add_dyad(-contact.strained, n, force);
-    sums.friction.power -= contact.strained * dot(force, strain_.times(n));
+    sums.friction.stress.add_dyad(-contact.arm, n, force);
+    sums.friction.power -= contact.arm * dot(force, strain_.times(n));
     solution.dissipation += dot(contact.friction, slip(contact, motions_));
   }
   // The power that the dissipation needs. It differs from stress:E by the residuals of the motions,
