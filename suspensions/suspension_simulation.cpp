@@ -35,15 +35,20 @@ struct SuspensionTuning {
   static constexpr int kMostRates = 12;
   // Overlap at the start, in mean radii, that counts as rounding errors of a file.
   static constexpr double kMostStartOverlap = 1e-6;
-  // Overlap that no step leaves, in mean radii: half of what is allowed, because a step that cannot
-  // end before it is still taken for a millionth of its length.
+  // Overlap that no step leaves, in mean radii: half of what is allowed.
   static constexpr double kMostOverlap = 5e-8;
+  // A step that is not solved is taken in half of its length, and so on. If only the stress or
+  // Coulomb's law are not right, the last part is taken after fewer halvings.
+  static constexpr int kMostHalvings = 7, kMostForFriction = 3;
+  // Largest range of the search without a box, in mean radii.
+  static constexpr double kMostSearch = 100;
 };
 
 void check_cell(const Setting& setting, const Particles& particles) {
   const auto& lubrication = *setting.lubrication;
   const auto periods = periods_of(setting.domain);
-  const double distance = suspensions::largest_distance(particles.radii, lubrication.range);
+  const double distance = suspensions::largest_distance(
+      particles.radii, std::max(lubrication.range, SuspensionTuning::kLeastSearch));
   for (const double period : periods)
     if (period > 0 && period < 2 * distance)
       throw Error(
@@ -79,6 +84,7 @@ struct SuspensionSimulation::Content {
   suspensions::SymmetricTensor strain{};
   double mean_radius = 1, volume = 0;
   Rheology rheology;
+  bool has_instant = false;  // whether `rheology` and the velocities are those of the present state
 
   const PairLubrication& lubrication() const { return *setting.lubrication; }
   Particles& particles() { return state.particles; }
@@ -166,6 +172,13 @@ struct SuspensionSimulation::Content {
     }
     return loads;
   }
+  /// Whether the gap of a pair is below the range, beyond which pairs have neither films nor
+  /// repulsion and are listed only because they may come near in a step.
+  bool is_in_range(const NearPair& pair) const {
+    const auto& radii = state.particles.radii;
+    const double sum = radii[index_of(pair.first)] + radii[index_of(pair.second)];
+    return norm(pair.apart) < (1 + lubrication().range / 2) * sum;
+  }
   /// Adds the repulsion of the pairs to `loads`. Returns its part of the stress sums.
   suspensions::StressPart add_repulsion(const std::vector<NearPair>& pairs,
                                         std::vector<Motion>& loads) const {
@@ -176,6 +189,7 @@ struct SuspensionSimulation::Content {
       const auto i = index_of(pair.first), j = index_of(pair.second);
       const double a = state.particles.radii[i], b = state.particles.radii[j];
       const double distance = norm(pair.apart);
+      if (!is_in_range(pair)) continue;
       const double force = amplitude * a * b / (a + b) * std::exp(-(distance - a - b) / length);
       const auto push = suspensions::lanes_of((force / distance) * pair.apart);
       loads[i].along -= push;
@@ -184,9 +198,24 @@ struct SuspensionSimulation::Content {
     }
     return sum;
   }
-  std::vector<NearPair> find_pairs(double least_range = 0) const {
-    return suspensions::near_pairs(cell(), state.particles.positions, state.particles.radii,
-                                   std::max(lubrication().range, least_range));
+  std::vector<NearPair> find_pairs(double range) const {
+    return suspensions::near_pairs(cell(), state.particles.positions, state.particles.radii, range);
+  }
+  /// Range [in mean radii] of pairs that may come near in a step of length h: twice what the flow
+  /// closes of it, and what the last motions, relative to the flow, close.
+  double search_range(double h, const std::vector<Motion>& motions) const {
+    const double sheared =
+        h * std::sqrt(2 * strain.contracted(strain)) * std::abs(state.shear.rate);
+    double fastest = 0;
+    for (const auto& motion : motions)
+      fastest = std::max(fastest, norm(suspensions::vector_of(motion.along)));
+    double most = SuspensionTuning::kMostSearch;
+    const double largest = *std::ranges::max_element(state.particles.radii);
+    for (const double period : periods_of(setting.domain))
+      if (period > 0) most = std::min(most, period / (2 * largest) - 2);
+    const double by_flow = sheared < 2 ? 2 * sheared / (1 - sheared / 2) : most;
+    const double least = std::max(lubrication().range, SuspensionTuning::kLeastSearch);
+    return std::max(std::min(by_flow + 2 * h * fastest / mean_radius, most), least);
   }
   double smallest_gap(const std::vector<NearPair>& pairs) const {
     double smallest = std::numeric_limits<double>::infinity();
@@ -201,9 +230,12 @@ struct SuspensionSimulation::Content {
   /// `before` are the motions of the last step. Sets the rate if the stress is given.
   suspensions::StepSolution solve_step(double h, const std::vector<NearPair>& pairs,
                                        const std::vector<Motion>& before);
-  /// The part of a step of length h up to which spheres that move by `motions` do not overlap.
-  double free_part(const std::vector<NearPair>& pairs, const std::vector<Motion>& motions,
-                   double h) const;
+  /// The largest overlap of two spheres where they are [L], 0 if there is none.
+  double largest_overlap() const {
+    return std::max(-smallest_gap(suspensions::near_pairs(cell(), state.particles.positions,
+                                                          state.particles.radii, 0)),
+                    0.0);
+  }
   void move(const std::vector<Motion>& motions, double h);
   void remember(const std::vector<suspensions::ContactMemory>& contacts, double h);
 };
@@ -212,7 +244,7 @@ suspensions::InstantSolution SuspensionSimulation::Content::solve_instant() {
   const double given = given_rate(state.time, state.time);
   suspensions::SymmetricTensor given_strain;
   given_strain.add(given, strain);
-  const auto pairs = find_pairs();
+  const auto pairs = find_pairs(lubrication().range);
   const suspensions::PairSystem system(
       lubrication(), state.particles.radii,
       suspensions::placed(pairs, state.particles.radii, SuspensionTuning::kLeastGap * mean_radius));
@@ -259,7 +291,8 @@ SuspensionSimulation::SuspensionSimulation(Setting setting, State state, int /*t
   }
   content.wrap();
   content.set_cell();
-  check_spheres(content.setting, content.particles(), content.smallest_gap(content.find_pairs()));
+  check_spheres(content.setting, content.particles(),
+                content.smallest_gap(content.find_pairs(content.lubrication().range)));
 }
 
 SuspensionSimulation::~SuspensionSimulation() = default;
@@ -269,15 +302,18 @@ const State& SuspensionSimulation::state() const { return content_->state; }
 const Rheology& SuspensionSimulation::rheology() const { return content_->rheology; }
 
 std::span<double> SuspensionSimulation::added_forces() {
+  content_->has_instant = false;
   return added_forces_for(content_->particles(), content_->setting);
 }
 std::span<double> SuspensionSimulation::added_torques() {
+  content_->has_instant = false;
   return added_torques_for(content_->particles(), content_->setting);
 }
 
 const Rheology& SuspensionSimulation::solve_instant() {
   if (!content_->solve_instant().converged)
     throw Error(ErrorKind::kNotConverged, "the velocities of the suspension have not converged");
+  content_->has_instant = true;
   return content_->rheology;
 }
 
@@ -292,25 +328,6 @@ std::vector<suspensions::ContactMemory> SuspensionSimulation::Content::memories(
     result.push_back(memory);
   }
   return result;
-}
-
-double SuspensionSimulation::Content::free_part(const std::vector<NearPair>& pairs,
-                                                const std::vector<Motion>& motions,
-                                                double h) const {
-  const auto now = gradient_now();
-  const double overlap = SuspensionTuning::kMostOverlap * mean_radius;
-  const auto is_free = [&](const NearPair& pair, double part) {
-    const auto i = index_of(pair.first), j = index_of(pair.second);
-    const double sum = state.particles.radii[i] + state.particles.radii[j];
-    const Vector change = suspensions::vector_of(motions[j].along - motions[i].along);
-    const Vector apart = suspensions::carried(now, part * h, pair.apart) +
-                         part * h * suspensions::mean_carried(now, part * h, change);
-    return norm(apart) - sum >= std::min(norm(pair.apart) - sum, -overlap);
-  };
-  double part = 1;
-  for (const auto& pair : pairs)
-    while (part > 1e-6 && !is_free(pair, part)) part /= 2;
-  return part;
 }
 
 void SuspensionSimulation::Content::move(const std::vector<Motion>& motions, double h) {
@@ -438,33 +455,50 @@ StepReport SuspensionSimulation::step(double end) {
   report.time = state.time;
   const auto interval = StepGrid(content.setting.time_step).next(state, end);
   if (!interval) return report;
-  if (state.steps == 0) content.solve_instant();
-  double h = interval->h;
-  const auto pairs = content.find_pairs(SuspensionTuning::kLeastSearch);
+  if (state.steps == 0 && !content.has_instant) content.solve_instant();
+  content.has_instant = false;
+  const State start = state;
   const auto before = content.relative_motions();
-  auto solution = content.solve_step(h, pairs, before);
-
-  if (!std::isfinite(solution.dissipation))
-    throw Error(ErrorKind::kNotConverged, "the step from time {} has no solution", state.time);
+  const double allowed =
+      std::max(content.largest_overlap(), SuspensionTuning::kMostOverlap * content.mean_radius);
+  double h = interval->h;
+  suspensions::StepSolution solution;
+  std::size_t pairs_in_range = 0;
+  int solutions = 0, halvings = 0;
+  for (;; ++halvings, h /= 2) {
+    if (halvings > SuspensionTuning::kMostHalvings)
+      throw Error(ErrorKind::kNotConverged,
+                  "the spheres jam at t = {:.6g}, the strain {:.6g}: a step of {:.3g} has no "
+                  "solution without overlap; use a smaller volume fraction, less friction, or a "
+                  "shorter step",
+                  start.time, start.shear.strain, 2 * h);
+    state = start;
+    const auto pairs = content.find_pairs(content.search_range(h, before));
+    pairs_in_range = static_cast<std::size_t>(std::ranges::count_if(
+        pairs, [&](const NearPair& pair) { return content.is_in_range(pair); }));
+    solution = content.solve_step(h, pairs, before);
+    report.iterations += solution.iterations;
+    solutions += solution.solutions;
+    if (!solution.is_solved || !std::isfinite(solution.dissipation)) continue;
+    if (!solution.converged && halvings < SuspensionTuning::kMostForFriction) continue;
+    content.move(solution.motions, h);
+    report.largest_overlap = content.largest_overlap();
+    if (report.largest_overlap <= allowed) break;
+  }
+  report.largest_overlap /= content.mean_radius;
   report.parts = 1;
-  report.iterations = solution.iterations;
   report.contacts = solution.touching;
   report.residual = solution.residual;
   report.converged = solution.converged;
+  if (!report.converged) report.excess = std::numeric_limits<double>::infinity();
   report.has_given_loads = solution.has_given_loads;
-  report.largest_overlap = std::max(-solution.smallest_gap / content.mean_radius, 0.0);
-  const double part = content.free_part(pairs, solution.motions, h);
   auto taken = *interval;
-  if (part < 1) {
-    // The step ends before spheres overlap.
-    report.converged = false;
-    report.excess = std::numeric_limits<double>::infinity();
-    h *= part;
+  if (halvings > 0) {
+    // The next step goes on to the same point of the grid.
     taken.h = h;
     taken.end = state.time + h;
-    taken.new_grid = taken.end;
+    taken.new_grid = interval->end - content.setting.time_step;
   }
-  content.move(solution.motions, h);
   content.remember(solution.contacts, h);
   state.time = taken.end;
   state.earlier_step = h;
@@ -473,16 +507,15 @@ StepReport SuspensionSimulation::step(double end) {
 
   auto& rheology = content.rheology;
   rheology = {.time = state.time, .strain = state.shear.strain};
-  rheology.pairs = pairs.size();
+  rheology.pairs = pairs_in_range;
   rheology.contacts = solution.touching;
-  rheology.smallest_gap =
-      part < 1 ? content.smallest_gap(content.find_pairs()) : solution.smallest_gap;
+  rheology.smallest_gap = solution.smallest_gap;
   rheology.dissipation = solution.dissipation;
   suspensions::SymmetricTensor rate;
   rate.add(state.shear.rate, content.strain);
   suspensions::set_stresses(solution.stresses, rate, content.lubrication().viscosity,
                             content.volume, rheology);
-  rheology.solutions = solution.solutions;
+  rheology.solutions = solutions;
   return report;
 }
 

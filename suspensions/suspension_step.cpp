@@ -21,6 +21,9 @@ struct StepTuning {
   // The last linear problems are solved to this part of it, so that what changes after them, such as
   // directions at the end of the step, does not need another one.
   static constexpr double kSolved = 0.1;
+  // The least dissipation that counts, over that of the loads on spheres alone, because spheres that
+  // are pressed together and do not move have none.
+  static constexpr double kLeastPower = 1e-6;
   // Each linear problem reduces its residual by this factor at least.
   static constexpr double kReduction = 1e-3;
   // Error of the gap of a contact and of friction_error(), in mean radii. A friction of loads of order
@@ -121,7 +124,8 @@ struct SuspensionStep::Contact {
   double stiffness = 0;      // [M/T]
   double borne_by_film = 0;  // part of the load that has no friction, (gamma - gamma_min)/h
   bool pushes = false;       // its load is above the least one
-  double arm_first = 0, arm_second = 0, strained = 0;  // of friction [L], and W's share of n x En
+  // Of friction [L]: l of the pair, by which forces across the normal turn it, and its parts.
+  double arm = 0, arm_first = 0, arm_second = 0;
   double stiffness_across = 0;
   Lanes friction{};
   // Where friction was linearised: slip, friction, stiffness, and the direction without stiffness.
@@ -222,7 +226,7 @@ void SuspensionStep::add_contact(std::size_t p, const ContactMemory& memory) {
     const double arm = 1 / row.inverse_arm;
     contact.arm_first = a * arm / (a + b);
     contact.arm_second = b * arm / (a + b);
-    contact.strained = norm(problem_.pairs[p].apart);
+    contact.arm = arm;
     contact.stiffness_across = StepTuning::kStiffnessAcross * film_at_contact;
     contact.friction = lanes_of(memory.friction);
     contact.friction -= dot(contact.friction, row.normal) * row.normal;
@@ -263,7 +267,7 @@ double SuspensionStep::opening(std::size_t p, const std::vector<Motion>& motions
 
 Lanes SuspensionStep::slip_by_strain(const Contact& contact) const {
   const Lanes n = system_.resistance().pairs[contact.pair].normal;
-  return -contact.strained * cross(n, lanes_of(strain_.times(vector_of(n))));
+  return -contact.arm * cross(n, lanes_of(strain_.times(vector_of(n))));
 }
 
 Lanes SuspensionStep::slip_by_motions(const Contact& contact,
@@ -506,8 +510,8 @@ void SuspensionStep::sum_stresses(StepSolution& solution) {
     }
     if (!(problem_.friction > 0) || !(dot(contact.friction, contact.friction) > 0)) continue;
     const Vector force = vector_of(cross(contact.friction, row.normal));
-    sums.friction.stress.add_dyad(-contact.strained, n, force);
-    sums.friction.power -= contact.strained * dot(force, strain_.times(n));
+    sums.friction.stress.add_dyad(-contact.arm, n, force);
+    sums.friction.power -= contact.arm * dot(force, strain_.times(n));
     solution.dissipation += dot(contact.friction, slip(contact, motions_));
   }
   // The power that the dissipation needs. It differs from stress:E by the residuals of the motions,
@@ -566,6 +570,15 @@ void SuspensionStep::shorten(const std::vector<Motion>& before) {
   }
 }
 
+double SuspensionStep::least_power() const {
+  double sum = 0;
+  for (std::size_t k = 0; k < problem_.loads.size(); ++k) {
+    const double drag = 6 * std::numbers::pi * problem_.lubrication.viscosity * problem_.radii[k];
+    sum += dot(problem_.loads[k].along, problem_.loads[k].along) / drag;
+  }
+  return StepTuning::kLeastPower * sum;
+}
+
 StepSolution SuspensionStep::solve() {
   StepSolution solution;
   find_gaps();
@@ -577,7 +590,7 @@ StepSolution SuspensionStep::solve() {
       const double tolerance = problem_.lubrication.pairs == PairTerms::kNone
                                    ? StepTuning::kToleranceWithoutFilm
                                    : StepTuning::kTolerance;
-      allowed = tolerance * tolerance * std::abs(solution.dissipation);
+      allowed = tolerance * tolerance * std::max(std::abs(solution.dissipation), least_power());
     }
     if (problem_.friction > 0 && solution.solutions == StepTuning::kMostWithLoads) {
       for (auto& contact : contacts_) contact.given_bound = friction_bound(contact);

@@ -105,6 +105,7 @@ class SuspensionStep {
   void find_gaps();
   // Goes back from the present motions towards those before, if the function to be minimised rises.
   void shorten(const std::vector<Motion>& before);
+  double least_power() const;  // [M L^2/T^3]
   void sum_stresses(StepSolution& solution);
 
   StepProblem problem_;

@@ -121,6 +121,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, StepInvariance,
                          testing::Values(StepKind{PairTerms::kNearContact, 1e-3, 0, 0},
                                          StepKind{PairTerms::kNearContact, 0, 0, 0},
                                          StepKind{PairTerms::kTables, 0, 5e-3, 0.3},
+                                         StepKind{PairTerms::kTables, 0, 1e-3, 0.5},
                                          StepKind{PairTerms::kNone, 0, 0, 0}));
 
 }  // namespace
