@@ -292,6 +292,8 @@ void add_rheology(py::module_& module) {
         std::string(column.name).c_str(),
         [&column](const Rheology& row) { return value_of(column, row); }, help_of(column).c_str());
   rheology.def("__repr__", [](const Rheology& row) {
+    if (row.shear_rate == 0)
+      return fmt::format("<viscontact.Rheology strain {}, at rest>", row.strain);
     return fmt::format("<viscontact.Rheology strain {}, viscosity {}, n1 {}, n2 {}>", row.strain,
                        row.viscosity, row.n1, row.n2);
   });
