@@ -39,7 +39,7 @@ struct StepTuning {
   // After so many the bounds stay as they are.
   static constexpr int kMostFollowing = 200;
   // Error of a bound in use, over the bound, and over the largest one.
-  static constexpr double kBoundTolerance = 3e-4, kLeastBound = 1e-5;
+  static constexpr double kBoundTolerance = 3e-4, kLeastBound = 1e-6;
   static constexpr int kMostIterations = 5000;
   // The least factor on the tolerance of linear problems, beyond which rounding errors are met.
   static constexpr double kTightest = 1e-6;
@@ -630,7 +630,7 @@ StepSolution SuspensionStep::solve() {
   }
   sum_stresses(solution);
   solution.motions = motions_;
-  solution.has_given_loads = bounds_ == Bounds::kGiven;
+  solution.has_given_loads = bounds_ == Bounds::kGiven && !solution.converged;
   solution.residual = std::max(gap_error_, friction_error().with_loads) / problem_.mean_radius;
   solution.smallest_gap = smallest_gap_;
   for (auto& contact : contacts_) {

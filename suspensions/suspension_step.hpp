@@ -48,7 +48,7 @@ struct StepSolution {
   /// Whether motions, gaps and slips are right with the friction's bounds; these are perhaps wrong.
   bool is_solved = false;
   bool converged = false;        ///< is_solved, and the bounds are those of the loads
-  bool has_given_loads = false;  ///< whether the loads that bound friction are fixed at the end
+  bool has_given_loads = false;  ///< whether the loads that bound friction were fixed
   /// The largest error of a gap and of friction_error(), in mean radii.
   double residual = 0;
   double smallest_gap = 0;  ///< at the end [L]

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "tests/suspensions/spheres.hpp"
+#include "viscontact/common/error.hpp"
 #include "viscontact/suspensions/sheared_cell.hpp"
 
 namespace viscontact::particles {
@@ -83,6 +84,28 @@ TEST(SuspensionStep, LeavesNoOverlapAndBalancesThePower) {
     EXPECT_NEAR(simulation.state().shear.strain, 1.2, 1e-12);
     EXPECT_NEAR(simulation.state().time, 1.2, 1e-12);
   }
+}
+
+TEST(SuspensionStep, OfSpheresThatJamEndsTheRun) {
+  // A close-packed lattice cannot be sheared without growing.
+  const double lattice = 2.002 * std::sqrt(2);
+  std::vector<Vector> places;
+  for (int cell = 0; cell < 8; ++cell) {
+    const Vector from{lattice * (cell % 2), lattice * (cell / 2 % 2), lattice * (cell / 4)};
+    for (const Vector& x : {Vector{0, 0, 0}, Vector{0, 1, 1}, Vector{1, 0, 1}, Vector{1, 1, 0}})
+      places.push_back(from + (lattice / 2) * x);
+  }
+  const std::vector<double> radii(places.size(), 1);
+  auto setting = sheared_cube(2 * lattice, 0);
+  setting.lubrication->range = 0.2;
+  setting.time_step = 0.02;
+  SuspensionSimulation simulation(setting, spheres_at(places, radii), 1);
+  const auto shear = [&] {
+    while (simulation.step(1).parts > 0) EXPECT_GT(least_gap(simulation), -1e-7);
+  };
+  EXPECT_THROW(shear(), Error);
+  EXPECT_GT(simulation.state().time, 0);
+  EXPECT_GT(simulation.rheology().viscosity, 100);
 }
 
 TEST(SuspensionStep, RepelsAndCountsPairsWithinTheRangeAlone) {
