@@ -210,9 +210,9 @@ struct SuspensionSimulation::Content {
     for (const auto& motion : motions)
       fastest = std::max(fastest, norm(suspensions::vector_of(motion.along)));
     double most = SuspensionTuning::kMostSearch;
-    const double largest = *std::ranges::max_element(state.particles.radii);
+    const double diameter = suspensions::largest_distance(state.particles.radii, 0);
     for (const double period : periods_of(setting.domain))
-      if (period > 0) most = std::min(most, period / (2 * largest) - 2);
+      if (period > 0) most = std::min(most, period / diameter - 2);
     const double by_flow = sheared < 2 ? 2 * sheared / (1 - sheared / 2) : most;
     const double least = std::max(lubrication().range, SuspensionTuning::kLeastSearch);
     return std::max(std::min(by_flow + 2 * h * fastest / mean_radius, most), least);
