@@ -210,9 +210,9 @@ struct SuspensionSimulation::Content {
     for (const auto& motion : motions)
       fastest = std::max(fastest, norm(suspensions::vector_of(motion.along)));
     double most = SuspensionTuning::kMostSearch;
-    const double largest = *std::ranges::max_element(state.particles.radii);
+    const double diameter = suspensions::largest_distance(state.particles.radii, 0);
     for (const double period : periods_of(setting.domain))
-      if (period > 0) most = std::min(most, period / (2 * largest) - 2);
+      if (period > 0) most = std::min(most, period / diameter - 2);
     const double by_flow = sheared < 2 ? 2 * sheared / (1 - sheared / 2) : most;
     const double least = std::max(lubrication().range, SuspensionTuning::kLeastSearch);
     return std::max(std::min(by_flow + 2 * h * fastest / mean_radius, most), least);
@@ -227,9 +227,10 @@ struct SuspensionSimulation::Content {
 
   suspensions::InstantSolution solve_instant();
   std::vector<suspensions::ContactMemory> memories(double h) const;
-  /// `before` are the motions of the last step. Sets the rate if the stress is given.
+  /// `before` are the motions of the last step. Sets the rate if the stress is given, and then looks
+  /// for no other rate if it `gives_up` a step whose friction is not right.
   suspensions::StepSolution solve_step(double h, const std::vector<NearPair>& pairs,
-                                       const std::vector<Motion>& before);
+                                       const std::vector<Motion>& before, bool gives_up);
   /// The largest overlap of two spheres where they are [L], 0 if there is none.
   double largest_overlap() const {
     return std::max(-smallest_gap(suspensions::near_pairs(cell(), state.particles.positions,
@@ -385,7 +386,8 @@ void SuspensionSimulation::Content::remember(
 }
 
 suspensions::StepSolution SuspensionSimulation::Content::solve_step(
-    double h, const std::vector<NearPair>& pairs, const std::vector<Motion>& before) {
+    double h, const std::vector<NearPair>& pairs, const std::vector<Motion>& before,
+    bool gives_up) {
   suspensions::StepProblem problem;
   problem.lubrication = lubrication();
   if (setting.laws.friction) problem.friction = setting.laws.friction->coefficient;
@@ -431,7 +433,8 @@ suspensions::StepSolution SuspensionSimulation::Content::solve_step(
   bool converged = false;
   for (int k = 0; k < SuspensionTuning::kMostRates; ++k) {
     converged = std::abs(error) <= SuspensionTuning::kStressTolerance * std::abs(target);
-    if (converged) break;
+    // Half of the step is solved instead.
+    if (converged || !solution.is_solved || (gives_up && !solution.converged)) break;
     const double next = rate - error / slope;
     if (!(next * rate > 0)) break;
     solution = solve_at(next);
@@ -476,7 +479,7 @@ StepReport SuspensionSimulation::step(double end) {
     const auto pairs = content.find_pairs(content.search_range(h, before));
     pairs_in_range = static_cast<std::size_t>(std::ranges::count_if(
         pairs, [&](const NearPair& pair) { return content.is_in_range(pair); }));
-    solution = content.solve_step(h, pairs, before);
+    solution = content.solve_step(h, pairs, before, halvings < SuspensionTuning::kMostForFriction);
     report.iterations += solution.iterations;
     solutions += solution.solutions;
     if (!solution.is_solved || !std::isfinite(solution.dissipation)) continue;

@@ -25,6 +25,8 @@ class SuspensionSimulation : public ParticleSimulation {
   ~SuspensionSimulation() override;
   SuspensionSimulation(SuspensionSimulation&&) noexcept;
 
+  /// A step that is not solved is taken in half of its length, and so on; its report and rheology()
+  /// are those of the part. Throws Error(kNotConverged) if the spheres jam.
   StepReport step(double end) override;
   const State& state() const override;
   std::span<double> added_forces() override;
