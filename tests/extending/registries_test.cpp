@@ -70,6 +70,7 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
           Found("particle_runs/case/membrane_checks.cpp", "viscous_contact"),
           Found("particle_runs/case/membrane_checks.cpp", "plane"),
           Found("particle_runs/case/fluid_start_checks.cpp", "viscous_contact"),
+          Found("particle_runs/case/lubrication_section.cpp", "plane"),
           // obstacles in words
           Found("particle_runs/case/start_checks.cpp", "plane"),
           Found("particle_runs/case/fluid_start_checks.cpp", "plane"),
@@ -81,6 +82,8 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
           Found("freefem_axi/row_picture.cpp", "sphere"),
           // the body in words
           Found("particle_runs/picture/particles_page.cpp", "sphere"),
+          // a folder of results
+          Found("particle_runs/run/particles_pages.cpp", "viscous_contact"),
           // what a legend numbers
           Found("swimmer/job/swimmer_page.cpp", "sphere"),
           // bases of pairs, two of which are named bases
