@@ -379,7 +379,7 @@ TEST(ShippedTables, AreWrittenAsTheyWereRead) {
               text.substr(text.find('\n') + 1));
     ++tables;
   }
-  EXPECT_EQ(tables, 24);
+  EXPECT_EQ(tables, 38);
 }
 
 }  // namespace
