@@ -94,7 +94,7 @@ struct Setting {
   double time_step = 0;  ///< h [T], > 0
   Scheme scheme = Scheme::kEuler;  ///< must be kEuler with a fluid
   SolverSettings solver;
-  std::optional<Fluid> fluid;  ///< needs a domain
+  std::optional<Fluid> fluid;                    ///< needs a domain
   std::optional<PairLubrication> lubrication{};  ///< not together with `fluid`
   /// Torques on single particles [M L^2/T^2], of discs in component 2, > 0 if counter-clockwise.
   /// They need particles that turn. A particle with a torque must not be in `given_motions`.

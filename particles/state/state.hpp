@@ -70,7 +70,7 @@ struct GivenParticleLoad {
 /// How far a suspension has been sheared (PairLubrication).
 struct ShearProgress {
   double strain = 0;  ///< integral of the shear rate since the start [1]
-  double rate = 0;    ///< factor on the gradient of the setting in the last step [1]; 0 at the start
+  double rate = 0;  ///< factor on the gradient of the setting in the last step [1]; 0 at the start
   double offset = 0;  ///< displacement of images across y along x [L], within half a period
   bool operator==(const ShearProgress&) const = default;
 };
