@@ -363,11 +363,14 @@ void SuspensionSimulation::Content::remember(
   for (const auto& contact : contacts) {
     Pair pair{contact.first, contact.second};
     pair.impulse = h * contact.load;
+    double borne_by_film = 0;
     if (contacts_have_films()) {
+      const double lowest =
+          setting.laws.film.lowest_gamma(state.particles.radii[index_of(pair.first)],
+                                         state.particles.radii[index_of(pair.second)]);
       pair.gamma = h * contact.least_load;
-      FilmLaw::absorb(pair, 0,
-                      setting.laws.film.lowest_gamma(state.particles.radii[index_of(pair.first)],
-                                                     state.particles.radii[index_of(pair.second)]));
+      borne_by_film = pair.gamma - lowest;
+      FilmLaw::absorb(pair, 0, lowest);
     }
     const Vector apart = state.particles.position(index_of(pair.second)) -
                          state.particles.position(index_of(pair.first));
@@ -377,6 +380,7 @@ void SuspensionSimulation::Content::remember(
                               -static_cast<int>(periods[2]));
     PairMemory memory;
     memory.set_friction(h * contact.friction);
+    memory[Remembered::kSolidLoad] = std::max(pair.impulse - borne_by_film, 0.0);
     memories_now.set(pair.memory, memory);
     if (pair.impulse != 0 || pair.gamma != 0) pairs.push_back(pair);
   }

@@ -1,6 +1,4 @@
 // Newton's method for the films, and an augmented Lagrangian for contacts.
-#include "viscontact/suspensions/suspension_step.hpp"
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -8,66 +6,18 @@
 #include <numbers>
 #include <utility>
 
+#include "viscontact/common/index.hpp"
+#include "viscontact/suspensions/step_parts.hpp"
 namespace viscontact::suspensions {
 namespace {
 
 using particles::PairTerms;
-
-struct StepTuning {
-  // Residual of the last linear problem: its power error over the dissipation is the square.
-  static constexpr double kTolerance = 1e-5;
-  // Without films, where rounding errors would else grow by 1e8 in ten steps.
-  static constexpr double kToleranceWithoutFilm = 1e-7;
-  // The last linear problems are solved to this part of it, so that what changes after them, such as
-  // directions at the end of the step, does not need another one.
-  static constexpr double kSolved = 0.1;
-  // The least dissipation that counts, over that of the loads on spheres alone, because spheres that
-  // are pressed together and do not move have none.
-  static constexpr double kLeastPower = 1e-6;
-  // Each linear problem reduces its residual by this factor at least.
-  static constexpr double kReduction = 1e-3;
-  // Error of the gap of a contact and of friction_error(), in mean radii. A friction of loads of order
-  // one has then errors of 1e-3 at most.
-  static constexpr double kGapTolerance = 3e-8;
-  static constexpr int kMostSolutions = 260;
-  // After so many the loads that bound friction follow those of the contacts by this part of the
-  // difference, because the iteration may else go on for ever: with it 1 of 100 steps of 0.01 of 200
-  // spheres (volume fraction 0.45, roughness 1e-3, coefficient 0.5) is not solved, without it 72.
-  // Of 0.1, 0.2, 0.3 and 0.5 this one solves most.
-  static constexpr int kMostWithLoads = 40;
-  static constexpr double kFollowed = 0.2;
-  // After so many the bounds stay as they are.
-  static constexpr int kMostFollowing = 200;
-  // Error of a bound in use, over the bound, and over the largest one.
-  static constexpr double kBoundTolerance = 3e-4, kLeastBound = 1e-6;
-  static constexpr int kMostIterations = 5000;
-  // The least factor on the tolerance of linear problems, beyond which rounding errors are met.
-  static constexpr double kTightest = 1e-6;
-  // After so many the motions are good enough for the place of pairs at half of the step.
-  static constexpr int kRough = 2;
-  // After so many linear problems a change is shortened if the slope at its end is above this part
-  // of that at its begin. Without this, contacts may come and go for ever.
-  static constexpr int kUnchecked = 3, kBisections = 6;
-  static constexpr double kLargestSlope = 0.3;
-  // Stiffness of the augmented Lagrangian over that of the film at contact.
-  static constexpr double kStiffness = 10, kStiffnessAcross = 0.3;
-  // Gaps in mean radii at which that film is taken, if solids touch at smaller ones.
-  static constexpr double kLeastWidth = 1e-3, kWidthWithoutFilm = 1e-2;
-  // A film is linearised at no less than this part of its width before.
-  static constexpr double kLeastPart = 0.2;
-  // Smaller gaps at the start of a step count as this one, such as those of spheres that touch.
-  static constexpr double kLeastGap = 1e-7;
-  // Gaps in mean radii below which a pair may touch in the step; others are added where they do.
-  static constexpr double kNearGap = 0.1;
-};
 
 void sort(std::vector<ContactMemory>& contacts) {
   std::ranges::sort(contacts, [](const ContactMemory& a, const ContactMemory& b) {
     return a.first < b.first || (a.first == b.first && a.second < b.second);
   });
 }
-
-std::size_t index(std::int32_t k) { return static_cast<std::size_t>(k); }
 
 /// The pairs at half of the step, if the spheres have these motions.
 std::vector<PlacedPair> predicted(const StepProblem& problem, const std::vector<Motion>& motions) {
@@ -76,7 +26,7 @@ std::vector<PlacedPair> predicted(const StepProblem& problem, const std::vector<
   const double half = problem.h / 2;
   const Matrix carry = matrix_of(carried, problem.gradient, half);
   for (const auto& pair : problem.pairs) {
-    const auto i = index(pair.first), j = index(pair.second);
+    const auto i = index_of(pair.first), j = index_of(pair.second);
     const double sum = problem.radii[i] + problem.radii[j], start = norm(pair.apart) - sum;
     const Vector apart =
         times(carry, pair.apart) + half * vector_of(motions[j].along - motions[i].along);
@@ -92,49 +42,6 @@ std::vector<PlacedPair> predicted(const StepProblem& problem, const std::vector<
 }
 
 }  // namespace
-
-/// Force f = [alpha ln((q' + delta)/(q + delta))/h + constant] n on the fluid by the second sphere,
-/// > 0 where gaps open, linearised at the gap `at`.
-struct SuspensionStep::Film {
-  double alpha = 0;         // [M L/T]
-  double start = 0;         // q + delta [L]
-  double delta = 0;         // [L]
-  double constant = 0;      // [M L/T^2]
-  double arm = 0;           // the strain's share in the motion of the surfaces [L]
-  double stress_axial = 0;  // beside the force [M L^2/T]
-  Vector carried{};         // from the first to the second sphere, if they move with the flow [L]
-  double affine_gap = 0;    // along the normal, if the spheres only move with the flow [L]
-  double curvature = 0;     // the gap at the end less the linear one [L]
-  double at = 0;            // q' + delta [L]
-  double load = 0;          // linearised force without motion, with that of the contact
-  std::int32_t contact = -1;
-
-  double force(double h) const { return alpha * std::log(at / start) / h + constant; }
-  // The same at a gap, which may be far below the last one.
-  double force_at(double gap, double h) const {
-    const double least = StepTuning::kLeastPart * at, width = std::max(gap + delta, least);
-    return alpha * (std::log(width / start) + (gap + delta - width) / width) / h + constant;
-  }
-};
-
-struct SuspensionStep::Contact {
-  std::size_t pair = 0;
-  ContactMemory memory;
-  double gap = 0;            // at contact [L]
-  double stiffness = 0;      // [M/T]
-  double borne_by_film = 0;  // part of the load that has no friction, (gamma - gamma_min)/h
-  bool pushes = false;       // its load is above the least one
-  // Of friction [L]: l of the pair, by which forces across the normal turn it, and its parts.
-  double arm = 0, arm_first = 0, arm_second = 0;
-  double stiffness_across = 0;
-  Lanes friction{};
-  // Where friction was linearised: slip, friction, stiffness, and the direction without stiffness.
-  bool slides = false;
-  double given_bound = 0;  // of friction, unless it is that of the load
-  Lanes at_slip{}, at_friction{}, direction{};
-  double at_stiffness = 0;
-  double turn_first = 0, turn_mixed = 0, turn_second = 0;  // of the film
-};
 
 SuspensionStep::SuspensionStep(StepProblem problem)
     : problem_(std::move(problem)),
@@ -206,7 +113,7 @@ void SuspensionStep::add_contact(std::size_t p, const ContactMemory& memory) {
   contact.pair = p;
   contact.memory = memory;
   assert(memory.least_load <= 0);
-  const double a = problem_.radii[index(row.first)], b = problem_.radii[index(row.second)];
+  const double a = problem_.radii[index_of(row.first)], b = problem_.radii[index_of(row.second)];
   const double mean = (a + b) / 2, reduced = a * b / (a + b);
   contact.gap = lubrication.roughness * mean;
   if (problem_.contact_film) {
@@ -262,27 +169,7 @@ bool SuspensionStep::is_kept_apart(std::size_t p) const {
 
 double SuspensionStep::opening(std::size_t p, const std::vector<Motion>& motions) const {
   const auto& row = system_.resistance().pairs[p];
-  return dot(row.normal, motions[index(row.second)].along - motions[index(row.first)].along);
-}
-
-Lanes SuspensionStep::slip_by_strain(const Contact& contact) const {
-  const Lanes n = system_.resistance().pairs[contact.pair].normal;
-  return -contact.arm * cross(n, lanes_of(strain_.times(vector_of(n))));
-}
-
-Lanes SuspensionStep::slip_by_motions(const Contact& contact,
-                                      const std::vector<Motion>& motions) const {
-  const auto& row = system_.resistance().pairs[contact.pair];
-  const Lanes n = row.normal;
-  const Motion &first = motions[index(row.first)], &second = motions[index(row.second)];
-  const Lanes rotation = row.inverse_arm * cross(n, second.along - first.along);
-  const Lanes sum =
-      contact.arm_first * (first.turn - rotation) + contact.arm_second * (second.turn - rotation);
-  return sum - dot(sum, n) * n;
-}
-
-Lanes SuspensionStep::slip(const Contact& contact, const std::vector<Motion>& motions) const {
-  return slip_by_motions(contact, motions) + slip_by_strain(contact);
+  return dot(row.normal, motions[index_of(row.second)].along - motions[index_of(row.first)].along);
 }
 
 void SuspensionStep::find_gaps() {
@@ -294,7 +181,7 @@ void SuspensionStep::find_gaps() {
     auto& film = films_[p];
     const auto& pair = problem_.pairs[p];
     const Vector change =
-        vector_of(motions_[index(pair.second)].along - motions_[index(pair.first)].along);
+        vector_of(motions_[index_of(pair.second)].along - motions_[index_of(pair.first)].along);
     const Vector apart = film.carried + problem_.h * times(mean, change);
     const double distance = norm(apart);
     // A gap along the normal is a lower bound of the gap. A film whose gap may become 0 has this
@@ -310,7 +197,7 @@ void SuspensionStep::find_gaps() {
       if (gap < least) add_contact(p, {pair.first, pair.second});
     }
     if (film.contact < 0) continue;
-    const auto& contact = contacts_[index(film.contact)];
+    const auto& contact = contacts_[index_of(film.contact)];
     const double over = gap - contact.gap;
     // Where the load is the least one the gap may be open.
     const double error =
@@ -340,7 +227,7 @@ void SuspensionStep::linearise(bool is_first) {
     }
     Lanes turn1{}, turn2{};
     if (film.contact >= 0) {
-      auto& contact = contacts_[index(film.contact)];
+      auto& contact = contacts_[index_of(film.contact)];
       const auto& memory = contact.memory;
       contact.pushes = is_first && memory.load > memory.least_load
                            ? true
@@ -354,82 +241,12 @@ void SuspensionStep::linearise(bool is_first) {
       if (problem_.friction > 0) linearise_friction(contact, turn1, turn2);
     }
     const Lanes along = film.load * row.normal + row.inverse_arm * cross(row.normal, turn1 + turn2);
-    auto &first = right_[index(row.first)], &second = right_[index(row.second)];
+    auto &first = right_[index_of(row.first)], &second = right_[index_of(row.second)];
     first.along += along;
     first.turn -= turn1;
     second.along -= along;
     second.turn -= turn2;
   }
-}
-
-double SuspensionStep::friction_bound(const Contact& contact) const {
-  return bounds_ == Bounds::kOfLoads ? coulomb_bound(contact) : contact.given_bound;
-}
-
-double SuspensionStep::coulomb_bound(const Contact& contact) const {
-  return problem_.friction * std::max(contact.memory.load - contact.borne_by_film, 0.0);
-}
-
-void SuspensionStep::linearise_friction(Contact& contact, Lanes& turn1, Lanes& turn2) {
-  auto& resistance = system_.resistance();
-  auto& row = resistance.pairs[contact.pair];
-  const Lanes here = slip(contact, motions_);
-  const Lanes trial = contact.friction + contact.stiffness_across * here;
-  const double size = std::sqrt(dot(trial, trial)), bound = friction_bound(contact);
-  contact.slides = size > bound;
-  const double share = contact.slides ? bound / size : 1;
-  const double stiffness = share * contact.stiffness_across;
-  row.turn_first = contact.turn_first + stiffness * contact.arm_first * contact.arm_first;
-  row.turn_mixed = contact.turn_mixed + stiffness * contact.arm_first * contact.arm_second;
-  row.turn_second = contact.turn_second + stiffness * contact.arm_second * contact.arm_second;
-  contact.at_slip = here;
-  contact.at_friction = share * trial;
-  contact.at_stiffness = stiffness;
-  contact.direction = contact.slides ? (1 / size) * trial : Lanes{};
-  if (contact.slides)
-    resistance.slips.push_back({row.normal, contact.direction, stiffness, contact.arm_first,
-                                contact.arm_second, row.first, row.second});
-  const Lanes load =
-      contact.at_friction - change_of_friction(contact, here - slip_by_strain(contact));
-  turn1 = contact.arm_first * load;
-  turn2 = contact.arm_second * load;
-}
-
-Lanes SuspensionStep::change_of_friction(const Contact& contact, const Lanes& change) {
-  return contact.at_stiffness * (change - dot(contact.direction, change) * contact.direction);
-}
-
-Lanes SuspensionStep::friction_at(const Contact& contact, const Lanes& at_slip) const {
-  const Lanes trial = contact.friction + contact.stiffness_across * at_slip;
-  const double size = std::sqrt(dot(trial, trial)), bound = friction_bound(contact);
-  return (size > bound ? bound / size : 1) * trial;
-}
-
-SuspensionStep::FrictionError SuspensionStep::friction_error() const {
-  FrictionError error;
-  if (!(problem_.friction > 0)) return error;
-  for (const auto& contact : contacts_) {
-    const Lanes here = slip(contact, motions_), force = friction_at(contact, here);
-    const Lanes trial = force + contact.stiffness_across * here;
-    const double size = std::sqrt(dot(trial, trial));
-    const auto error_of = [&](double bound) {
-      const Lanes wrong = force - (size > bound ? bound / size : 1) * trial;
-      return problem_.h * std::sqrt(dot(wrong, wrong)) / contact.stiffness_across;
-    };
-    error.with_bounds = std::max(error.with_bounds, error_of(friction_bound(contact)));
-    error.with_loads = std::max(error.with_loads, error_of(coulomb_bound(contact)));
-  }
-  return error;
-}
-
-bool SuspensionStep::are_bounds_right() const {
-  double largest = 0;
-  for (const auto& contact : contacts_) largest = std::max(largest, coulomb_bound(contact));
-  return std::ranges::all_of(contacts_, [&](const Contact& contact) {
-    const double right = coulomb_bound(contact);
-    return std::abs(friction_bound(contact) - right) <=
-           StepTuning::kBoundTolerance * right + StepTuning::kLeastBound * largest;
-  });
 }
 
 double SuspensionStep::trial_load(const Contact& contact) const {
@@ -453,71 +270,6 @@ void SuspensionStep::update_contacts() {
     if (!(problem_.friction > 0)) continue;
     contact.friction = friction_at(contact, slip(contact, motions_));
   }
-}
-
-void SuspensionStep::sum_stresses(StepSolution& solution) {
-  auto& rows = system_.resistance().pairs;
-  // The terms of films and contacts along n are added apart.
-  std::vector<double> squeezes(rows.size());
-  for (std::size_t p = 0; p < rows.size(); ++p) squeezes[p] = std::exchange(rows[p].squeeze, 0);
-  for (auto& contact : contacts_) {
-    if (!(problem_.friction > 0)) break;
-    auto& row = rows[contact.pair];
-    row.turn_first = contact.turn_first;
-    row.turn_mixed = contact.turn_mixed;
-    row.turn_second = contact.turn_second;
-  }
-  system_.resistance().slips.clear();
-  auto& sums = solution.stresses;
-  sums = {};
-  sums.film.stress = system_.stresslets(motions_, strain_);
-  std::vector<Motion> product(motions_.size()), strained(motions_.size());
-  system_.resistance().multiply(motions_, product);
-  system_.subtract_strain_loads(strain_, strained);
-  solution.dissipation = sums.film.stress.contracted(strain_);
-  double given = 0;
-  for (std::size_t k = 0; k < motions_.size(); ++k) {
-    const auto &v = motions_[k], &given_load = problem_.loads[k];
-    solution.dissipation += dot(v.along, product[k].along - strained[k].along) +
-                            dot(v.turn, product[k].turn - strained[k].turn);
-    given += dot(v.along, given_load.along) + dot(v.turn, given_load.turn);
-  }
-  for (std::size_t p = 0; p < rows.size(); ++p) {
-    const auto& row = rows[p];
-    const auto& film = films_[p];
-    const Vector n = vector_of(row.normal);
-    const double along = dot(n, strain_.times(n)), rate = opening(p, motions_);
-    if (film.alpha > 0) {
-      const double gap = film.affine_gap + film.curvature + problem_.h * rate;
-      const double force =
-          film.alpha * std::log(std::max(gap + film.delta, film.at / 2) / film.start) / problem_.h +
-          film.constant;
-      const double axial = film.arm * force + film.stress_axial * along;
-      auto& stress = sums.film.stress;
-      stress.add_dyad(axial, n, n);
-      stress.add_isotropic((system_.strains()[p].radii * force - axial) / 3);
-      solution.dissipation += force * (rate + film.arm * along) + film.stress_axial * along * along;
-    }
-    if (film.contact < 0) continue;
-    const auto& contact = contacts_[index(film.contact)];
-    const double load = contact.memory.load;
-    const Vector change =
-        vector_of(motions_[index(row.second)].along - motions_[index(row.first)].along);
-    const Vector lever = mean_path(problem_.gradient, problem_.h, problem_.pairs[p].apart, change);
-    if (load != 0) {
-      sums.contact.add_pair_force(load * n, lever, problem_.gradient);
-      solution.dissipation -= load * (rate + dot(n, times(problem_.gradient, lever)));
-    }
-    if (!(problem_.friction > 0) || !(dot(contact.friction, contact.friction) > 0)) continue;
-    const Vector force = vector_of(cross(contact.friction, row.normal));
-    sums.friction.stress.add_dyad(-contact.arm, n, force);
-    sums.friction.power -= contact.arm * dot(force, strain_.times(n));
-    solution.dissipation += dot(contact.friction, slip(contact, motions_));
-  }
-  // The power that the dissipation needs. It differs from stress:E by the residuals of the motions,
-  // and has an error of their square.
-  sums.film.power = solution.dissipation - given - sums.contact.power - sums.friction.power;
-  for (std::size_t p = 0; p < rows.size(); ++p) rows[p].squeeze = squeezes[p];
 }
 
 void SuspensionStep::shorten(const std::vector<Motion>& before) {
@@ -544,7 +296,7 @@ void SuspensionStep::shorten(const std::vector<Motion>& before) {
       const double gap = film.affine_gap + film.curvature + h * at;
       double force = film.alpha > 0 ? film.force_at(gap, h) : 0;
       if (film.contact >= 0) {
-        const auto& contact = contacts_[index(film.contact)];
+        const auto& contact = contacts_[index_of(film.contact)];
         force -= std::max(contact.memory.load - contact.stiffness * (gap - contact.gap) / h,
                           contact.memory.least_load);
         if (problem_.friction > 0) {

@@ -78,10 +78,8 @@ class Run {
     double next_frame = frame_after(log_.record().last_frame);
     while (!is_at_end() && !stop_.stop_requested()) {
       StepReport report;
-      const double before = simulation_.state().time;
       try {
         report = simulation_.step(case_.end_time);
-        if (suspension_ != nullptr) count_short_step(report.time - before);
       } catch (const Error&) {
         return std::current_exception();
       }
@@ -174,22 +172,6 @@ class Run {
     if (is_at_end()) log_.add_rheology(rheology);
   }
 
-  /// Throws Error(kNotConverged) if spheres with lubrication have ended so many steps early that the
-  /// run would hardly get on. `h` is the length of the last step [T].
-  void count_short_step(double h) {
-    // A step that ends early because spheres would overlap may be followed by whole ones.
-    constexpr int kMost = 100;
-    constexpr double kShort = 0.01;
-    short_steps_ = h < kShort * case_.setting.time_step && !is_at_end() ? short_steps_ + 1 : 0;
-    if (short_steps_ < kMost) return;
-    throw Error(ErrorKind::kNotConverged,
-                "{}: the spheres jam at t = {:.6g}, the strain {:.6g}: {} steps in a row ended "
-                "within a hundredth of the time step, because spheres would overlap. Everything "
-                "before is kept; use a smaller volume fraction, less friction, or a shorter step",
-                case_.path.string(), simulation_.state().time, suspension_->rheology().strain,
-                kMost);
-  }
-
   void add_frame() {
     std::vector<double> link_force_errors;
     if (flow_ != nullptr) link_force_errors = flow_->force_errors().of_links;
@@ -246,7 +228,6 @@ class Run {
   double first_time_ = simulation_.state().time;  // at which this call began [T]
   Clock::time_point begin_ = Clock::now(), last_saved_ = begin_;
   terminal::ProgressTimer progress_;
-  int short_steps_ = 0;  // the last steps that count_short_step() counts
 };
 
 void warn_of_jam(const StepTotals& record) {

@@ -184,6 +184,9 @@ TEST_F(Suspensions, OfContactAloneTouchWhenTheFilmHasTakenAllThatItCan) {
     for (const double least : lowest) touching += std::abs(gamma - least) < -1e-6 * least ? 1 : 0;
   }
   EXPECT_GT(touching, 0U);
+  // The solids carry what the film does not.
+  const auto solid = column("final_contacts.csv", "solid_force");
+  EXPECT_GT(std::ranges::max(solid), 0);
 }
 
 TEST_F(Suspensions, MeetAsTwoFreeSpheresDo) {
