@@ -20,18 +20,26 @@ Setting unbounded(PairTerms pairs, double drag) {
   return setting;
 }
 
-TEST(FreePair, MovesByTheTablesAsTwoSpheresAloneDo) {
+/// The rows of data/reference/two_free_spheres.csv.
+std::vector<std::vector<double>> rows() {
   std::istringstream lines(read_file(std::filesystem::path(VISCONTACT_SOURCE_FOLDER) /
                                      "data/reference/two_free_spheres.csv"));
-  const Vector n{0.6, 0.64, 0.48};
-  const Vector rotation{0, 0, -0.5}, strained{n[1] / 2, n[0] / 2, 0};
-  int compared = 0;
+  std::vector<std::vector<double>> found;
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with('#') || line.starts_with("size_ratio")) continue;
     std::istringstream fields(line);
-    std::vector<double> numbers;
+    auto& numbers = found.emplace_back();
     for (std::string word; std::getline(fields, word, ',');)
       numbers.push_back(parse_number(word).value());
+  }
+  return found;
+}
+
+TEST(FreePair, MovesByTheTablesAsTwoSpheresAloneDo) {
+  const Vector n{0.6, 0.64, 0.48};
+  const Vector rotation{0, 0, -0.5}, strained{n[1] / 2, n[0] / 2, 0};
+  int compared = 0;
+  for (const auto& numbers : rows()) {
     const double r = numbers.at(1), a = numbers.at(4), b = numbers.at(5), c = numbers.at(6);
     const double along = dot(n, strained);
     const Vector expected =
@@ -44,12 +52,12 @@ TEST(FreePair, MovesByTheTablesAsTwoSpheresAloneDo) {
       simulation.solve_instant();
       const auto& p = simulation.state().particles;
       // The tables have errors of 1e-5 of a resistance, and here of 1.5e-6 of velocities.
-      EXPECT_LT(norm(p.velocity(1) - p.velocity(0) - expected), 1e-5) << line;
+      EXPECT_LT(norm(p.velocity(1) - p.velocity(0) - expected), 1e-5) << numbers.at(1);
       for (const std::size_t k : {0U, 1U})
         EXPECT_LT(
             norm(point_of(p.angular_velocities.data(), k, 3) - rotation - c * cross(n, strained)),
             1e-5)
-            << line;
+            << numbers.at(1);
       ++compared;
     }
   }
@@ -57,16 +65,9 @@ TEST(FreePair, MovesByTheTablesAsTwoSpheresAloneDo) {
 }
 
 TEST(FreePair, HasTheStressletsOfTwoSpheresAlone) {
-  std::istringstream lines(read_file(std::filesystem::path(VISCONTACT_SOURCE_FOLDER) /
-                                     "data/reference/two_free_spheres.csv"));
   const double length = 100, half = std::sqrt(0.5);
   int compared = 0;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with('#') || line.starts_with("size_ratio")) continue;
-    std::istringstream fields(line);
-    std::vector<double> numbers;
-    for (std::string word; std::getline(fields, word, ',');)
-      numbers.push_back(parse_number(word).value());
+  for (const auto& numbers : rows()) {
     const double r = numbers.at(1), s0 = numbers.at(8), s1 = numbers.at(9), s2 = numbers.at(10);
     const std::array<std::pair<Vector, double>, 3> cases{
         {{{1, 0, 0}, s1}, {{0, 0, 1}, s2}, {{half, half, 0}, (3 * s0 + s2) / 4}}};
@@ -79,7 +80,7 @@ TEST(FreePair, HasTheStressletsOfTwoSpheresAlone) {
       SuspensionSimulation simulation(setting, spheres_at({middle, middle + r * n}, {1, 1}), 1);
       const double found = (simulation.solve_instant().viscosity - 1) * length * length * length;
       // The tables have errors of 1e-5 of a resistance.
-      EXPECT_NEAR(found / (20 * M_PI / 3), expected, 5e-5) << line;
+      EXPECT_NEAR(found / (20 * M_PI / 3), expected, 5e-5) << numbers.at(1);
       ++compared;
     }
   }

@@ -1,10 +1,7 @@
 // The instantaneous problem in another order, mirrored, shifted, turned, and in other units.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <random>
 
 #include "tests/suspensions/spheres.hpp"
 
@@ -48,16 +45,8 @@ class InstantInvariance : public testing::TestWithParam<PairTerms> {
 };
 
 TEST_P(InstantInvariance, OfTheOrderOfSpheres) {
-  std::vector<std::size_t> order(26);
-  std::iota(order.begin(), order.end(), 0U);
-  std::shuffle(order.begin(), order.end(), std::mt19937(1));
-  std::vector<Vector> places;
-  std::vector<double> radii;
-  for (const auto k : order) {
-    places.push_back(state.particles.position(k));
-    radii.push_back(state.particles.radii[k]);
-  }
-  const auto there = solved(setting, spheres_at(places, radii));
+  const auto order = shuffled(26);
+  const auto there = solved(setting, reordered(state, order));
   auto here = solved(setting, state);
   std::vector<RelativeMotion> sorted;
   for (const auto k : order) sorted.push_back(here.motions[k]);
@@ -66,28 +55,20 @@ TEST_P(InstantInvariance, OfTheOrderOfSpheres) {
 }
 
 TEST_P(InstantInvariance, OfAMirrorAcrossTheVorticity) {
-  std::vector<Vector> places;
-  for (std::size_t k = 0; k < 26; ++k) {
-    auto x = state.particles.position(k);
-    x[2] = kPeriod - x[2];
-    places.push_back(x);
-  }
-  auto there = solved(setting, spheres_at(places, state.particles.radii));
-  for (auto& motion : there.motions) {
-    motion.along[2] *= -1;
-    motion.turn[0] *= -1;
-    motion.turn[1] *= -1;
-  }
+  const auto behind = displaced(state, [](const Vector& x) {
+    return Vector{x[0], x[1], kPeriod - x[2]};
+  });
+  auto there = solved(setting, behind);
+  there.motions = mirrored(there.motions);
   expect_same(solved(setting, state), there);
 }
 
 TEST_P(InstantInvariance, OfTheOrigin) {
   const Vector shift{300, -200, 70};
-  std::vector<Vector> places;
-  for (std::size_t k = 0; k < 26; ++k) places.push_back(state.particles.position(k) + shift);
+  const auto there = displaced(state, [&](const Vector& x) { return x + shift; });
   auto shifted = setting;
   shifted.domain = BoxDomain{shift, shift + Vector{kPeriod, kPeriod, kPeriod}, {true, true, true}};
-  expect_same(solved(setting, state), solved(shifted, spheres_at(places, state.particles.radii)));
+  expect_same(solved(setting, state), solved(shifted, there));
 }
 
 TEST_P(InstantInvariance, OfTheCellAmongItsImages) {
@@ -104,23 +85,14 @@ TEST_P(InstantInvariance, OfUnits) {
   for (int trial = 0; trial < 5; ++trial) {
     const double length = random.decades(-5, 5), time = random.decades(-5, 5);
     const double mass = random.decades(-5, 5);
-    std::vector<Vector> places;
-    std::vector<double> radii;
-    for (std::size_t k = 0; k < 26; ++k) {
-      places.push_back(length * state.particles.position(k));
-      radii.push_back(length * state.particles.radii[k]);
-    }
     auto other = sheared_cube(length * kPeriod, length * kOffset);
     auto& of = *other.lubrication;
     of.pairs = GetParam();
     of.viscosity = mass / (length * time);
     of.gradient[0][1] = 1 / time;
     of.repulsion = Repulsion{10 * mass / (time * time), 0.05 * length};
-    auto there = solved(other, spheres_at(places, radii));
-    for (auto& motion : there.motions) {
-      motion.along = (time / length) * motion.along;
-      motion.turn = time * motion.turn;
-    }
+    auto there = solved(other, scaled(state, length));
+    there.motions = in_units(there.motions, length, time);
     expect_same(solved(setting, state), there);
   }
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <random>
 
 #include "viscontact/suspensions/sheared_cell.hpp"
 
@@ -33,6 +35,50 @@ State random_spheres(double period, double offset, const std::vector<double>& ra
     if (is_free) places.push_back(x);
   }
   return spheres_at(places, radii);
+}
+
+State reordered(const State& state, const std::vector<std::size_t>& order) {
+  std::vector<Vector> places;
+  std::vector<double> radii;
+  for (const auto k : order) {
+    places.push_back(state.particles.position(k));
+    radii.push_back(state.particles.radii[k]);
+  }
+  return spheres_at(places, radii);
+}
+
+std::vector<std::size_t> shuffled(std::size_t count) {
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), 0U);
+  std::shuffle(order.begin(), order.end(), std::mt19937(1));
+  return order;
+}
+
+State scaled(const State& state, double length) {
+  auto radii = state.particles.radii;
+  for (auto& radius : radii) radius *= length;
+  std::vector<Vector> places;
+  for (std::size_t k = 0; k < state.particles.count(); ++k)
+    places.push_back(length * state.particles.position(k));
+  return spheres_at(places, radii);
+}
+
+std::vector<RelativeMotion> mirrored(std::vector<RelativeMotion> motions) {
+  for (auto& motion : motions) {
+    motion.along[2] *= -1;
+    motion.turn[0] *= -1;
+    motion.turn[1] *= -1;
+  }
+  return motions;
+}
+
+std::vector<RelativeMotion> in_units(std::vector<RelativeMotion> motions, double length,
+                                     double time) {
+  for (auto& motion : motions) {
+    motion.along = (time / length) * motion.along;
+    motion.turn = time * motion.turn;
+  }
+  return motions;
 }
 
 std::vector<double> two_sizes(std::size_t count) {

@@ -19,6 +19,21 @@ State spheres_at(const std::vector<Vector>& places, const std::vector<double>& r
 State random_spheres(double period, double offset, const std::vector<double>& radii, double gap,
                      Random& random);
 
+/// Spheres of the same radii at the places place(x), where x are those of `state`.
+template <class Place>
+State displaced(const State& state, const Place& place) {
+  std::vector<Vector> places;
+  for (std::size_t k = 0; k < state.particles.count(); ++k)
+    places.push_back(place(state.particles.position(k)));
+  return spheres_at(places, state.particles.radii);
+}
+/// The same spheres in this order.
+State reordered(const State& state, const std::vector<std::size_t>& order);
+/// The numbers below `count` in an order that is always the same.
+std::vector<std::size_t> shuffled(std::size_t count);
+/// Places and radii times `length`.
+State scaled(const State& state, double length);
+
 /// Radii 1 and 1.4 in turn.
 std::vector<double> two_sizes(std::size_t count);
 
@@ -31,6 +46,12 @@ struct RelativeMotion {
 };
 RelativeMotion relative_motion(const SuspensionSimulation& simulation, const Setting& setting,
                                std::size_t k);
+
+/// Those behind a mirror across z.
+std::vector<RelativeMotion> mirrored(std::vector<RelativeMotion> motions);
+/// Those in units of a length and a time.
+std::vector<RelativeMotion> in_units(std::vector<RelativeMotion> motions, double length,
+                                     double time);
 
 /// The largest difference of components over the largest component.
 double largest_difference(const std::vector<RelativeMotion>& a,

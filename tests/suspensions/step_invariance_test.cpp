@@ -1,10 +1,7 @@
 // Ten steps in another order, mirrored, shifted and in other units.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <random>
 
 #include "tests/suspensions/spheres.hpp"
 
@@ -46,16 +43,8 @@ class StepInvariance : public testing::TestWithParam<StepKind> {
 };
 
 TEST_P(StepInvariance, OfTheOrderOfSpheres) {
-  std::vector<std::size_t> order(26);
-  std::iota(order.begin(), order.end(), 0U);
-  std::shuffle(order.begin(), order.end(), std::mt19937(1));
-  std::vector<Vector> places;
-  std::vector<double> radii;
-  for (const auto k : order) {
-    places.push_back(state.particles.position(k));
-    radii.push_back(state.particles.radii[k]);
-  }
-  const auto here = moved(setting, state), there = moved(setting, spheres_at(places, radii));
+  const auto order = shuffled(26);
+  const auto here = moved(setting, state), there = moved(setting, reordered(state, order));
   std::vector<RelativeMotion> sorted;
   for (const auto k : order) sorted.push_back(relative_motion(here, setting, k));
   EXPECT_LT(largest_difference(sorted, motions(there, setting)), kBar);
@@ -63,31 +52,21 @@ TEST_P(StepInvariance, OfTheOrderOfSpheres) {
 }
 
 TEST_P(StepInvariance, OfAMirrorAcrossTheVorticity) {
-  std::vector<Vector> places;
-  for (std::size_t k = 0; k < 26; ++k) {
-    auto x = state.particles.position(k);
-    x[2] = kPeriod - x[2];
-    places.push_back(x);
-  }
+  const auto behind = displaced(state, [](const Vector& x) {
+    return Vector{x[0], x[1], kPeriod - x[2]};
+  });
   const auto here = moved(setting, state);
-  const auto there = moved(setting, spheres_at(places, state.particles.radii));
-  auto mirrored = motions(there, setting);
-  for (auto& motion : mirrored) {
-    motion.along[2] *= -1;
-    motion.turn[0] *= -1;
-    motion.turn[1] *= -1;
-  }
-  EXPECT_LT(largest_difference(motions(here, setting), mirrored), kBar);
+  const auto there = moved(setting, behind);
+  EXPECT_LT(largest_difference(motions(here, setting), mirrored(motions(there, setting))), kBar);
 }
 
 TEST_P(StepInvariance, OfTheOrigin) {
   const Vector shift{30, -20, 7};
-  std::vector<Vector> places;
-  for (std::size_t k = 0; k < 26; ++k) places.push_back(state.particles.position(k) + shift);
+  const auto start = displaced(state, [&](const Vector& x) { return x + shift; });
   auto shifted = setting;
   shifted.domain = BoxDomain{shift, shift + Vector{kPeriod, kPeriod, kPeriod}, {true, true, true}};
   const auto here = moved(setting, state);
-  const auto there = moved(shifted, spheres_at(places, state.particles.radii));
+  const auto there = moved(shifted, start);
   EXPECT_LT(largest_difference(motions(here, setting), motions(there, shifted)), kBar);
 }
 
@@ -95,24 +74,15 @@ TEST_P(StepInvariance, OfUnits) {
   for (int trial = 0; trial < 3; ++trial) {
     const double length = random.decades(-5, 5), time = random.decades(-5, 5);
     const double mass = random.decades(-5, 5);
-    std::vector<Vector> places;
-    std::vector<double> radii;
-    for (std::size_t k = 0; k < 26; ++k) {
-      places.push_back(length * state.particles.position(k));
-      radii.push_back(length * state.particles.radii[k]);
-    }
     auto other = sheared_cube(length * kPeriod, length * kOffset);
     adapt(other);
     other.lubrication->viscosity = mass / (length * time);
     other.lubrication->gradient[0][1] = 1 / time;
     other.time_step = 0.02 * time;
-    const auto here = moved(setting, state), there = moved(other, spheres_at(places, radii));
-    auto scaled = motions(there, other);
-    for (auto& motion : scaled) {
-      motion.along = (time / length) * motion.along;
-      motion.turn = time * motion.turn;
-    }
-    EXPECT_LT(largest_difference(motions(here, setting), scaled), kBar);
+    const auto here = moved(setting, state), there = moved(other, scaled(state, length));
+    EXPECT_LT(
+        largest_difference(motions(here, setting), in_units(motions(there, other), length, time)),
+        kBar);
     EXPECT_NEAR(here.rheology().viscosity, there.rheology().viscosity, kBar);
   }
 }
